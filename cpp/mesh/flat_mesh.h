@@ -1,0 +1,35 @@
+// A mesh as files and the C ABI see it: flat lists, references, fields.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/surface_mesh.h"
+
+namespace carreau {
+
+/// One number or vector a vertex or a triangle.
+struct MeshField {
+  std::string name;
+  bool on_vertices = true;
+  int components = 1;
+  std::vector<double> values;  ///< entity by entity, components together
+};
+
+struct FlatMesh {
+  int dimension = 3;  ///< 2: z is 0 and not written
+  std::vector<Vec3> vertices;
+  std::vector<std::int32_t> vertex_refs;
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< indices from 0
+  std::vector<std::int32_t> triangle_refs;
+  std::vector<std::array<std::int32_t, 2>> edges;
+  std::vector<std::int32_t> edge_refs;
+  std::vector<MeshField> fields;
+};
+
+/// The whole mesh in space, faces in order; with_edges: the edges of the curves too.
+FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges);
+
+}  // namespace carreau

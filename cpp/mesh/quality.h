@@ -1,0 +1,29 @@
+// Shape and size measures.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mesh/flat_mesh.h"
+
+namespace carreau {
+
+/// 2 sqrt(3) inradius / longest edge (HDR eq. 1.5); 1 for an equilateral triangle, 0 for a flat one.
+double quality_q1(Vec3 a, Vec3 b, Vec3 c) noexcept;
+/// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6).
+double quality_q2(Vec3 a, Vec3 b, Vec3 c) noexcept;
+
+struct Distribution {
+  double mean = 0, min = 0, p1 = 0, max = 0;  ///< p1: first percentile
+};
+
+struct QualitySummary {
+  std::size_t vertices = 0, triangles = 0, edges = 0, open_edges = 0;
+  Distribution q1, q2;
+  double angle_min_deg = 0, angle_max_deg = 0, area = 0;
+  double edge_min = 0, edge_mean = 0, edge_max = 0;
+  double degree6 = 0;  ///< share of interior vertices of degree 6
+};
+QualitySummary summarise_quality(const FlatMesh& mesh);
+
+}  // namespace carreau

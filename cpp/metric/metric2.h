@@ -1,0 +1,35 @@
+// Metric tensors of a parameter plane.
+#pragma once
+
+#include <cmath>
+
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Symmetric positive definite tensor (a b; b c) (RR-2928 eq. 1): a vector d has length
+/// sqrt(a dx^2 + 2 b dx dy + c dy^2); unit: 1 / parameter^2, so lengths are in units of the wanted size.
+struct Metric2 {
+  double a = 1, b = 0, c = 1;
+  friend bool operator==(const Metric2&, const Metric2&) = default;
+};
+
+constexpr Metric2 operator+(Metric2 m, Metric2 n) noexcept { return {m.a + n.a, m.b + n.b, m.c + n.c}; }
+constexpr Metric2 operator*(double s, Metric2 m) noexcept { return {s * m.a, s * m.b, s * m.c}; }
+
+constexpr double determinant(Metric2 m) noexcept { return m.a * m.c - m.b * m.b; }
+/// <p, q> in the metric.
+constexpr double dot(Metric2 m, Vec2 p, Vec2 q) noexcept {
+  return m.a * p.x * q.x + m.b * (p.x * q.y + p.y * q.x) + m.c * p.y * q.y;
+}
+constexpr double squared_length(Metric2 m, Vec2 d) noexcept { return dot(m, d, d); }
+inline double length(Metric2 m, Vec2 d) noexcept { return std::sqrt(squared_length(m, d)); }
+
+/// J^T J / h^2 (RR-2928 eq. 27 for an isotropic size h): the metric that a wanted size h in space
+/// induces on the parameter plane where the surface has first derivatives su, sv.
+constexpr Metric2 induced_metric(Vec3 su, Vec3 sv, double h) noexcept {
+  const double k = 1 / (h * h);
+  return {k * dot(su, su), k * dot(su, sv), k * dot(sv, sv)};
+}
+
+}  // namespace carreau

@@ -1,0 +1,65 @@
+// Which curves and points are one in space.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// One appearance of a curve in a face. Indices from 0; ic = curve + 1.
+struct CurveUse {
+  int face = 0;   ///< index in Model::faces
+  int curve = 0;  ///< index in Face::curves
+  /// Runs against the first use of the same curve (its end1 is the first use's end2; closed curves: found in space).
+  bool reversed = false;
+};
+
+/// A curve of space: all FaceCurves of one reference. The first use (in file order) defines its shape (RT-0232
+/// sec. 3.2).
+struct Curve {
+  int ref = 0;
+  std::vector<CurveUse> uses;  ///< two uses in one face: a seam
+  int end1 = 0, end2 = 0;      ///< indices in Topology::points, in the direction of the first use
+  bool degenerate = false;     ///< maps to one point of space (HDR sec. 4.5.4)
+};
+
+/// A point of space where curves end.
+struct CornerPoint {
+  int ref = 0;
+  Vec3 position;            ///< from the first curve end that has this reference
+  std::vector<int> curves;  ///< indices of the curves that end here, ascending, each once
+};
+
+struct Topology {
+  std::vector<Curve> curves;        ///< in order of first appearance
+  std::vector<CornerPoint> points;  ///< in order of first appearance
+  /// curve_of[face][curve] = index in `curves`.
+  std::vector<std::vector<int>> curve_of;
+};
+
+/// Checks every rule of RT-0232 sec. 3.2 that needs no geometry. One sentence a violation, with file and line
+/// when the model was read from a file; empty when the model is sound.
+/// Seams (a reference twice in one face) and curves that return to their starting point (closed, degenerate) are legal.
+std::vector<std::string> find_model_defects(const Model& model);
+
+/// Polylines that stand for the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
+using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
+
+/// True when references are to be found by gluing: the very first curve has reference 0.
+bool needs_gluing(const Model& model);
+
+/// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
+/// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
+/// distance is below eps_glue. Curves of one face may be glued to each other (a seam). Internal points keep their
+/// references.
+Model glue(const Model& model, const CurveTraces& traces, double eps_glue);
+
+/// Collects curves and points, finds directions and degenerate curves (all of the trace within `eps`, model length, of
+/// one point). The model must have no defect. Throws InvalidModel, naming face, curve and reference, when curves of one
+/// reference have other ends or when a closed curve's direction cannot be told.
+Topology build_topology(const Model& model, const CurveTraces& traces, double eps);
+
+}  // namespace carreau

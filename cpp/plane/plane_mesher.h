@@ -1,0 +1,29 @@
+// Unit mesh of a plane domain in a metric field (RR-2928 sec. 2.2).
+#pragma once
+
+#include <cstdint>
+
+#include "plane/plane_mesh.h"
+#include "size/control_space.h"
+#include "support/monitor.h"
+
+namespace carreau {
+
+struct PlaneMesherOptions {
+  bool frontal = true;  ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
+  std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
+};
+
+/// Triangulates `domain` so that edges have length 1 in the metric as far as possible.
+/// Deterministic; re-entrant; no callback but monitor.checkpoint().
+/// @throws DomainError   loops that do not close, cross or touch (edges and (u, v) in the message)
+/// @throws LimitError, Cancelled
+PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
+                     Monitor& monitor);
+
+/// Constrained Delaunay triangulation of the imposed vertices and edges alone, outside removed
+/// (the "maillage frontalier" of RR-2928 sec. 2.2), in the metric of (u, v) scaled to the domain's box.
+/// Same errors as mesh_plane.
+PlaneMesh triangulate_domain(const PlaneDomain& domain, Monitor& monitor);
+
+}  // namespace carreau

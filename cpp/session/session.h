@@ -1,0 +1,60 @@
+// A session: a host's geometry, a model, parameters, and the mesh made of them. The only room that knows the order of
+// the steps.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cad/cad.h"
+#include "mesh/quality.h"
+#include "mesh/surface_mesh.h"
+#include "model/model.h"
+#include "session/parameters.h"
+#include "support/monitor.h"
+#include "surface/composite.h"
+
+namespace carreau {
+
+/// Independent of any other session; used by one thread at a time.
+class Session {
+ public:
+  /// `monitor` outlives the session.
+  explicit Session(Monitor& monitor);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  void set_cad(std::shared_ptr<Cad> cad);
+  /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken.
+  void set_model(Model model);
+  void load_pardom(const std::string& path);
+  [[nodiscard]] const Model& model() const noexcept;
+
+  Parameters& parameters() noexcept;
+
+  /// `call inimesh`: supports, sizes, curves, domains, patches, assembly. An earlier mesh is kept when this throws.
+  /// References that are zero are found first (gluing); the glued model replaces the model, and is written to
+  /// `<source>.new` when the model was read from a file.
+  void make_mesh();
+
+  /// Throws InvalidArgument before the first make_mesh().
+  [[nodiscard]] const SurfaceMesh& mesh() const;
+  [[nodiscard]] bool has_mesh() const noexcept;
+  /// Size prescribed at each vertex of mesh().
+  [[nodiscard]] const std::vector<double>& vertex_sizes() const;
+  [[nodiscard]] const CompositeReport& report() const;
+
+  /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written.
+  [[nodiscard]] FlatMesh exported() const;
+  /// Writes exported() to a file; format by suffix.
+  void write(const std::string& path) const;
+
+  /// Runs all actions of a blsurf.env. Files are looked up and written relative to the folder `folder` ("" = current).
+  void run_env(const std::string& path);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace carreau

@@ -1,0 +1,50 @@
+// Mesh of a composite surface: supports, sizes, curves, domains, patches, assembly (design: "From input to mesh").
+#pragma once
+
+#include <cstdint>
+
+#include "curve/support.h"
+#include "mesh/surface_mesh.h"
+#include "model/topology.h"
+#include "size/size_rules.h"
+#include "support/monitor.h"
+
+namespace carreau {
+
+struct CompositeOptions {
+  SizeParameters size;
+  double angle_smo = 1;  ///< degrees
+  double lss = 0.5;
+  double eps_ends = 0;  ///< model length; shorter curves are reported
+  int check_close_edges = 0, check_adjacent_edges = 0, check_well_defined = 0;  ///< iterations
+  double coef_rectangle = 0.25;
+  bool frontal = true;
+  std::int64_t max_triangles = 0;  ///< 0: by memory
+};
+
+/// What a run did, besides the mesh.
+struct CompositeReport {
+  CallCounts calls;
+  double diag = 0;
+  double seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
+  double seconds_total = 0;
+};
+
+struct CompositeResult {
+  SurfaceMesh mesh;
+  std::vector<double> vertex_size;  ///< prescribed size at each vertex
+  CompositeReport report;
+};
+
+/// Supports of every curve of every face, and the diagonal of their box (what RT-0232 calls diag).
+struct ModelSupports {
+  std::vector<std::vector<CurveSupport>> of_face;  ///< [face][curve]
+  double diag = 0;
+};
+ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, Monitor& monitor);
+CurveTraces traces_of(const ModelSupports& supports);
+
+CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
+                               const CompositeOptions& options, Monitor& monitor);
+
+}  // namespace carreau
