@@ -24,10 +24,17 @@ struct FaceMesh {
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< local indices; counterclockwise in (u, v)
 };
 
+/// One appearance of a discretised curve in a face.
+struct CurveMeshUse {
+  std::int32_t face = 0;  ///< index in SurfaceMesh::faces
+  bool internal = false;  ///< triangles of the face lie on both sides
+};
+
 /// A discretised curve: vertices[i], vertices[i+1] are its edges.
 struct CurveMesh {
   int ref = 0;
   std::vector<std::int32_t> vertices;  ///< indices in SurfaceMesh::vertices; one entry for a degenerate curve
+  std::vector<CurveMeshUse> uses;
 };
 
 struct SurfaceMesh {
@@ -40,14 +47,16 @@ struct SurfaceMesh {
   [[nodiscard]] std::size_t edge_count() const noexcept;
 };
 
-/// One sentence a defect, e.g. "triangle 17 of face 3: no area"; empty when the mesh is sound. Checks index ranges,
-/// finite coordinates, repeated vertices, zero area in (u, v) and in space, orientation inside each face, duplicated
-/// triangles, unused vertices, curve edges present in every face that holds the curve, and edges of more than two
-/// triangles away from curves. At most `limit` sentences.
 struct DefectOptions {
   bool closed = false;  ///< an edge with one triangle is a defect
   std::size_t limit = 20;
 };
+
+/// One sentence a defect, e.g. "triangle 17 of face 3: no area in space"; empty when the mesh is sound. Checks sizes
+/// and index ranges, finite coordinates, repeated vertices, area in (u, v) (exact) and in space, orientation inside
+/// each face, duplicated triangles, unused vertices, and the number of triangles on every edge: on a curve one for each
+/// boundary use and two for each internal use in a meshed face; two, of one face, anywhere else. Faces that are not
+/// meshed are passed over.
 std::vector<std::string> find_defects(const SurfaceMesh& mesh, const DefectOptions& options = {});
 
 }  // namespace carreau

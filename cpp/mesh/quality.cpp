@@ -1,0 +1,117 @@
+#include "mesh/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace carreau {
+
+namespace {
+
+double double_area(Vec3 a, Vec3 b, Vec3 c) noexcept { return norm(cross(b - a, c - a)); }
+
+Distribution distribution(std::vector<double>& values) {
+  Distribution d;
+  if (values.empty()) return d;
+  double sum = 0;
+  for (const double v : values) sum += v;
+  d.mean = sum / static_cast<double>(values.size());
+  const auto first_percent = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
+  std::nth_element(values.begin(), first_percent, values.end());
+  d.p1 = *first_percent;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  d.min = *low;
+  d.max = *high;
+  return d;
+}
+
+double angle_between(Vec3 p, Vec3 q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
+
+void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
+  std::vector<std::uint64_t> keys;
+  keys.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] =
+          std::minmax(static_cast<std::uint32_t>(t[i]), static_cast<std::uint32_t>(t[(i + 1) % 3]));
+      keys.push_back(static_cast<std::uint64_t>(low) << 32 | high);
+    }
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> degree(mesh.vertices.size(), 0);
+  std::vector<char> border(mesh.vertices.size(), 0);
+  double sum = 0, low = std::numeric_limits<double>::infinity(), high = 0;
+  for (std::size_t i = 0; i < keys.size();) {
+    std::size_t j = i;
+    while (j < keys.size() && keys[j] == keys[i]) ++j;
+    const auto a = static_cast<std::size_t>(keys[i] >> 32), b = static_cast<std::size_t>(keys[i] & 0xffffffffU);
+    const double l = norm(mesh.vertices[b] - mesh.vertices[a]);
+    sum += l;
+    low = std::min(low, l);
+    high = std::max(high, l);
+    ++summary.edges;
+    ++degree[a];
+    ++degree[b];
+    if (j - i == 1) ++summary.open_edges;
+    if (j - i != 2) border[a] = border[b] = 1;
+    i = j;
+  }
+  if (summary.edges == 0) return;
+  summary.edge_min = low;
+  summary.edge_max = high;
+  summary.edge_mean = sum / static_cast<double>(summary.edges);
+  std::size_t inside = 0, six = 0;
+  for (std::size_t v = 0; v < degree.size(); ++v) {
+    if (border[v] != 0 || degree[v] == 0) continue;
+    ++inside;
+    if (degree[v] == 6) ++six;
+  }
+  summary.degree6 = inside == 0 ? 0 : static_cast<double>(six) / static_cast<double>(inside);
+}
+
+}  // namespace
+
+double quality_q1(Vec3 a, Vec3 b, Vec3 c) noexcept {
+  const double ab = norm(b - a), bc = norm(c - b), ca = norm(a - c);
+  const double longest = std::max({ab, bc, ca});
+  if (!(longest > 0)) return 0;
+  // inradius = 2 area / perimeter; HDR eq. 1.5
+  return 2 * std::numbers::sqrt3 * (double_area(a, b, c) / (ab + bc + ca)) / longest;
+}
+
+double quality_q2(Vec3 a, Vec3 b, Vec3 c) noexcept {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
+  // HDR eq. 1.6
+  return squares > 0 ? 2 * std::numbers::sqrt3 * double_area(a, b, c) / squares : 0;
+}
+
+QualitySummary summarise_quality(const FlatMesh& mesh) {
+  QualitySummary summary;
+  summary.vertices = mesh.vertices.size();
+  summary.triangles = mesh.triangles.size();
+  std::vector<double> q1, q2;
+  q1.reserve(mesh.triangles.size());
+  q2.reserve(mesh.triangles.size());
+  double smallest = std::numbers::pi, largest = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    q1.push_back(quality_q1(a, b, c));
+    q2.push_back(quality_q2(a, b, c));
+    summary.area += 0.5 * double_area(a, b, c);
+    for (const double angle : {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)}) {
+      smallest = std::min(smallest, angle);
+      largest = std::max(largest, angle);
+    }
+  }
+  if (!mesh.triangles.empty()) {
+    summary.angle_min_deg = smallest * 180 / std::numbers::pi;
+    summary.angle_max_deg = largest * 180 / std::numbers::pi;
+  }
+  summary.q1 = distribution(q1);
+  summary.q2 = distribution(q2);
+  measure_edges(mesh, summary);
+  return summary;
+}
+
+}  // namespace carreau
