@@ -1,0 +1,460 @@
+/* clang-format off */
+/* carreau.h: meshes of surfaces made of parametric patches, driven by callbacks. C99, and C++ as well.
+ *
+ * In ten lines:
+ *   carreau_session* session = NULL;
+ *   carreau_session_create(&session);
+ *   carreau_set_cad(session, &my_geometry);                    // or carreau_set_cad_m
+ *   carreau_model_add_face(session, 1, 1);                      // or carreau_model_read_pardom
+ *   carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, 0, 0, 0); ...
+ *   carreau_set_real(session, "hphydef", 0.1);
+ *   if (carreau_mesh_generate(session) != CARREAU_OK) puts(carreau_last_error(session));
+ *   carreau_session_mesh(session, &mesh);                       // then carreau_mesh_vertices, carreau_mesh_write, ...
+ *   carreau_session_free(session);
+ *
+ * Rules that hold for every function
+ *
+ *   Status     A function that can fail returns a carreau_status; results come through out_ arguments, which are left
+ *              as they were when the status is an error.
+ *   Errors     carreau_last_error(session) and carreau_mesh_last_error(mesh) hold the sentence of the last call on
+ *              that handle ("" after success). A NULL handle is CARREAU_ERR_ARGUMENT and has no sentence.
+ *   Threads    Handles are independent of one another. One handle is used by one thread at a time; carreau_stop alone
+ *              may be called from anywhere at any time. There is no global state.
+ *   Callbacks  come from the thread that called carreau_mesh_generate or carreau_run_env, one after another, unless
+ *              carreau_cad.reentrant says otherwise. A callback must return: no C++ exception, longjmp or Fortran stop
+ *              may leave it. From inside one, carreau_stop is the only call allowed on its session and mesh; any other
+ *              returns CARREAU_ERR_BUSY.
+ *   Silence    Nothing is printed, no signal is raised or caught, and no call ends the process. The floating-point
+ *              environment (rounding, traps, flags) of the caller is given back as it was; callbacks run in the
+ *              default one.
+ *   Ownership  Arguments are copied before the call returns. Strings that are returned belong to the library; each
+ *              says until when it lives. Arrays of results belong to the caller.
+ *   Text       is UTF-8, ends with a zero byte; numbers in it do not depend on the locale.
+ *   Structs    start with struct_size, which the caller sets to sizeof the struct, so that they can grow. Set every
+ *              other member of an input struct to zero (`= {0}`) before filling it.
+ *   Indices    of vertices, triangles, edges and faces count from 0. Two numbers of the manual count from 1 here too:
+ *              `ic`, the rank of a curve in its face, and the rank in `orientation`.
+ *   Units      lengths are in model units (those of S(u, v)), angles in degrees, times in seconds.
+ *
+ * "RT-0232" is the manual of the program BLSURF: P. Laug, H. Borouchaki, INRIA RT-0232 (1999).
+ */
+/* clang-format on */
+#ifndef CARREAU_H
+#define CARREAU_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#if defined(CARREAU_BUILDING)
+#define CARREAU_API __declspec(dllexport)
+#else
+#define CARREAU_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define CARREAU_API __attribute__((visibility("default")))
+#else
+#define CARREAU_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Versions and status ---- */
+
+#define CARREAU_VERSION_MAJOR 0
+#define CARREAU_VERSION_MINOR 1
+#define CARREAU_VERSION_PATCH 0
+
+/* One row a status: X(symbol, value, meaning). Values are never changed nor used again. */
+#define CARREAU_STATUS_TABLE(X)                                                                               \
+  X(CARREAU_OK, 0, "success")                                                                                 \
+  X(CARREAU_ERR_ARGUMENT, 1, "an argument or the value of a parameter violates its precondition")             \
+  X(CARREAU_ERR_MODEL, 2, "faces, curves, points or references contradict one another")                       \
+  X(CARREAU_ERR_FILE, 3, "a file cannot be opened, read, understood or written")                              \
+  X(CARREAU_ERR_CALLBACK, 4, "a callback reported a failure or returned a value that is not usable")          \
+  X(CARREAU_ERR_DOMAIN, 5, "a parameter domain does not close, crosses itself or is turned the wrong way")    \
+  X(CARREAU_ERR_LIMIT, 6, "the mesh would exceed the limit set by max_triangles or by memory")                \
+  X(CARREAU_ERR_CANCELLED, 7, "the host asked to stop")                                                       \
+  X(CARREAU_ERR_MEMORY, 8, "an allocation failed")                                                            \
+  X(CARREAU_ERR_SEQUENCE, 9, "the call needs the result of another one that was not made or did not succeed") \
+  X(CARREAU_ERR_PARTIAL, 10, "some faces could not be meshed; the mesh holds the others")                     \
+  X(CARREAU_ERR_BUSY, 11, "the session is running: only carreau_stop may be called from a callback")          \
+  X(CARREAU_ERR_INTERNAL, 99, "a defect of the library; please report it")
+
+typedef int32_t carreau_status;
+enum {
+#define CARREAU_STATUS_ROW(symbol, value, meaning) symbol = value,
+  CARREAU_STATUS_TABLE(CARREAU_STATUS_ROW)
+#undef CARREAU_STATUS_ROW
+};
+
+/* "CARREAU_ERR_FILE" and the meaning above; "CARREAU_UNKNOWN_STATUS" and "unknown status" for other values. Static. */
+CARREAU_API const char* carreau_status_name(carreau_status status);
+CARREAU_API const char* carreau_status_meaning(carreau_status status);
+
+/* Version of the library that runs: "0.1.0" (static), and major * 10000 + minor * 100 + patch. */
+CARREAU_API const char* carreau_version(void);
+CARREAU_API int32_t carreau_version_number(void);
+
+/* ---- Sessions ---- */
+
+/* Geometry, model, parameters and the mesh made of them. */
+typedef struct carreau_session carreau_session;
+/* A mesh: of a session, or read from a file. */
+typedef struct carreau_mesh carreau_mesh;
+
+/* Creates a session with default parameters, without geometry or model. Free it with carreau_session_free.
+ * Errors: ARGUMENT (out_session is NULL), MEMORY. */
+CARREAU_API carreau_status carreau_session_create(carreau_session** out_session);
+
+/* Frees a session and its mesh. NULL is allowed. Not from inside a callback of the session (ignored there). */
+CARREAU_API void carreau_session_free(carreau_session* session);
+
+/* The sentence of the last call on the session: which routine, which face, curve, (u, v) or t, which file and line.
+ * "" after success, for a NULL session and from inside a callback. Lives until the next call on the session. */
+CARREAU_API const char* carreau_last_error(const carreau_session* session);
+
+/* What the last error is about. Zero, NaN or 0: not concerned. References are the host's own. */
+typedef struct carreau_error_place {
+  size_t struct_size;
+  int32_t face;  /* reference of the face */
+  int32_t ic;    /* rank of a curve in that face, from 1 */
+  int32_t curve; /* reference of the curve */
+  int32_t point; /* reference of the point */
+  int32_t line;  /* line of the file named in the sentence, from 1 */
+  int32_t reserved;
+  double uv[2];
+  double t;
+} carreau_error_place;
+
+/* Fills *out_place. Unlike other calls it keeps the sentence and the place. Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_last_error_place(const carreau_session* session, carreau_error_place* out_place);
+
+/* ---- Geometry: the routines of the module cad_m ---- */
+
+/* What h and the radii hold before a routine is asked; "does not answer" is to leave it there (RT-0232 sec. 3.1.3). */
+#define CARREAU_HVIDE (-1e38)
+
+/* The routines of RT-0232 sec. 3.1 under their names and with their arguments, every one by reference: a bind(C)
+ * procedure or an external Fortran 77 subroutine fits as it is.
+ *   refs   reference of the face          ic   rank of the curve in the face, from 1 (order of the model)
+ *   uv     u, v                           t    parameter on the curve, a <= t <= b
+ * surf0, curv_int and curv0 are needed. Derivatives that are NULL are found by finite differences; those that are given
+ * are compared with finite differences on a sample before a mesh is made. Sizes and radii that are NULL do not answer.
+ * A routine has no status: it reports a failure by a value that is not finite, or by carreau_stop. */
+typedef struct carreau_cad_m {
+  size_t struct_size;
+  void (*cad_init)(void);                                          /* called once, by carreau_set_cad_m; may be NULL */
+  void (*surf0)(const int32_t* refs, const double* uv, double* S); /* S[3] */
+  void (*surf1)(const int32_t* refs, const double* uv, double* Su, double* Sv);                /* [3] each */
+  void (*surf2)(const int32_t* refs, const double* uv, double* Suu, double* Suv, double* Svv); /* [3] each */
+  void (*curv_int)(const int32_t* refs, const int32_t* ic, double* a, double* b);
+  void (*curv0)(const int32_t* refs, const int32_t* ic, const double* t, double* C);     /* C[2] */
+  void (*curv1)(const int32_t* refs, const int32_t* ic, const double* t, double* Ct);    /* [2] */
+  void (*curv2)(const int32_t* refs, const int32_t* ic, const double* t, double* Ctt);   /* [2] */
+  void (*cad_hphys)(const int32_t* refs, const double* uv, double* h);                   /* asked when hphy_flag = 2 */
+  void (*cad_hphyc)(const int32_t* refs, const int32_t* ic, const double* t, double* h); /* asked when hphy_flag = 2 */
+  void (*cad_hphyp)(const int32_t* refp, double* h);                                     /* asked when hphy_flag = 2 */
+  void (*cad_rads)(const int32_t* refs, const double* uv, double* rhos);                 /* asked when hgeo_flag = 2 */
+  void (*cad_radc)(const int32_t* refs, const int32_t* ic, const double* t, double* rhoc); /* when hgeo_flag = 2 */
+} carreau_cad_m;
+
+/* Registers the routines in place of any earlier geometry, and calls cad_init. The struct is copied.
+ * Errors: ARGUMENT (a needed routine is missing, struct_size). */
+CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* routines);
+
+/* ---- Geometry: callbacks for C hosts ---- */
+
+/* A callback returns 0, or any other value to report a failure: the run ends with CARREAU_ERR_CALLBACK and a sentence
+ * that holds the value. Sizes and radii may also return CARREAU_NO_ANSWER. No pointer is NULL. Entries above `order`
+ * may be left untouched.
+ *   face    reference of the face
+ *   ic      rank of the curve in the face, from 1
+ *   order   highest derivative wanted: 0, 1 or 2, never above surface_order (curve_order)
+ *   user    the member `user` of the struct */
+#define CARREAU_NO_ANSWER (-1)
+
+/* S(u, v) and its derivatives, [3] each. */
+typedef int32_t (*carreau_surface_fn)(int32_t face, const double* uv, int32_t order, double* S, double* Su, double* Sv,
+                                      double* Suu, double* Suv, double* Svv, void* user);
+/* The same at n points: uv is n x 2 and every result n x 3, row by row. */
+typedef int32_t (*carreau_surface_batch_fn)(int32_t face, int64_t n, const double* uv, int32_t order, double* S,
+                                            double* Su, double* Sv, double* Suu, double* Suv, double* Svv, void* user);
+/* Interval [a, b] of a curve, a < b. */
+typedef int32_t (*carreau_interval_fn)(int32_t face, int32_t ic, double* a, double* b, void* user);
+/* C(t) in the parameter plane and its derivatives, [2] each. */
+typedef int32_t (*carreau_curve_fn)(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct,
+                                    double* Ctt, void* user);
+/* Wanted size (hphy_flag = 2) or radius of curvature (hgeo_flag = 2), a model length > 0. */
+typedef int32_t (*carreau_surface_value_fn)(int32_t face, const double* uv, double* value, void* user);
+typedef int32_t (*carreau_curve_value_fn)(int32_t face, int32_t ic, double t, double* value, void* user);
+typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* user);
+
+typedef struct carreau_cad {
+  size_t struct_size;
+  void* user;            /* handed to every callback; never looked at */
+  int32_t surface_order; /* what `surface` can give: 0, 1 or 2; the rest is found by finite differences */
+  int32_t curve_order;   /* what `curve` can give: 0, 1 or 2 */
+  int32_t reentrant;     /* 1: callbacks may come from several threads at a time; 0: from the caller's thread only */
+  int32_t reserved;      /* 0 */
+  carreau_surface_fn surface;             /* needed, unless surface_batch is given */
+  carreau_surface_batch_fn surface_batch; /* used in place of `surface` when given */
+  carreau_interval_fn curve_interval;     /* needed */
+  carreau_curve_fn curve;                 /* needed */
+  carreau_surface_value_fn surface_size;  /* the rest may be NULL: does not answer */
+  carreau_curve_value_fn curve_size;
+  carreau_point_value_fn point_size;
+  carreau_surface_value_fn surface_radius;
+  carreau_curve_value_fn curve_radius;
+} carreau_cad;
+
+/* Registers the callbacks in place of any earlier geometry. The struct is copied; what `user` points to is not.
+ * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
+CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
+
+/* ---- Model: faces, curves and points (RT-0232 sec. 3.2) ---- */
+
+/* Kinds of curves (typc): on the boundary of a domain, or inside it. */
+enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
+
+/* Drops all faces. A mesh made before stays. */
+CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
+
+/* Appends a face. ref: the number that callbacks get, different for each face. orientation: +k or -k, the domain lies
+ * on the left (right) of its k-th curve, which must be a boundary. Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation);
+
+/* Appends a curve to face `face_ref`; it is number ic = 1, 2, ... of that face. ref: the same for curves that are one
+ * in space (twice in one face: a seam). end1, end2: references of the points at t = a and t = b. When the first curve
+ * of the model has ref 0, all references of curves and ends are found by comparing positions (parameter eps_glue).
+ * Errors: ARGUMENT (no such face, unknown type). */
+CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_ref, int32_t type,
+                                                   int32_t ref, int32_t end1, int32_t end2);
+
+/* Imposes a vertex with reference `ref` at (u, v) inside face `face_ref`.
+ * Errors: ARGUMENT (no such face, not finite). */
+CARREAU_API carreau_status carreau_model_add_point(carreau_session* session, int32_t face_ref, int32_t ref, double u,
+                                                   double v);
+
+/* Replaces the model by the content of a file x.pardom. On error the old model stays. Errors: FILE, MODEL. */
+CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
+
+/* Writes the model in the layout of x.pardom. Errors: FILE. */
+CARREAU_API carreau_status carreau_model_write_pardom(carreau_session* session, const char* path);
+
+/* Checks the model against the rules that need no geometry; carreau_mesh_generate does so too. Errors: MODEL. */
+CARREAU_API carreau_status carreau_model_check(carreau_session* session);
+
+/* Numbers of faces, of curves (all faces together) and of imposed points. Any pointer but session may be NULL. */
+CARREAU_API carreau_status carreau_model_count(carreau_session* session, int64_t* out_faces, int64_t* out_curves,
+                                               int64_t* out_points);
+
+/* Read the model back, with the references found by gluing once a mesh has been made. Faces in the order they were
+ * added, curves and points face by face. `capacity`: number of rows the arrays have room for. An array may be NULL.
+ * Errors: ARGUMENT (capacity too small). */
+CARREAU_API carreau_status carreau_model_faces(carreau_session* session, int64_t capacity, int32_t* out_refs,
+                                               int32_t* out_orientations);
+/* out_ends: n x 2. */
+CARREAU_API carreau_status carreau_model_curves(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
+                                                int32_t* out_types, int32_t* out_refs, int32_t* out_ends);
+/* out_uv: n x 2. */
+CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
+                                                int32_t* out_refs, double* out_uv);
+
+/* ---- Parameters (RT-0232 sec. 3.3) ---- */
+
+enum { CARREAU_INTEGER = 1, CARREAU_REAL = 2, CARREAU_TEXT = 3 };
+
+typedef struct carreau_parameter {
+  size_t struct_size;
+  const char* name;         /* strings are static */
+  const char* help;         /* one line, with the unit */
+  const char* default_text; /* of a text; "" otherwise */
+  const char* choices;      /* of a text: "a|b|c", or "" when any text will do */
+  double minimum, maximum;  /* of numbers, both allowed; maximum may be infinity */
+  double default_number;    /* of numbers; times diag when diag_relative */
+  int32_t type;             /* CARREAU_INTEGER, CARREAU_REAL, CARREAU_TEXT */
+  int32_t diag_relative;    /* 1: the default is default_number times diag, the diagonal of the box of all curves */
+} carreau_parameter;
+
+/* Number of parameters; and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
+CARREAU_API int32_t carreau_parameter_count(void);
+CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_parameter);
+
+/* Set a parameter for the runs to come. An integer may be given where a real is wanted.
+ * Errors: ARGUMENT (unknown name: the sentence has the nearest one; other type; out of range). */
+CARREAU_API carreau_status carreau_set_integer(carreau_session* session, const char* name, int32_t value);
+CARREAU_API carreau_status carreau_set_real(carreau_session* session, const char* name, double value);
+CARREAU_API carreau_status carreau_set_text(carreau_session* session, const char* name, const char* value);
+/* From a word, as blsurf.env would ("hphydef", "1.5d-1"). Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_set_word(carreau_session* session, const char* name, const char* word);
+
+/* Value that is set, or the default. Errors: ARGUMENT (unknown name, other type); SEQUENCE (the default is relative to
+ * diag, and no mesh has been made yet). */
+CARREAU_API carreau_status carreau_get_integer(carreau_session* session, const char* name, int32_t* out_value);
+CARREAU_API carreau_status carreau_get_real(carreau_session* session, const char* name, double* out_value);
+/* *out_value lives until the next call on the session. */
+CARREAU_API carreau_status carreau_get_text(carreau_session* session, const char* name, const char** out_value);
+
+/* Back to the default: one parameter, or all. Errors: ARGUMENT (unknown name). */
+CARREAU_API carreau_status carreau_reset_parameter(carreau_session* session, const char* name);
+CARREAU_API carreau_status carreau_reset_parameters(carreau_session* session);
+
+/* ---- Messages, progress, stop ---- */
+
+/* Levels of messages: those up to the parameter `verb` are delivered. */
+enum {
+  CARREAU_LEVEL_ERROR = 0,
+  CARREAU_LEVEL_WARNING = 1,
+  CARREAU_LEVEL_SUMMARY = 10,
+  CARREAU_LEVEL_DETAIL = 50,
+  CARREAU_LEVEL_DEBUG = 100
+};
+
+/* What a run is doing. */
+enum {
+  CARREAU_PHASE_IDLE = 0,
+  CARREAU_PHASE_MODEL = 1,
+  CARREAU_PHASE_CURVES = 2,
+  CARREAU_PHASE_PATCHES = 3,
+  CARREAU_PHASE_ASSEMBLY = 4,
+  CARREAU_PHASE_WRITING = 5
+};
+
+/* One sentence without a newline; text lives until the callback returns. */
+typedef void (*carreau_message_fn)(int32_t level, const char* text, void* user);
+/* entity: reference of the face or curve at work, 0: none. fraction: of the whole run, 0 to 1. Return 0, or any other
+ * value to stop the run as carreau_stop does. */
+typedef int32_t (*carreau_progress_fn)(int32_t phase, int32_t entity, double fraction, void* user);
+
+/* Register a callback, NULL: none (the state of a new session). */
+CARREAU_API carreau_status carreau_set_message_callback(carreau_session* session, carreau_message_fn callback,
+                                                        void* user);
+CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback,
+                                                         void* user);
+
+/* Asks the run under way to stop: it ends within 100 ms (plus the time of the callback it is in) with
+ * CARREAU_ERR_CANCELLED. From any callback, any thread or a signal handler. Without a run under way it does nothing.
+ * NULL is allowed. */
+CARREAU_API void carreau_stop(carreau_session* session);
+
+/* ---- Run ---- */
+
+/* Makes the mesh of the model ("call inimesh"). On error an earlier mesh stays, and the session can be used again.
+ * Errors: SEQUENCE (no geometry, no model), ARGUMENT (parameters that contradict each other), MODEL, CALLBACK, DOMAIN,
+ * LIMIT, CANCELLED, MEMORY; PARTIAL: there is a new mesh, but without the faces whose status is CARREAU_FACE_FAILED. */
+CARREAU_API carreau_status carreau_mesh_generate(carreau_session* session);
+
+/* Runs all actions of a blsurf.env (RT-0232 sec. 3.3): names of files in it are relative to the current folder; the
+ * model is read from <pref>.pardom when inimesh is called and none was given before. Parameters set by carreau_set_...
+ * are reset. Errors: FILE (also unknown names and bad values, with the line), and those of carreau_mesh_generate. */
+CARREAU_API carreau_status carreau_run_env(carreau_session* session, const char* path);
+
+/* What the last successful run did. One point of a batch, or one call of any order, counts as one call of the routine
+ * of the highest order wanted. */
+typedef struct carreau_report {
+  size_t struct_size;
+  double diag; /* diagonal of the box of all curves */
+  int64_t surf0_calls, surf1_calls, surf2_calls;
+  int64_t curv0_calls, curv1_calls, curv2_calls;
+  int64_t size_calls; /* sizes and radii */
+  double seconds_curves, seconds_sampling, seconds_plane, seconds_lift, seconds_total;
+} carreau_report;
+
+/* Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+CARREAU_API carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report);
+
+/* ---- Meshes ---- */
+
+/* The mesh of a session. The handle belongs to the session and always shows its latest mesh; it lives until
+ * carreau_session_free, and carreau_mesh_free leaves it alone. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+CARREAU_API carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out_mesh);
+
+/* An empty mesh, to be filled by carreau_mesh_read and freed by carreau_mesh_free. Errors: ARGUMENT, MEMORY. */
+CARREAU_API carreau_status carreau_mesh_create(carreau_mesh** out_mesh);
+CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* NULL is allowed */
+
+/* Sentence of the last call on the mesh, "" after success. Lives until the next call on it. */
+CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
+
+/* Replaces the content by that of a `.mesh` or `.meshb` file (Medit). On error the old content stays.
+ * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
+CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
+
+/* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl. The mesh of a session is
+ * written as its parameters option, refs and flag say (RT-0232 sec. 4). The file is complete or as it was before.
+ * Errors: FILE; ARGUMENT (suffix, refs). */
+CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
+
+/* Numbers of vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */
+CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
+                                              int64_t* out_edges, int64_t* out_faces);
+/* 3, or 2 when the mesh was read from a plane one. */
+CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
+
+/* Copy results into arrays of the caller; `capacity` is the number of rows (n, m or k) they have room for.
+ * Errors: ARGUMENT (NULL, capacity too small), SEQUENCE (no mesh; data that a mesh from a file does not have).
+ *   vertices        n x 3      x y z, model length
+ *   vertex_refs     n          reference of the corner or imposed point, 0: made by the mesher
+ *   vertex_sizes    n          prescribed size, model length; mesh of a session only
+ *   triangles       m x 3      vertices, counterclockwise in (u, v); face by face in the order of the model
+ *   triangle_refs   m          reference of the face
+ *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session only
+ *   edges           k x 2      vertices, along each curve from its first end to its second
+ *   edge_refs       k          reference of the curve */
+CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double* out_xyz);
+CARREAU_API carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
+CARREAU_API carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, double* out_sizes);
+CARREAU_API carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
+CARREAU_API carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
+CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double* out_uv);
+CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
+CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
+
+/* Status of a face. `mended`: meshed, after something was repaired; `failed`: without triangles. */
+enum { CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3 };
+
+typedef struct carreau_face {
+  size_t struct_size;
+  int32_t ref;       /* reference of the face */
+  int32_t status;    /* CARREAU_FACE_... */
+  int64_t triangles; /* their number; they follow those of the faces before */
+  const char* why;   /* sentence for `mended` and `failed`, else ""; lives until the next call on the mesh */
+} carreau_face;
+
+/* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending.
+ * Errors: ARGUMENT, SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
+
+/* Shape and size of the triangles. q1 = 2 sqrt(3) inradius / longest edge, q2 = 4 sqrt(3) area / sum of squared edges;
+ * both 1 for an equilateral triangle. p1: first percentile. */
+typedef struct carreau_quality {
+  size_t struct_size;
+  int64_t vertices, triangles, edges; /* all edges of triangles */
+  int64_t open_edges;                 /* edges of one triangle only */
+  double q1_mean, q1_min, q1_p1, q1_max;
+  double q2_mean, q2_min, q2_p1, q2_max;
+  double angle_min, angle_max; /* degrees */
+  double area;
+  double edge_min, edge_mean, edge_max; /* lengths */
+  double degree6;                       /* share of interior vertices with six edges */
+} carreau_quality;
+
+/* Errors: ARGUMENT, SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
+
+/* Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area or
+ * twice there, vertices without triangle, edges of more than two triangles away from curves, curves that are not in
+ * their faces. closed = 1: an edge with one triangle is a defect too. *out_count: how many were found, at most `limit`
+ * (> 0); *out_text: one sentence a line, lives until the next call on the mesh. Finding defects is CARREAU_OK.
+ * Errors: ARGUMENT, SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
+                                                const char** out_text);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
