@@ -1,0 +1,33 @@
+// From discretised curves to the discretised parameter domain of a face.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "curve/discrete_curve.h"
+#include "model/topology.h"
+#include "plane/plane_mesh.h"
+
+namespace carreau {
+
+/// What a local vertex of a face is in space.
+struct DomainVertexOrigin {
+  int curve = -1;   ///< index in Topology::curves of a curve that holds it; -1: an imposed point
+  int node = -1;    ///< rank of the vertex on that curve, in the direction of its first use
+  int corner = -1;  ///< index in Topology::points when a curve ends here, else -1
+  int point = -1;   ///< rank in Face::points of an imposed point, else -1
+};
+
+/// The domain of one face, and where its imposed vertices come from.
+struct FaceDomain {
+  PlaneDomain plane;
+  std::vector<DomainVertexOrigin> origin;  ///< of PlaneDomain::vertices
+  std::vector<double> size;                ///< prescribed at each vertex of a curve; 0 at imposed points
+};
+
+/// Collects the discretised curves and the imposed points of face `face` (index) and turns its loops so that the surface
+/// lies on their left. Ends of curves that meet in the parameter plane become one vertex; those that meet in space only (seams) do not.
+/// Throws DomainError naming the face when a loop does not close or is turned the wrong way (HDR fig. 3.1).
+FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves, int face);
+
+}  // namespace carreau
