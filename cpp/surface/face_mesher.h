@@ -1,0 +1,37 @@
+// One patch: sample, mesh, lift.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "plane/plane_mesher.h"
+#include "size/size_rules.h"
+#include "surface/composite.h"
+#include "surface/domain_builder.h"
+
+namespace carreau {
+
+/// A meshed patch. Vertices are those of the domain first, unmoved, then new ones.
+struct PatchMesh {
+  PlaneMesh plane;
+  std::vector<Vec3> xyz;      ///< position in space of every vertex of `plane`
+  std::vector<double> size;   ///< prescribed size at every vertex
+};
+
+/// What meshing a patch needs to know.
+struct PatchInput {
+  int face = 0;  ///< index in Model::faces
+  int ref = 0;   ///< its reference
+  const FaceDomain* domain = nullptr;
+  /// Position in space of each vertex of the domain that lies on a curve; imposed points are evaluated.
+  std::vector<Vec3> curve_xyz;
+};
+
+/// Samples the metric of a face over its domain: J^T J / h^2 (RR-2928 eq. 27).
+ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options, Monitor& monitor);
+
+/// Plane mesh in the sampled metric, surf0 once for each vertex, then the worst triangles are mended in space.
+PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,
+                     CompositeReport& report, Monitor& monitor);
+
+}  // namespace carreau
