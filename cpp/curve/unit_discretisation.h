@@ -5,13 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "size/size_law.h"
+
 namespace carreau {
-
-/// Laws of interpolation of sizes between two points (hinterpol_flag, RT-0232 sec. 3.3).
-enum class SizeLaw : int { linear = 0, geometric = 1, sinusoidal = 2 };
-
-/// h at fraction r in [0, 1] between h1 and h2 > 0 (RR-2818 sec. 5.4).
-double interpolate_size(SizeLaw law, double h1, double h2, double r) noexcept;
 
 /// Integral of ds / h(s) over a segment of length d along which h goes from h1 to h2 (RR-2818 sec. 5.1-5.4, closed
 /// forms).

@@ -8,6 +8,7 @@
 
 #include "cad/cad.h"
 #include "model/topology.h"
+#include "support/error.h"
 
 namespace carreau {
 
@@ -32,33 +33,91 @@ double mean_size(int hmean_flag, std::span<const double> values);
 /// sec. 5.2.1, HDR sec. 4.4.2); +infinity on a plane point; empty where the parametrisation is degenerate.
 std::optional<double> smallest_radius(const SurfaceJet& jet) noexcept;
 
-/// Radius of curvature of the space curve S(C(t)) from both jets with second derivatives; +infinity where straight.
+/// Radius of curvature of the space curve S(C(t)) from both jets with first and second derivatives; +infinity where
+/// straight and where the curve does not move.
 double curve_radius(const SurfaceJet& surface, const CurveJet& curve) noexcept;
 
-/// Sizes of a model. Caches what it asks from the host at points and along curves.
+/// What a curve's interior says at one point.
+struct CurveSizes {
+  /// Physical size that the host gives there, clamped; empty when neither the curve nor any surface beside it answers.
+  std::optional<double> answer;
+  double geometric = 0;  ///< clamped; +infinity when hgeo_flag = 0
+};
+
+/// Sizes of a model. Keeps references to its first three arguments. Caches what it asks at points.
+/// A size that the host gives is clamped, whatever its sign (RT-0232 sec. 3.1.3 a); NaN and infinity are a
+/// CallbackError that names the routine, the entity and the value. A radius may have either sign; only NaN is an error.
 class SizeRules {
  public:
+  /// Throws InvalidArgument when a flag is unknown, both sizes are ignored, bounds are not positive and ascending, or
+  /// angle_mesh lies outside ]0, 90].
   SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
-  /// The Want bits that surface sizes need besides what the caller wants anyway (second derivatives when hgeo_flag =
-  /// 1).
+  /// The Want bits that on_surface needs in its jets: first and second derivatives when hgeo_flag = 1, else none.
   [[nodiscard]] unsigned surface_wants() const noexcept;
+
+  /// The size, when it is the same everywhere and no host is ever asked (hphy_flag = 1, hgeo_flag = 0).
+  [[nodiscard]] std::optional<double> constant() const noexcept;
 
   /// h = min of the clamped physical and geometric sizes at a corner point (index in Topology::points).
   double at_point(int point);
 
-  /// Physical and geometric size at an interior point of a curve. `t` holds, for each use of the curve, the parameter
-  /// of the same point. `r` in [0, 1]: fraction of the curve's length in space (for interpolation when nobody answers).
+  /// The size at an interior point of a curve. `t` holds, for each use of the curve, the parameter of the same point.
+  /// `r` in [0, 1]: fraction of the curve's length in space (for interpolation when nobody answers).
   double on_curve(int curve, std::span<const double> t, double r);
 
-  /// Sizes inside a face, for points whose jets (want_first, and surface_wants()) are known. `fallback` gives the
-  /// physical size where the host does not answer (interpolated from the discretised interfaces); called only then.
+  /// Sizes inside a face (index in Model::faces), for points whose jets hold surface_wants(). `fallback` gives the
+  /// physical size where the host does not answer (interpolated from the discretised interfaces); called only then,
+  /// and clamped. Where the parametrisation is degenerate the geometric size is that of the nearest point of the same
+  /// batch where it is not.
   void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   const std::function<double(Vec2)>& fallback, std::span<double> h);
 
-  /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped.
+  /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped. +infinity when
+  /// hphy_flag = 0.
   double physical_at_point(int point);
   double physical_on_curve(int curve, std::span<const double> t, double r);
+
+  /// What is asked at a point of a curve, before interpolation between the ends: for those who sample a whole curve.
+  CurveSizes ask_on_curve(int curve, std::span<const double> t);
+  /// The physical size between the ends of a curve when nobody answers (hinterpol_flag).
+  double interpolated_on_curve(int curve, double r);
+
+ private:
+  /// A corner of a face's domain.
+  struct Corner {
+    int face = 0;  ///< index in Model::faces
+    Vec2 uv;
+  };
+  /// An end of a curve: the parameter of it in each use.
+  struct CurveEnd {
+    int curve = 0;
+    std::vector<double> t;
+  };
+
+  [[nodiscard]] double clamped_physical(double h) const noexcept;
+  [[nodiscard]] double clamped_geometric(double radius) const noexcept;
+  [[nodiscard]] Where where_of(const CurveUse& use, double t) const;
+  std::optional<double> ask_surface(int face, Vec2 uv);
+  std::optional<double> ask_curve(int curve, std::span<const double> t);
+  std::optional<double> ask_surfaces_beside(int curve, std::span<const double> t);
+  std::optional<double> mean_of(const std::vector<double>& answers) const;
+  double compute_physical_at_point(int point);
+  double compute_geometric_at_point(int point);
+  double geometric_on_curve(int curve, std::span<const double> t);
+  std::optional<double> host_radius_of_surface(int face, Vec2 uv);
+  std::optional<double> host_radius_of_curve(int curve, std::span<const double> t);
+  std::optional<double> radius_beside(const CurveUse& use, double t, const SurfaceJet* jet);
+  std::optional<double> radius_in_face(int face, Vec2 uv, const SurfaceJet* jet);
+  void geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<double> h);
+  std::vector<CurveEnd> ends_at(int point);
+  std::vector<Corner> corners_of(const std::vector<CurveEnd>& ends);
+
+  const Model& model_;
+  const Topology& topology_;
+  Cad& cad_;
+  SizeParameters parameters_;
+  std::vector<std::optional<double>> physical_at_point_, geometric_at_point_;
 };
 
 }  // namespace carreau

@@ -1,0 +1,387 @@
+#include "size/size_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "size/size_law.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr unsigned both_derivatives = want_first | want_second;
+/// How far towards the middle of a curve its surfaces are asked when its end is a pole, as a fraction of the way.
+constexpr double way_inside = 1e-3;
+/// Corners of one face nearer than this fraction of the box of its corners are one.
+constexpr double same_corner = 1e-6;
+
+void check_bounds(const char* name, double least, double most) {
+  if (least > 0 && least <= most && std::isfinite(most)) return;
+  throw InvalidArgument(std::string(name) + "min and " + name + "max must be positive and ascending; they are " +
+                        format_number(least) + " and " + format_number(most));
+}
+
+void check_flag(const char* name, int value, int least, int most) {
+  if (value >= least && value <= most) return;
+  throw InvalidArgument(std::string(name) + " must lie between " + std::to_string(least) + " and " +
+                        std::to_string(most) + "; it is " + std::to_string(value));
+}
+
+/// A size that the host gave (RT-0232 sec. 3.1.3 a): any number can be clamped, NaN and infinity cannot be meant.
+std::optional<double> checked_size(std::optional<double> answer, const char* routine, const Where& where) {
+  if (answer && !std::isfinite(*answer)) {
+    throw CallbackError(where, std::string(routine) + " returned the size " + format_number(*answer) +
+                                   ", which is not a finite number");
+  }
+  return answer;
+}
+
+std::optional<double> checked_radius(std::optional<double> answer, const char* routine, const Where& where) {
+  if (!answer) return {};
+  if (std::isnan(*answer)) throw CallbackError(where, std::string(routine) + " returned a radius that is not a number");
+  return std::abs(*answer);  // hosts that tell the side by the sign
+}
+
+}  // namespace
+
+double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
+
+double mean_size(int hmean_flag, std::span<const double> values) {
+  if (values.empty()) throw InvalidArgument("the mean of no sizes was asked for");
+  const double smallest = *std::min_element(values.begin(), values.end());
+  const auto n = static_cast<double>(values.size());
+  double sum = 0;
+  switch (hmean_flag) {
+    case -1:
+      return smallest;
+    case 1:  // exp of the mean logarithm: the product of many sizes would underflow
+      for (const double h : values) sum += std::log(h / smallest);
+      return smallest * std::exp(sum / n);
+    default:
+      for (const double h : values) sum += h;
+      return sum / n;
+  }
+}
+
+SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters)
+    : model_(model),
+      topology_(topology),
+      cad_(cad),
+      parameters_(parameters),
+      physical_at_point_(topology.points.size()),
+      geometric_at_point_(topology.points.size()) {
+  check_flag("hphy_flag", parameters.hphy_flag, 0, 2);
+  check_flag("hgeo_flag", parameters.hgeo_flag, 0, 2);
+  check_flag("hmean_flag", parameters.hmean_flag, -1, 2);
+  check_flag("hinterpol_flag", parameters.hinterpol_flag, 0, 2);
+  if (parameters.hphy_flag == 0 && parameters.hgeo_flag == 0) {
+    throw InvalidArgument("hphy_flag and hgeo_flag are both 0: nothing says how large the elements are to be");
+  }
+  if (parameters.hphy_flag != 0) {
+    check_bounds("hphy", parameters.hphymin, parameters.hphymax);
+    if (!std::isfinite(parameters.hphydef)) {
+      throw InvalidArgument("hphydef must be a finite number; it is " + format_number(parameters.hphydef));
+    }
+  }
+  if (parameters.hgeo_flag != 0) {
+    check_bounds("hgeo", parameters.hgeomin, parameters.hgeomax);
+    if (!(parameters.angle_mesh > 0 && parameters.angle_mesh <= 90)) {
+      throw InvalidArgument("angle_mesh must lie between 0 and 90 degrees; it is " +
+                            format_number(parameters.angle_mesh));
+    }
+  }
+}
+
+unsigned SizeRules::surface_wants() const noexcept { return parameters_.hgeo_flag == 1 ? both_derivatives : 0; }
+
+std::optional<double> SizeRules::constant() const noexcept {
+  if (parameters_.hphy_flag != 1 || parameters_.hgeo_flag != 0) return {};
+  return clamped_physical(parameters_.hphydef);
+}
+
+double SizeRules::clamped_physical(double h) const noexcept {
+  return std::clamp(h, parameters_.hphymin, parameters_.hphymax);
+}
+
+double SizeRules::clamped_geometric(double radius) const noexcept {
+  return std::clamp(size_per_radius(parameters_.angle_mesh) * radius, parameters_.hgeomin, parameters_.hgeomax);
+}
+
+Where SizeRules::where_of(const CurveUse& use, double t) const {
+  const Face& face = model_.faces[static_cast<std::size_t>(use.face)];
+  return {.face = face.ref,
+          .curve_index = use.curve + 1,
+          .curve = face.curves[static_cast<std::size_t>(use.curve)].ref,
+          .t = t};
+}
+
+// ---- physical sizes (RT-0232 sec. 3.1.3 a) ----
+
+std::optional<double> SizeRules::ask_surface(int face, Vec2 uv) {
+  const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
+  const auto answer = checked_size(cad_.surface_size(ref, uv), "cad_hphys", Where{.face = ref, .uv = uv});
+  if (!answer) return {};
+  return clamped_physical(*answer);
+}
+
+/// The uses of a curve are asked in their order, the first being the one that defines it; the first answer counts.
+std::optional<double> SizeRules::ask_curve(int curve, std::span<const double> t) {
+  const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const Where where = where_of(uses[u], t[u]);
+    const auto answer = checked_size(cad_.curve_size(where.face, where.curve_index, t[u]), "cad_hphyc", where);
+    if (answer) return clamped_physical(*answer);
+  }
+  return {};
+}
+
+/// Mean over the uses: a surface that meets the curve twice (a seam) counts twice.
+std::optional<double> SizeRules::ask_surfaces_beside(int curve, std::span<const double> t) {
+  const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
+  std::vector<double> answers;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const int face = model_.faces[static_cast<std::size_t>(uses[u].face)].ref;
+    const Vec2 uv = cad_.curve(face, uses[u].curve + 1, want_position, t[u]).c;
+    if (const auto answer = ask_surface(uses[u].face, uv)) answers.push_back(*answer);
+  }
+  return mean_of(answers);
+}
+
+std::optional<double> SizeRules::mean_of(const std::vector<double>& answers) const {
+  if (answers.empty()) return {};
+  return mean_size(parameters_.hmean_flag, answers);
+}
+
+std::vector<SizeRules::CurveEnd> SizeRules::ends_at(int point) {
+  std::vector<CurveEnd> ends;
+  for (const int c : topology_.points[static_cast<std::size_t>(point)].curves) {
+    const Curve& curve = topology_.curves[static_cast<std::size_t>(c)];
+    for (const bool first : {true, false}) {
+      if ((first ? curve.end1 : curve.end2) != point) continue;
+      CurveEnd end{c, {}};
+      for (const CurveUse& use : curve.uses) {
+        const Interval i = cad_.curve_interval(model_.faces[static_cast<std::size_t>(use.face)].ref, use.curve + 1);
+        end.t.push_back(first != use.reversed ? i.a : i.b);
+      }
+      ends.push_back(std::move(end));
+    }
+  }
+  return ends;
+}
+
+/// Corners of parameter domains at which the curves end, each once: a face that holds the point at both sides of a
+/// seam has two.
+std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>& ends) {
+  std::vector<Corner> all;
+  for (const CurveEnd& end : ends) {
+    const auto& uses = topology_.curves[static_cast<std::size_t>(end.curve)].uses;
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+      const int face = model_.faces[static_cast<std::size_t>(uses[u].face)].ref;
+      all.push_back({uses[u].face, cad_.curve(face, uses[u].curve + 1, want_position, end.t[u]).c});
+    }
+  }
+  std::vector<Corner> corners;
+  for (const Corner& corner : all) {
+    // The farthest that two corners of this face are apart, or for a single corner its distance from the origin.
+    double scale = 0;
+    for (const Corner& other : all) {
+      if (other.face == corner.face) scale = std::max({scale, norm(other.uv - corner.uv), norm(corner.uv)});
+    }
+    const bool known = std::any_of(corners.begin(), corners.end(), [&](const Corner& other) {
+      return other.face == corner.face && norm(other.uv - corner.uv) <= same_corner * scale;
+    });
+    if (!known) corners.push_back(corner);
+  }
+  return corners;
+}
+
+double SizeRules::compute_physical_at_point(int point) {
+  if (parameters_.hphy_flag == 0) return infinity;
+  const double usual = clamped_physical(parameters_.hphydef);
+  if (parameters_.hphy_flag == 1) return usual;
+  const int ref = topology_.points[static_cast<std::size_t>(point)].ref;
+  if (const auto answer = checked_size(cad_.point_size(ref), "cad_hphyp", Where{.point = ref})) {
+    return clamped_physical(*answer);
+  }
+  const std::vector<CurveEnd> ends = ends_at(point);
+  std::vector<double> answers;
+  int answered = -1;  // a closed curve counts once
+  for (const CurveEnd& end : ends) {
+    if (end.curve == answered) continue;
+    if (const auto answer = ask_curve(end.curve, end.t)) {
+      answers.push_back(*answer);
+      answered = end.curve;
+    }
+  }
+  if (answers.empty()) {
+    for (const Corner& corner : corners_of(ends)) {
+      if (const auto answer = ask_surface(corner.face, corner.uv)) answers.push_back(*answer);
+    }
+  }
+  return mean_of(answers).value_or(usual);
+}
+
+double SizeRules::physical_at_point(int point) {
+  auto& known = physical_at_point_[static_cast<std::size_t>(point)];
+  if (!known) known = compute_physical_at_point(point);
+  return *known;
+}
+
+double SizeRules::interpolated_on_curve(int curve, double r) {
+  const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
+  return interpolate_size(static_cast<SizeLaw>(parameters_.hinterpol_flag), physical_at_point(c.end1),
+                          physical_at_point(c.end2), r);
+}
+
+double SizeRules::physical_on_curve(int curve, std::span<const double> t, double r) {
+  if (parameters_.hphy_flag == 0) return infinity;
+  if (parameters_.hphy_flag == 1) return clamped_physical(parameters_.hphydef);
+  if (const auto answer = ask_curve(curve, t)) return *answer;
+  if (const auto answer = ask_surfaces_beside(curve, t)) return *answer;
+  return interpolated_on_curve(curve, r);
+}
+
+CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t) {
+  CurveSizes sizes;
+  if (parameters_.hphy_flag == 2) {
+    sizes.answer = ask_curve(curve, t);
+    if (!sizes.answer) sizes.answer = ask_surfaces_beside(curve, t);
+  } else if (parameters_.hphy_flag == 1) {
+    sizes.answer = clamped_physical(parameters_.hphydef);
+  } else {
+    sizes.answer = infinity;
+  }
+  sizes.geometric = geometric_on_curve(curve, t);
+  return sizes;
+}
+
+// ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
+
+std::optional<double> SizeRules::host_radius_of_surface(int face, Vec2 uv) {
+  if (parameters_.hgeo_flag != 2) return {};
+  const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
+  return checked_radius(cad_.surface_radius(ref, uv), "cad_rads", Where{.face = ref, .uv = uv});
+}
+
+std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const double> t) {
+  if (parameters_.hgeo_flag != 2) return {};
+  const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const Where where = where_of(uses[u], t[u]);
+    const auto radius = checked_radius(cad_.curve_radius(where.face, where.curve_index, t[u]), "cad_radc", where);
+    if (radius) return radius;
+  }
+  return {};
+}
+
+/// `jet` with both derivatives when known, else nullptr. Where a host that was to give its own radius is silent, the
+/// curvature is computed.
+std::optional<double> SizeRules::radius_in_face(int face, Vec2 uv, const SurfaceJet* jet) {
+  if (const auto radius = host_radius_of_surface(face, uv)) return radius;
+  if (jet != nullptr) return smallest_radius(*jet);
+  return smallest_radius(surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, both_derivatives, uv));
+}
+
+/// Radius of the surface beside a curve; at a pole, that of a point a little way towards the curve's middle.
+/// `jet` is the surface's at t when known, else nullptr.
+std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, const SurfaceJet* jet) {
+  const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
+  const auto uv_at = [&](double at) { return cad_.curve(ref, use.curve + 1, want_position, at).c; };
+  if (const auto radius = radius_in_face(use.face, uv_at(t), jet)) return radius;
+  const Interval i = cad_.curve_interval(ref, use.curve + 1);
+  const double inside = t + way_inside * (i.a + (i.b - i.a) / 2 - t);
+  return radius_in_face(use.face, uv_at(inside), nullptr);
+}
+
+double SizeRules::geometric_on_curve(int curve, std::span<const double> t) {
+  if (parameters_.hgeo_flag == 0) return infinity;
+  const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
+  double smallest = infinity;
+  std::optional<SurfaceJet> jet;  // of the first use, which defines the curve's shape
+  if (!c.degenerate) {
+    if (const auto radius = host_radius_of_curve(curve, t)) {
+      smallest = *radius;
+    } else {
+      const CurveUse& use = c.uses.front();
+      const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
+      const CurveJet plane = cad_.curve(ref, use.curve + 1, want_position | both_derivatives, t.front());
+      jet = surface_at(cad_, ref, both_derivatives, plane.c);
+      smallest = carreau::curve_radius(*jet, plane);
+    }
+  }
+  for (std::size_t u = 0; u < c.uses.size(); ++u) {
+    const auto beside = radius_beside(c.uses[u], t[u], u == 0 && jet ? &*jet : nullptr);
+    if (beside) smallest = std::min(smallest, *beside);
+  }
+  return clamped_geometric(smallest);
+}
+
+double SizeRules::compute_geometric_at_point(int point) {
+  double h = infinity;
+  if (parameters_.hgeo_flag == 0) return h;
+  for (const CurveEnd& end : ends_at(point)) h = std::min(h, geometric_on_curve(end.curve, end.t));
+  return std::min(h, parameters_.hgeomax);
+}
+
+// ---- both ----
+
+double SizeRules::at_point(int point) {
+  auto& known = geometric_at_point_[static_cast<std::size_t>(point)];
+  if (!known) known = compute_geometric_at_point(point);
+  return std::min(*known, physical_at_point(point));
+}
+
+double SizeRules::on_curve(int curve, std::span<const double> t, double r) {
+  const double physical = physical_on_curve(curve, t, r);
+  return std::min(physical, geometric_on_curve(curve, t));
+}
+
+void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                                     std::span<double> h) {
+  std::vector<std::size_t> sound, degenerate;
+  std::vector<double> radius(uv.size(), infinity);
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const auto known = radius_in_face(face, uv[i], parameters_.hgeo_flag == 1 ? &jets[i] : nullptr);
+    if (known) radius[i] = *known;
+    (known ? sound : degenerate).push_back(i);
+  }
+  for (const std::size_t i : degenerate) {
+    double nearest = infinity;
+    for (const std::size_t k : sound) {
+      const double distance = norm(uv[k] - uv[i]);
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      radius[i] = radius[k];
+    }
+  }
+  for (std::size_t i = 0; i < uv.size(); ++i) h[i] = std::min(h[i], clamped_geometric(radius[i]));
+}
+
+void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                           const std::function<double(Vec2)>& fallback, std::span<double> h) {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    switch (parameters_.hphy_flag) {
+      case 0:
+        h[i] = infinity;
+        break;
+      case 1:
+        h[i] = clamped_physical(parameters_.hphydef);
+        break;
+      default:
+        if (const auto answer = ask_surface(face, uv[i])) {
+          h[i] = *answer;
+        } else {
+          h[i] = clamped_physical(fallback(uv[i]));
+        }
+    }
+  }
+  if (parameters_.hgeo_flag != 0) geometric_on_surface(face, uv, jets, h);
+}
+
+}  // namespace carreau
