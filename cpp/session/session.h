@@ -49,10 +49,18 @@ class Session {
   /// Writes exported() to a file; format by suffix.
   void write(const std::string& path) const;
 
-  /// Runs all actions of a blsurf.env. Files are looked up and written relative to the folder `folder` ("" = current).
+  /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).
+  [[nodiscard]] const ModelSupports& supports() const;
+
+  /// Runs all actions of a blsurf.env until `call exit` or the end of the file (RT-0232 sec. 3.3). `<pref>.pardom` is
+  /// read and `<pref>.mesh` written beside the env file; a model given by set_model() is used instead of the file.
+  /// Parameters have their defaults at the start, after each call and at the end. Throws FileError or InvalidArgument
+  /// with file and line.
   void run_env(const std::string& path);
 
  private:
+  [[nodiscard]] bool has_model_from_host() const noexcept;
+
   struct State;
   std::unique_ptr<State> state_;
 };

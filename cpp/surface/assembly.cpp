@@ -10,9 +10,14 @@ constexpr std::int32_t unknown = -1;
 
 class Assembler {
  public:
-  Assembler(const Model& model, const Topology& topology, const RefinedDomains& domains, const std::vector<DiscreteCurve>& curves,
-            CompositeResult& result)
-      : model_(model), topology_(topology), domains_(domains), curves_(curves), mesh_(result.mesh), sizes_(result.vertex_size) {}
+  Assembler(const Model& model, const Topology& topology, const RefinedDomains& domains,
+            const std::vector<DiscreteCurve>& curves, CompositeResult& result)
+      : model_(model),
+        topology_(topology),
+        domains_(domains),
+        curves_(curves),
+        mesh_(result.mesh),
+        sizes_(result.vertex_size) {}
 
   void run(std::vector<std::optional<PatchMesh>>& patches) {
     corner_vertex_.assign(topology_.points.size(), unknown);
@@ -41,7 +46,8 @@ class Assembler {
   // Corners come first, in the order of the model; only what a meshed face holds becomes a vertex.
   void add_curves(const std::vector<std::optional<PatchMesh>>& patches) {
     const auto is_used = [&](const Curve& curve) {
-      return std::any_of(curve.uses.begin(), curve.uses.end(), [&](const CurveUse& use) { return patches[use.face].has_value(); });
+      return std::any_of(curve.uses.begin(), curve.uses.end(),
+                         [&](const CurveUse& use) { return patches[use.face].has_value(); });
     };
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       const Curve& shape = topology_.curves[c];
@@ -80,11 +86,14 @@ class Assembler {
     face.uv = std::move(patch->plane.vertices);
     face.vertex.reserve(face.uv.size());
     for (std::size_t v = 0; v < face.uv.size(); ++v)
-      face.vertex.push_back(v < domain.origin.size() ? imposed_vertex(f, domain, *patch, v) : add_vertex(patch->xyz[v], 0, patch->size[v]));
+      face.vertex.push_back(v < domain.origin.size() ? imposed_vertex(f, domain, *patch, v)
+                                                     : add_vertex(patch->xyz[v], 0, patch->size[v]));
     face.triangles = std::move(patch->plane.triangles);
     std::erase_if(face.triangles, [&](const std::array<std::int32_t, 3>& t) {
       const std::int32_t a = face.vertex[t[0]], b = face.vertex[t[1]], c = face.vertex[t[2]];
-      return a == b || b == c || c == a;
+      const bool flat = a == b || b == c || c == a;
+      if (flat) face.flattened.push_back(t);
+      return flat;
     });
     face.status = domains_.mended[f] != 0 ? FaceStatus::mended : FaceStatus::meshed;
     if (face.status == FaceStatus::mended) face.why = "curves were refined so that the domain could be meshed";
@@ -101,8 +110,9 @@ class Assembler {
 
 }  // namespace
 
-void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains, const std::vector<DiscreteCurve>& curves,
-              std::vector<std::optional<PatchMesh>>& patches, CompositeResult& result) {
+void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
+              const std::vector<DiscreteCurve>& curves, std::vector<std::optional<PatchMesh>>& patches,
+              CompositeResult& result) {
   Assembler(model, topology, domains, curves, result).run(patches);
 }
 

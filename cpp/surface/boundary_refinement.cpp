@@ -19,10 +19,16 @@ using Splits = std::map<int, std::set<int>>;
 
 class Refiner {
  public:
-  Refiner(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad, SizeRules& rules,
-          const CompositeOptions& options, std::vector<DiscreteCurve>& curves, Monitor& monitor)
-      : model_(model), topology_(topology), supports_(supports), cad_(cad), rules_(rules), options_(options), curves_(curves), monitor_(monitor) {
-    const std::size_t n = model.faces.size();
+  Refiner(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
+          std::vector<DiscreteCurve>& curves, Monitor& monitor)
+      : curve_model_(model),
+        model_(model.model),
+        topology_(model.topology),
+        rules_(rules),
+        options_(options),
+        curves_(curves),
+        monitor_(monitor) {
+    const std::size_t n = model_.faces.size();
     result_.domain.resize(n);
     result_.failure.resize(n);
     result_.mended.resize(n, 0);
@@ -32,7 +38,9 @@ class Refiner {
   RefinedDomains run() {
     uncross();
     for (int i = 0; i < options_.check_close_edges; ++i)
-      refine([this](int f) { return edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle); });
+      refine([this](int f) {
+        return edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
+      });
     for (int i = 0; i < options_.check_adjacent_edges; ++i)
       refine([this](int f) { return edges_to_split_for_balance(result_.domain[f]->plane, space_of(f)); });
     for (int i = 0; i < options_.check_well_defined; ++i) uncross();
@@ -75,14 +83,15 @@ class Refiner {
     }
     bool any = false;
     for (const auto& [curve, segments] : splits)
-      for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment, any = true) split(curve, *segment);
+      for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) any |= split(curve, *segment);
     rebuild_stale();
     return any;
   }
 
-  void split(int curve, int segment) {
-    split_segment(curves_[curve], segment, curve, model_, topology_, supports_.of_face, cad_, rules_);
+  bool split(int curve, int segment) {
+    if (!split_segment(curves_[curve], segment, curve_model_)) return false;
     for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
+    return true;
   }
 
   void uncross() {
@@ -95,7 +104,7 @@ class Refiner {
     auto& space = spaces_[f];
     if (!space) {
       const PatchInput input{.face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}};
-      space = sample_face(input, cad_, rules_, options_, monitor_);
+      space = sample_face(input, curve_model_.cad, rules_, options_, monitor_);
     }
     return *space;
   }
@@ -109,7 +118,8 @@ class Refiner {
       std::string why;
       if (!conflicts.empty()) {
         const Where where{.face = model_.faces[f].ref, .uv = conflicts.front().uv};
-        why = where.prefix() + "the discretised boundary meets itself: an edge of " + name_of(plane.edges[conflicts.front().first], f) + " and an edge of " +
+        why = where.prefix() + "the discretised boundary meets itself: an edge of " +
+              name_of(plane.edges[conflicts.front().first], f) + " and an edge of " +
               name_of(plane.edges[conflicts.front().second], f);
       } else if (const auto defects = find_loop_defects(plane); !defects.empty()) {
         why = Where{.face = model_.faces[f].ref}.prefix() + defects.front();
@@ -130,10 +140,9 @@ class Refiner {
     return name + " (reference " + std::to_string(topology_.curves[edge.curve].ref) + ")";
   }
 
+  const CurveModel& curve_model_;
   const Model& model_;
   const Topology& topology_;
-  const ModelSupports& supports_;
-  Cad& cad_;
   SizeRules& rules_;
   const CompositeOptions& options_;
   std::vector<DiscreteCurve>& curves_;
@@ -146,32 +155,29 @@ class Refiner {
 
 }  // namespace
 
-RefinedDomains refine_domains(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad, SizeRules& rules,
-                              const CompositeOptions& options, std::vector<DiscreteCurve>& curves, Monitor& monitor) {
-  return Refiner(model, topology, supports, cad, rules, options, curves, monitor).run();
+RefinedDomains refine_domains(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
+                              std::vector<DiscreteCurve>& curves, Monitor& monitor) {
+  return Refiner(model, rules, options, curves, monitor).run();
 }
 
-void separate_coincident_curves(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad, SizeRules& rules,
-                                std::vector<DiscreteCurve>& curves) {
+void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves) {
   std::map<std::pair<int, int>, std::vector<int>> by_ends;
   for (int c = 0; c < static_cast<int>(curves.size()); ++c) {
-    const Curve& shape = topology.curves[c];
-    if (shape.degenerate) continue;
-    const int least = shape.end1 == shape.end2 ? 3 : 1;
-    while (static_cast<int>(curves[c].xyz.size()) - 1 < least)
-      split_segment(curves[c], static_cast<int>(curves[c].xyz.size()) - 2, c, model, topology, supports.of_face, cad, rules);
-    if (curves[c].xyz.size() == 2) by_ends[std::minmax(shape.end1, shape.end2)].push_back(c);
+    const Curve& shape = model.curve(c);
+    if (!shape.degenerate && curves[c].segments() == 1) by_ends[std::minmax(shape.end1, shape.end2)].push_back(c);
   }
   for (const auto& [ends, same] : by_ends)
     if (same.size() > 1)
-      for (const int c : same) split_segment(curves[c], 0, c, model, topology, supports.of_face, cad, rules);
+      for (const int c : same) split_segment(curves[c], 0, model);
 }
 
-std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves, const Topology& topology) {
+std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves,
+                                      const Topology& topology) {
   std::vector<Vec3> positions;
   for (const DomainVertexOrigin& origin : domain.origin) {
     if (origin.curve < 0) break;
-    positions.push_back(origin.corner >= 0 ? topology.points[origin.corner].position : curves[origin.curve].xyz[origin.node]);
+    positions.push_back(origin.corner >= 0 ? topology.points[origin.corner].position
+                                           : curves[origin.curve].xyz[origin.node]);
   }
   return positions;
 }

@@ -11,7 +11,7 @@
 
 namespace carreau {
 
-/// The domains of all faces after refinement. A face that cannot be meended keeps no domain and says why.
+/// The domains of all faces after refinement. A face that cannot be mended keeps no domain and says why.
 struct RefinedDomains {
   std::vector<std::optional<FaceDomain>> domain;  ///< by face index
   std::vector<std::string> failure;               ///< by face index; empty when there is a domain
@@ -19,16 +19,16 @@ struct RefinedDomains {
 };
 
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
-/// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges, CheckAdjacentEdges,
-/// CheckWellDefined).
-RefinedDomains refine_domains(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad, SizeRules& rules,
-                              const CompositeOptions& options, std::vector<DiscreteCurve>& curves, Monitor& monitor);
+/// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
+/// CheckAdjacentEdges, CheckWellDefined).
+RefinedDomains refine_domains(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
+                              std::vector<DiscreteCurve>& curves, Monitor& monitor);
 
-/// Curves whose edges would coincide in space (same ends, one edge each) and closed curves of less than three edges get more vertices.
-void separate_coincident_curves(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad, SizeRules& rules,
-                                std::vector<DiscreteCurve>& curves);
+/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.
+void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);
 
 /// Positions in space of the domain's vertices that lie on curves (imposed points come last and are left out).
-std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves, const Topology& topology);
+std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves,
+                                      const Topology& topology);
 
 }  // namespace carreau

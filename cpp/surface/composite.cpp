@@ -27,16 +27,26 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 std::int64_t triangles_by_memory() {
 #if defined(__unix__)
   const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-  if (pages > 0 && page > 0) return static_cast<std::int64_t>(0.8 * static_cast<double>(pages) * static_cast<double>(page) / bytes_per_triangle);
+  if (pages > 0 && page > 0)
+    return static_cast<std::int64_t>(0.8 * static_cast<double>(pages) * static_cast<double>(page) / bytes_per_triangle);
 #endif
   return INT64_C(50'000'000);
 }
 
 class Pipeline {
  public:
-  Pipeline(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad, const CompositeOptions& options, Monitor& monitor)
-      : model_(model), topology_(topology), supports_(supports), cad_(cad), options_(options), monitor_(monitor), rules_(model, topology, cad, options.size) {
-    if (options_.max_triangles <= 0) options_.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4);
+  Pipeline(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
+           const CompositeOptions& options, Monitor& monitor)
+      : model_(model),
+        topology_(topology),
+        supports_(supports),
+        cad_(cad),
+        options_(options),
+        monitor_(monitor),
+        rules_(model, topology, cad, options.size),
+        curve_model_{model, topology, supports.of_face, cad} {
+    if (options_.max_triangles <= 0)
+      options_.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4);
     left_ = options_.max_triangles;
   }
 
@@ -60,19 +70,21 @@ class Pipeline {
     std::int64_t edges = 0;
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       monitor_.checkpoint();
-      monitor_.progress(Phase::curves, topology_.curves[c].ref, curves_share * static_cast<double>(c) / static_cast<double>(topology_.curves.size()));
-      curves_.push_back(discretise_curve(static_cast<int>(c), model_, topology_, supports_.of_face, cad_, rules_, {.lss = options_.lss, .max_edges = options_.max_triangles}));
-      edges += static_cast<std::int64_t>(curves_.back().xyz.size()) - 1;
+      monitor_.progress(Phase::curves, topology_.curves[c].ref,
+                        curves_share * static_cast<double>(c) / static_cast<double>(topology_.curves.size()));
+      curves_.push_back(discretise_curve(curve_model_, static_cast<int>(c), rules_));
+      edges += curves_.back().segments();
       if (edges > options_.max_triangles) refuse(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges));
     }
-    separate_coincident_curves(model_, topology_, supports_, cad_, rules_, curves_);
-    domains_ = refine_domains(model_, topology_, supports_, cad_, rules_, options_, curves_, monitor_);
+    separate_coincident_curves(curve_model_, curves_);
+    domains_ = refine_domains(curve_model_, rules_, options_, curves_, monitor_);
     result_.report.seconds_curves = seconds_since(start);
   }
 
   [[noreturn]] void refuse(const Where& where, double expected) const {
-    throw LimitError(where, "the mesh would have about " + format_count(expected) + " triangles or more, beyond the limit of " +
-                                format_count(static_cast<double>(options_.max_triangles)) + " (parameter max_triangles)");
+    throw LimitError(
+        where, "the mesh would have about " + format_count(expected) + " triangles or more, beyond the limit of " +
+                   format_count(static_cast<double>(options_.max_triangles)) + " (parameter max_triangles)");
   }
   static std::string format_count(double n) { return std::to_string(static_cast<std::int64_t>(n < 9e18 ? n : 9e18)); }
 
@@ -81,7 +93,9 @@ class Pipeline {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       const int ref = model_.faces[f].ref;
       monitor_.checkpoint();
-      monitor_.progress(Phase::patches, ref, curves_share + patches_share * static_cast<double>(f) / static_cast<double>(model_.faces.size()));
+      monitor_.progress(
+          Phase::patches, ref,
+          curves_share + patches_share * static_cast<double>(f) / static_cast<double>(model_.faces.size()));
       if (!domains_.domain[f]) {
         fail(f, domains_.failure[f]);
         continue;
@@ -99,7 +113,9 @@ class Pipeline {
   void mesh_face(std::size_t f) {
     auto start = std::chrono::steady_clock::now();
     const FaceDomain& domain = *domains_.domain[f];
-    const PatchInput input{.face = static_cast<int>(f), .ref = model_.faces[f].ref, .domain = &domain,
+    const PatchInput input{.face = static_cast<int>(f),
+                           .ref = model_.faces[f].ref,
+                           .domain = &domain,
                            .curve_xyz = positions_on_curves(domain, curves_, topology_)};
     const ControlSpace space = sample_face(input, cad_, rules_, options_, monitor_);
     result_.report.seconds_sampling += seconds_since(start);
@@ -124,6 +140,7 @@ class Pipeline {
   CompositeOptions options_;
   Monitor& monitor_;
   SizeRules rules_;
+  CurveModel curve_model_;
   std::int64_t left_ = 0;  // triangles still allowed
   std::vector<DiscreteCurve> curves_;
   RefinedDomains domains_;

@@ -16,45 +16,53 @@ namespace {
 constexpr double joining_share = 0.25;
 
 struct CurveEnd {
-  int corner;     // index in Topology::points
+  int corner;  // index in Topology::points
   Vec2 uv;
-  double reach;   // length in (u, v) of the edge that ends here
-  int vertex;     // of the domain, once known
+  double reach;  // length in (u, v) of the edge that ends here
+  int vertex;    // of the domain, once known
 };
 
 class Builder {
  public:
   Builder(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves, int face)
-      : face_(model.faces[face]), curve_of_(topology.curve_of[face]), topology_(topology), curves_(curves), index_(face) {}
+      : face_(model.faces[face]),
+        curve_of_(topology.curve_of[face]),
+        topology_(topology),
+        curves_(curves),
+        index_(face) {}
 
   FaceDomain run() {
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) add_curve(c);
-    for (int p = 0; p < static_cast<int>(face_.points.size()); ++p)
-      add_vertex(face_.points[p].uv, {.point = p}, 0);
+    for (int p = 0; p < static_cast<int>(face_.points.size()); ++p) add_vertex(face_.points[p].uv, {.point = p}, {});
     orient();
     return std::move(domain_);
   }
 
  private:
-  int add_vertex(Vec2 uv, const DomainVertexOrigin& origin, double size) {
+  struct Sizes {
+    double prescribed = 0, physical = 0;
+  };
+
+  int add_vertex(Vec2 uv, const DomainVertexOrigin& origin, Sizes size) {
     domain_.plane.vertices.push_back(uv);
     domain_.origin.push_back(origin);
-    domain_.size.push_back(size);
+    domain_.size.push_back(size.prescribed);
+    domain_.physical.push_back(size.physical);
     return static_cast<int>(domain_.plane.vertices.size()) - 1;
   }
 
   // Rank of this face-curve among the uses of its curve in space.
   int use_of(int c) const {
     const auto& uses = topology_.curves[curve_of_[c]].uses;
-    const auto it = std::find_if(uses.begin(), uses.end(), [&](const CurveUse& u) { return u.face == index_ && u.curve == c; });
+    const auto it =
+        std::find_if(uses.begin(), uses.end(), [&](const CurveUse& u) { return u.face == index_ && u.curve == c; });
     return static_cast<int>(it - uses.begin());
   }
 
-  int join_end(int corner, Vec2 uv, double reach, const DomainVertexOrigin& origin, double size) {
+  int join_end(int corner, Vec2 uv, double reach, const DomainVertexOrigin& origin, Sizes size) {
     for (CurveEnd& end : ends_) {
       if (end.corner != corner || norm(end.uv - uv) > joining_share * std::min(end.reach, reach)) continue;
       end.reach = std::min(end.reach, reach);
-      domain_.size[end.vertex] = std::min(domain_.size[end.vertex], size);
       return end.vertex;
     }
     ends_.push_back({corner, uv, reach, add_vertex(uv, origin, size)});
@@ -69,7 +77,7 @@ class Builder {
     // In the direction of the first use, whatever this face's own direction is.
     const std::vector<Vec2>& uv = discrete.uv_of_use[use];
     const int n = static_cast<int>(uv.size()) - 1;
-    const PlaneEdgeKind kind = shape.degenerate                                        ? PlaneEdgeKind::degenerate
+    const PlaneEdgeKind kind = shape.degenerate                              ? PlaneEdgeKind::degenerate
                                : face_.curves[c].type == CurveType::internal ? PlaneEdgeKind::internal
                                                                              : PlaneEdgeKind::boundary;
     int previous = -1;
@@ -78,9 +86,10 @@ class Builder {
       if (i == 0 || i == n) {
         const int corner = i == 0 ? shape.end1 : shape.end2;
         const double reach = norm(i == 0 ? uv[1] - uv[0] : uv[n] - uv[n - 1]);
-        vertex = join_end(corner, uv[i], reach, {.curve = curve, .node = i, .corner = corner}, discrete.size[i]);
+        vertex = join_end(corner, uv[i], reach, {.curve = curve, .node = i, .corner = corner},
+                          {discrete.size[i], discrete.physical[i]});
       } else {
-        vertex = add_vertex(uv[i], {.curve = curve, .node = i}, discrete.size[i]);
+        vertex = add_vertex(uv[i], {.curve = curve, .node = i}, {discrete.size[i], discrete.physical[i]});
       }
       if (i > 0) domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1});
       if (i == 1 && c + 1 == std::abs(face_.orientation)) {
@@ -97,7 +106,9 @@ class Builder {
     if (orient_loops(domain_.plane, seed_, seed_left_)) return;
     const Where where{.face = face_.ref, .curve_index = std::abs(face_.orientation)};
     if (!defects.empty()) throw DomainError(where, defects.front());
-    throw DomainError(where, "the boundary is turned the wrong way: the side given by the orientation is not the inside of the domain");
+    throw DomainError(
+        where,
+        "the boundary is turned the wrong way: the side given by the orientation is not the inside of the domain");
   }
 
   const Face& face_;
@@ -113,7 +124,8 @@ class Builder {
 
 }  // namespace
 
-FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves, int face) {
+FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
+                             int face) {
   return Builder(model, topology, curves, face).run();
 }
 

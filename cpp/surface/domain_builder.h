@@ -23,11 +23,14 @@ struct FaceDomain {
   PlaneDomain plane;
   std::vector<DomainVertexOrigin> origin;  ///< of PlaneDomain::vertices
   std::vector<double> size;                ///< prescribed at each vertex of a curve; 0 at imposed points
+  std::vector<double> physical;            ///< its physical part
 };
 
-/// Collects the discretised curves and the imposed points of face `face` (index) and turns its loops so that the surface
-/// lies on their left. Ends of curves that meet in the parameter plane become one vertex; those that meet in space only (seams) do not.
-/// Throws DomainError naming the face when a loop does not close or is turned the wrong way (HDR fig. 3.1).
-FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves, int face);
+/// Collects the discretised curves and the imposed points of face `face` (index) and turns its loops so that the
+/// surface lies on their left. Ends of curves that meet in the parameter plane become one vertex; those that meet in
+/// space only (seams) do not. Throws DomainError naming the face when a loop does not close or is turned the wrong way
+/// (HDR fig. 3.1).
+FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
+                             int face);
 
 }  // namespace carreau

@@ -61,12 +61,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options, Monitor& monitor) {
+ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options,
+                         Monitor& monitor) {
   // Built only when the host leaves a question open.
   std::optional<InterfaceSizes> interfaces;
   const auto fallback = [&](Vec2 uv) {
     if (!interfaces)
-      interfaces.emplace(input.domain->plane, input.domain->size, static_cast<SizeLaw>(options.size.hinterpol_flag), monitor);
+      interfaces.emplace(input.domain->plane, input.domain->physical, static_cast<SizeLaw>(options.size.hinterpol_flag),
+                         monitor);
     return (*interfaces)(uv);
   };
   std::vector<SurfaceJet> jets;

@@ -14,8 +14,8 @@ namespace carreau {
 /// A meshed patch. Vertices are those of the domain first, unmoved, then new ones.
 struct PatchMesh {
   PlaneMesh plane;
-  std::vector<Vec3> xyz;      ///< position in space of every vertex of `plane`
-  std::vector<double> size;   ///< prescribed size at every vertex
+  std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
+  std::vector<double> size;  ///< prescribed size at every vertex
 };
 
 /// What meshing a patch needs to know.
@@ -28,7 +28,8 @@ struct PatchInput {
 };
 
 /// Samples the metric of a face over its domain: J^T J / h^2 (RR-2928 eq. 27).
-ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options, Monitor& monitor);
+ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options,
+                         Monitor& monitor);
 
 /// Plane mesh in the sampled metric, surf0 once for each vertex, then the worst triangles are mended in space.
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,

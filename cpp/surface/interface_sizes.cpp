@@ -8,7 +8,8 @@ namespace carreau {
 
 namespace {
 
-PlaneDomain without_points(const PlaneDomain& domain, const std::vector<double>& sizes, std::vector<double>& kept_sizes) {
+PlaneDomain without_points(const PlaneDomain& domain, const std::vector<double>& sizes,
+                           std::vector<double>& kept_sizes) {
   PlaneDomain kept;
   std::vector<int> rank(domain.vertices.size(), -1);
   for (std::size_t v = 0; v < domain.vertices.size(); ++v) {
@@ -36,9 +37,8 @@ std::vector<std::array<int, 3>> find_neighbours(const PlaneMesh& mesh) {
       const int a = mesh.triangles[t][(i + 1) % 3], b = mesh.triangles[t][(i + 2) % 3];
       sides.push_back({{std::min(a, b), std::max(a, b)}, t, i});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& p, const Side& q) {
-    return p.key != q.key ? p.key < q.key : p.triangle < q.triangle;
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
   std::vector<std::array<int, 3>> neighbours(mesh.triangles.size(), {-1, -1, -1});
   for (std::size_t i = 1; i < sides.size(); ++i)
     if (sides[i].key == sides[i - 1].key) {
@@ -50,7 +50,9 @@ std::vector<std::array<int, 3>> find_neighbours(const PlaneMesh& mesh) {
 
 }  // namespace
 
-InterfaceSizes::InterfaceSizes(const PlaneDomain& domain, const std::vector<double>& sizes, SizeLaw law, Monitor& monitor) : law_(law) {
+InterfaceSizes::InterfaceSizes(const PlaneDomain& domain, const std::vector<double>& sizes, SizeLaw law,
+                               Monitor& monitor)
+    : law_(law) {
   mesh_ = triangulate_domain(without_points(domain, sizes, sizes_), monitor);
   neighbours_ = find_neighbours(mesh_);
 }
@@ -72,12 +74,14 @@ double InterfaceSizes::inside(int triangle, const std::array<double, 3>& weights
 double InterfaceSizes::operator()(Vec2 uv) const {
   int t = last_;
   std::array<double, 3> weights{};
-  // A walk in a constrained triangulation may meet the border first, or turn in circles: then every triangle is looked at.
+  // A walk in a constrained triangulation may meet the border first, or turn in circles: then every triangle is looked
+  // at.
   const auto weights_in = [&](int triangle) {
     const auto& c = mesh_.triangles[triangle];
     const Vec2 p = mesh_.vertices[c[0]], q = mesh_.vertices[c[1]], r = mesh_.vertices[c[2]];
     const double area = cross(q - p, r - p);
-    return std::array<double, 3>{cross(q - uv, r - uv) / area, cross(r - uv, p - uv) / area, cross(p - uv, q - uv) / area};
+    return std::array<double, 3>{cross(q - uv, r - uv) / area, cross(r - uv, p - uv) / area,
+                                 cross(p - uv, q - uv) / area};
   };
   for (std::size_t step = 0; step < 64 + 2 * mesh_.triangles.size(); ++step) {
     weights = weights_in(t);

@@ -41,7 +41,9 @@ class Swapper {
   using Triangle = std::array<std::int32_t, 3>;
 
   static Key key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-  [[nodiscard]] bool is_imposed(int a, int b) const { return std::binary_search(imposed_.begin(), imposed_.end(), key(a, b)); }
+  [[nodiscard]] bool is_imposed(int a, int b) const {
+    return std::binary_search(imposed_.begin(), imposed_.end(), key(a, b));
+  }
   // A corner that two vertices of one apex share makes a flat triangle: it will be removed, and judges nothing.
   [[nodiscard]] double quality(const Triangle& t) const {
     const Vec3 a = xyz_[t[0]], b = xyz_[t[1]], c = xyz_[t[2]];
@@ -62,13 +64,15 @@ class Swapper {
         const int a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
         if (marked[a] != 0 && marked[b] != 0) sides_.push_back({key(a, b), t});
       }
-    std::sort(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
+    std::sort(sides_.begin(), sides_.end(),
+              [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
     touched_.assign(mesh_.triangles.size(), 0);
   }
 
   // The triangle across edge (a, b) of t, or -1.
   [[nodiscard]] int across(int t, int a, int b) const {
-    auto it = std::lower_bound(sides_.begin(), sides_.end(), key(a, b), [](const Side& s, const Key& k) { return s.key < k; });
+    auto it = std::lower_bound(sides_.begin(), sides_.end(), key(a, b),
+                               [](const Side& s, const Key& k) { return s.key < k; });
     for (; it != sides_.end() && it->key == key(a, b); ++it)
       if (it->triangle != t) return it->triangle;
     return -1;

@@ -1,0 +1,154 @@
+#include "session/export.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "mesh/quality.h"
+#include "support/error.h"
+
+namespace carreau {
+
+namespace {
+
+struct CurveEdge {
+  std::array<std::int32_t, 2> key;
+  int ref;
+  friend auto operator<=>(const CurveEdge&, const CurveEdge&) = default;
+};
+
+std::array<std::int32_t, 2> ordered(std::int32_t a, std::int32_t b) {
+  return a < b ? std::array{a, b} : std::array{b, a};
+}
+
+std::vector<CurveEdge> edges_of_curves(const SurfaceMesh& mesh) {
+  std::vector<CurveEdge> edges;
+  for (const CurveMesh& curve : mesh.curves)
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+      edges.push_back({ordered(curve.vertices[i - 1], curve.vertices[i]), curve.ref});
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+// Appends one face, in space or in its parameter plane, with its own vertices only.
+class FaceAppender {
+ public:
+  FaceAppender(const SurfaceMesh& mesh, bool plane, bool with_edges) : mesh_(mesh), plane_(plane) {
+    if (with_edges) curve_edges_ = edges_of_curves(mesh);
+    flat_.dimension = plane ? 2 : 3;
+  }
+
+  void append(const FaceMesh& face) {
+    rank_.assign(plane_ ? face.uv.size() : mesh_.vertices.size(), -1);
+    edges_.clear();
+    for (const auto& t : face.triangles) append_triangle(face, t);
+    if (plane_)
+      for (const auto& t : face.flattened) append_triangle(face, t);
+    std::sort(edges_.begin(), edges_.end());
+    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+    for (const CurveEdge& edge : edges_) {
+      flat_.edges.push_back({edge.key[0], edge.key[1]});
+      flat_.edge_refs.push_back(edge.ref);
+    }
+  }
+
+  FlatMesh take() { return std::move(flat_); }
+  [[nodiscard]] const std::vector<std::int32_t>& sources() const { return source_; }
+
+ private:
+  std::int32_t vertex(const FaceMesh& face, std::int32_t local) {
+    const std::int32_t global = face.vertex[local];
+    std::int32_t& rank = rank_[plane_ ? local : global];
+    if (rank < 0) {
+      rank = static_cast<std::int32_t>(flat_.vertices.size());
+      flat_.vertices.push_back(plane_ ? Vec3{face.uv[local].x, face.uv[local].y, 0} : mesh_.vertices[global]);
+      flat_.vertex_refs.push_back(mesh_.vertex_ref[global]);
+      source_.push_back(global);
+    }
+    return rank;
+  }
+
+  void append_triangle(const FaceMesh& face, const std::array<std::int32_t, 3>& t) {
+    std::array<std::int32_t, 3> corners{};
+    for (int i = 0; i < 3; ++i) corners[i] = vertex(face, t[i]);
+    flat_.triangles.push_back(corners);
+    flat_.triangle_refs.push_back(face.ref);
+    for (int i = 0; i < 3 && !curve_edges_.empty(); ++i) {
+      const auto key = ordered(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]);
+      auto it = std::lower_bound(curve_edges_.begin(), curve_edges_.end(), CurveEdge{key, INT32_MIN});
+      for (; it != curve_edges_.end() && it->key == key; ++it)
+        edges_.push_back({ordered(corners[i], corners[(i + 1) % 3]), it->ref});
+    }
+  }
+
+  const SurfaceMesh& mesh_;
+  bool plane_;
+  FlatMesh flat_;
+  std::vector<CurveEdge> curve_edges_, edges_;
+  std::vector<std::int32_t> rank_, source_;
+};
+
+const FaceMesh& face_of_reference(const SurfaceMesh& mesh, int ref) {
+  for (const FaceMesh& face : mesh.faces)
+    if (face.ref == ref) return face;
+  throw InvalidArgument("export: no face has the reference " + std::to_string(ref) + " (parameter refs)");
+}
+
+FlatMesh supports_as_mesh(const ExportSource& source) {
+  FlatMesh flat;
+  std::set<int> done;
+  for (std::size_t f = 0; f < source.supports.of_face.size(); ++f)
+    for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
+      // Of curves that are one in space the first stands for all, as everywhere.
+      const FaceCurve& curve = source.model.faces[f].curves[c];
+      if (!done.insert(curve.ref).second) continue;
+      const std::vector<Vec3>& xyz = source.supports.of_face[f][c].xyz;
+      for (std::size_t i = 0; i < xyz.size(); ++i) {
+        flat.vertices.push_back(xyz[i]);
+        flat.vertex_refs.push_back(i == 0 ? curve.end1 : i + 1 == xyz.size() ? curve.end2 : 0);
+        const auto last = static_cast<std::int32_t>(flat.vertices.size()) - 1;
+        if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);
+      }
+    }
+  return flat;
+}
+
+void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const std::vector<std::int32_t>* sources) {
+  MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}};
+  if (sources == nullptr)
+    size.values = vertex_size;
+  else
+    for (const std::int32_t v : *sources) size.values.push_back(vertex_size[v]);
+  MeshField q1{.name = "Q1", .on_vertices = false, .components = 1, .values = {}},
+      q2{.name = "Q2", .on_vertices = false, .components = 1, .values = {}};
+  for (const auto& t : flat.triangles) {
+    const Vec3 a = flat.vertices[t[0]], b = flat.vertices[t[1]], c = flat.vertices[t[2]];
+    q1.values.push_back(quality_q1(a, b, c));
+    q2.values.push_back(quality_q2(a, b, c));
+  }
+  flat.fields = {std::move(size), std::move(q1), std::move(q2)};
+}
+
+}  // namespace
+
+FlatMesh export_mesh(const ExportSource& source, const std::string& option, int face, bool with_edges) {
+  if (option == "smo3d") return supports_as_mesh(source);
+  if (option.empty() || option == "allsurf3d") {
+    FlatMesh flat = flatten(source.mesh, with_edges);
+    add_fields(flat, source.vertex_size, nullptr);
+    return flat;
+  }
+  const bool plane = option == "allsurf2d" || option == "onesurf2d";
+  if (!plane && option != "onesurf3d") throw InvalidArgument("export: unknown option \"" + option + "\"");
+  FaceAppender appender(source.mesh, plane, with_edges);
+  if (option == "allsurf2d")
+    for (const FaceMesh& each : source.mesh.faces) appender.append(each);
+  else
+    appender.append(face_of_reference(source.mesh, face));
+  const std::vector<std::int32_t> sources = appender.sources();
+  FlatMesh flat = appender.take();
+  if (!plane) add_fields(flat, source.vertex_size, &sources);
+  return flat;
+}
+
+}  // namespace carreau

@@ -1,0 +1,26 @@
+// What `call export` writes (RT-0232 sec. 4).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/flat_mesh.h"
+#include "model/model.h"
+#include "surface/composite.h"
+
+namespace carreau {
+
+/// What an export is made from.
+struct ExportSource {
+  const SurfaceMesh& mesh;
+  const std::vector<double>& vertex_size;
+  const Model& model;
+  const ModelSupports& supports;
+};
+
+/// `option` is "", allsurf3d, allsurf2d, onesurf3d, onesurf2d or smo3d; `face` the reference that onesurf* want;
+/// `with_edges` is flag = 1. Fields: size (vertices), Q1 and Q2 (triangles) in 3-D. Throws InvalidArgument for a face
+/// that does not exist or an unknown option.
+FlatMesh export_mesh(const ExportSource& source, const std::string& option, int face, bool with_edges);
+
+}  // namespace carreau
