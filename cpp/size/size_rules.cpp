@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "size/size_law.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -235,8 +234,7 @@ double SizeRules::physical_at_point(int point) {
 
 double SizeRules::interpolated_on_curve(int curve, double r) {
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
-  return interpolate_size(static_cast<SizeLaw>(parameters_.hinterpol_flag), physical_at_point(c.end1),
-                          physical_at_point(c.end2), r);
+  return interpolate_size(law(), physical_at_point(c.end1), physical_at_point(c.end2), r);
 }
 
 double SizeRules::physical_on_curve(int curve, std::span<const double> t, double r) {

@@ -8,6 +8,7 @@
 
 #include "cad/cad.h"
 #include "model/topology.h"
+#include "size/size_law.h"
 #include "support/error.h"
 
 namespace carreau {
@@ -58,6 +59,10 @@ class SizeRules {
 
   /// The size, when it is the same everywhere and no host is ever asked (hphy_flag = 1, hgeo_flag = 0).
   [[nodiscard]] std::optional<double> constant() const noexcept;
+
+  [[nodiscard]] bool uses_curvature() const noexcept { return parameters_.hgeo_flag != 0; }
+  /// How sizes vary between two points where they are known (hinterpol_flag).
+  [[nodiscard]] SizeLaw law() const noexcept { return static_cast<SizeLaw>(parameters_.hinterpol_flag); }
 
   /// h = min of the clamped physical and geometric sizes at a corner point (index in Topology::points).
   double at_point(int point);

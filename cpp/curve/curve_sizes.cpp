@@ -1,0 +1,133 @@
+#include "curve/curve_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "curve/unit_discretisation.h"
+
+namespace carreau {
+namespace {
+
+constexpr double longest_interval = 2;      ///< unit edges
+constexpr double shortest_interval = 0.25;  ///< unit edges
+constexpr double steepest_interval = 1.15;  ///< ratio of the sizes at its ends
+constexpr int initial_intervals = 4;
+constexpr std::size_t most_samples = 20'000;
+constexpr double narrowest = 1e-7;  ///< of the curve's length
+
+struct Sample {
+  double r = 0;
+  double h = 0, physical = 0;
+  bool answered = false;
+};
+
+double interpolate(const SizeSamples& samples, const std::vector<double>& values, double at) noexcept {
+  const auto above = std::upper_bound(samples.r.begin() + 1, samples.r.end() - 1, at);
+  const auto i = static_cast<std::size_t>(above - samples.r.begin()) - 1;
+  if (!std::isfinite(values[i]) || !std::isfinite(values[i + 1])) return std::min(values[i], values[i + 1]);
+  const double x = std::clamp((at - samples.r[i]) / (samples.r[i + 1] - samples.r[i]), 0., 1.);
+  return interpolate_size(samples.law, values[i], values[i + 1], x);
+}
+
+Sample ask(const CurveModel& model, int curve, SizeRules& rules, double r) {
+  const CurveSizes sizes = rules.ask_on_curve(curve, parameters_at(model, curve, r));
+  Sample sample;
+  sample.r = r;
+  sample.answered = sizes.answer.has_value();
+  sample.physical = sample.answered ? *sizes.answer : rules.interpolated_on_curve(curve, r);
+  sample.h = std::min(sample.physical, sizes.geometric);
+  return sample;
+}
+
+bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double length) {
+  if (right.r - left.r < narrowest) return false;
+  const double edges = normalised_length(law, left.h, right.h, (right.r - left.r) * length);
+  if (edges > longest_interval) return true;
+  return edges > shortest_interval && std::max(left.h, right.h) > steepest_interval * std::min(left.h, right.h);
+}
+
+std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules) {
+  const double length = model.length(curve);
+  std::vector<Sample> samples;
+  for (int i = 0; i <= initial_intervals; ++i) {
+    samples.push_back(ask(model, curve, rules, static_cast<double>(i) / initial_intervals));
+  }
+  for (bool again = true; again;) {
+    again = false;
+    std::vector<Sample> finer{samples.front()};
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+      const bool room = samples.size() + finer.size() < most_samples + i;
+      if (room && too_coarse(samples[i], samples[i + 1], rules.law(), length)) {
+        finer.push_back(ask(model, curve, rules, (samples[i].r + samples[i + 1].r) / 2));
+        again = true;
+      }
+      finer.push_back(samples[i + 1]);
+    }
+    samples = std::move(finer);
+  }
+  return samples;
+}
+
+}  // namespace
+
+double parameter_at(const CurveModel& model, const CurveUse& use, double r) {
+  const CurveSupport& support = model.support(use);
+  const double fraction = use.reversed ? 1 - r : r;
+  // A use without length (one point of space) has nothing but its parameter to go by.
+  if (!(support.length() > 0)) return (1 - fraction) * support.t.front() + fraction * support.t.back();
+  return support.t_at_arc(fraction * support.length());
+}
+
+std::vector<double> parameters_at(const CurveModel& model, int curve, double r) {
+  std::vector<double> t;
+  for (const CurveUse& use : model.curve(curve).uses) t.push_back(parameter_at(model, use, r));
+  return t;
+}
+
+double SizeSamples::size_at(double at) const noexcept { return interpolate(*this, h, at); }
+double SizeSamples::physical_at(double at) const noexcept { return interpolate(*this, physical, at); }
+
+SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, EndSizes ends) {
+  SizeSamples result;
+  result.law = rules.law();
+  const Curve& c = model.curve(curve);
+  const auto at_ends_only = [&](double h1, double h2, double p1, double p2) {
+    result.r = {0, 1};
+    result.h = {h1, h2};
+    result.physical = {p1, p2};
+  };
+  if (const auto h = rules.constant()) {
+    at_ends_only(*h, *h, *h, *h);
+    return result;
+  }
+  const auto at_points = [&] {
+    at_ends_only(rules.at_point(c.end1), rules.at_point(c.end2), rules.physical_at_point(c.end1),
+                 rules.physical_at_point(c.end2));
+  };
+  if (c.degenerate || !(model.length(curve) > 0)) {
+    at_points();
+    return result;
+  }
+  const std::vector<Sample> samples = refine(model, curve, rules);
+  const bool silent = std::none_of(samples.begin(), samples.end(), [](const Sample& s) { return s.answered; });
+  if (silent && !rules.uses_curvature()) {
+    at_points();
+    return result;
+  }
+  for (const Sample& sample : samples) {
+    result.r.push_back(sample.r);
+    result.h.push_back(sample.h);
+    result.physical.push_back(sample.physical);
+  }
+  if (ends == EndSizes::of_point) {
+    result.h.front() = rules.at_point(c.end1);
+    result.h.back() = rules.at_point(c.end2);
+    result.physical.front() = rules.physical_at_point(c.end1);
+    result.physical.back() = rules.physical_at_point(c.end2);
+  }
+  return result;
+}
+
+}  // namespace carreau

@@ -1,0 +1,36 @@
+// Sizes along a whole curve, sampled so that interpolation between samples can stand for them.
+#pragma once
+
+#include <vector>
+
+#include "curve/curve_model.h"
+#include "size/size_law.h"
+#include "size/size_rules.h"
+
+namespace carreau {
+
+/// Which size holds at the two ends of a curve whose interior is answered. RT-0232 sec. 6.2 speaks of sizes on curves
+/// "hors extremites": the size of the end point and the curve's own may differ by a jump.
+enum class EndSizes {
+  of_curve,  ///< the curve's own sizes reach its ends: the end point has no influence on the spacing
+  of_point,  ///< the size of the end point replaces the curve's at r = 0 and r = 1
+};
+
+/// Sizes at fractions r of a curve's length: r.front() = 0, r.back() = 1, ascending.
+struct SizeSamples {
+  std::vector<double> r;
+  std::vector<double> h;         ///< min of physical and geometric
+  std::vector<double> physical;  ///< +infinity when physical sizes are ignored
+  SizeLaw law = SizeLaw::linear;
+
+  [[nodiscard]] double size_at(double at) const noexcept;
+  [[nodiscard]] double physical_at(double at) const noexcept;
+};
+
+/// Samples the sizes of a curve. Two samples and no callback when the size is constant; two samples when nobody
+/// answers along the curve and curvature is ignored (the interpolation law is then exact). Otherwise intervals are
+/// halved until each is at most two unit edges long and its ends differ by at most 15 %, or it is shorter than a
+/// quarter of a unit edge.
+SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, EndSizes ends = EndSizes::of_curve);
+
+}  // namespace carreau

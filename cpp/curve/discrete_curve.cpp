@@ -1,0 +1,198 @@
+#include "curve/discrete_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "curve/unit_discretisation.h"
+
+namespace carreau {
+namespace {
+
+/// Fewest segments of a curve that returns to its start: two would lie on each other.
+constexpr int least_closed = 3;
+
+Vec3 corner(const CurveModel& model, int point) {
+  return model.topology.points[static_cast<std::size_t>(point)].position;
+}
+
+/// Parameters and images at the ends of each use: the support has evaluated them.
+void carry_ends(DiscreteCurve& d, const CurveModel& model) {
+  const auto& uses = model.curve(d.curve).uses;
+  const std::size_t n = d.r.size();
+  d.t_of_use.assign(uses.size(), std::vector<double>(n));
+  d.uv_of_use.assign(uses.size(), std::vector<Vec2>(n));
+  d.refined.assign(uses.size(), 0);
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const CurveSupport& s = model.support(uses[u]);
+    const bool back = uses[u].reversed;
+    d.t_of_use[u].front() = back ? s.t.back() : s.t.front();
+    d.t_of_use[u].back() = back ? s.t.front() : s.t.back();
+    d.uv_of_use[u].front() = back ? s.uv.back() : s.uv.front();
+    d.uv_of_use[u].back() = back ? s.uv.front() : s.uv.back();
+    d.gap = std::max({d.gap, norm((back ? s.xyz.back() : s.xyz.front()) - d.xyz.front()),
+                      norm((back ? s.xyz.front() : s.xyz.back()) - d.xyz.back())});
+  }
+}
+
+void carry_vertex(DiscreteCurve& d, const CurveModel& model, std::size_t u, std::size_t k, double t) {
+  const CurveUse& use = model.curve(d.curve).uses[u];
+  d.t_of_use[u][k] = t;
+  d.uv_of_use[u][k] = model.cad.curve(model.face_ref(use), use.curve + 1, want_position, t).c;
+}
+
+/// Moves vertex k of use u to the parameter nearest to the vertex in space, between its neighbours' parameters.
+void refine_vertex(DiscreteCurve& d, const CurveModel& model, std::size_t u, std::size_t k) {
+  const CurveUse& use = model.curve(d.curve).uses[u];
+  auto& t = d.t_of_use[u];
+  const auto [low, high] = std::minmax({(t[k - 1] + t[k]) / 2, (t[k] + t[k + 1]) / 2});
+  const CurvePoint p =
+      refine_t(model.cad, model.face_ref(use), use.curve + 1, model.support(use), t[k], low, high, d.xyz[k]);
+  t[k] = p.t;
+  d.uv_of_use[u][k] = p.uv;
+  d.gap = std::max(d.gap, p.distance);
+}
+
+/// The interior vertices at which a use is probed: quarter points, and where the two supports disagree most (their
+/// polylines know it without a callback).
+std::vector<std::size_t> probes(const DiscreteCurve& d, const CurveModel& model, std::size_t u) {
+  const std::size_t n = d.r.size() - 1;
+  const auto& uses = model.curve(d.curve).uses;
+  const CurveSupport& first = model.support(uses.front());
+  const CurveSupport& other = model.support(uses[u]);
+  std::vector<std::size_t> chosen{n / 4, n / 2, n - n / 4};
+  double worst = -1;
+  std::size_t where = n / 2;
+  for (std::size_t k = 1; k < n; ++k) {
+    const double r = uses[u].reversed ? 1 - d.r[k] : d.r[k];
+    const double apart =
+        norm(first.point_at_arc(d.r[k] * first.length()) - other.point_at_arc(r * other.length())) / d.size[k];
+    if (apart > worst) {
+      worst = apart;
+      where = k;
+    }
+  }
+  chosen.push_back(where);
+  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+  std::erase_if(chosen, [&](std::size_t k) { return k == 0 || k >= n; });
+  return chosen;
+}
+
+/// Measures how far use u puts a few vertices from where they are; refines all of its parameters when it is too far.
+void check_use(DiscreteCurve& d, const CurveModel& model, std::size_t u, double tolerance) {
+  const std::vector<std::size_t> at = probes(d, model, u);
+  if (at.empty()) return;
+  std::vector<Vec2> uv;
+  for (const std::size_t k : at) uv.push_back(d.uv_of_use[u][k]);
+  std::vector<SurfaceJet> jets(uv.size());
+  model.cad.surface(model.face_ref(model.curve(d.curve).uses[u]), want_position, uv, jets);
+  bool far = false;
+  double gap = d.gap;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double distance = norm(jets[i].s - d.xyz[at[i]]);
+    gap = std::max(gap, distance);
+    far = far || distance > tolerance * d.size[at[i]];
+  }
+  if (!far) {
+    d.gap = gap;
+    return;
+  }
+  d.refined[u] = 1;
+  for (std::size_t k = 1; k + 1 < d.r.size(); ++k) refine_vertex(d, model, u, k);
+}
+
+void place_in_space(DiscreteCurve& d, const CurveModel& model) {
+  const std::size_t inner = d.r.size() - 2;
+  if (inner == 0) return;
+  std::vector<SurfaceJet> jets(inner);
+  model.cad.surface(model.face_ref(model.curve(d.curve).uses.front()), want_position,
+                    {d.uv_of_use.front().data() + 1, inner}, jets);
+  for (std::size_t k = 0; k < inner; ++k) d.xyz[k + 1] = jets[k].s;
+}
+
+void fill_sizes(DiscreteCurve& d, const Curve& curve, SizeRules& rules) {
+  d.size.resize(d.r.size());
+  d.physical.resize(d.r.size());
+  for (std::size_t k = 0; k < d.r.size(); ++k) {
+    d.size[k] = d.sizes.size_at(d.r[k]);
+    d.physical[k] = d.sizes.physical_at(d.r[k]);
+  }
+  if (rules.constant()) return;
+  d.size.front() = rules.at_point(curve.end1);
+  d.size.back() = rules.at_point(curve.end2);
+  d.physical.front() = rules.physical_at_point(curve.end1);
+  d.physical.back() = rules.physical_at_point(curve.end2);
+}
+
+std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double length) {
+  std::vector<double> s;
+  for (const double r : d.sizes.r) s.push_back(r * length);
+  std::vector<double> cuts = split_by_sizes(s, d.sizes.h, d.sizes.law, curve.end1 == curve.end2 ? least_closed : 1);
+  for (double& cut : cuts) cut /= length;
+  cuts.front() = 0;
+  cuts.back() = 1;
+  return cuts;
+}
+
+}  // namespace
+
+DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options) {
+  const Curve& c = model.curve(curve);
+  const double length = model.length(curve);
+  DiscreteCurve d;
+  d.curve = curve;
+  d.indivisible = c.degenerate || !(length > 0);
+  d.sizes = sample_sizes(model, curve, rules, options.ends);
+  d.r = d.indivisible ? std::vector<double>{0, 1} : fractions(d, c, length);
+  fill_sizes(d, c, rules);
+  d.xyz.resize(d.r.size());
+  d.xyz.front() = corner(model, c.end1);
+  d.xyz.back() = corner(model, c.end2);
+  carry_ends(d, model);
+  for (std::size_t u = 0; u < c.uses.size(); ++u) {
+    for (std::size_t k = 1; k + 1 < d.r.size(); ++k) {
+      carry_vertex(d, model, u, k, parameter_at(model, c.uses[u], d.r[k]));
+    }
+  }
+  place_in_space(d, model);
+  for (std::size_t u = 1; u < c.uses.size(); ++u) check_use(d, model, u, options.carry_tolerance);
+  return d;
+}
+
+bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model) {
+  if (d.indivisible) return false;
+  const auto k = static_cast<std::size_t>(segment);
+  const auto& uses = model.curve(d.curve).uses;
+  const double r = (d.r[k] + d.r[k + 1]) / 2;
+  std::vector<double> t;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    const double left = d.t_of_use[u][k];
+    const double right = d.t_of_use[u][k + 1];
+    // What refine_t changed at the neighbours holds between them too.
+    const double shift =
+        (left - parameter_at(model, uses[u], d.r[k]) + right - parameter_at(model, uses[u], d.r[k + 1])) / 2;
+    double middle = parameter_at(model, uses[u], r) + shift;
+    if (!(std::min(left, right) < middle && middle < std::max(left, right))) middle = (left + right) / 2;
+    if (middle == left || middle == right) return false;
+    t.push_back(middle);
+  }
+  if (!(d.r[k] < r && r < d.r[k + 1])) return false;
+  const auto at = static_cast<std::ptrdiff_t>(k) + 1;
+  d.r.insert(d.r.begin() + at, r);
+  d.size.insert(d.size.begin() + at, d.sizes.size_at(r));
+  d.physical.insert(d.physical.begin() + at, d.sizes.physical_at(r));
+  d.xyz.insert(d.xyz.begin() + at, Vec3{});
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    d.t_of_use[u].insert(d.t_of_use[u].begin() + at, t[u]);
+    d.uv_of_use[u].insert(d.uv_of_use[u].begin() + at, Vec2{});
+    carry_vertex(d, model, u, k + 1, t[u]);
+  }
+  d.xyz[k + 1] = surface_at(model.cad, model.face_ref(uses.front()), want_position, d.uv_of_use.front()[k + 1]).s;
+  for (std::size_t u = 1; u < uses.size(); ++u) {
+    if (d.refined[u] != 0) refine_vertex(d, model, u, k + 1);
+  }
+  return true;
+}
+
+}  // namespace carreau

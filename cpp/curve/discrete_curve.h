@@ -1,0 +1,45 @@
+// One discretisation for each curve of space, carried into every parameter domain that holds it (HDR sec. 4.5.3).
+#pragma once
+
+#include <vector>
+
+#include "curve/curve_model.h"
+#include "curve/curve_sizes.h"
+
+namespace carreau {
+
+/// The vertices 0..n of a curve in the direction of its first use, and their images in each use's domain.
+struct DiscreteCurve {
+  int curve = 0;             ///< index in Topology::curves
+  bool indivisible = false;  ///< one point of space: a single segment that is never split (HDR sec. 4.5.4)
+  std::vector<double> r;     ///< fractions of the length in space, r.front() = 0, r.back() = 1
+  std::vector<Vec3> xyz;     ///< on the first use's surface; the two ends are the corner points
+  /// [use][vertex]: descending where the use is reversed.
+  std::vector<std::vector<double>> t_of_use;
+  std::vector<std::vector<Vec2>> uv_of_use;  ///< [use][vertex], exact values of curv0
+  std::vector<double> size;                  ///< wanted size at each vertex; at the ends that of the corner points
+  std::vector<double> physical;  ///< the physical part of it, what surfaces interpolate when the host is silent
+  SizeSamples sizes;             ///< along the curve
+  /// Largest distance found between a vertex and what another use's surface says about it, model length. Measured at
+  /// all vertices of the uses in `refined`, at the ends and a few vertices of the others.
+  double gap = 0;
+  std::vector<char> refined;  ///< [use]: parameters were improved by refine_t because interpolation was not enough
+
+  [[nodiscard]] int segments() const noexcept { return static_cast<int>(r.size()) - 1; }
+};
+
+struct CurveOptions {
+  EndSizes ends = EndSizes::of_curve;
+  /// Distance between two uses' images of a vertex, over its size, above which parameters are refined.
+  double carry_tolerance = 1e-3;
+};
+
+/// Discretises one curve and carries it. A closed curve has at least three segments, a curve that is one point of
+/// space exactly one. Throws what the host throws, LimitError.
+DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
+
+/// Halves segment k (its length in space) in every use: the new vertex is k + 1. False, and nothing done, when the
+/// curve is one point of space or the segment cannot be divided in floating-point numbers.
+bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model);
+
+}  // namespace carreau
