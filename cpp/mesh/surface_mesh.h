@@ -22,6 +22,8 @@ struct FaceMesh {
   std::vector<Vec2> uv;                                ///< of local vertices
   std::vector<std::int32_t> vertex;                    ///< local -> index in SurfaceMesh::vertices
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< local indices; counterclockwise in (u, v)
+  /// Triangles of (u, v) that a degenerate side flattens in space: part of the plane mesh, not of the mesh in space.
+  std::vector<std::array<std::int32_t, 3>> flattened;
 };
 
 /// One appearance of a discretised curve in a face.

@@ -1,0 +1,88 @@
+// Surface meshing of analytic cases: one line of JSON a case. Usage: bench_surface [CASE [SIZE [REPEAT]]]
+// CASE: paraboloid, hemisphere, torus, teapot; all of them at their standard sizes without arguments.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "common/analytic_cad.h"
+#include "io/mesh_files.h"
+#include "session/session.h"
+
+namespace {
+
+using namespace carreau;
+
+std::shared_ptr<testing::AnalyticCad> cad_of(const std::string& name) {
+  if (name == "paraboloid") return std::make_shared<testing::AnalyticCad>(testing::paraboloid());
+  if (name == "hemisphere") return std::make_shared<testing::AnalyticCad>(testing::hemisphere());
+  if (name == "torus") return std::make_shared<testing::AnalyticCad>(testing::torus_patch());
+  if (name == "teapot") return std::make_shared<testing::AnalyticCad>(testing::teapot());
+  return nullptr;
+}
+
+int run(const std::string& name, double size, int repeat, const char* out) {
+  double best = 1e300;
+  for (int i = 0; i < repeat; ++i) {
+    const auto cad = cad_of(name);
+    if (!cad) return std::fprintf(stderr, "unknown case %s\n", name.c_str()), 2;
+    Monitor monitor;
+    Session session(monitor);
+    session.set_cad(cad);
+    session.set_model(testing::unglued(*cad));
+    session.parameters().set("hphydef", size);
+    session.parameters().set("hphymin", size / 10);
+    session.parameters().set("hphymax", size * 10);
+    session.make_mesh();
+    const CompositeReport& r = session.report();
+    best = std::min(best, r.seconds_sampling + r.seconds_plane + r.seconds_lift);
+    if (i + 1 < repeat) continue;
+    const FlatMesh mesh = session.exported();
+    const QualitySummary q = summarise_quality(mesh);
+    std::size_t in_range = 0, edges = 0;
+    double mean = 0;
+    for (const auto& t : mesh.triangles)
+      for (int k = 0; k < 3; ++k) {
+        const double l = norm(mesh.vertices[t[k]] - mesh.vertices[t[(k + 1) % 3]]) / size;
+        mean += l;
+        ++edges;
+        in_range += l >= 0.70710678 && l <= 1.41421356;
+      }
+    std::printf(
+        "{\"case\": \"%s\", \"size\": %.9g, \"triangles\": %zu, \"seconds\": %.6f, \"triangles_per_second\": %.0f, "
+        "\"q2_mean\": %.5f, \"q2_p1\": %.4f, \"q2_min\": %.4f, \"degree6\": %.4f, \"length_mean\": %.5f, "
+        "\"length_in_range\": %.6f, "
+        "\"area\": %.6f, \"calls_per_vertex\": %.3f, \"defects\": %zu, \"curves_s\": %.4f, \"sampling_s\": %.4f, "
+        "\"plane_s\": %.4f, \"lift_s\": %.4f}\n",
+        name.c_str(), size, q.triangles, best, static_cast<double>(q.triangles) / best, q.q2.mean, q.q2.p1, q.q2.min,
+        q.degree6, mean / static_cast<double>(edges), static_cast<double>(in_range) / static_cast<double>(edges),
+        q.area, static_cast<double>(r.calls.surface()) / static_cast<double>(q.vertices),
+        find_defects(session.mesh()).size(), r.seconds_curves, r.seconds_sampling, r.seconds_plane, r.seconds_lift);
+    std::fflush(stdout);
+    if (out != nullptr) session.write(out);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (argc > 2)
+      return run(argv[1], std::atof(argv[2]), argc > 3 ? std::atoi(argv[3]) : 3, argc > 4 ? argv[4] : nullptr);
+    const struct {
+      const char* name;
+      double size;
+    } cases[] = {{"paraboloid", 0.15462}, {"paraboloid", 0.03558}, {"paraboloid", 0.011252},
+                 {"hemisphere", 0.0121},  {"hemisphere", 0.00381}, {"torus", 0.0145},
+                 {"torus", 0.0046},       {"teapot", 0.1},         {"teapot", 0.035}};
+    for (const auto& c : cases)
+      if ((argc < 2 || argv[1] == std::string(c.name)) && run(c.name, c.size, 3, nullptr) != 0) return 1;
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
