@@ -1,0 +1,120 @@
+!> Four patches of the front of the Utah teapot, references 1, 4 (rim), 5 and 8 (body), with the lines u = 0.3 and u = 0.8
+!> imposed inside the rim (RT-0232 sec. 6.2, fig. 18 to 23). The sizes of figures 21 to 23 are chosen by the environment
+!> variable TEAPOT_SIZES: "patch" (a size for each patch) or "point" (a size at each end of a curve); otherwise no answer.
+module cad_m
+  use bezier_m
+  implicit none
+
+  ! u1 v1 u2 v2 of a body patch: its four sides, counterclockwise
+  double precision, parameter :: body(4, 4) = reshape([ &
+    0.d0, 0.d0, 1.d0, 0.d0,  1.d0, 0.d0, 1.d0, 1.d0,  1.d0, 1.d0, 0.d0, 1.d0,  0.d0, 1.d0, 0.d0, 0.d0], [4, 4])
+  ! of a rim patch: the sides v = 0 and v = 1 are cut where the inner lines end
+  double precision, parameter :: rim(4, 10) = reshape([ &
+    0.d0, 0.d0, 0.3d0, 0.d0,  0.3d0, 0.d0, 0.8d0, 0.d0,  0.8d0, 0.d0, 1.d0, 0.d0,  1.d0, 0.d0, 1.d0, 1.d0, &
+    1.d0, 1.d0, 0.8d0, 1.d0,  0.8d0, 1.d0, 0.3d0, 1.d0,  0.3d0, 1.d0, 0.d0, 1.d0,  0.d0, 1.d0, 0.d0, 0.d0, &
+    0.3d0, 0.d0, 0.3d0, 1.d0, 0.8d0, 0.d0, 0.8d0, 1.d0], [4, 10])
+  character(8) :: sizes = ' '
+
+contains
+
+  subroutine cad_init
+    call read_patches('teapot.bpt')
+    call get_environment_variable('TEAPOT_SIZES', sizes)
+  end subroutine cad_init
+
+  !> u1 v1 u2 v2 of curve ic of patch refs
+  function segment(refs, ic)
+    integer :: refs, ic
+    double precision :: segment(4)
+    if (refs <= 4) then
+      segment = rim(:, ic)
+    else
+      segment = body(:, ic)
+    end if
+  end function segment
+
+  subroutine surf0(refs, uv, S)
+    integer :: refs
+    double precision :: uv(2), S(3)
+    call bezier0(refs, uv, S)
+  end subroutine surf0
+
+  subroutine surf1(refs, uv, Su, Sv)
+    integer :: refs
+    double precision :: uv(2), Su(3), Sv(3)
+    call bezier1(refs, uv, Su, Sv)
+  end subroutine surf1
+
+  subroutine surf2(refs, uv, Suu, Suv, Svv)
+    integer :: refs
+    double precision :: uv(2), Suu(3), Suv(3), Svv(3)
+    call bezier2(refs, uv, Suu, Suv, Svv)
+  end subroutine surf2
+
+  subroutine curv_int(refs, ic, a, b)
+    integer :: refs, ic
+    double precision :: a, b
+    a = 0.d0 ; b = 1.d0
+  end subroutine curv_int
+
+  subroutine curv0(refs, ic, t, C)
+    integer :: refs, ic
+    double precision :: t, C(2), s(4)
+    s = segment(refs, ic)
+    C = (1 - t) * s(1:2) + t * s(3:4)
+  end subroutine curv0
+
+  subroutine curv1(refs, ic, t, Ct)
+    integer :: refs, ic
+    double precision :: t, Ct(2), s(4)
+    s = segment(refs, ic)
+    Ct = s(3:4) - s(1:2)
+  end subroutine curv1
+
+  subroutine curv2(refs, ic, t, Ctt)
+    integer :: refs, ic
+    double precision :: t, Ctt(2)
+    Ctt = 0.d0
+  end subroutine curv2
+
+  subroutine cad_hphys(refs, uv, h)
+    integer :: refs
+    double precision :: uv(2), h
+    double precision, parameter :: th(8) = [0.05d0, 0.d0, 0.d0, 0.1d0, 0.2d0, 0.d0, 0.d0, 0.8d0]
+    if (sizes == 'patch') h = th(refs)
+  end subroutine cad_hphys
+
+  subroutine cad_hphyc(refs, ic, t, h)
+    integer :: refs, ic
+    double precision :: t, h
+    ! h is left untouched: no answer
+  end subroutine cad_hphyc
+
+  subroutine cad_hphyp(refp, h)
+    integer :: refp
+    double precision :: h
+    if (sizes /= 'point') return
+    if (refp == 6) then
+      h = 0.01d0
+    else if (refp <= 26) then
+      h = 0.1d0
+    else
+      h = 0.5d0
+    end if
+  end subroutine cad_hphyp
+
+  subroutine cad_rads(refs, uv, rhos)
+    integer :: refs
+    double precision :: uv(2), rhos
+    print *, "cad_rads should not be called", refs, uv, rhos
+    stop
+  end subroutine cad_rads
+
+  subroutine cad_radc(refs, ic, t, rhoc)
+    integer :: refs, ic
+    double precision :: t, rhoc
+    print *, "cad_radc should not be called", refs, ic, t, rhoc
+    stop
+  end subroutine cad_radc
+
+end module cad_m
