@@ -31,33 +31,35 @@ double arc_over(const CurveSupport& support, std::size_t i) {
   return turning < smooth_turning ? c * (1 + turning * turning / 24) : c;
 }
 
-/// dt/ds at sample i from the parabola through its neighbours, bounded so that the cubic is monotone
-/// (Fritsch and Carlson 1980: at most three times either secant).
-double slope_at(const std::vector<double>& t, const std::vector<double>& s, std::size_t i) {
-  const auto secant = [&](std::size_t k) {
-    const double ds = s[k + 1] - s[k];
-    return ds > 0 ? (t[k + 1] - t[k]) / ds : std::numeric_limits<double>::infinity();
-  };
-  const auto bounded = [](double value, double left, double right) {
-    return std::clamp(value, 0., 3 * std::min(left, right));
-  };
-  const std::size_t last = t.size() - 1;
-  if (last == 1) return secant(0);
-  if (i == 0 || i == last) {
-    const double near = secant(i == 0 ? 0 : last - 1);
-    const double far = secant(i == 0 ? 1 : last - 2);
-    if (!std::isfinite(near) || !std::isfinite(far)) return near;
-    const double near_width = i == 0 ? s[1] - s[0] : s[last] - s[last - 1];
-    const double far_width = i == 0 ? s[2] - s[1] : s[last - 1] - s[last - 2];
-    return bounded(near + (near - far) * near_width / (near_width + far_width), near, near);
+/// Derivative at s[i] of the polynomial through samples [first, last], abscissae distinct (Lagrange's form).
+double derivative_at(const std::vector<double>& t, const std::vector<double>& s, std::size_t first, std::size_t last,
+                     std::size_t i) {
+  double derivative = 0;
+  for (std::size_t k = first; k <= last; ++k) {
+    if (k == i) continue;
+    double weight = 1 / (s[k] - s[i]);
+    for (std::size_t m = first; m <= last; ++m) {
+      if (m != k && m != i) weight *= (s[i] - s[m]) / (s[k] - s[m]);
+    }
+    derivative += weight * (t[k] - t[i]);
   }
-  const double left = secant(i - 1);
-  const double right = secant(i);
-  if (!std::isfinite(left)) return right;
-  if (!std::isfinite(right)) return left;
-  const double before = s[i] - s[i - 1];
-  const double after = s[i + 1] - s[i];
-  return bounded((left * after + right * before) / (before + after), left, right);
+  return derivative;
+}
+
+/// dt/ds at sample i from five samples about it, or as many as are joined to it by edges that have a length; bounded
+/// so that the cubic is monotone (Fritsch and Carlson 1980: at most three times either secant).
+double slope_at(const std::vector<double>& t, const std::vector<double>& s, std::size_t i) {
+  std::size_t first = i, last = i;
+  while (first > 0 && i - first < 2 && s[first - 1] < s[first]) --first;
+  while (last + 1 < s.size() && last - i < 2 && s[last] < s[last + 1]) ++last;
+  while (last + 1 < s.size() && last - first < 4 && s[last] < s[last + 1]) ++last;
+  while (first > 0 && last - first < 4 && s[first - 1] < s[first]) --first;
+  if (first == last) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  if (first < i) least = std::min(least, (t[i] - t[i - 1]) / (s[i] - s[i - 1]));
+  if (i < last) least = std::min(least, (t[i + 1] - t[i]) / (s[i + 1] - s[i]));
+  const double slope = derivative_at(t, s, first, last, i);
+  return std::isfinite(slope) ? std::clamp(slope, 0., 3 * least) : least;
 }
 
 /// Index i of the edge with values[i] <= x <= values[i + 1].
@@ -87,10 +89,7 @@ void fill_arc(CurveSupport& support) {
   support.arc.assign(m, 0);
   for (std::size_t i = 0; i + 1 < m; ++i) support.arc[i + 1] = support.arc[i] + arc_over(support, i);
   support.slope.resize(m);
-  for (std::size_t i = 0; i < m; ++i) {
-    const double slope = slope_at(support.t, support.arc, i);
-    support.slope[i] = std::isfinite(slope) ? slope : 0;  // beside edges of no length, whose t(s) is a step
-  }
+  for (std::size_t i = 0; i < m; ++i) support.slope[i] = slope_at(support.t, support.arc, i);
 }
 
 double CurveSupport::t_at_arc(double s) const noexcept {

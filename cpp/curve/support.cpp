@@ -18,11 +18,17 @@ namespace {
 /// Deviations below these fractions of the curve's length do not matter: they end the refinement at a kink (across the
 /// edge) and where the speed of the parametrisation vanishes or is infinite (along the edge).
 constexpr double across_floor = 1e-6;
-constexpr double along_floor = 2e-5;
+constexpr double along_floor = 2e-6;
 /// Deviations below this fraction of the coordinates are rounding errors.
 constexpr double rounding_floor = 1e-12;
 constexpr int initial_edges = 8;
-constexpr int most_parts = 8;
+/// Into how many parts one pass may cut an edge. The first pass only learns the curve, the second goes straight to the
+/// number that a smooth curve needs; what still needs cutting then is not smooth, and is cut with care.
+constexpr int most_parts = 32;
+int most_parts_in(int pass) noexcept { return pass == 1 ? most_parts : 4; }
+/// Parts are planned a little too short, the more so the more there are (long chords underrate a curvature): one part
+/// too many costs one sample, a second cut doubles them all.
+double with_margin(double parts) noexcept { return parts * (1.08 + 0.01 * parts); }
 constexpr int most_passes = 60;
 /// Edges are not made narrower than this fraction of [a, b].
 constexpr double narrowest = 1e-13;
@@ -58,7 +64,7 @@ Excess excess_of(V v, V chord, const Tolerance& tolerance) noexcept {
     const double allowed = std::max(tolerance.relative * c, least);
     const double ratio = allowed > 0 ? deviation / allowed : (deviation > 0 ? most_parts : 0.);
     // deviation / chord is proportional to the width of the edge, the deviation alone to its square
-    const double parts = std::ceil(least < tolerance.relative * c ? ratio : std::sqrt(ratio));
+    const double parts = std::ceil(with_margin(least < tolerance.relative * c ? ratio : std::sqrt(ratio)));
     if (ratio > worst.ratio) worst.ratio = ratio;
     if (ratio > 1)
       worst.parts = std::max(worst.parts, std::max(2, static_cast<int>(std::min(parts, double{most_parts}))));
@@ -203,12 +209,13 @@ class Builder {
     const Tolerance space = tolerance_of(support_.xyz);
     for (std::size_t i = 0; i + 1 < support_.t.size(); ++i) {
       const Excess excess = worse(edge_excess(support_.uv, i, plane), edge_excess(support_.xyz, i, space));
-      if (excess.ratio <= 1 || !divisible(i, excess.parts)) continue;
-      for (int k = 1; k < excess.parts; ++k) {
+      const int parts = std::min(excess.parts, most_parts_in(pass));
+      if (excess.ratio <= 1 || !divisible(i, parts)) continue;
+      for (int k = 1; k < parts; ++k) {
         const auto seed = (static_cast<std::uint64_t>(pass) << 40U) + (static_cast<std::uint64_t>(i) << 8U) +
                           static_cast<std::uint64_t>(k);
         const double shift = pass % 2 == 0 ? 0 : 0.1 * noise(seed);
-        added.push_back(lerp_t(support_.t[i], support_.t[i + 1], (k + shift) / excess.parts));
+        added.push_back(lerp_t(support_.t[i], support_.t[i + 1], (k + shift) / parts));
       }
       if (support_.t.size() + added.size() > max_samples_) break;
     }
