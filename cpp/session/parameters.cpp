@@ -1,0 +1,260 @@
+#include "session/parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <climits>
+#include <cmath>
+#include <numeric>
+
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Stands for "greater than 0": bounds are allowed values.
+constexpr double kPositive = std::numeric_limits<double>::min();
+
+constexpr ParameterInfo integer_row(const char* name, int minimum, int maximum, int value, const char* help) {
+  return {name, ParameterType::integer, double(minimum), double(maximum), double(value), false, "", nullptr, help};
+}
+constexpr ParameterInfo real_row(const char* name, double minimum, double maximum, double value, const char* help) {
+  return {name, ParameterType::real, minimum, maximum, value, false, "", nullptr, help};
+}
+constexpr ParameterInfo diag_row(const char* name, double minimum, double factor, const char* help) {
+  return {name, ParameterType::real, minimum, kInfinity, factor, true, "", nullptr, help};
+}
+constexpr ParameterInfo text_row(const char* name, const char* value, const char* choices, const char* help) {
+  return {name, ParameterType::text, 0, 0, 0, false, value, choices, help};
+}
+
+// RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
+// the figure is hphymin in the text. max_triangles is ours.
+constexpr std::array kTable = {
+    integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
+    integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),
+    integer_row("CheckWellDefined", 0, 1000, 0,
+                "number of passes that check that each parameter domain is well defined"),
+    real_row("CoefRectangle", 0, 10, 0.25, "thickness of the rectangles of CheckCloseEdges, as a share of the edge"),
+    real_row("LSS", 1e-3, 10, 0.5, "longest sub-segment, in the metric, when the length of an edge is integrated"),
+    real_row("angle_mesh", 0.01, 89, 8, "angle between the mesh and the tangents of surfaces and curves, degrees"),
+    real_row("angle_smo", 0.001, 89, 1, "angle between the supports of curves and their tangents, degrees"),
+    text_row("element", "p1", "p1", "type of the elements: triangles of three nodes"),
+    real_row("eps_collapse", 0, kInfinity, 0, "curves shorter than this are removed, model length (0: none)"),
+    diag_row("eps_ends", 0, 1.0 / 500, "curves whose ends are nearer than this are reported, model length"),
+    diag_row("eps_glue", 0, 1.0 / 500, "points nearer than this are one when references are sought, model length"),
+    integer_row("flag", 0, 1, 0, "1: exported files hold the edges of the curves too"),
+    text_row("format", "mesh", "mesh|meshb|vtu|stl", "format and suffix of exported files"),
+    integer_row("frontal", 0, 1, 1, "placement of points: 1 frontal, 0 algebraic (on edges)"),
+    integer_row("hgeo_flag", 0, 2, 0, "geometric size: 0 ignored, 1 from the curvature, 2 from cad_rads and cad_radc"),
+    diag_row("hgeomax", kPositive, 1.0 / 5, "largest geometric size, model length"),
+    diag_row("hgeomin", kPositive, 1.0 / 500, "smallest geometric size, model length"),
+    integer_row("hinterpol_flag", 0, 2, 0, "interpolation of sizes: 0 linear, 1 geometric, 2 sinusoidal"),
+    integer_row("hmean_flag", -1, 2, 0, "mean of sizes: -1 minimum, 0 or 2 arithmetic, 1 geometric"),
+    integer_row("hphy_flag", 0, 2, 1, "physical size: 0 ignored, 1 hphydef, 2 from cad_hphys, cad_hphyc and cad_hphyp"),
+    diag_row("hphydef", kPositive, 1.0 / 50, "predefined physical size, model length; clamped to [hphymin, hphymax]"),
+    diag_row("hphymax", kPositive, 1.0 / 5, "largest physical size, model length"),
+    diag_row("hphymin", kPositive, 1.0 / 500, "smallest physical size, model length"),
+    integer_row("max_triangles", 0, INT_MAX, 0, "largest number of triangles of a mesh (0: by memory)"),
+    text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
+    text_row("pref", "x", nullptr, "prefix of the names of files"),
+    integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
+    integer_row("verb", 0, 100, 10, "verbosity, per cent"),
+};
+static_assert(std::is_sorted(kTable.begin(), kTable.end(), [](const ParameterInfo& p, const ParameterInfo& q) {
+  return std::string_view(p.name) < std::string_view(q.name);
+}));
+
+int index_of(std::string_view name) {
+  const auto row =
+      std::lower_bound(kTable.begin(), kTable.end(), name,
+                       [](const ParameterInfo& info, std::string_view n) { return std::string_view(info.name) < n; });
+  return row != kTable.end() && row->name == name ? int(row - kTable.begin()) : -1;
+}
+
+int known_index(std::string_view name) {
+  const int index = index_of(name);
+  if (index >= 0) return index;
+  if (name == "call") throw InvalidArgument("'call' is an action of blsurf.env, not a parameter");
+  const std::string nearest = nearest_parameter(name);
+  throw InvalidArgument("there is no parameter '" + std::string(name) + "'" +
+                        (nearest.empty() ? std::string() : "; did you mean '" + nearest + "'?"));
+}
+
+const char* type_name(ParameterType type) {
+  switch (type) {
+    case ParameterType::integer:
+      return "an integer";
+    case ParameterType::real:
+      return "a number";
+    default:
+      return "a text";
+  }
+}
+
+[[noreturn]] void wrong_type(const ParameterInfo& info, const std::string& given) {
+  throw InvalidArgument(std::string("parameter ") + info.name + " is " + type_name(info.type) + ", not " + given);
+}
+
+void check_range(const ParameterInfo& info, double value) {
+  const auto fail = [&](const std::string& rule) {
+    throw InvalidArgument(std::string("parameter ") + info.name + " must be " + rule + "; " + format_number(value) +
+                          " is not");
+  };
+  if (!std::isfinite(value)) fail("a finite number");
+  if (value >= info.minimum && value <= info.maximum) return;
+  if (info.minimum == kPositive) fail("greater than 0");
+  if (info.maximum == kInfinity) fail("at least " + format_number(info.minimum));
+  fail("between " + format_number(info.minimum) + " and " + format_number(info.maximum));
+}
+
+/// The choices as a list for a sentence: 'a', 'b' or 'c'.
+std::string quoted_choices(std::string_view choices) {
+  std::vector<std::string> names;
+  for (std::size_t from = 0; from <= choices.size();) {
+    const std::size_t to = std::min(choices.find('|', from), choices.size());
+    names.push_back("'" + std::string(choices.substr(from, to - from)) + "'");
+    from = to + 1;
+  }
+  std::string list = names[0];
+  for (std::size_t i = 1; i < names.size(); ++i) list += (i + 1 == names.size() ? " or " : ", ") + names[i];
+  return list;
+}
+
+void check_text(const ParameterInfo& info, std::string_view value) {
+  if (info.choices == nullptr) {
+    if (value.empty()) throw InvalidArgument(std::string("parameter ") + info.name + " must not be empty");
+    if (value.find('\0') != value.npos)
+      throw InvalidArgument(std::string("parameter ") + info.name + " must not hold a zero byte");
+    return;
+  }
+  const std::string_view choices = info.choices;
+  for (std::size_t from = 0; from <= choices.size();) {
+    const std::size_t to = std::min(choices.find('|', from), choices.size());
+    if (choices.substr(from, to - from) == value) return;
+    from = to + 1;
+  }
+  throw InvalidArgument(std::string("parameter ") + info.name + " must be " + quoted_choices(choices) + "; '" +
+                        std::string(value) + "' is not");
+}
+
+/// Levenshtein's distance, letters compared without their case.
+int edit_distance(std::string_view p, std::string_view q) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  std::vector<int> row(q.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = int(i) + 1;
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      const int replaced = diagonal + (lower(p[i]) == lower(q[j]) ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::span<const ParameterInfo> parameter_table() { return kTable; }
+
+const ParameterInfo* find_parameter(std::string_view name) {
+  const int index = index_of(name);
+  return index < 0 ? nullptr : &kTable[std::size_t(index)];
+}
+
+std::string nearest_parameter(std::string_view name) {
+  // A word that shares less than two thirds of its letters with a name is something else; a very long one would only
+  // cost time.
+  if (name.size() > 64) return {};
+  int best = std::max(1, int(name.size()) / 3) + 1;
+  std::string nearest;
+  for (const ParameterInfo& info : kTable) {
+    const int distance = edit_distance(name, info.name);
+    if (distance < best) best = distance, nearest = info.name;
+  }
+  return nearest;
+}
+
+void Parameters::set(std::string_view name, int value) {
+  const auto index = std::size_t(known_index(name));
+  const ParameterInfo& info = kTable[index];
+  if (info.type == ParameterType::text) wrong_type(info, "the number " + format_number(value));
+  check_range(info, value);
+  values_.resize(kTable.size());
+  if (info.type == ParameterType::real)
+    values_[index] = double(value);
+  else
+    values_[index] = value;
+}
+
+void Parameters::set(std::string_view name, double value) {
+  const auto index = std::size_t(known_index(name));
+  const ParameterInfo& info = kTable[index];
+  if (info.type != ParameterType::real) wrong_type(info, "the real number " + format_number(value));
+  check_range(info, value);
+  values_.resize(kTable.size());
+  values_[index] = value;
+}
+
+void Parameters::set(std::string_view name, std::string_view value) {
+  const auto index = std::size_t(known_index(name));
+  const ParameterInfo& info = kTable[index];
+  if (info.type != ParameterType::text) wrong_type(info, "the text '" + std::string(value) + "'");
+  check_text(info, value);
+  values_.resize(kTable.size());
+  values_[index] = std::string(value);
+}
+
+void Parameters::set_from_text(std::string_view name, std::string_view word, bool quoted) {
+  const ParameterInfo& info = kTable[std::size_t(known_index(name))];
+  if (info.type == ParameterType::text || quoted) return set(name, word);
+  if (info.type == ParameterType::integer) {
+    int value = 0;
+    if (!parse_number(word, value)) wrong_type(info, "'" + std::string(word) + "'");
+    return set(name, value);
+  }
+  double value = 0;
+  if (!parse_number(word, value)) wrong_type(info, "'" + std::string(word) + "'");
+  set(name, value);
+}
+
+int Parameters::integer(std::string_view name) const {
+  const auto index = std::size_t(known_index(name));
+  const ParameterInfo& info = kTable[index];
+  if (info.type != ParameterType::integer) wrong_type(info, "an integer");
+  return is_set(name) ? std::get<int>(*values_[index]) : int(info.default_number);
+}
+
+double Parameters::real(std::string_view name, double diag) const {
+  const auto index = std::size_t(known_index(name));
+  const ParameterInfo& info = kTable[index];
+  if (info.type == ParameterType::integer) return integer(name);
+  if (info.type != ParameterType::real) wrong_type(info, "a number");
+  if (is_set(name)) return std::get<double>(*values_[index]);
+  return info.diag_relative ? info.default_number * diag : info.default_number;
+}
+
+std::string Parameters::text(std::string_view name) const {
+  const auto index = std::size_t(known_index(name));
+  const ParameterInfo& info = kTable[index];
+  if (info.type != ParameterType::text) wrong_type(info, "a text");
+  return is_set(name) ? std::get<std::string>(*values_[index]) : std::string(info.default_text);
+}
+
+bool Parameters::is_set(std::string_view name) const {
+  const auto index = std::size_t(known_index(name));
+  return index < values_.size() && values_[index].has_value();
+}
+
+void Parameters::reset(std::string_view name) {
+  const auto index = std::size_t(known_index(name));
+  if (index < values_.size()) values_[index].reset();
+}
+
+void Parameters::reset_all() { values_.clear(); }
+
+}  // namespace carreau
