@@ -6,12 +6,14 @@
 #include <limits>
 
 #include "curve/unit_discretisation.h"
+#include "support/error.h"
+#include "support/format.h"
 
 namespace carreau {
 namespace {
 
-constexpr double longest_interval = 2;      ///< unit edges
-constexpr double shortest_interval = 0.25;  ///< unit edges
+constexpr double longest_interval = 4;      ///< times lss
+constexpr double shortest_interval = 0.5;   ///< times lss
 constexpr double steepest_interval = 1.15;  ///< ratio of the sizes at its ends
 constexpr int initial_intervals = 4;
 constexpr std::size_t most_samples = 20'000;
@@ -41,14 +43,14 @@ Sample ask(const CurveModel& model, int curve, SizeRules& rules, double r) {
   return sample;
 }
 
-bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double length) {
+bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double length, double lss) {
   if (right.r - left.r < narrowest) return false;
   const double edges = normalised_length(law, left.h, right.h, (right.r - left.r) * length);
-  if (edges > longest_interval) return true;
-  return edges > shortest_interval && std::max(left.h, right.h) > steepest_interval * std::min(left.h, right.h);
+  if (edges > longest_interval * lss) return true;
+  return edges > shortest_interval * lss && std::max(left.h, right.h) > steepest_interval * std::min(left.h, right.h);
 }
 
-std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules) {
+std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules, double lss) {
   const double length = model.length(curve);
   std::vector<Sample> samples;
   for (int i = 0; i <= initial_intervals; ++i) {
@@ -59,7 +61,7 @@ std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules)
     std::vector<Sample> finer{samples.front()};
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
       const bool room = samples.size() + finer.size() < most_samples + i;
-      if (room && too_coarse(samples[i], samples[i + 1], rules.law(), length)) {
+      if (room && too_coarse(samples[i], samples[i + 1], rules.law(), length, lss)) {
         finer.push_back(ask(model, curve, rules, (samples[i].r + samples[i + 1].r) / 2));
         again = true;
       }
@@ -89,7 +91,8 @@ std::vector<double> parameters_at(const CurveModel& model, int curve, double r) 
 double SizeSamples::size_at(double at) const noexcept { return interpolate(*this, h, at); }
 double SizeSamples::physical_at(double at) const noexcept { return interpolate(*this, physical, at); }
 
-SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, EndSizes ends) {
+SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options) {
+  if (!(options.lss > 0)) throw InvalidArgument("LSS must be positive; it is " + format_number(options.lss));
   SizeSamples result;
   result.law = rules.law();
   const Curve& c = model.curve(curve);
@@ -110,7 +113,7 @@ SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, E
     at_points();
     return result;
   }
-  const std::vector<Sample> samples = refine(model, curve, rules);
+  const std::vector<Sample> samples = refine(model, curve, rules, options.lss);
   const bool silent = std::none_of(samples.begin(), samples.end(), [](const Sample& s) { return s.answered; });
   if (silent && !rules.uses_curvature()) {
     at_points();
@@ -121,7 +124,7 @@ SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, E
     result.h.push_back(sample.h);
     result.physical.push_back(sample.physical);
   }
-  if (ends == EndSizes::of_point) {
+  if (options.ends == EndSizes::of_point) {
     result.h.front() = rules.at_point(c.end1);
     result.h.back() = rules.at_point(c.end2);
     result.physical.front() = rules.physical_at_point(c.end1);

@@ -16,6 +16,14 @@ enum class EndSizes {
   of_point,  ///< the size of the end point replaces the curve's at r = 0 and r = 1
 };
 
+struct CurveOptions {
+  EndSizes ends = EndSizes::of_curve;
+  /// Length of a sub-segment, unit edges (LSS, RT-0232 sec. 3.3): the smaller, the closer the samples of sizes.
+  double lss = 0.5;
+  /// Distance between two uses' images of a vertex, over its size, above which parameters are refined.
+  double carry_tolerance = 1e-3;
+};
+
 /// Sizes at fractions r of a curve's length: r.front() = 0, r.back() = 1, ascending.
 struct SizeSamples {
   std::vector<double> r;
@@ -29,8 +37,8 @@ struct SizeSamples {
 
 /// Samples the sizes of a curve. Two samples and no callback when the size is constant; two samples when nobody
 /// answers along the curve and curvature is ignored (the interpolation law is then exact). Otherwise intervals are
-/// halved until each is at most two unit edges long and its ends differ by at most 15 %, or it is shorter than a
-/// quarter of a unit edge.
-SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, EndSizes ends = EndSizes::of_curve);
+/// halved until each is at most 4 lss unit edges long and its ends differ by at most 15 %, or it is shorter than
+/// lss / 2. Throws InvalidArgument unless lss is positive.
+SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 
 }  // namespace carreau

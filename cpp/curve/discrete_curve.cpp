@@ -143,7 +143,7 @@ DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& ru
   DiscreteCurve d;
   d.curve = curve;
   d.indivisible = c.degenerate || !(length > 0);
-  d.sizes = sample_sizes(model, curve, rules, options.ends);
+  d.sizes = sample_sizes(model, curve, rules, options);
   d.r = d.indivisible ? std::vector<double>{0, 1} : fractions(d, c, length);
   fill_sizes(d, c, rules);
   d.xyz.resize(d.r.size());

@@ -28,12 +28,6 @@ struct DiscreteCurve {
   [[nodiscard]] int segments() const noexcept { return static_cast<int>(r.size()) - 1; }
 };
 
-struct CurveOptions {
-  EndSizes ends = EndSizes::of_curve;
-  /// Distance between two uses' images of a vertex, over its size, above which parameters are refined.
-  double carry_tolerance = 1e-3;
-};
-
 /// Discretises one curve and carries it. A closed curve has at least three segments, a curve that is one point of
 /// space exactly one. Throws what the host throws, LimitError.
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});

@@ -321,6 +321,27 @@ TEST(SampleSizes, FollowsASizeThatVariesAlongTheCurve) {
   EXPECT_NEAR(d.segments(), exact, 0.5 + 0.01 * exact);
 }
 
+TEST(SampleSizes, SmallerSubSegmentsFollowMoreClosely) {
+  Scene s;
+  const int face = s.add_face(1, flat());
+  s.add_curve({s.add_use(face, segment({0, 0}, {4, 0}))});
+  s.build();
+  s.sizes.hphy_flag = 2;
+  const auto h = [](double x) { return 0.2 + 0.1 * std::sin(3 * x); };
+  s.cad.hphyc = [&](int, int, double t) { return std::optional<double>(h(4 * t)); };
+  SizeRules rules(s.model, s.topology, s.cad, s.sizes);
+  double before = HUGE_VAL;
+  for (const double lss : {2., 0.5, 0.125}) {
+    const SizeSamples samples = sample_sizes(s.curve_model(), 0, rules, {.lss = lss});
+    double error = 0;
+    for (int i = 0; i <= 1000; ++i) error = std::max(error, std::abs(samples.size_at(i / 1000.) - h(4. * i / 1000)));
+    EXPECT_LT(error, before / 2);
+    before = error;
+  }
+  EXPECT_LT(before, 2e-3);
+  EXPECT_THROW(sample_sizes(s.curve_model(), 0, rules, {.lss = 0}), InvalidArgument);
+}
+
 TEST(SampleSizes, AJumpOfSizesEndsTheRefinement) {
   Scene s;
   const int face = s.add_face(1, flat());
@@ -343,8 +364,8 @@ TEST(SampleSizes, EndsTakeTheCurvesOrThePointsSize) {
   s.cad.hphyc = [&](int, int, double) { return std::optional<double>(0.1); };
   s.cad.hphyp = [](int) { return std::optional<double>(1); };
   SizeRules rules(s.model, s.topology, s.cad, s.sizes);
-  EXPECT_EQ(sample_sizes(s.curve_model(), 0, rules, EndSizes::of_curve).h.front(), 0.1);
-  EXPECT_EQ(sample_sizes(s.curve_model(), 0, rules, EndSizes::of_point).h.front(), 1);
+  EXPECT_EQ(sample_sizes(s.curve_model(), 0, rules, {.ends = EndSizes::of_curve}).h.front(), 0.1);
+  EXPECT_EQ(sample_sizes(s.curve_model(), 0, rules, {.ends = EndSizes::of_point}).h.front(), 1);
   const DiscreteCurve d = discretise_curve(s.curve_model(), 0, rules);
   EXPECT_EQ(d.segments(), 40);
   EXPECT_EQ(d.size.front(), 1);  // the vertex is the point
