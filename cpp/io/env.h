@@ -13,7 +13,8 @@ struct EnvPair {
   int line = 0;
 };
 
-/// Blanks, tabs and '=' separate words; `!` starts a comment that ends with the line, except within quotes. Throws
+/// Blanks, tabs and `=` separate words; a name and its value stand on one line, which may hold several pairs. A quote
+/// is doubled within its own quotes. `!` starts a comment that ends with the line, except within quotes. Throws
 /// FileError with file and line: a name without a value, a quote that does not close, a character that is not
 /// printable.
 std::vector<EnvPair> read_env_text(std::string_view text, const std::string& name);

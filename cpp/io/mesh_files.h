@@ -3,29 +3,39 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "mesh/flat_mesh.h"
 
 namespace carreau {
 
-/// Medit ASCII (`.mesh`, version 2), binary (`.meshb`, version 2 of GMF), VTK XML (`.vtu`), STL (`.stl`, binary, one
-/// solid; `.stla` is not a suffix: see options).
+/// Medit ASCII (`.mesh`, version 2), its binary form (`.meshb`, GMF version 2; 3 when the file would exceed 2 GiB), VTK
+/// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only).
 enum class MeshFormat { mesh, meshb, vtu, stl };
+
+struct MeshFileOptions {
+  /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); otherwise binary.
+  bool ascii_stl = false;
+};
 
 /// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing those
 /// known.
 MeshFormat mesh_format_of(const std::string& path);
 
-/// Throws FileError. A 3-D format (stl) of a mesh of dimension 2 is written with z = 0.
-void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format);
+/// The content of the file. Lists of references may be empty (all 0). A mesh of dimension 2 is written with z = 0 in
+/// vtu and stl. Throws InvalidArgument for a mesh that no reader would take: a list or field of the wrong length, an
+/// index out of range, a coordinate that is not finite (or, in binary STL, too large for single precision).
+std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Reads `.mesh` (ASCII, versions 0 to 3) or `.meshb`. Unknown sections are skipped when that is safe. Throws FileError
-/// with file and line.
+/// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
+void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
+
+/// Reads Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order), told apart by the content.
+/// Vertices, edges and triangles are taken; other sections of the format are skipped. A word that is no section of the
+/// format (ASCII), a section that comes twice, or a missing End is an error. Throws FileError with file and line, or
+/// file and byte.
 FlatMesh read_mesh(const std::string& path);
 FlatMesh read_mesh_text(std::string_view text, const std::string& name);
 FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
-
-/// The parts without a file, for tests and for callers that have their own storage.
-std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format);
 
 }  // namespace carreau

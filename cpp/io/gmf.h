@@ -1,0 +1,26 @@
+// Facts of the GMF binary format (`.meshb`; the public description is that of libMeshb): a file is the number 1 in the
+// writer's byte order, a version, then sections: code, position of the next section, content. `End` is the last.
+//
+//            reals      references, indices   positions   counts
+// version 1  32 bits    32 bits               32 bits     32 bits
+// version 2  64         32                    32          32
+// version 3  64         32                    64          32
+// version 4  64         64                    64          64
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace carreau {
+
+enum class GmfCode : std::int32_t { dimension = 3, vertices = 4, edges = 5, triangles = 6, end = 54 };
+
+struct GmfSizes {
+  std::size_t real, index, position, count;
+};
+
+constexpr GmfSizes gmf_sizes(int version) noexcept {
+  return {version == 1 ? 4u : 8u, version == 4 ? 8u : 4u, version >= 3 ? 8u : 4u, version == 4 ? 8u : 4u};
+}
+
+}  // namespace carreau

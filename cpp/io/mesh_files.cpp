@@ -1,0 +1,98 @@
+#include "io/mesh_files.h"
+
+#include <cmath>
+
+#include "io/files.h"
+#include "io/mesh_writers.h"
+#include "support/error.h"
+
+namespace carreau {
+
+namespace {
+
+void check_length(const char* what, std::size_t found, std::size_t expected) {
+  if (found != expected)
+    throw InvalidArgument("a mesh cannot be written: " + std::string(what) + " has " + std::to_string(found) +
+                          " entries instead of " + std::to_string(expected));
+}
+
+void check_refs(const char* what, const std::vector<std::int32_t>& refs, std::size_t expected) {
+  if (!refs.empty()) check_length(what, refs.size(), expected);
+}
+
+template <std::size_t N>
+void check_indices(const char* what, const std::vector<std::array<std::int32_t, N>>& entities, std::size_t vertices) {
+  for (std::size_t i = 0; i < entities.size(); ++i)
+    for (const std::int32_t vertex : entities[i])
+      if (vertex < 0 || static_cast<std::size_t>(vertex) >= vertices)
+        throw InvalidArgument("a mesh cannot be written: " + std::string(what) + " " + std::to_string(i) +
+                              " (from 0) names vertex " + std::to_string(vertex) + " of " + std::to_string(vertices));
+}
+
+void check_field(const MeshField& field, const FlatMesh& mesh) {
+  if (field.components < 1)
+    throw InvalidArgument("a mesh cannot be written: field '" + field.name + "' has " +
+                          std::to_string(field.components) + " components");
+  const std::size_t entities = field.on_vertices ? mesh.vertices.size() : mesh.triangles.size();
+  check_length(("field '" + field.name + "'").c_str(), field.values.size(),
+               entities * static_cast<std::size_t>(field.components));
+}
+
+void check_mesh(const FlatMesh& mesh) {
+  if (mesh.dimension != 2 && mesh.dimension != 3)
+    throw InvalidArgument("a mesh cannot be written: its dimension is " + std::to_string(mesh.dimension));
+  check_refs("the list of vertex references", mesh.vertex_refs, mesh.vertices.size());
+  check_refs("the list of edge references", mesh.edge_refs, mesh.edges.size());
+  check_refs("the list of triangle references", mesh.triangle_refs, mesh.triangles.size());
+  check_indices("edge", mesh.edges, mesh.vertices.size());
+  check_indices("triangle", mesh.triangles, mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    if (!is_finite(mesh.vertices[i]))
+      throw InvalidArgument("a mesh cannot be written: vertex " + std::to_string(i) +
+                            " (from 0) has a coordinate that is not finite");
+  for (const MeshField& field : mesh.fields) check_field(field, mesh);
+}
+
+}  // namespace
+
+MeshFormat mesh_format_of(const std::string& path) {
+  const std::size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
+  const std::size_t dot = path.find_last_of('.');
+  std::string suffix = dot == std::string::npos || dot < name ? "" : path.substr(dot);
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  if (suffix == ".mesh") return MeshFormat::mesh;
+  if (suffix == ".meshb") return MeshFormat::meshb;
+  if (suffix == ".vtu") return MeshFormat::vtu;
+  if (suffix == ".stl") return MeshFormat::stl;
+  throw InvalidArgument("'" + path + "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl");
+}
+
+std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options) {
+  check_mesh(mesh);
+  switch (format) {
+    case MeshFormat::mesh:
+      return medit_text(mesh);
+    case MeshFormat::meshb:
+      return gmf_bytes(mesh, gmf_needs_64_bits(mesh) ? 3 : 2);
+    case MeshFormat::vtu:
+      return vtu_bytes(mesh);
+    case MeshFormat::stl:
+      return options.ascii_stl ? stl_text(mesh) : stl_bytes(mesh);
+  }
+  throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
+}
+
+void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options) {
+  write_file(path, mesh_bytes(mesh, format, options));
+}
+
+FlatMesh read_mesh(const std::string& path) {
+  const std::string content = read_file(path);
+  // A binary file starts with the number 1 in 32 bits, in one byte order or the other.
+  const std::string_view start = std::string_view(content).substr(0, 4);
+  const bool binary = start == std::string_view("\1\0\0\0", 4) || start == std::string_view("\0\0\0\1", 4);
+  return binary ? read_mesh_binary(content, path) : read_mesh_text(content, path);
+}
+
+}  // namespace carreau

@@ -1,0 +1,24 @@
+// One function a format; the mesh has passed the checks of mesh_bytes. For mesh_files.cpp and the tests.
+#pragma once
+
+#include <string>
+
+#include "mesh/flat_mesh.h"
+
+namespace carreau {
+
+std::string medit_text(const FlatMesh& mesh);
+/// Version 2 (32-bit positions) or 3 (64-bit positions).
+std::string gmf_bytes(const FlatMesh& mesh, int version);
+/// True when positions of the file need version 3.
+bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept;
+std::string vtu_bytes(const FlatMesh& mesh);
+std::string stl_bytes(const FlatMesh& mesh);
+std::string stl_text(const FlatMesh& mesh);
+
+/// Reference of entity i; an empty list means that all are 0.
+inline std::int32_t ref_of(const std::vector<std::int32_t>& refs, std::size_t i) noexcept {
+  return refs.empty() ? 0 : refs[i];
+}
+
+}  // namespace carreau

@@ -1,0 +1,26 @@
+#include "io/text.h"
+
+#include <algorithm>
+
+namespace carreau {
+
+std::string_view without_byte_order_mark(std::string_view text) noexcept {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text;
+}
+
+int line_at(std::string_view text, std::size_t offset) noexcept {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
+}
+
+std::string shown(std::string_view word) {
+  constexpr std::size_t longest = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, longest)) text += (c >= ' ' && c <= '~') ? c : '?';
+  text += word.size() > longest ? "...'" : "'";
+  return text;
+}
+
+}  // namespace carreau

@@ -1,0 +1,146 @@
+// VTK XML (UnstructuredGrid, version 1.0): the arrays follow the XML as raw bytes ("appended"), each preceded by its
+// length in bytes; `offset` counts from the byte after the underscore.
+#include <bit>
+#include <cstring>
+#include <limits>
+
+#include "io/mesh_writers.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5;
+
+template <typename T>
+struct VtkType;
+template <>
+struct VtkType<double> {
+  static constexpr const char* name = "Float64";
+};
+template <>
+struct VtkType<std::int32_t> {
+  static constexpr const char* name = "Int32";
+};
+template <>
+struct VtkType<std::int64_t> {
+  static constexpr const char* name = "Int64";
+};
+template <>
+struct VtkType<std::uint8_t> {
+  static constexpr const char* name = "UInt8";
+};
+
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    if (c == '&')
+      text += "&amp;";
+    else if (c == '<')
+      text += "&lt;";
+    else if (c == '>')
+      text += "&gt;";
+    else if (c == '"')
+      text += "&quot;";
+    else
+      text += static_cast<unsigned char>(c) < ' ' ? '_' : c;  // XML 1.0 has no way to write most control characters
+  }
+  return text;
+}
+
+/// The XML so far and the data that will follow it.
+class VtuFile {
+ public:
+  void xml(const std::string& text) { xml_ += text; }
+
+  template <typename T>
+  void array(const std::string& name, int components, const std::vector<T>& values) {
+    xml_ += std::string("<DataArray type=\"") + VtkType<T>::name + "\" Name=\"" + escaped(name) +
+            "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
+            std::to_string(data_.size()) + "\"/>\n";
+    const std::uint64_t length = values.size() * sizeof(T);
+    const std::size_t begin = data_.size();
+    data_.resize(begin + sizeof length + length);
+    std::memcpy(data_.data() + begin, &length, sizeof length);
+    if (length > 0) std::memcpy(data_.data() + begin + sizeof length, values.data(), length);
+  }
+
+  [[nodiscard]] std::string finished() const {
+    return xml_ + "<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
+  }
+
+ private:
+  std::string xml_, data_;
+};
+
+std::vector<std::int32_t> all_refs(const std::vector<std::int32_t>& refs, std::size_t count) {
+  return refs.empty() ? std::vector<std::int32_t>(count, 0) : refs;
+}
+
+/// Triangles come first, so that the number of a triangle is that of its cell.
+void add_cells(VtuFile& file, const FlatMesh& mesh) {
+  std::vector<std::int32_t> connectivity;
+  connectivity.reserve(3 * mesh.triangles.size() + 2 * mesh.edges.size());
+  std::vector<std::int64_t> offsets;
+  offsets.reserve(mesh.triangles.size() + mesh.edges.size());
+  for (const auto& triangle : mesh.triangles) {
+    connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+  for (const auto& edge : mesh.edges) {
+    connectivity.insert(connectivity.end(), edge.begin(), edge.end());
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  }
+  std::vector<std::uint8_t> types(mesh.triangles.size(), vtk_triangle);
+  types.resize(offsets.size(), vtk_line);
+  file.xml("<Cells>\n");
+  file.array("connectivity", 1, connectivity);
+  file.array("offsets", 1, offsets);
+  file.array("types", 1, types);
+  file.xml("</Cells>\n");
+}
+
+void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
+  std::vector<std::int32_t> refs = all_refs(mesh.triangle_refs, mesh.triangles.size());
+  const std::vector<std::int32_t> edge_refs = all_refs(mesh.edge_refs, mesh.edges.size());
+  refs.insert(refs.end(), edge_refs.begin(), edge_refs.end());
+  file.xml("<CellData Scalars=\"reference\">\n");
+  file.array("reference", 1, refs);
+  for (const MeshField& field : mesh.fields) {
+    if (field.on_vertices) continue;
+    // VTK wants a value for every cell; NaN says that an edge has none and is left out of colour ranges.
+    std::vector<double> values = field.values;
+    values.resize(values.size() + mesh.edges.size() * static_cast<std::size_t>(field.components),
+                  std::numeric_limits<double>::quiet_NaN());
+    file.array(field.name, field.components, values);
+  }
+  file.xml("</CellData>\n");
+}
+
+}  // namespace
+
+std::string vtu_bytes(const FlatMesh& mesh) {
+  VtuFile file;
+  const std::string order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+  file.xml("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" + order +
+           "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
+           std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
+           std::to_string(mesh.triangles.size() + mesh.edges.size()) + "\">\n");
+  file.xml("<PointData Scalars=\"reference\">\n");
+  file.array("reference", 1, all_refs(mesh.vertex_refs, mesh.vertices.size()));
+  for (const MeshField& field : mesh.fields)
+    if (field.on_vertices) file.array(field.name, field.components, field.values);
+  file.xml("</PointData>\n");
+  add_cell_data(file, mesh);
+  std::vector<double> points;
+  points.reserve(3 * mesh.vertices.size());
+  for (const Vec3& p : mesh.vertices) points.insert(points.end(), {p.x, p.y, mesh.dimension == 3 ? p.z : 0});
+  file.xml("<Points>\n");
+  file.array("Points", 3, points);
+  file.xml("</Points>\n");
+  add_cells(file, mesh);
+  file.xml("</Piece>\n</UnstructuredGrid>\n");
+  return file.finished();
+}
+
+}  // namespace carreau
