@@ -33,9 +33,8 @@ void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
   keys.reserve(3 * mesh.triangles.size());
   for (const auto& t : mesh.triangles)
     for (int i = 0; i < 3; ++i) {
-      const auto [low, high] =
-          std::minmax(static_cast<std::uint32_t>(t[i]), static_cast<std::uint32_t>(t[(i + 1) % 3]));
-      keys.push_back(static_cast<std::uint64_t>(low) << 32 | high);
+      const auto a = static_cast<std::uint32_t>(t[i]), b = static_cast<std::uint32_t>(t[(i + 1) % 3]);
+      keys.push_back(static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b));
     }
   std::sort(keys.begin(), keys.end());
   std::vector<int> degree(mesh.vertices.size(), 0);

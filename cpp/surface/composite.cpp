@@ -72,7 +72,7 @@ class Pipeline {
       monitor_.checkpoint();
       monitor_.progress(Phase::curves, topology_.curves[c].ref,
                         curves_share * static_cast<double>(c) / static_cast<double>(topology_.curves.size()));
-      curves_.push_back(discretise_curve(curve_model_, static_cast<int>(c), rules_));
+      curves_.push_back(discretise_curve(curve_model_, static_cast<int>(c), rules_, {.lss = options_.lss}));
       edges += curves_.back().segments();
       if (edges > options_.max_triangles) refuse(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges));
     }
