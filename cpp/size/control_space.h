@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "metric/metric2.h"
@@ -11,8 +13,7 @@
 
 namespace carreau {
 
-/// Gives the true metric at points of the domain. Batches are as large as the refinement allows.
-/// Never called for a point outside the domain given to the builder.
+/// Gives the true metric at points of the domain. Never called for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
 struct ControlSpaceOptions {
@@ -27,11 +28,9 @@ struct SampledDomain {
   std::vector<std::pair<int, int>> edges;  ///< boundary only
 };
 
-/// Control space of RR-2928 sec. 2 on an adaptive grid.
+/// Control space of RR-2928 sec. 2: bilinear interpolation of the tensor on a grid over the domain's box.
 class ControlSpace {
  public:
-  /// Samples `sampler` inside `domain` and refines until interpolation is within the tolerance.
-  /// Throws what the sampler throws, and Cancelled.
   static ControlSpace build(const SampledDomain& domain, const MetricSampler& sampler,
                             const ControlSpaceOptions& options, Monitor& monitor);
   /// The same metric everywhere.
@@ -39,10 +38,29 @@ class ControlSpace {
 
   /// Metric at (u, v): symmetric positive definite, continuous. Points outside the box take the value of its nearest
   /// point.
-  [[nodiscard]] Metric2 at(Vec2 uv) const noexcept;
+  [[nodiscard]] Metric2 at(Vec2 uv) const noexcept {
+    const double last = static_cast<double>(n_) - 1e-9;
+    double x = (uv.x - low_.x) * scale_.x, y = (uv.y - low_.y) * scale_.y;
+    x = x > 0 ? (x < last ? x : last) : 0;
+    y = y > 0 ? (y < last ? y : last) : 0;
+    const int i = static_cast<int>(x), j = static_cast<int>(y);
+    const double fx = x - i, fy = y - j;
+    const Metric2* p = nodes_.data() + static_cast<std::size_t>(j) * (n_ + 1) + i;
+    const Metric2* q = p + n_ + 1;
+    return (1 - fy) * ((1 - fx) * p[0] + fx * p[1]) + fy * ((1 - fx) * q[0] + fx * q[1]);
+  }
+  /// Expected number of triangles of unit edges in the domain.
+  [[nodiscard]] double measure() const noexcept { return measure_; }
+  [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
+  [[nodiscard]] std::size_t bytes() const noexcept { return nodes_.capacity() * sizeof(Metric2); }
 
-  [[nodiscard]] std::size_t samples() const noexcept;
-  [[nodiscard]] std::size_t bytes() const noexcept;
+ private:
+  friend class ControlSpaceBuilder;
+  Vec2 low_{}, scale_{1, 1};
+  int n_ = 1;
+  std::vector<Metric2> nodes_;
+  double measure_ = 0;
+  std::size_t samples_ = 0;
 };
 
 }  // namespace carreau

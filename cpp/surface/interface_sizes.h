@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "curve/unit_discretisation.h"
 #include "plane/plane_mesher.h"
+#include "size/size_law.h"
 #include "support/monitor.h"
 
 namespace carreau {
