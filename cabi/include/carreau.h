@@ -347,9 +347,11 @@ CARREAU_API void carreau_stop(carreau_session* session);
  * LIMIT, CANCELLED, MEMORY; PARTIAL: there is a new mesh, but without the faces whose status is CARREAU_FACE_FAILED. */
 CARREAU_API carreau_status carreau_mesh_generate(carreau_session* session);
 
-/* Runs all actions of a blsurf.env (RT-0232 sec. 3.3): names of files in it are relative to the current folder; the
- * model is read from <pref>.pardom when inimesh is called and none was given before. Parameters set by carreau_set_...
- * are reset. Errors: FILE (also unknown names and bad values, with the line), and those of carreau_mesh_generate. */
+/* Runs all actions of a blsurf.env up to `call exit` (RT-0232 sec. 3.3). `call inimesh` reads <pref>.pardom beside the
+ * env file, unless a model was built by carreau_model_add_face and so on; `call export` writes beside it. Parameters
+ * have their defaults before, after each action, and when the call returns.
+ * Errors: FILE (with the line), ARGUMENT (unknown names, wrong values, with the line), those of
+ * carreau_mesh_generate. */
 CARREAU_API carreau_status carreau_run_env(carreau_session* session, const char* path);
 
 /* What the last successful run did. One point of a batch, or one call of any order, counts as one call of the routine

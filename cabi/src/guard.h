@@ -1,0 +1,103 @@
+// The only place where an exception becomes a status.
+#pragma once
+
+#include <cfenv>
+#include <new>
+
+#include "handles.h"
+#include "support/error.h"
+
+namespace carreau::abi {
+
+/// An error whose status no class of the engine stands for.
+struct StatusError : Error {
+  StatusError(carreau_status status_of, const std::string& sentence) : Error(sentence), status(status_of) {}
+  carreau_status status;
+};
+
+/// The engine computes in the default floating-point environment (round to nearest, no traps: a host may have set
+/// others), and the caller gets his own back.
+class FloatingPointScope {
+ public:
+  FloatingPointScope() noexcept {
+    std::fegetenv(&saved_);
+    std::fesetenv(FE_DFL_ENV);
+  }
+  ~FloatingPointScope() { std::fesetenv(&saved_); }
+  FloatingPointScope(const FloatingPointScope&) = delete;
+  FloatingPointScope& operator=(const FloatingPointScope&) = delete;
+
+ private:
+  std::fenv_t saved_;
+};
+
+/// Marks a handle as busy; owned() is false when it was so already: the call comes from inside a callback.
+class BusyScope {
+ public:
+  explicit BusyScope(std::atomic<bool>& busy) noexcept
+      : busy_(busy), owned_(!busy.exchange(true, std::memory_order_acq_rel)) {}
+  ~BusyScope() {
+    if (owned_) busy_.store(false, std::memory_order_release);
+  }
+  BusyScope(const BusyScope&) = delete;
+  BusyScope& operator=(const BusyScope&) = delete;
+  [[nodiscard]] bool owned() const noexcept { return owned_; }
+
+ private:
+  std::atomic<bool>& busy_;
+  bool owned_;
+};
+
+/// Runs body() and gives the status of what it throws.
+/// `on_error(sentence, where)` keeps the sentence; it may throw.
+template <typename Body, typename OnError>
+carreau_status status_of(Body&& body, OnError&& on_error) noexcept {
+  const auto fail = [&](carreau_status status, const char* sentence, const Where& where) noexcept {
+    try {
+      on_error(sentence, where);
+    } catch (...) {  // no memory for the sentence: the status alone must do
+    }
+    return status;
+  };
+  try {
+    body();
+    return CARREAU_OK;
+  } catch (const StatusError& error) {
+    return fail(error.status, error.what(), error.where());
+  } catch (const InvalidArgument& error) {
+    return fail(CARREAU_ERR_ARGUMENT, error.what(), error.where());
+  } catch (const InvalidModel& error) {
+    return fail(CARREAU_ERR_MODEL, error.what(), error.where());
+  } catch (const FileError& error) {
+    return fail(CARREAU_ERR_FILE, error.what(), error.where());
+  } catch (const CallbackError& error) {
+    return fail(CARREAU_ERR_CALLBACK, error.what(), error.where());
+  } catch (const DomainError& error) {
+    return fail(CARREAU_ERR_DOMAIN, error.what(), error.where());
+  } catch (const LimitError& error) {
+    return fail(CARREAU_ERR_LIMIT, error.what(), error.where());
+  } catch (const Cancelled& error) {
+    return fail(CARREAU_ERR_CANCELLED, error.what(), error.where());
+  } catch (const std::bad_alloc&) {
+    return fail(CARREAU_ERR_MEMORY, "out of memory", {});
+  } catch (const std::exception& error) {
+    return fail(CARREAU_ERR_INTERNAL, error.what(), {});
+  } catch (...) {
+    return fail(CARREAU_ERR_INTERNAL, "unknown exception", {});
+  }
+}
+
+/// What every function of the interface that has a handle does: refuses NULL and calls from inside a callback, runs
+/// body(), keeps the error.
+template <typename Handle, typename Body>
+carreau_status guarded(Handle* handle, Body&& body) noexcept {
+  if (handle == nullptr) return CARREAU_ERR_ARGUMENT;
+  const BusyScope busy(handle->busy_flag());
+  if (!busy.owned()) return CARREAU_ERR_BUSY;
+  const FloatingPointScope floating_point;
+  ErrorSlot& slot = handle->error;
+  slot.clear();
+  return status_of(body, [&slot](const char* sentence, const Where& where) { slot.keep(sentence, where); });
+}
+
+}  // namespace carreau::abi

@@ -1,0 +1,106 @@
+// What the opaque handles of carreau.h hold.
+#pragma once
+
+#include <atomic>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "carreau.h"
+#include "mesh/flat_mesh.h"
+#include "session/session.h"
+#include "support/monitor.h"
+
+namespace carreau::abi {
+
+/// Sentence and place of the last error of a handle.
+struct ErrorSlot {
+  std::string sentence;
+  Where where;
+
+  void clear() noexcept {
+    sentence.clear();
+    where = Where{};
+  }
+  void keep(const char* text, const Where& place) {
+    sentence = text;
+    where = place;
+  }
+};
+
+/// Hands messages and progress to the callbacks of the host.
+class HostMonitor final : public Monitor {
+ public:
+  explicit HostMonitor(const Parameters* const* parameters) : parameters_(parameters) {}
+
+  void set_message_callback(carreau_message_fn callback, void* user) noexcept {
+    message_ = callback, message_user_ = user;
+  }
+  void set_progress_callback(carreau_progress_fn callback, void* user) noexcept {
+    progress_ = callback, progress_user_ = user;
+  }
+
+  void message(Level level, std::string_view text) override {
+    if (message_ == nullptr || int(level) > (*parameters_)->integer("verb")) return;
+    message_(std::int32_t(level), std::string(text).c_str(), message_user_);
+  }
+  void progress(Phase phase, int entity, double fraction) override {
+    if (progress_ != nullptr && progress_(std::int32_t(phase), entity, fraction, progress_user_) != 0) request_stop();
+  }
+
+ private:
+  const Parameters* const* parameters_;  // of the session, which is made after its monitor
+  carreau_message_fn message_ = nullptr;
+  void* message_user_ = nullptr;
+  carreau_progress_fn progress_ = nullptr;
+  void* progress_user_ = nullptr;
+};
+
+}  // namespace carreau::abi
+
+struct carreau_mesh {
+  explicit carreau_mesh(carreau_session* owner) : session(owner) {}
+
+  std::atomic<bool>& busy_flag() noexcept;
+
+  carreau_session* session;  // nullptr: the mesh is `flat`
+  carreau::FlatMesh flat;
+  std::vector<std::pair<int, std::int64_t>> flat_faces;  // references of `flat`, ascending, with numbers of triangles
+  bool filled = false;                                   // of `flat`
+  std::string text;  // returned to the caller, who may look at it until the next call
+  carreau::abi::ErrorSlot error;
+  std::atomic<bool> busy{false};
+};
+
+struct carreau_session {
+  carreau_session() : monitor(&parameters), session(monitor), parameters(&session.parameters()), mesh(this) {}
+
+  std::atomic<bool>& busy_flag() noexcept { return busy; }
+
+  /// The model as the caller sees it.
+  [[nodiscard]] const carreau::Model& model() const noexcept { return draft_changed ? draft : session.model(); }
+  /// The model, to be changed.
+  carreau::Model& edited_model() {
+    if (!draft_changed) draft = session.model(), draft_changed = true;
+    return draft;
+  }
+  /// Gives the changed model to the session.
+  void commit_model() {
+    if (!draft_changed) return;
+    session.set_model(draft);
+    draft = {}, draft_changed = false;
+  }
+
+  carreau::abi::HostMonitor monitor;
+  carreau::Session session;
+  const carreau::Parameters* parameters;
+  bool has_cad = false;
+  carreau::Model draft;  // changed since the session got its model
+  bool draft_changed = false;
+  carreau_mesh mesh;
+  std::string text;  // returned to the caller, who may look at it until the next call
+  carreau::abi::ErrorSlot error;
+  std::atomic<bool> busy{false};
+};
+
+inline std::atomic<bool>& carreau_mesh::busy_flag() noexcept { return session != nullptr ? session->busy : busy; }

@@ -1,0 +1,302 @@
+#include <map>
+
+#include "arguments.h"
+#include "carreau.h"
+#include "guard.h"
+#include "io/mesh_files.h"
+#include "mesh/flat_defects.h"
+#include "mesh/quality.h"
+
+using carreau::FaceMesh;
+using carreau::FlatMesh;
+using carreau::InvalidArgument;
+using carreau::SurfaceMesh;
+using namespace carreau::abi;
+
+static_assert(int(carreau::FaceStatus::not_meshed) == CARREAU_FACE_NOT_MESHED);
+static_assert(int(carreau::FaceStatus::meshed) == CARREAU_FACE_MESHED);
+static_assert(int(carreau::FaceStatus::mended) == CARREAU_FACE_MENDED);
+static_assert(int(carreau::FaceStatus::failed) == CARREAU_FACE_FAILED);
+
+namespace {
+
+/// Throws when the mesh has no content.
+void require_content(const carreau_mesh& mesh) {
+  const bool filled = mesh.session != nullptr ? mesh.session->session.has_mesh() : mesh.filled;
+  if (!filled)
+    throw StatusError(CARREAU_ERR_SEQUENCE, mesh.session != nullptr
+                                                ? "there is no mesh yet"
+                                                : "the mesh is empty: call carreau_mesh_read first");
+}
+
+const SurfaceMesh& surface_of(const carreau_mesh& mesh) { return mesh.session->session.mesh(); }
+
+const SurfaceMesh& session_only(const carreau_mesh& mesh, const char* what) {
+  if (mesh.session == nullptr)
+    throw StatusError(CARREAU_ERR_SEQUENCE, std::string("a mesh that was read from a file has no ") + what);
+  return surface_of(mesh);
+}
+
+/// Numbers of rows of either kind of mesh.
+struct Counts {
+  explicit Counts(const carreau_mesh& mesh) {
+    require_content(mesh);
+    if (mesh.session != nullptr) {
+      const SurfaceMesh& surface = surface_of(mesh);
+      vertices = surface.vertices.size(), triangles = surface.triangle_count();
+      edges = surface.edge_count(), faces = surface.faces.size();
+    } else {
+      vertices = mesh.flat.vertices.size(), triangles = mesh.flat.triangles.size();
+      edges = mesh.flat.edges.size(), faces = mesh.flat_faces.size();
+    }
+  }
+  std::size_t vertices = 0, triangles = 0, edges = 0, faces = 0;
+};
+
+/// body(v0, v1, v2, face, local corners) for each triangle of a session's mesh, in order.
+template <typename Body>
+void for_each_triangle(const SurfaceMesh& surface, Body&& body) {
+  for (const FaceMesh& face : surface.faces)
+    for (const auto& corners : face.triangles) body(face, corners);
+}
+
+void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_t* out) {
+  // A mesh may come without references: all are 0.
+  for (std::size_t i = 0; i < n; ++i) out[i] = i < refs.size() ? refs[i] : 0;
+}
+
+FlatMesh flat_of(const carreau_mesh& mesh) { return carreau::flatten(surface_of(mesh), false); }
+
+}  // namespace
+
+carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out_mesh) {
+  return guarded(session, [&] {
+    required(out_mesh, "out_mesh");
+    require_content(session->mesh);
+    *out_mesh = &session->mesh;
+  });
+}
+
+carreau_status carreau_mesh_create(carreau_mesh** out_mesh) {
+  if (out_mesh == nullptr) return CARREAU_ERR_ARGUMENT;
+  return status_of([&] { *out_mesh = new carreau_mesh(nullptr); }, [](const char*, const carreau::Where&) {});
+}
+
+void carreau_mesh_free(carreau_mesh* mesh) {
+  if (mesh != nullptr && mesh->session == nullptr) delete mesh;
+}
+
+const char* carreau_mesh_last_error(const carreau_mesh* mesh) {
+  if (mesh == nullptr) return "";
+  const std::atomic<bool>& busy = mesh->session != nullptr ? mesh->session->busy : mesh->busy;
+  return busy.load(std::memory_order_acquire) ? "" : mesh->error.sentence.c_str();
+}
+
+carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path) {
+  return guarded(mesh, [&] {
+    if (mesh->session != nullptr)
+      throw InvalidArgument("the mesh of a session cannot be replaced by a file: use carreau_mesh_create");
+    FlatMesh flat = carreau::read_mesh(required(path, "path"));
+    std::map<int, std::int64_t> faces;
+    for (std::size_t i = 0; i < flat.triangles.size(); ++i)
+      ++faces[i < flat.triangle_refs.size() ? flat.triangle_refs[i] : 0];
+    mesh->flat_faces.assign(faces.begin(), faces.end());
+    mesh->flat = std::move(flat);
+    mesh->filled = true;
+  });
+}
+
+carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path) {
+  return guarded(mesh, [&] {
+    required(path, "path");
+    require_content(*mesh);
+    if (mesh->session != nullptr)
+      mesh->session->session.write(path);
+    else
+      carreau::write_mesh(mesh->flat, path, carreau::mesh_format_of(path));
+  });
+}
+
+carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles, int64_t* out_edges,
+                                  int64_t* out_faces) {
+  return guarded(mesh, [&] {
+    const Counts counts(*mesh);
+    if (out_vertices != nullptr) *out_vertices = std::int64_t(counts.vertices);
+    if (out_triangles != nullptr) *out_triangles = std::int64_t(counts.triangles);
+    if (out_edges != nullptr) *out_edges = std::int64_t(counts.edges);
+    if (out_faces != nullptr) *out_faces = std::int64_t(counts.faces);
+  });
+}
+
+carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension) {
+  return guarded(mesh, [&] {
+    require_content(*mesh);
+    *required(out_dimension, "out_dimension") = mesh->session != nullptr ? 3 : mesh->flat.dimension;
+  });
+}
+
+carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double* out_xyz) {
+  return guarded(mesh, [&] {
+    required(out_xyz, "out_xyz");
+    check_capacity(capacity, Counts(*mesh).vertices, "vertices");
+    double* out = out_xyz;
+    for (const carreau::Vec3& p : mesh->session != nullptr ? surface_of(*mesh).vertices : mesh->flat.vertices)
+      *out++ = p.x, *out++ = p.y, *out++ = p.z;
+  });
+}
+
+carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs) {
+  return guarded(mesh, [&] {
+    required(out_refs, "out_refs");
+    const std::size_t n = Counts(*mesh).vertices;
+    check_capacity(capacity, n, "vertices");
+    copy_refs(mesh->session != nullptr ? surface_of(*mesh).vertex_ref : mesh->flat.vertex_refs, n, out_refs);
+  });
+}
+
+carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, double* out_sizes) {
+  return guarded(mesh, [&] {
+    required(out_sizes, "out_sizes");
+    check_capacity(capacity, Counts(*mesh).vertices, "vertices");
+    session_only(*mesh, "prescribed sizes");
+    const std::vector<double>& sizes = mesh->session->session.vertex_sizes();
+    std::copy(sizes.begin(), sizes.end(), out_sizes);
+  });
+}
+
+carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices) {
+  return guarded(mesh, [&] {
+    required(out_vertices, "out_vertices");
+    check_capacity(capacity, Counts(*mesh).triangles, "triangles");
+    std::int32_t* out = out_vertices;
+    if (mesh->session != nullptr)
+      for_each_triangle(surface_of(*mesh), [&](const FaceMesh& face, const auto& corners) {
+        for (const std::int32_t local : corners) *out++ = face.vertex[std::size_t(local)];
+      });
+    else
+      for (const auto& triangle : mesh->flat.triangles) out = std::copy(triangle.begin(), triangle.end(), out);
+  });
+}
+
+carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs) {
+  return guarded(mesh, [&] {
+    required(out_refs, "out_refs");
+    const std::size_t m = Counts(*mesh).triangles;
+    check_capacity(capacity, m, "triangles");
+    std::int32_t* out = out_refs;
+    if (mesh->session != nullptr)
+      for_each_triangle(surface_of(*mesh), [&](const FaceMesh& face, const auto&) { *out++ = face.ref; });
+    else
+      copy_refs(mesh->flat.triangle_refs, m, out_refs);
+  });
+}
+
+carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double* out_uv) {
+  return guarded(mesh, [&] {
+    required(out_uv, "out_uv");
+    check_capacity(capacity, Counts(*mesh).triangles, "triangles");
+    double* out = out_uv;
+    for_each_triangle(session_only(*mesh, "(u, v)"), [&](const FaceMesh& face, const auto& corners) {
+      for (const std::int32_t local : corners) {
+        const carreau::Vec2 uv = face.uv[std::size_t(local)];
+        *out++ = uv.x, *out++ = uv.y;
+      }
+    });
+  });
+}
+
+carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices) {
+  return guarded(mesh, [&] {
+    required(out_vertices, "out_vertices");
+    check_capacity(capacity, Counts(*mesh).edges, "edges");
+    std::int32_t* out = out_vertices;
+    if (mesh->session != nullptr)
+      for (const carreau::CurveMesh& curve : surface_of(*mesh).curves)
+        for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+          *out++ = curve.vertices[i - 1], *out++ = curve.vertices[i];
+    else
+      for (const auto& edge : mesh->flat.edges) out = std::copy(edge.begin(), edge.end(), out);
+  });
+}
+
+carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs) {
+  return guarded(mesh, [&] {
+    required(out_refs, "out_refs");
+    const std::size_t k = Counts(*mesh).edges;
+    check_capacity(capacity, k, "edges");
+    std::int32_t* out = out_refs;
+    if (mesh->session != nullptr)
+      for (const carreau::CurveMesh& curve : surface_of(*mesh).curves)
+        for (std::size_t i = 1; i < curve.vertices.size(); ++i) *out++ = curve.ref;
+    else
+      copy_refs(mesh->flat.edge_refs, k, out_refs);
+  });
+}
+
+carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face) {
+  return guarded(mesh, [&] {
+    const std::size_t n = Counts(*mesh).faces;
+    if (index < 0 || std::uint64_t(index) >= n)
+      throw InvalidArgument("there is no face of index " + std::to_string(index) + ": the mesh has " +
+                            std::to_string(n));
+    const auto i = std::size_t(index);
+    carreau_face result{};
+    result.why = "";
+    if (mesh->session != nullptr) {
+      const FaceMesh& face = surface_of(*mesh).faces[i];
+      mesh->text = face.why;
+      result.ref = face.ref;
+      result.status = std::int32_t(face.status);
+      result.triangles = std::int64_t(face.triangles.size());
+      result.why = mesh->text.c_str();
+    } else {
+      result.ref = mesh->flat_faces[i].first;
+      result.status = CARREAU_FACE_MESHED;
+      result.triangles = mesh->flat_faces[i].second;
+    }
+    write_struct(result, out_face, "out_face");
+  });
+}
+
+carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality) {
+  return guarded(mesh, [&] {
+    require_content(*mesh);
+    const carreau::QualitySummary summary =
+        mesh->session != nullptr ? carreau::summarise_quality(flat_of(*mesh)) : carreau::summarise_quality(mesh->flat);
+    carreau_quality result{};
+    result.vertices = std::int64_t(summary.vertices);
+    result.triangles = std::int64_t(summary.triangles);
+    result.edges = std::int64_t(summary.edges);
+    result.open_edges = std::int64_t(summary.open_edges);
+    result.q1_mean = summary.q1.mean, result.q1_min = summary.q1.min;
+    result.q1_p1 = summary.q1.p1, result.q1_max = summary.q1.max;
+    result.q2_mean = summary.q2.mean, result.q2_min = summary.q2.min;
+    result.q2_p1 = summary.q2.p1, result.q2_max = summary.q2.max;
+    result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
+    result.area = summary.area;
+    result.edge_min = summary.edge_min, result.edge_mean = summary.edge_mean, result.edge_max = summary.edge_max;
+    result.degree6 = summary.degree6;
+    write_struct(result, out_quality, "out_quality");
+  });
+}
+
+carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
+                                    const char** out_text) {
+  return guarded(mesh, [&] {
+    required(out_count, "out_count");
+    required(out_text, "out_text");
+    if (limit <= 0) throw InvalidArgument("limit is " + std::to_string(limit) + ", not greater than 0");
+    require_content(*mesh);
+    carreau::DefectOptions options;
+    options.closed = closed != 0;
+    options.limit = std::size_t(limit);
+    const std::vector<std::string> defects = mesh->session != nullptr
+                                                 ? carreau::find_defects(surface_of(*mesh), options)
+                                                 : carreau::find_defects(mesh->flat, options);
+    std::string text;
+    for (const std::string& defect : defects) text += (text.empty() ? "" : "\n") + defect;
+    mesh->text = std::move(text);
+    *out_count = std::int64_t(defects.size());
+    *out_text = mesh->text.c_str();
+  });
+}

@@ -1,0 +1,150 @@
+#include "model/model.h"
+
+#include "arguments.h"
+#include "guard.h"
+#include "io/files.h"
+#include "io/pardom.h"
+#include "support/vec.h"
+
+using carreau::Face;
+using carreau::InvalidArgument;
+using carreau::Model;
+using namespace carreau::abi;
+
+namespace {
+
+/// The face of a reference; the last ones first, since a model is usually built face by face.
+Face& face_of(Model& model, std::int32_t ref) {
+  for (auto face = model.faces.rbegin(); face != model.faces.rend(); ++face)
+    if (face->ref == ref) return *face;
+  throw InvalidArgument("the model has no face of reference " + std::to_string(ref) +
+                        ": call carreau_model_add_face first");
+}
+
+template <typename Member>
+std::size_t total(const Model& model, Member member) {
+  std::size_t n = 0;
+  for (const Face& face : model.faces) n += (face.*member).size();
+  return n;
+}
+
+void put(std::int32_t* array, std::size_t index, std::int32_t value) {
+  if (array != nullptr) array[index] = value;
+}
+
+}  // namespace
+
+carreau_status carreau_model_clear(carreau_session* session) {
+  return guarded(session, [&] {
+    session->draft = {};
+    session->draft_changed = true;
+  });
+}
+
+carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation) {
+  return guarded(session, [&] {
+    if (orientation == 0)
+      throw InvalidArgument(carreau::Where{.face = ref}, "the orientation is 0; it is the rank of a boundary curve");
+    Face face;
+    face.ref = ref;
+    face.orientation = orientation;
+    session->edited_model().faces.push_back(std::move(face));
+  });
+}
+
+carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_ref, int32_t type, int32_t ref,
+                                       int32_t end1, int32_t end2) {
+  return guarded(session, [&] {
+    if (type != CARREAU_BOUNDARY && type != CARREAU_INTERNAL)
+      throw InvalidArgument(carreau::Where{.face = face_ref},
+                            "the type of a curve is " + std::to_string(type) +
+                                "; it must be 1 (CARREAU_BOUNDARY) or 2 (CARREAU_INTERNAL)");
+    face_of(session->edited_model(), face_ref)
+        .curves.push_back({.type = carreau::CurveType(type), .ref = ref, .end1 = end1, .end2 = end2});
+  });
+}
+
+carreau_status carreau_model_add_point(carreau_session* session, int32_t face_ref, int32_t ref, double u, double v) {
+  return guarded(session, [&] {
+    const carreau::Vec2 uv{u, v};
+    if (!carreau::is_finite(uv))
+      throw InvalidArgument(carreau::Where{.face = face_ref, .point = ref, .uv = uv},
+                            "the parameters of an imposed point are not finite");
+    face_of(session->edited_model(), face_ref).points.push_back({.ref = ref, .uv = uv});
+  });
+}
+
+carreau_status carreau_model_read_pardom(carreau_session* session, const char* path) {
+  return guarded(session, [&] {
+    session->session.load_pardom(required(path, "path"));
+    session->draft = {};
+    session->draft_changed = false;
+  });
+}
+
+carreau_status carreau_model_write_pardom(carreau_session* session, const char* path) {
+  return guarded(session, [&] { carreau::write_file(required(path, "path"), carreau::pardom_text(session->model())); });
+}
+
+carreau_status carreau_model_check(carreau_session* session) {
+  return guarded(session, [&] {
+    if (session->model().faces.empty()) throw carreau::InvalidModel("the model has no face");
+    session->commit_model();
+  });
+}
+
+carreau_status carreau_model_count(carreau_session* session, int64_t* out_faces, int64_t* out_curves,
+                                   int64_t* out_points) {
+  return guarded(session, [&] {
+    const Model& model = session->model();
+    if (out_faces != nullptr) *out_faces = std::int64_t(model.faces.size());
+    if (out_curves != nullptr) *out_curves = std::int64_t(total(model, &Face::curves));
+    if (out_points != nullptr) *out_points = std::int64_t(total(model, &Face::points));
+  });
+}
+
+carreau_status carreau_model_faces(carreau_session* session, int64_t capacity, int32_t* out_refs,
+                                   int32_t* out_orientations) {
+  return guarded(session, [&] {
+    const Model& model = session->model();
+    check_capacity(capacity, model.faces.size(), "faces");
+    for (std::size_t i = 0; i < model.faces.size(); ++i) {
+      put(out_refs, i, model.faces[i].ref);
+      put(out_orientations, i, model.faces[i].orientation);
+    }
+  });
+}
+
+carreau_status carreau_model_curves(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
+                                    int32_t* out_types, int32_t* out_refs, int32_t* out_ends) {
+  return guarded(session, [&] {
+    const Model& model = session->model();
+    check_capacity(capacity, total(model, &Face::curves), "curves");
+    std::size_t i = 0;
+    for (const Face& face : model.faces)
+      for (const carreau::FaceCurve& curve : face.curves) {
+        put(out_face_refs, i, face.ref);
+        put(out_types, i, int(curve.type));
+        put(out_refs, i, curve.ref);
+        put(out_ends, 2 * i, curve.end1);
+        put(out_ends, 2 * i + 1, curve.end2);
+        ++i;
+      }
+  });
+}
+
+carreau_status carreau_model_points(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
+                                    int32_t* out_refs, double* out_uv) {
+  return guarded(session, [&] {
+    const Model& model = session->model();
+    check_capacity(capacity, total(model, &Face::points), "imposed points");
+    std::size_t i = 0;
+    for (const Face& face : model.faces)
+      for (const carreau::FacePoint& point : face.points) {
+        put(out_face_refs, i, face.ref);
+        put(out_refs, i, point.ref);
+        if (out_uv != nullptr) out_uv[2 * i] = point.uv.x, out_uv[2 * i + 1] = point.uv.y;
+        ++i;
+      }
+  });
+}

@@ -1,0 +1,127 @@
+#include "session/session.h"
+
+#include <limits>
+
+#include "arguments.h"
+#include "guard.h"
+
+using carreau::FaceMesh;
+using carreau::FaceStatus;
+using namespace carreau::abi;
+
+namespace {
+
+/// A mesh that lacks faces is there, but the caller must know.
+void report_failed_faces(const carreau::Session& session) {
+  const FaceMesh* first = nullptr;
+  std::size_t failed = 0;
+  for (const FaceMesh& face : session.mesh().faces) {
+    if (face.status != FaceStatus::failed) continue;
+    if (first == nullptr) first = &face;
+    ++failed;
+  }
+  if (first == nullptr) return;
+  throw StatusError(CARREAU_ERR_PARTIAL, std::to_string(failed) + " of " + std::to_string(session.mesh().faces.size()) +
+                                             " faces could not be meshed; the first is " + std::to_string(first->ref) +
+                                             ": " + first->why);
+}
+
+void require_geometry(const carreau_session& handle) {
+  if (!handle.has_cad)
+    throw StatusError(CARREAU_ERR_SEQUENCE,
+                      "no geometry is registered: call carreau_set_cad or carreau_set_cad_m first");
+}
+
+}  // namespace
+
+carreau_status carreau_session_create(carreau_session** out_session) {
+  if (out_session == nullptr) return CARREAU_ERR_ARGUMENT;
+  return status_of([&] { *out_session = new carreau_session; }, [](const char*, const carreau::Where&) {});
+}
+
+void carreau_session_free(carreau_session* session) {
+  if (session == nullptr || session->busy.load(std::memory_order_acquire)) return;
+  delete session;
+}
+
+const char* carreau_last_error(const carreau_session* session) {
+  if (session == nullptr || session->busy.load(std::memory_order_acquire)) return "";
+  return session->error.sentence.c_str();
+}
+
+carreau_status carreau_last_error_place(const carreau_session* session, carreau_error_place* out_place) {
+  if (session == nullptr) return CARREAU_ERR_ARGUMENT;
+  if (session->busy.load(std::memory_order_acquire)) return CARREAU_ERR_BUSY;
+  const carreau::Where& where = session->error.where;
+  const auto fill = [&] {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const carreau::Vec2 uv = where.uv.value_or(carreau::Vec2{nan, nan});
+    carreau_error_place place{};
+    place.face = where.face;
+    place.ic = where.curve_index;
+    place.curve = where.curve;
+    place.point = where.point;
+    place.line = where.line;
+    place.uv[0] = uv.x;
+    place.uv[1] = uv.y;
+    place.t = where.t.value_or(nan);
+    write_struct(place, out_place, "out_place");
+  };
+  return status_of(fill, [](const char*, const carreau::Where&) {});
+}
+
+carreau_status carreau_set_message_callback(carreau_session* session, carreau_message_fn callback, void* user) {
+  return guarded(session, [&] { session->monitor.set_message_callback(callback, user); });
+}
+
+carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback, void* user) {
+  return guarded(session, [&] { session->monitor.set_progress_callback(callback, user); });
+}
+
+void carreau_stop(carreau_session* session) {
+  if (session != nullptr) session->monitor.request_stop();
+}
+
+carreau_status carreau_mesh_generate(carreau_session* session) {
+  return guarded(session, [&] {
+    session->monitor.clear_stop();
+    require_geometry(*session);
+    if (session->model().faces.empty()) throw StatusError(CARREAU_ERR_SEQUENCE, "the model has no face yet");
+    session->commit_model();
+    session->session.make_mesh();
+    report_failed_faces(session->session);
+  });
+}
+
+carreau_status carreau_run_env(carreau_session* session, const char* path) {
+  return guarded(session, [&] {
+    required(path, "path");
+    session->monitor.clear_stop();
+    require_geometry(*session);
+    session->commit_model();
+    session->session.run_env(path);
+    if (session->session.has_mesh()) report_failed_faces(session->session);
+  });
+}
+
+carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report) {
+  return guarded(session, [&] {
+    if (!session->session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
+    const carreau::CompositeReport& report = session->session.report();
+    carreau_report result{};
+    result.diag = report.diag;
+    result.surf0_calls = report.calls.surf0;
+    result.surf1_calls = report.calls.surf1;
+    result.surf2_calls = report.calls.surf2;
+    result.curv0_calls = report.calls.curv0;
+    result.curv1_calls = report.calls.curv1;
+    result.curv2_calls = report.calls.curv2;
+    result.size_calls = report.calls.sizes;
+    result.seconds_curves = report.seconds_curves;
+    result.seconds_sampling = report.seconds_sampling;
+    result.seconds_plane = report.seconds_plane;
+    result.seconds_lift = report.seconds_lift;
+    result.seconds_total = report.seconds_total;
+    write_struct(result, out_report, "out_report");
+  });
+}

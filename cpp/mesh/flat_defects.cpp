@@ -1,0 +1,149 @@
+#include "mesh/flat_defects.h"
+
+#include <algorithm>
+
+#include "mesh/quality.h"
+
+namespace carreau {
+
+namespace {
+
+// As in find_defects of a SurfaceMesh: what rounding leaves of a flat triangle.
+constexpr double flat_quality = 1e-12;
+
+class FlatDefectFinder {
+ public:
+  FlatDefectFinder(const FlatMesh& mesh, const DefectOptions& options) : mesh_(mesh), options_(options) {}
+
+  std::vector<std::string> run() {
+    check_lists();
+    check_vertices();
+    check_indices();
+    if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    check_triangles();
+    check_duplicates();
+    check_unused();
+    check_edges();
+    return std::move(defects_);
+  }
+
+ private:
+  using Key = std::array<std::int32_t, 2>;
+  struct Side {
+    Key key;
+    int ref;
+    bool forward;  // the triangle runs from the smaller index to the larger
+    friend auto operator<=>(const Side&, const Side&) = default;
+  };
+
+  void add(const std::string& sentence) {
+    if (defects_.size() < options_.limit) defects_.push_back(sentence);
+  }
+  static Key ordered(std::int32_t a, std::int32_t b) { return a < b ? Key{a, b} : Key{b, a}; }
+  static std::string name(const Key& key) {
+    return "edge " + std::to_string(key[0]) + "-" + std::to_string(key[1]) + ": ";
+  }
+  static std::string name(std::size_t t) { return "triangle " + std::to_string(t) + ": "; }
+  [[nodiscard]] int ref_of(std::size_t t) const { return mesh_.triangle_refs.empty() ? 0 : mesh_.triangle_refs[t]; }
+
+  void check_lists() {
+    const auto fits = [](std::size_t refs, std::size_t entities) { return refs == 0 || refs == entities; };
+    if (!fits(mesh_.vertex_refs.size(), mesh_.vertices.size())) add("vertices and their references differ in number");
+    if (!fits(mesh_.triangle_refs.size(), mesh_.triangles.size()))
+      add("triangles and their references differ in number");
+    if (!fits(mesh_.edge_refs.size(), mesh_.edges.size())) add("edges and their references differ in number");
+  }
+
+  void check_vertices() {
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
+      if (!is_finite(mesh_.vertices[v])) add("vertex " + std::to_string(v) + ": a coordinate is not finite");
+  }
+
+  void check_indices() {
+    const auto missing = [this](std::int32_t v) { return v < 0 || std::size_t(v) >= mesh_.vertices.size(); };
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      if (std::any_of(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), missing))
+        add(name(t) + "it names a vertex that does not exist");
+    for (const Key& edge : mesh_.edges)
+      if (missing(edge[0]) || missing(edge[1])) add(name(edge) + "it names a vertex that does not exist");
+  }
+
+  void check_triangles() {
+    if (mesh_.triangles.empty()) add("there is no triangle");
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      const auto [a, b, c] = mesh_.triangles[t];
+      if (a == b || b == c || c == a)
+        add(name(t) + "it repeats a vertex");
+      else if (!(quality_q2(mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]) > flat_quality))
+        add(name(t) + "no area");
+    }
+  }
+
+  void check_duplicates() {
+    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> sorted;
+    sorted.reserve(mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      auto corners = mesh_.triangles[t];
+      std::sort(corners.begin(), corners.end());
+      sorted.emplace_back(corners, t);
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+      if (sorted[i].first == sorted[i - 1].first)
+        add(name(sorted[i].second) + "the same vertices as triangle " + std::to_string(sorted[i - 1].second));
+  }
+
+  void check_unused() {
+    std::vector<bool> used(mesh_.vertices.size());
+    for (const auto& triangle : mesh_.triangles)
+      for (const std::int32_t v : triangle) used[v] = true;
+    for (std::size_t v = 0; v < used.size(); ++v)
+      if (!used[v]) add("vertex " + std::to_string(v) + ": it belongs to no triangle");
+  }
+
+  void check_edges() {
+    std::vector<Key> curves;
+    for (const Key& edge : mesh_.edges) curves.push_back(ordered(edge[0], edge[1]));
+    std::sort(curves.begin(), curves.end());
+    std::vector<Side> sides;
+    sides.reserve(3 * mesh_.triangles.size());
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
+        if (a != b) sides.push_back({ordered(a, b), ref_of(t), a < b});
+      }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t from = 0, to = 0; from < sides.size(); from = to) {
+      while (to < sides.size() && sides[to].key == sides[from].key) ++to;
+      const bool on_curve = std::binary_search(curves.begin(), curves.end(), sides[from].key);
+      check_edge(sides.data() + from, to - from, on_curve);
+    }
+  }
+
+  // `sides` of one edge are sorted by reference.
+  void check_edge(const Side* sides, std::size_t n, bool on_curve) {
+    if (n == 1 && options_.closed) add(name(sides[0].key) + "it has only one triangle");
+    if (on_curve) return;
+    for (std::size_t from = 0, to = 0; from < n; from = to) {
+      while (to < n && sides[to].ref == sides[from].ref) ++to;
+      const std::string what = name(sides[0].key) + std::to_string(to - from) + " triangles of reference " +
+                               std::to_string(sides[from].ref) + " share it";
+      if (to - from > 2)
+        add(what);
+      else if (to - from == 2 && n == 2 && sides[from].forward == sides[from + 1].forward)
+        add(what + " and are turned against each other");
+    }
+  }
+
+  const FlatMesh& mesh_;
+  const DefectOptions& options_;
+  std::vector<std::string> defects_;
+};
+
+}  // namespace
+
+std::vector<std::string> find_defects(const FlatMesh& mesh, const DefectOptions& options) {
+  return FlatDefectFinder(mesh, options).run();
+}
+
+}  // namespace carreau
