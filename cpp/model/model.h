@@ -23,6 +23,9 @@ struct FaceCurve {
   int ref = 0;             ///< refc: the same for curves that are one in space
   int end1 = 0, end2 = 0;  ///< references of the points at t = a and t = b
   int line = 0;
+  /// Treated as one point of space although it has a small extent (eps_collapse, RT-0232 sec. 3.3). The curve keeps its
+  /// rank: hosts address curves by it.
+  bool collapsed = false;
 };
 
 struct Face {

@@ -54,8 +54,15 @@ bool needs_gluing(const Model& model);
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
 /// distance is below eps_glue. Curves of one face may be glued to each other (a seam). Internal points keep their
-/// references.
-Model glue(const Model& model, const CurveTraces& traces, double eps_glue);
+/// references. Ends are numbered 2k - 1 and 2k for the k-th curve of the model, curves k; what is merged takes the
+/// smallest number (the numbering of RT-0232 sec. 6.1). `remarks` (may be null) receives a sentence for each curve
+/// shorter than eps_glue.
+Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr);
+
+/// Marks curves shorter than eps_collapse (model length) as collapsed, in all faces, and gives their two ends one
+/// reference (RT-0232 sec. 3.3). The model must have references. A sentence a curve in `remarks` (may be null).
+Model collapse_tiny_curves(const Model& model, const CurveTraces& traces, double eps_collapse,
+                           std::vector<std::string>* remarks = nullptr);
 
 /// Collects curves and points, finds directions and degenerate curves (all of the trace within `eps`, model length, of
 /// one point). The model must have no defect. Throws InvalidModel, naming face, curve and reference, when curves of one

@@ -1,0 +1,61 @@
+#include "model/traces.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace carreau {
+
+double trace_length(std::span<const Vec3> trace) {
+  double length = 0;
+  for (std::size_t i = 1; i < trace.size(); ++i) length += norm(trace[i] - trace[i - 1]);
+  return length;
+}
+
+Vec3 trace_point(std::span<const Vec3> trace, double fraction) {
+  const double target = fraction * trace_length(trace);
+  double before = 0;
+  for (std::size_t i = 1; i < trace.size(); ++i) {
+    const double step = norm(trace[i] - trace[i - 1]);
+    if (step > 0 && before + step >= target)
+      return lerp(trace[i - 1], trace[i], std::clamp((target - before) / step, 0.0, 1.0));
+    before += step;
+  }
+  return trace.back();
+}
+
+namespace {
+
+double squared_distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
+  const Vec3 d = b - a;
+  const double l2 = dot(d, d);
+  const double w = l2 > 0 ? std::clamp(dot(p - a, d) / l2, 0.0, 1.0) : 0;
+  const Vec3 gap = p - (a + w * d);
+  return dot(gap, gap);
+}
+
+}  // namespace
+
+double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough) {
+  double worst = 0;
+  for (const Vec3& p : from) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < to.size() && best > worst * worst; ++i)
+      best = std::min(best, squared_distance_to_segment(p, to[i - 1], to[i]));
+    worst = std::max(worst, std::sqrt(best));
+    if (worst > enough) return worst;
+  }
+  return worst;
+}
+
+double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough) {
+  const double first = one_sided_distance(p, q, enough);
+  return first > enough ? first : std::max(first, one_sided_distance(q, p, enough));
+}
+
+double trace_extent(std::span<const Vec3> trace) {
+  double extent = 0;
+  for (const Vec3& p : trace) extent = std::max(extent, norm(p - trace.front()));
+  return extent;
+}
+
+}  // namespace carreau
