@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include "io/files.h"
+#include "io/mesh_files.h"
+#include "io/mesh_writers.h"
+#include "io_test_support.h"
+
+namespace carreau {
+namespace {
+
+/// Numbers in a chosen byte order, whatever the machine's.
+class Bytes {
+ public:
+  explicit Bytes(bool big_endian = false) : big_(big_endian) {}
+  Bytes& i32(std::int64_t value) { return put(static_cast<std::uint64_t>(value), 4); }
+  Bytes& i64(std::int64_t value) { return put(static_cast<std::uint64_t>(value), 8); }
+  Bytes& f32(float value) { return put(std::bit_cast<std::uint32_t>(value), 4); }
+  Bytes& f64(double value) { return put(std::bit_cast<std::uint64_t>(value), 8); }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(text_.size()); }
+
+ private:
+  Bytes& put(std::uint64_t value, int size) {
+    for (int k = 0; k < size; ++k) text_ += static_cast<char>(value >> 8 * (big_ ? size - 1 - k : k));
+    return *this;
+  }
+  bool big_;
+  std::string text_;
+};
+
+/// Three vertices, one triangle of reference 9 and a section that surface meshes do without, in any version.
+std::string triangle_file(int version, bool big_endian) {
+  Bytes b(big_endian);
+  const std::int64_t position = version >= 3 ? 8 : 4, index = version == 4 ? 8 : 4, real = version == 1 ? 4 : 8;
+  const auto integer = [&](std::int64_t value) { index == 8 ? b.i64(value) : b.i32(value); };
+  const auto number = [&](double value) { real == 4 ? b.f32(static_cast<float>(value)) : b.f64(value); };
+  const auto section = [&](std::int64_t code, std::int64_t content) {
+    const std::int64_t next = code == 54 ? 0 : b.size() + 4 + position + content;
+    b.i32(code);
+    position == 8 ? b.i64(next) : b.i32(next);
+  };
+  b.i32(1).i32(version);
+  section(3, 4);
+  b.i32(3);
+  section(13, index + 2 * index);  // Corners
+  for (const int value : {2, 1, 2}) integer(value);
+  section(4, index + 3 * (3 * real + index));
+  integer(3);
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) number(i * 0.5 - k);
+    integer(-i);
+  }
+  section(6, index + 4 * index);
+  for (const int value : {1, 1, 2, 3, 9}) integer(value);
+  section(54, 0);
+  return b.text();
+}
+
+std::string error_of(std::string_view bytes) {
+  return sentence_of<FileError>([&] { read_mesh_binary(bytes, "x.meshb"); });
+}
+
+TEST(Gmf, ReadsVersions1To4InBothByteOrders) {
+  for (int version = 1; version <= 4; ++version)
+    for (const bool big_endian : {false, true}) {
+      const FlatMesh mesh = read_mesh_binary(triangle_file(version, big_endian), "x.meshb");
+      ASSERT_EQ(mesh.vertices.size(), 3u);
+      EXPECT_EQ(mesh.vertices[2], (Vec3{1, 0, -1}));
+      EXPECT_EQ(mesh.vertex_refs, (std::vector<std::int32_t>{0, -1, -2}));
+      ASSERT_EQ(mesh.triangles.size(), 1u);
+      EXPECT_EQ(mesh.triangles[0], (std::array<std::int32_t, 3>{0, 1, 2}));
+      EXPECT_EQ(mesh.triangle_refs[0], 9);
+    }
+}
+
+TEST(Gmf, WritesVersion2ByteForByte) {
+  FlatMesh mesh = square();
+  mesh.dimension = 2;
+  mesh.edges.clear();
+  mesh.edge_refs.clear();
+  Bytes b(std::endian::native == std::endian::big);
+  b.i32(1).i32(2).i32(3).i32(20).i32(2);
+  b.i32(4).i32(20 + 12 + 4 * 20).i32(4);
+  for (const auto& [x, y, ref] : {std::tuple{0, 0, 1}, {1, 0, 2}, {1, 1, 0}, {0, 1, 4}}) b.f64(x).f64(y).i32(ref);
+  b.i32(6).i32(112 + 12 + 2 * 16).i32(2);
+  b.i32(1).i32(2).i32(3).i32(7).i32(1).i32(3).i32(4).i32(-2);
+  b.i32(54).i32(0);
+  EXPECT_EQ(mesh_bytes(mesh, MeshFormat::meshb), b.text());
+}
+
+TEST(Gmf, Version3HasTheSameMeshWithPositionsOf64Bits) {
+  const FlatMesh mesh = square();
+  const std::string v2 = gmf_bytes(mesh, 2), v3 = gmf_bytes(mesh, 3);
+  EXPECT_EQ(v3.size(), v2.size() + 5 * 4);  // five sections
+  expect_same_geometry(read_mesh_binary(v3, "x"), read_mesh_binary(v2, "x"));
+  EXPECT_FALSE(gmf_needs_64_bits(mesh));
+}
+
+TEST(Gmf, EveryTruncationIsAnError) {
+  for (int version = 1; version <= 4; ++version) {
+    const std::string whole = triangle_file(version, false);
+    for (std::size_t n = 0; n < whole.size(); ++n) EXPECT_NE(error_of(std::string_view(whole).substr(0, n)), "") << n;
+  }
+}
+
+TEST(Gmf, NamesTheByteOfEveryViolation) {
+  const std::string header = Bytes().i32(1).i32(2).i32(3).i32(20).i32(3).text();
+  const auto after_header = [&](const Bytes& b) { return error_of(header + b.text()); };
+  EXPECT_EQ(error_of(""), "x.meshb: byte 0: the file ends inside the header");
+  EXPECT_EQ(error_of("garbage!garbage!"), "x.meshb: byte 0: the file does not start with the mark of a binary mesh");
+  EXPECT_EQ(error_of(Bytes().i32(1).i32(5).text()), "x.meshb: byte 4: version 5 is not one of 1, 2, 3, 4");
+  EXPECT_EQ(after_header(Bytes()), "x.meshb: byte 20: the file ends before the section End");
+  EXPECT_EQ(after_header(Bytes().i32(54).i32(0)), "x.meshb: byte 28: the file has no vertices");
+  EXPECT_EQ(error_of(Bytes().i32(1).i32(2).i32(4).i32(20).i32(0).text()),
+            "x.meshb: byte 16: vertices come before the dimension");
+  EXPECT_EQ(error_of(Bytes().i32(1).i32(2).i32(3).i32(20).i32(7).text()),
+            "x.meshb: byte 16: the dimension is 7 instead of 2 or 3");
+  // A section that sends the reader backwards would be a loop.
+  EXPECT_EQ(after_header(Bytes().i32(13).i32(8).i32(0)),
+            "x.meshb: byte 20: section 13 ends at 8, which is outside of the file");
+  EXPECT_EQ(after_header(Bytes().i32(13).i32(1000).i32(0)),
+            "x.meshb: byte 20: section 13 ends at 1000, which is outside of the file");
+  for (const std::int64_t count : {std::int64_t{2000000000}, std::int64_t{-1}, std::int64_t{2}})
+    EXPECT_EQ(after_header(Bytes().i32(4).i32(60).i32(count).f64(0).f64(0).f64(0).i32(0)),
+              "x.meshb: byte 28: " + std::to_string(count) + " vertices are announced, but there is room for 1");
+  const auto one_vertex = [] { return Bytes().i32(4).i32(60).i32(1).f64(0).f64(0).f64(0).i32(0); };
+  EXPECT_EQ(after_header(Bytes().i32(4).i32(60).i32(1).f64(0).f64(std::nan("")).f64(0).i32(0)),
+            "x.meshb: byte 40: a coordinate is not finite");
+  EXPECT_EQ(after_header(one_vertex().i32(5).i32(84).i32(1).i32(1).i32(2).i32(0).i32(54).i32(0)),
+            "x.meshb: byte 72: edge 1 names a vertex that does not exist (there are 1)");
+  EXPECT_EQ(after_header(one_vertex().i32(4).i32(72).i32(0)), "x.meshb: byte 68: vertices are given twice");
+  EXPECT_EQ(error_of(Bytes().i32(1).i32(4).i32(3).i64(24).i32(3).i32(4).i64(44).i64(std::int64_t{1} << 40).text() +
+                     std::string(100, '\0')),
+            "x.meshb: byte 36: 1099511627776 vertices are announced, but there is room for 0");
+}
+
+TEST(Gmf, IndicesOf64BitsThatDoNotFitAreRefused) {
+  const auto b =
+      Bytes().i32(1).i32(4).i32(3).i64(24).i32(2).i32(4).i64(68).i64(1).f64(0).f64(0).i64(std::int64_t{1} << 33);
+  EXPECT_EQ(error_of(b.text()), "x.meshb: byte 60: the number 8589934592 does not fit in 32 bits");
+}
+
+}  // namespace
+}  // namespace carreau

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "io/mesh_files.h"
+#include "io_test_support.h"
+
+namespace carreau {
+namespace {
+
+/// What the VTK documentation says of an array in the appended section: its offset counts from the byte after the
+/// underscore, and 64 bits of length in bytes come first (header_type UInt64).
+template <typename T>
+std::vector<T> array_of(const std::string& file, const std::string& section, const std::string& name,
+                        const std::string& type) {
+  std::size_t at = file.find("<" + section);
+  const std::size_t section_end = file.find("</" + section + ">");
+  at = file.find("Name=\"" + name + "\"", at);
+  if (at == std::string::npos || at > section_end) {
+    ADD_FAILURE() << section << " has no array " << name;
+    return {};
+  }
+  const std::size_t begin = file.rfind("<DataArray", at);
+  const std::string element = file.substr(begin, file.find("/>", begin) - begin);
+  EXPECT_NE(element.find("type=\"" + type + "\""), std::string::npos) << element;
+  EXPECT_NE(element.find("format=\"appended\""), std::string::npos) << element;
+  const std::size_t offset = std::stoul(element.substr(element.find("offset=\"") + 8));
+  const std::string opening = "<AppendedData encoding=\"raw\">\n_";
+  const std::size_t data = file.find(opening) + opening.size() + offset;
+  std::uint64_t length = 0;
+  std::memcpy(&length, file.data() + data, sizeof length);
+  if (data + sizeof length + length > file.size() || length % sizeof(T) != 0) {
+    ADD_FAILURE() << name << " has " << length << " bytes";
+    return {};
+  }
+  std::vector<T> values(length / sizeof(T));
+  if (length > 0) std::memcpy(values.data(), file.data() + data + sizeof length, length);
+  return values;
+}
+
+TEST(Vtu, HoldsPointsCellsReferencesAndFields) {
+  const std::string file = mesh_bytes(square(), MeshFormat::vtu);
+  EXPECT_EQ(file.find("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\""), 0u);
+  EXPECT_NE(file.find("header_type=\"UInt64\""), std::string::npos);
+  EXPECT_NE(file.find("<Piece NumberOfPoints=\"4\" NumberOfCells=\"6\">"), std::string::npos);
+  EXPECT_EQ(array_of<double>(file, "Points", "Points", "Float64"),
+            (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0.5}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "Cells", "connectivity", "Int32"),
+            (std::vector<std::int32_t>{0, 1, 2, 0, 2, 3, 0, 1, 1, 2, 2, 3, 3, 0}));
+  EXPECT_EQ(array_of<std::int64_t>(file, "Cells", "offsets", "Int64"),
+            (std::vector<std::int64_t>{3, 6, 8, 10, 12, 14}));
+  EXPECT_EQ(array_of<std::uint8_t>(file, "Cells", "types", "UInt8"), (std::vector<std::uint8_t>{5, 5, 3, 3, 3, 3}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "PointData", "reference", "Int32"), (std::vector<std::int32_t>{1, 2, 0, 4}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "CellData", "reference", "Int32"),
+            (std::vector<std::int32_t>{7, -2, 11, 12, 13, 14}));
+  EXPECT_EQ(array_of<double>(file, "PointData", "size", "Float64"), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
+  const auto quality = array_of<double>(file, "CellData", "quality &amp; &lt;shape&gt;", "Float64");
+  ASSERT_EQ(quality.size(), 12u);  // two components for each of six cells
+  EXPECT_EQ(std::vector<double>(quality.begin(), quality.begin() + 4), (std::vector<double>{1, 2, 3, 4}));
+  for (std::size_t i = 4; i < quality.size(); ++i) EXPECT_TRUE(std::isnan(quality[i]));
+}
+
+TEST(Vtu, AMeshOfThePlaneHasZeroZAndZeroReferencesWhenNoneAreGiven) {
+  FlatMesh mesh = square();
+  mesh.dimension = 2;
+  mesh.vertex_refs.clear();
+  mesh.triangle_refs.clear();
+  mesh.edge_refs.clear();
+  const std::string file = mesh_bytes(mesh, MeshFormat::vtu);
+  EXPECT_EQ(array_of<double>(file, "Points", "Points", "Float64"),
+            (std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}));
+  EXPECT_EQ(array_of<std::int32_t>(file, "PointData", "reference", "Int32"), std::vector<std::int32_t>(4, 0));
+  EXPECT_EQ(array_of<std::int32_t>(file, "CellData", "reference", "Int32"), std::vector<std::int32_t>(6, 0));
+}
+
+}  // namespace
+}  // namespace carreau
