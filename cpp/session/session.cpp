@@ -107,9 +107,9 @@ const SurfaceMesh& Session::mesh() const {
   if (!state_->has_mesh) throw InvalidArgument("there is no mesh yet: make one first");
   return state_->result.mesh;
 }
-const std::vector<double>& Session::vertex_sizes() const { return mesh(), state_->result.vertex_size; }
-const CompositeReport& Session::report() const { return mesh(), state_->result.report; }
-const ModelSupports& Session::supports() const { return mesh(), state_->supports; }
+const std::vector<double>& Session::vertex_sizes() const { return (void)mesh(), state_->result.vertex_size; }
+const CompositeReport& Session::report() const { return (void)mesh(), state_->result.report; }
+const ModelSupports& Session::supports() const { return (void)mesh(), state_->supports; }
 
 void Session::make_mesh() {
   State& s = *state_;

@@ -1,0 +1,66 @@
+#include "session/derivatives.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "cad/derivative_check.h"
+
+namespace carreau {
+
+namespace {
+
+struct Box {
+  Vec2 low, high;
+};
+
+Box box_of(const std::vector<CurveSupport>& supports) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Box box{{far, far}, {-far, -far}};
+  for (const CurveSupport& support : supports)
+    for (const Vec2 p : support.uv) {
+      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+  return box;
+}
+
+// Points on curves, where the host is certainly defined, moved a little towards each other's mean: a few for each face.
+std::vector<Vec2> sample_points(const std::vector<CurveSupport>& supports) {
+  std::vector<Vec2> points;
+  constexpr std::size_t most = 3;
+  for (std::size_t c = 0; c < supports.size() && points.size() < most;
+       c += std::max<std::size_t>(1, supports.size() / most)) {
+    const auto& uv = supports[c].uv;
+    const auto& opposite = supports[(c + supports.size() / 2) % supports.size()].uv;
+    points.push_back(lerp(uv[uv.size() / 2], opposite[opposite.size() / 3], 0.02));
+  }
+  return points;
+}
+
+}  // namespace
+
+void check_derivatives(const Model& model, const ModelSupports& supports, Cad& cad, const CompositeOptions& options,
+                       Monitor& monitor) {
+  const bool second = options.size.hgeo_flag == 1;
+  std::vector<std::string> wrong;
+  const auto take = [&](std::vector<std::string>&& more) { wrong.insert(wrong.end(), more.begin(), more.end()); };
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    monitor.checkpoint();
+    const Box box = box_of(supports.of_face[f]);
+    if (box.high.x > box.low.x && box.high.y > box.low.y)
+      take(find_wrong_surface_derivatives(cad, model.faces[f].ref, sample_points(supports.of_face[f]), box.low,
+                                          box.high, second));
+    // First derivatives of curves serve only the curvature.
+    for (std::size_t c = 0; second && c < supports.of_face[f].size(); ++c) {
+      const Interval range{supports.of_face[f][c].t.front(), supports.of_face[f][c].t.back()};
+      const std::array<double, 1> middle{range.a + 0.43 * (range.b - range.a)};
+      take(find_wrong_curve_derivatives(cad, model.faces[f].ref, static_cast<int>(c) + 1, middle, range, true));
+    }
+  }
+  if (wrong.empty()) return;
+  for (std::size_t i = 1; i < wrong.size(); ++i) monitor.message(Level::error, wrong[i]);
+  throw CallbackError(wrong.front());
+}
+
+}  // namespace carreau
