@@ -168,27 +168,27 @@ CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const car
 /* ---- Geometry: callbacks for C hosts ---- */
 
 /* A callback returns 0, or any other value to report a failure: the run ends with CARREAU_ERR_CALLBACK and a sentence
- * that holds the value. Sizes and radii may also return CARREAU_NO_ANSWER. No pointer is NULL. Entries above `order`
- * may be left untouched.
+ * that holds the value. A size or radius may return CARREAU_NO_ANSWER, or 0 and leave CARREAU_HVIDE in *value: the host
+ * does not answer. Entries above `order` may be left untouched.
  *   face    reference of the face
  *   ic      rank of the curve in the face, from 1
  *   order   highest derivative wanted: 0, 1 or 2, never above surface_order (curve_order)
  *   user    the member `user` of the struct */
 #define CARREAU_NO_ANSWER (-1)
 
-/* S(u, v) and its derivatives, [3] each. */
-typedef int32_t (*carreau_surface_fn)(int32_t face, const double* uv, int32_t order, double* S, double* Su, double* Sv,
-                                      double* Suu, double* Suv, double* Svv, void* user);
-/* The same at n points: uv is n x 2 and every result n x 3, row by row. */
+/* S(u, v) and its derivatives, [3] each. No pointer is NULL. */
+typedef int32_t (*carreau_surface_fn)(int32_t face, double u, double v, int32_t order, double* S, double* Su,
+                                      double* Sv, double* Suu, double* Suv, double* Svv, void* user);
+/* The same at n > 0 points: uv is n x 2 and every result n x 3, row by row; those above `order` are NULL. */
 typedef int32_t (*carreau_surface_batch_fn)(int32_t face, int64_t n, const double* uv, int32_t order, double* S,
                                             double* Su, double* Sv, double* Suu, double* Suv, double* Svv, void* user);
 /* Interval [a, b] of a curve, a < b. */
 typedef int32_t (*carreau_interval_fn)(int32_t face, int32_t ic, double* a, double* b, void* user);
-/* C(t) in the parameter plane and its derivatives, [2] each. */
+/* C(t) in the parameter plane and its derivatives, [2] each. No pointer is NULL. */
 typedef int32_t (*carreau_curve_fn)(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct,
                                     double* Ctt, void* user);
 /* Wanted size (hphy_flag = 2) or radius of curvature (hgeo_flag = 2), a model length > 0. */
-typedef int32_t (*carreau_surface_value_fn)(int32_t face, const double* uv, double* value, void* user);
+typedef int32_t (*carreau_surface_value_fn)(int32_t face, double u, double v, double* value, void* user);
 typedef int32_t (*carreau_curve_value_fn)(int32_t face, int32_t ic, double t, double* value, void* user);
 typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* user);
 

@@ -1,0 +1,534 @@
+!> The functions of cabi/include/carreau.h as Fortran sees them: names, types, nothing else. Private to module carreau.
+module carreau_c
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, &
+    c_ptr, c_size_t
+  implicit none
+  public
+
+  type, bind(c) :: c_error_place
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: face = 0, ic = 0, curve = 0, point = 0, line = 0, reserved = 0
+    real(c_double) :: uv(2) = 0, t = 0
+  end type c_error_place
+
+  type, bind(c) :: c_cad_m
+    integer(c_size_t) :: struct_size = 0
+    type(c_funptr) :: cad_init = c_null_funptr
+    type(c_funptr) :: surf0 = c_null_funptr, surf1 = c_null_funptr, surf2 = c_null_funptr
+    type(c_funptr) :: curv_int = c_null_funptr
+    type(c_funptr) :: curv0 = c_null_funptr, curv1 = c_null_funptr, curv2 = c_null_funptr
+    type(c_funptr) :: cad_hphys = c_null_funptr, cad_hphyc = c_null_funptr, cad_hphyp = c_null_funptr
+    type(c_funptr) :: cad_rads = c_null_funptr, cad_radc = c_null_funptr
+  end type c_cad_m
+
+  type, bind(c) :: c_cad
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: surface_order = 0, curve_order = 0, reentrant = 0, reserved = 0
+    type(c_funptr) :: surface = c_null_funptr, surface_batch = c_null_funptr
+    type(c_funptr) :: curve_interval = c_null_funptr, curve = c_null_funptr
+    type(c_funptr) :: surface_size = c_null_funptr, curve_size = c_null_funptr, point_size = c_null_funptr
+    type(c_funptr) :: surface_radius = c_null_funptr, curve_radius = c_null_funptr
+  end type c_cad
+
+  type, bind(c) :: c_parameter
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: name = c_null_ptr, help = c_null_ptr, default_text = c_null_ptr, choices = c_null_ptr
+    real(c_double) :: minimum = 0, maximum = 0, default_number = 0
+    integer(c_int32_t) :: type = 0, diag_relative = 0
+  end type c_parameter
+
+  type, bind(c) :: c_report
+    integer(c_size_t) :: struct_size = 0
+    real(c_double) :: diag = 0
+    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0
+    integer(c_int64_t) :: curv0_calls = 0, curv1_calls = 0, curv2_calls = 0
+    integer(c_int64_t) :: size_calls = 0
+    real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
+  end type c_report
+
+  type, bind(c) :: c_face
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: ref = 0, status = 0
+    integer(c_int64_t) :: triangles = 0
+    type(c_ptr) :: why = c_null_ptr
+  end type c_face
+
+  type, bind(c) :: c_quality
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
+    real(c_double) :: q1_mean = 0, q1_min = 0, q1_p1 = 0, q1_max = 0
+    real(c_double) :: q2_mean = 0, q2_min = 0, q2_p1 = 0, q2_max = 0
+    real(c_double) :: angle_min = 0, angle_max = 0, area = 0
+    real(c_double) :: edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
+  end type c_quality
+
+  interface
+    function c_status_name(status) result(name) bind(c, name="carreau_status_name")
+      import :: c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: status
+      type(c_ptr) :: name
+    end function c_status_name
+
+    function c_status_meaning(status) result(meaning) bind(c, name="carreau_status_meaning")
+      import :: c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: status
+      type(c_ptr) :: meaning
+    end function c_status_meaning
+
+    function c_version() result(version) bind(c, name="carreau_version")
+      import :: c_ptr
+      implicit none
+      type(c_ptr) :: version
+    end function c_version
+
+    function c_version_number() result(number) bind(c, name="carreau_version_number")
+      import :: c_int32_t
+      implicit none
+      integer(c_int32_t) :: number
+    end function c_version_number
+
+    function c_session_create(session) result(status) bind(c, name="carreau_session_create")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: session
+      integer(c_int32_t) :: status
+    end function c_session_create
+
+    subroutine c_session_free(session) bind(c, name="carreau_session_free")
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: session
+    end subroutine c_session_free
+
+    function c_last_error(session) result(sentence) bind(c, name="carreau_last_error")
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_ptr) :: sentence
+    end function c_last_error
+
+    function c_last_error_place(session, place) result(status) bind(c, name="carreau_last_error_place")
+      import :: c_error_place, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_error_place), intent(inout) :: place
+      integer(c_int32_t) :: status
+    end function c_last_error_place
+
+    function c_set_cad_m(session, routines) result(status) bind(c, name="carreau_set_cad_m")
+      import :: c_cad_m, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_cad_m), intent(in) :: routines
+      integer(c_int32_t) :: status
+    end function c_set_cad_m
+
+    function c_set_cad(session, callbacks) result(status) bind(c, name="carreau_set_cad")
+      import :: c_cad, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_cad), intent(in) :: callbacks
+      integer(c_int32_t) :: status
+    end function c_set_cad
+
+    function c_model_clear(session) result(status) bind(c, name="carreau_model_clear")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_model_clear
+
+    function c_model_add_face(session, ref, orientation) result(status) bind(c, name="carreau_model_add_face")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: ref, orientation
+      integer(c_int32_t) :: status
+    end function c_model_add_face
+
+    function c_model_add_curve(session, face_ref, type, ref, end1, end2) result(status) &
+        bind(c, name="carreau_model_add_curve")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, type, ref, end1, end2
+      integer(c_int32_t) :: status
+    end function c_model_add_curve
+
+    function c_model_add_point(session, face_ref, ref, u, v) result(status) bind(c, name="carreau_model_add_point")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, ref
+      real(c_double), value :: u, v
+      integer(c_int32_t) :: status
+    end function c_model_add_point
+
+    function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_model_read_pardom
+
+    function c_model_write_pardom(session, path) result(status) bind(c, name="carreau_model_write_pardom")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_model_write_pardom
+
+    function c_model_check(session) result(status) bind(c, name="carreau_model_check")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_model_check
+
+    function c_model_count(session, faces, curves, points) result(status) bind(c, name="carreau_model_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), intent(inout) :: faces, curves, points
+      integer(c_int32_t) :: status
+    end function c_model_count
+
+    function c_model_faces(session, capacity, refs, orientations) result(status) bind(c, name="carreau_model_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*), orientations(*)
+      integer(c_int32_t) :: status
+    end function c_model_faces
+
+    function c_model_curves(session, capacity, face_refs, types, refs, ends) result(status) &
+        bind(c, name="carreau_model_curves")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: face_refs(*), types(*), refs(*), ends(*)
+      integer(c_int32_t) :: status
+    end function c_model_curves
+
+    function c_model_points(session, capacity, face_refs, refs, uv) result(status) bind(c, name="carreau_model_points")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: face_refs(*), refs(*)
+      real(c_double), intent(inout) :: uv(*)
+      integer(c_int32_t) :: status
+    end function c_model_points
+
+    function c_parameter_count() result(count) bind(c, name="carreau_parameter_count")
+      import :: c_int32_t
+      implicit none
+      integer(c_int32_t) :: count
+    end function c_parameter_count
+
+    function c_parameter_info(index, parameter) result(status) bind(c, name="carreau_parameter_info")
+      import :: c_int32_t, c_parameter
+      implicit none
+      integer(c_int32_t), value :: index
+      type(c_parameter), intent(inout) :: parameter
+      integer(c_int32_t) :: status
+    end function c_parameter_info
+
+    function c_set_integer(session, name, value) result(status) bind(c, name="carreau_set_integer")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t), value :: value
+      integer(c_int32_t) :: status
+    end function c_set_integer
+
+    function c_set_real(session, name, value) result(status) bind(c, name="carreau_set_real")
+      import :: c_char, c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), value :: value
+      integer(c_int32_t) :: status
+    end function c_set_real
+
+    function c_set_text(session, name, value) result(status) bind(c, name="carreau_set_text")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*), value(*)
+      integer(c_int32_t) :: status
+    end function c_set_text
+
+    function c_set_word(session, name, word) result(status) bind(c, name="carreau_set_word")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*), word(*)
+      integer(c_int32_t) :: status
+    end function c_set_word
+
+    function c_get_integer(session, name, value) result(status) bind(c, name="carreau_get_integer")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t), intent(inout) :: value
+      integer(c_int32_t) :: status
+    end function c_get_integer
+
+    function c_get_real(session, name, value) result(status) bind(c, name="carreau_get_real")
+      import :: c_char, c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*)
+      real(c_double), intent(inout) :: value
+      integer(c_int32_t) :: status
+    end function c_get_real
+
+    function c_get_text(session, name, value) result(status) bind(c, name="carreau_get_text")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*)
+      type(c_ptr), intent(inout) :: value
+      integer(c_int32_t) :: status
+    end function c_get_text
+
+    function c_reset_parameter(session, name) result(status) bind(c, name="carreau_reset_parameter")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t) :: status
+    end function c_reset_parameter
+
+    function c_reset_parameters(session) result(status) bind(c, name="carreau_reset_parameters")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_reset_parameters
+
+    function c_set_message_callback(session, callback, user) result(status) &
+        bind(c, name="carreau_set_message_callback")
+      import :: c_funptr, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session, user
+      type(c_funptr), value :: callback
+      integer(c_int32_t) :: status
+    end function c_set_message_callback
+
+    function c_set_progress_callback(session, callback, user) result(status) &
+        bind(c, name="carreau_set_progress_callback")
+      import :: c_funptr, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session, user
+      type(c_funptr), value :: callback
+      integer(c_int32_t) :: status
+    end function c_set_progress_callback
+
+    subroutine c_stop(session) bind(c, name="carreau_stop")
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: session
+    end subroutine c_stop
+
+    function c_mesh_generate(session) result(status) bind(c, name="carreau_mesh_generate")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_mesh_generate
+
+    function c_run_env(session, path) result(status) bind(c, name="carreau_run_env")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_run_env
+
+    function c_session_report(session, report) result(status) bind(c, name="carreau_session_report")
+      import :: c_int32_t, c_ptr, c_report
+      implicit none
+      type(c_ptr), value :: session
+      type(c_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_session_report
+
+    function c_session_mesh(session, mesh) result(status) bind(c, name="carreau_session_mesh")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_ptr), intent(inout) :: mesh
+      integer(c_int32_t) :: status
+    end function c_session_mesh
+
+    function c_mesh_create(mesh) result(status) bind(c, name="carreau_mesh_create")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), intent(inout) :: mesh
+      integer(c_int32_t) :: status
+    end function c_mesh_create
+
+    subroutine c_mesh_free(mesh) bind(c, name="carreau_mesh_free")
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+    end subroutine c_mesh_free
+
+    function c_mesh_last_error(mesh) result(sentence) bind(c, name="carreau_mesh_last_error")
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_ptr) :: sentence
+    end function c_mesh_last_error
+
+    function c_mesh_read(mesh, path) result(status) bind(c, name="carreau_mesh_read")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_read
+
+    function c_mesh_write(mesh, path) result(status) bind(c, name="carreau_mesh_write")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_write
+
+    function c_mesh_count(mesh, vertices, triangles, edges, faces) result(status) bind(c, name="carreau_mesh_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), intent(inout) :: vertices, triangles, edges, faces
+      integer(c_int32_t) :: status
+    end function c_mesh_count
+
+    function c_mesh_dimension(mesh, dimension) result(status) bind(c, name="carreau_mesh_dimension")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), intent(inout) :: dimension
+      integer(c_int32_t) :: status
+    end function c_mesh_dimension
+
+    function c_mesh_vertices(mesh, capacity, xyz) result(status) bind(c, name="carreau_mesh_vertices")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_vertices
+
+    function c_mesh_vertex_refs(mesh, capacity, refs) result(status) bind(c, name="carreau_mesh_vertex_refs")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_vertex_refs
+
+    function c_mesh_vertex_sizes(mesh, capacity, sizes) result(status) bind(c, name="carreau_mesh_vertex_sizes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: sizes(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_vertex_sizes
+
+    function c_mesh_triangles(mesh, capacity, vertices) result(status) bind(c, name="carreau_mesh_triangles")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: vertices(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_triangles
+
+    function c_mesh_triangle_refs(mesh, capacity, refs) result(status) bind(c, name="carreau_mesh_triangle_refs")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_triangle_refs
+
+    function c_mesh_corner_uv(mesh, capacity, uv) result(status) bind(c, name="carreau_mesh_corner_uv")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: uv(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_corner_uv
+
+    function c_mesh_edges(mesh, capacity, vertices) result(status) bind(c, name="carreau_mesh_edges")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: vertices(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_edges
+
+    function c_mesh_edge_refs(mesh, capacity, refs) result(status) bind(c, name="carreau_mesh_edge_refs")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_edge_refs
+
+    function c_mesh_face(mesh, index, face) result(status) bind(c, name="carreau_mesh_face")
+      import :: c_face, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: index
+      type(c_face), intent(inout) :: face
+      integer(c_int32_t) :: status
+    end function c_mesh_face
+
+    function c_mesh_quality(mesh, quality) result(status) bind(c, name="carreau_mesh_quality")
+      import :: c_int32_t, c_ptr, c_quality
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_quality), intent(inout) :: quality
+      integer(c_int32_t) :: status
+    end function c_mesh_quality
+
+    function c_mesh_defects(mesh, closed, limit, count, text) result(status) bind(c, name="carreau_mesh_defects")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: closed
+      integer(c_int64_t), value :: limit
+      integer(c_int64_t), intent(inout) :: count
+      type(c_ptr), intent(inout) :: text
+      integer(c_int32_t) :: status
+    end function c_mesh_defects
+
+    function c_strlen(text) result(length) bind(c, name="strlen")
+      import :: c_ptr, c_size_t
+      implicit none
+      type(c_ptr), value :: text
+      integer(c_size_t) :: length
+    end function c_strlen
+  end interface
+end module carreau_c
