@@ -74,6 +74,8 @@ int compare(TwoTerms left, TwoTerms right) noexcept {
 }  // namespace
 
 int exact_orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
+  // On a side parallel to an axis both products have a factor that is zero, exactly: differences never underflow.
+  if ((a.x == c.x || b.y == c.y) && (a.y == c.y || b.x == c.x)) return 0;
   if (!in_safe_range(a) || !in_safe_range(b) || !in_safe_range(c)) {
     if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return 0;
     const Integers<6> n({a.x, a.y, b.x, b.y, c.x, c.y});
