@@ -91,8 +91,7 @@ struct CallbackStore {
 /// The store is a base, so that it is there when HostCad is made.
 class CallbackCad final : private CallbackStore, public HostCad {
  public:
-  explicit CallbackCad(const carreau_cad& callbacks)
-      : CallbackStore{callbacks}, HostCad(table_of(CallbackStore::callbacks)) {}
+  explicit CallbackCad(const carreau_cad& given) : CallbackStore{given}, HostCad(table_of(CallbackStore::callbacks)) {}
 
  private:
   static HostTable table_of(carreau_cad& c) {

@@ -1,0 +1,4 @@
+program blsurf
+  use blsurf_m
+  call blsurf_s
+end program blsurf

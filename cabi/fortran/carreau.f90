@@ -1,0 +1,865 @@
+!> Fortran 2003 face of cabi/include/carreau.h: the same names, the same order of arguments, the status last. What each
+!> routine means, its units and its errors are written there. Different here:
+!>   - vertices, triangles, edges, faces and parameters count from 1;
+!>   - arrays of results are allocated by the call, column by column: xyz(3, n), triangles(3, m), uv(2, 3, m); after an
+!>     error they are not allocated;
+!>   - texts are allocated by the call, and trailing blanks of texts that are given do not count;
+!>   - callbacks are arguments of their own, so that the compiler checks them; those that are optional may be left out.
+!> Callbacks are bind(c) procedures of a module, with the interfaces below. They must return: no `stop`.
+module carreau
+  use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, c_funptr, c_int32_t, &
+    c_int64_t, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t
+  use carreau_c
+  implicit none
+  private
+
+  public :: carreau_session, carreau_mesh, carreau_error_place, carreau_parameter, carreau_report, carreau_face
+  public :: carreau_quality
+  public :: carreau_init_fn, carreau_surf0_fn, carreau_surf1_fn, carreau_surf2_fn, carreau_curv_int_fn, carreau_curv_fn
+  public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
+  public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
+  public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn
+  public :: carreau_message_fn, carreau_progress_fn
+  public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
+  public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
+  public :: carreau_set_cad_m, carreau_set_cad
+  public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
+  public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
+  public :: carreau_model_faces, carreau_model_curves, carreau_model_points
+  public :: carreau_parameter_count, carreau_parameter_info
+  public :: carreau_set_integer, carreau_set_real, carreau_set_text, carreau_set_word
+  public :: carreau_get_integer, carreau_get_real, carreau_get_text, carreau_reset_parameter, carreau_reset_parameters
+  public :: carreau_set_message_callback, carreau_set_progress_callback, carreau_stop
+  public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
+  public :: carreau_session_mesh, carreau_mesh_create, carreau_mesh_free, carreau_mesh_last_error
+  public :: carreau_mesh_read, carreau_mesh_write, carreau_mesh_count, carreau_mesh_dimension
+  public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
+  public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
+  public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
+  public :: carreau_string
+
+  integer(c_int32_t), parameter, public :: CARREAU_OK = 0, CARREAU_ERR_ARGUMENT = 1, CARREAU_ERR_MODEL = 2, &
+    CARREAU_ERR_FILE = 3, CARREAU_ERR_CALLBACK = 4, CARREAU_ERR_DOMAIN = 5, CARREAU_ERR_LIMIT = 6, &
+    CARREAU_ERR_CANCELLED = 7, CARREAU_ERR_MEMORY = 8, CARREAU_ERR_SEQUENCE = 9, CARREAU_ERR_PARTIAL = 10, &
+    CARREAU_ERR_BUSY = 11, CARREAU_ERR_INTERNAL = 99
+  integer(c_int32_t), parameter, public :: CARREAU_NO_ANSWER = -1
+  real(c_double), parameter, public :: CARREAU_HVIDE = -1.e38_c_double
+  integer(c_int32_t), parameter, public :: CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2
+  integer(c_int32_t), parameter, public :: CARREAU_INTEGER = 1, CARREAU_REAL = 2, CARREAU_TEXT = 3
+  integer(c_int32_t), parameter, public :: CARREAU_LEVEL_ERROR = 0, CARREAU_LEVEL_WARNING = 1, &
+    CARREAU_LEVEL_SUMMARY = 10, CARREAU_LEVEL_DETAIL = 50, CARREAU_LEVEL_DEBUG = 100
+  integer(c_int32_t), parameter, public :: CARREAU_PHASE_IDLE = 0, CARREAU_PHASE_MODEL = 1, CARREAU_PHASE_CURVES = 2, &
+    CARREAU_PHASE_PATCHES = 3, CARREAU_PHASE_ASSEMBLY = 4, CARREAU_PHASE_WRITING = 5
+  integer(c_int32_t), parameter, public :: CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, &
+    CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3
+
+  !> Geometry, model, parameters and the mesh made of them.
+  type :: carreau_session
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  end type carreau_session
+
+  !> A mesh: of a session, or read from a file.
+  type :: carreau_mesh
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  end type carreau_mesh
+
+  type :: carreau_error_place
+    integer(c_int32_t) :: face = 0, ic = 0, curve = 0, point = 0, line = 0
+    real(c_double) :: uv(2) = 0, t = 0
+  end type carreau_error_place
+
+  type :: carreau_parameter
+    character(len=:), allocatable :: name, help, default_text, choices
+    integer(c_int32_t) :: type = 0
+    real(c_double) :: minimum = 0, maximum = 0, default_number = 0
+    logical :: diag_relative = .false.
+  end type carreau_parameter
+
+  type :: carreau_report
+    real(c_double) :: diag = 0
+    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0
+    integer(c_int64_t) :: curv0_calls = 0, curv1_calls = 0, curv2_calls = 0, size_calls = 0
+    real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
+  end type carreau_report
+
+  type :: carreau_face
+    integer(c_int32_t) :: ref = 0, status = 0
+    integer(c_int64_t) :: triangles = 0
+    character(len=:), allocatable :: why
+  end type carreau_face
+
+  type :: carreau_quality
+    integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
+    real(c_double) :: q1_mean = 0, q1_min = 0, q1_p1 = 0, q1_max = 0
+    real(c_double) :: q2_mean = 0, q2_min = 0, q2_p1 = 0, q2_max = 0
+    real(c_double) :: angle_min = 0, angle_max = 0, area = 0
+    real(c_double) :: edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
+  end type carreau_quality
+
+  ! The routines of cad_m, by reference (RT-0232 sec. 3.1).
+  abstract interface
+    subroutine carreau_init_fn() bind(c)
+      implicit none
+    end subroutine carreau_init_fn
+
+    subroutine carreau_surf0_fn(refs, uv, S) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs
+      real(c_double), intent(in) :: uv(2)
+      real(c_double), intent(out) :: S(3)
+    end subroutine carreau_surf0_fn
+
+    subroutine carreau_surf1_fn(refs, uv, Su, Sv) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs
+      real(c_double), intent(in) :: uv(2)
+      real(c_double), intent(out) :: Su(3), Sv(3)
+    end subroutine carreau_surf1_fn
+
+    subroutine carreau_surf2_fn(refs, uv, Suu, Suv, Svv) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs
+      real(c_double), intent(in) :: uv(2)
+      real(c_double), intent(out) :: Suu(3), Suv(3), Svv(3)
+    end subroutine carreau_surf2_fn
+
+    subroutine carreau_curv_int_fn(refs, ic, a, b) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs, ic
+      real(c_double), intent(out) :: a, b
+    end subroutine carreau_curv_int_fn
+
+    !> curv0, curv1 and curv2: C(t) or a derivative of it.
+    subroutine carreau_curv_fn(refs, ic, t, C) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs, ic
+      real(c_double), intent(in) :: t
+      real(c_double), intent(out) :: C(2)
+    end subroutine carreau_curv_fn
+
+    !> cad_hphys and cad_rads: h keeps its value when there is no answer.
+    subroutine carreau_hphys_fn(refs, uv, h) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs
+      real(c_double), intent(in) :: uv(2)
+      real(c_double), intent(inout) :: h
+    end subroutine carreau_hphys_fn
+
+    !> cad_hphyc and cad_radc.
+    subroutine carreau_hphyc_fn(refs, ic, t, h) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refs, ic
+      real(c_double), intent(in) :: t
+      real(c_double), intent(inout) :: h
+    end subroutine carreau_hphyc_fn
+
+    subroutine carreau_hphyp_fn(refp, h) bind(c)
+      import :: c_double, c_int32_t
+      implicit none
+      integer(c_int32_t), intent(in) :: refp
+      real(c_double), intent(inout) :: h
+    end subroutine carreau_hphyp_fn
+  end interface
+
+  ! The callbacks of carreau_set_cad: values by value, a status returned.
+  abstract interface
+    function carreau_surface_fn(face, u, v, order, S, Su, Sv, Suu, Suv, Svv, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face, order
+      real(c_double), value :: u, v
+      real(c_double), intent(inout) :: S(3), Su(3), Sv(3), Suu(3), Suv(3), Svv(3)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_surface_fn
+
+    !> Arrays above `order` must not be touched: they are not there.
+    function carreau_surface_batch_fn(face, n, uv, order, S, Su, Sv, Suu, Suv, Svv, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face, order
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: uv(2, n)
+      real(c_double), intent(inout) :: S(3, n), Su(3, n), Sv(3, n), Suu(3, n), Suv(3, n), Svv(3, n)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_surface_batch_fn
+
+    function carreau_interval_fn(face, ic, a, b, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face, ic
+      real(c_double), intent(inout) :: a, b
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_interval_fn
+
+    function carreau_curve_fn(face, ic, t, order, C, Ct, Ctt, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face, ic, order
+      real(c_double), value :: t
+      real(c_double), intent(inout) :: C(2), Ct(2), Ctt(2)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_curve_fn
+
+    function carreau_surface_value_fn(face, u, v, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face
+      real(c_double), value :: u, v
+      real(c_double), intent(inout) :: value
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_surface_value_fn
+
+    function carreau_curve_value_fn(face, ic, t, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face, ic
+      real(c_double), value :: t
+      real(c_double), intent(inout) :: value
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_curve_value_fn
+
+    function carreau_point_value_fn(point, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: point
+      real(c_double), intent(inout) :: value
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_point_value_fn
+
+    !> carreau_string(text) is the sentence.
+    subroutine carreau_message_fn(level, text, user) bind(c)
+      import :: c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: level
+      type(c_ptr), value :: text, user
+    end subroutine carreau_message_fn
+
+    !> A status other than 0 stops the run.
+    function carreau_progress_fn(phase, entity, fraction, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: phase, entity
+      real(c_double), value :: fraction
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_progress_fn
+  end interface
+
+contains
+
+  ! ---- Texts ----
+
+  !> Copy of a text of C; "" for a null pointer.
+  function carreau_string(text) result(copy)
+    type(c_ptr), intent(in) :: text
+    character(len=:), allocatable :: copy
+    character(kind=c_char), pointer :: letters(:)
+    integer :: i, n
+    n = 0
+    if (c_associated(text)) n = int(c_strlen(text))
+    allocate (character(len=n) :: copy)
+    if (n == 0) return
+    call c_f_pointer(text, letters, [n])
+    do i = 1, n
+      copy(i:i) = letters(i)
+    end do
+  end function carreau_string
+
+  pure function c_text(text) result(terminated)
+    character(len=*), intent(in) :: text
+    character(len=len_trim(text) + 1) :: terminated
+    terminated = trim(text)//c_null_char
+  end function c_text
+
+  ! ---- Versions and status ----
+
+  function carreau_status_name(status) result(name)
+    integer(c_int32_t), intent(in) :: status
+    character(len=:), allocatable :: name
+    name = carreau_string(c_status_name(status))
+  end function carreau_status_name
+
+  function carreau_status_meaning(status) result(meaning)
+    integer(c_int32_t), intent(in) :: status
+    character(len=:), allocatable :: meaning
+    meaning = carreau_string(c_status_meaning(status))
+  end function carreau_status_meaning
+
+  function carreau_version() result(version)
+    character(len=:), allocatable :: version
+    version = carreau_string(c_version())
+  end function carreau_version
+
+  function carreau_version_number() result(number)
+    integer(c_int32_t) :: number
+    number = c_version_number()
+  end function carreau_version_number
+
+  ! ---- Sessions ----
+
+  subroutine carreau_session_create(session, status)
+    type(carreau_session), intent(out) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_session_create(session%handle)
+  end subroutine carreau_session_create
+
+  subroutine carreau_session_free(session)
+    type(carreau_session), intent(inout) :: session
+    call c_session_free(session%handle)
+    session%handle = c_null_ptr
+  end subroutine carreau_session_free
+
+  function carreau_last_error(session) result(sentence)
+    type(carreau_session), intent(in) :: session
+    character(len=:), allocatable :: sentence
+    sentence = carreau_string(c_last_error(session%handle))
+  end function carreau_last_error
+
+  subroutine carreau_last_error_place(session, place, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_error_place), intent(out) :: place
+    integer(c_int32_t), intent(out) :: status
+    type(c_error_place) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_last_error_place(session%handle, c)
+    if (status /= CARREAU_OK) return
+    place = carreau_error_place(c%face, c%ic, c%curve, c%point, c%line, c%uv, c%t)
+  end subroutine carreau_last_error_place
+
+  ! ---- Geometry ----
+
+  subroutine carreau_set_cad_m(session, surf0, curv_int, curv0, status, cad_init, surf1, surf2, curv1, curv2, &
+      cad_hphys, cad_hphyc, cad_hphyp, cad_rads, cad_radc)
+    type(carreau_session), intent(in) :: session
+    procedure(carreau_surf0_fn) :: surf0
+    procedure(carreau_curv_int_fn) :: curv_int
+    procedure(carreau_curv_fn) :: curv0
+    integer(c_int32_t), intent(out) :: status
+    procedure(carreau_init_fn), optional :: cad_init
+    procedure(carreau_surf1_fn), optional :: surf1
+    procedure(carreau_surf2_fn), optional :: surf2
+    procedure(carreau_curv_fn), optional :: curv1, curv2
+    procedure(carreau_hphys_fn), optional :: cad_hphys, cad_rads
+    procedure(carreau_hphyc_fn), optional :: cad_hphyc, cad_radc
+    procedure(carreau_hphyp_fn), optional :: cad_hphyp
+    type(c_cad_m) :: routines
+    routines%struct_size = size(transfer(routines, [c_null_char]))
+    routines%surf0 = c_funloc(surf0)
+    routines%curv_int = c_funloc(curv_int)
+    routines%curv0 = c_funloc(curv0)
+    if (present(cad_init)) routines%cad_init = c_funloc(cad_init)
+    if (present(surf1)) routines%surf1 = c_funloc(surf1)
+    if (present(surf2)) routines%surf2 = c_funloc(surf2)
+    if (present(curv1)) routines%curv1 = c_funloc(curv1)
+    if (present(curv2)) routines%curv2 = c_funloc(curv2)
+    if (present(cad_hphys)) routines%cad_hphys = c_funloc(cad_hphys)
+    if (present(cad_hphyc)) routines%cad_hphyc = c_funloc(cad_hphyc)
+    if (present(cad_hphyp)) routines%cad_hphyp = c_funloc(cad_hphyp)
+    if (present(cad_rads)) routines%cad_rads = c_funloc(cad_rads)
+    if (present(cad_radc)) routines%cad_radc = c_funloc(cad_radc)
+    status = c_set_cad_m(session%handle, routines)
+  end subroutine carreau_set_cad_m
+
+  !> surface_order and curve_order: 2 when they are left out. user: c_loc of a target, c_null_ptr when left out.
+  subroutine carreau_set_cad(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
+      reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius)
+    type(carreau_session), intent(in) :: session
+    procedure(carreau_surface_fn) :: surface
+    procedure(carreau_interval_fn) :: curve_interval
+    procedure(carreau_curve_fn) :: curve
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr), intent(in), optional :: user
+    integer(c_int32_t), intent(in), optional :: surface_order, curve_order
+    logical, intent(in), optional :: reentrant
+    procedure(carreau_surface_batch_fn), optional :: surface_batch
+    procedure(carreau_surface_value_fn), optional :: surface_size, surface_radius
+    procedure(carreau_curve_value_fn), optional :: curve_size, curve_radius
+    procedure(carreau_point_value_fn), optional :: point_size
+    type(c_cad) :: callbacks
+    callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
+    callbacks%surface_order = 2
+    callbacks%curve_order = 2
+    callbacks%surface = c_funloc(surface)
+    callbacks%curve_interval = c_funloc(curve_interval)
+    callbacks%curve = c_funloc(curve)
+    if (present(user)) callbacks%user = user
+    if (present(surface_order)) callbacks%surface_order = surface_order
+    if (present(curve_order)) callbacks%curve_order = curve_order
+    if (present(reentrant)) callbacks%reentrant = merge(1_c_int32_t, 0_c_int32_t, reentrant)
+    if (present(surface_batch)) callbacks%surface_batch = c_funloc(surface_batch)
+    if (present(surface_size)) callbacks%surface_size = c_funloc(surface_size)
+    if (present(curve_size)) callbacks%curve_size = c_funloc(curve_size)
+    if (present(point_size)) callbacks%point_size = c_funloc(point_size)
+    if (present(surface_radius)) callbacks%surface_radius = c_funloc(surface_radius)
+    if (present(curve_radius)) callbacks%curve_radius = c_funloc(curve_radius)
+    status = c_set_cad(session%handle, callbacks)
+  end subroutine carreau_set_cad
+
+  ! ---- Model ----
+
+  subroutine carreau_model_clear(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_clear(session%handle)
+  end subroutine carreau_model_clear
+
+  subroutine carreau_model_add_face(session, ref, orientation, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: ref, orientation
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_add_face(session%handle, ref, orientation)
+  end subroutine carreau_model_add_face
+
+  subroutine carreau_model_add_curve(session, face_ref, type, ref, end1, end2, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, type, ref, end1, end2
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_add_curve(session%handle, face_ref, type, ref, end1, end2)
+  end subroutine carreau_model_add_curve
+
+  subroutine carreau_model_add_point(session, face_ref, ref, u, v, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, ref
+    real(c_double), intent(in) :: u, v
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_add_point(session%handle, face_ref, ref, u, v)
+  end subroutine carreau_model_add_point
+
+  subroutine carreau_model_read_pardom(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_read_pardom(session%handle, c_text(path))
+  end subroutine carreau_model_read_pardom
+
+  subroutine carreau_model_write_pardom(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_write_pardom(session%handle, c_text(path))
+  end subroutine carreau_model_write_pardom
+
+  subroutine carreau_model_check(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_check(session%handle)
+  end subroutine carreau_model_check
+
+  subroutine carreau_model_count(session, faces, curves, points, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(out) :: faces, curves, points
+    integer(c_int32_t), intent(out) :: status
+    faces = 0; curves = 0; points = 0
+    status = c_model_count(session%handle, faces, curves, points)
+  end subroutine carreau_model_count
+
+  subroutine carreau_model_faces(session, refs, orientations, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: refs(:), orientations(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: faces, curves, points
+    call carreau_model_count(session, faces, curves, points, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(faces), orientations(faces))
+    status = c_model_faces(session%handle, faces, refs, orientations)
+  end subroutine carreau_model_faces
+
+  !> ends(2, n)
+  subroutine carreau_model_curves(session, face_refs, types, refs, ends, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: face_refs(:), types(:), refs(:), ends(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: faces, curves, points
+    call carreau_model_count(session, faces, curves, points, status)
+    if (status /= CARREAU_OK) return
+    allocate (face_refs(curves), types(curves), refs(curves), ends(2, curves))
+    status = c_model_curves(session%handle, curves, face_refs, types, refs, ends)
+  end subroutine carreau_model_curves
+
+  !> uv(2, n)
+  subroutine carreau_model_points(session, face_refs, refs, uv, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: face_refs(:), refs(:)
+    real(c_double), allocatable, intent(out) :: uv(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: faces, curves, points
+    call carreau_model_count(session, faces, curves, points, status)
+    if (status /= CARREAU_OK) return
+    allocate (face_refs(points), refs(points), uv(2, points))
+    status = c_model_points(session%handle, points, face_refs, refs, uv)
+  end subroutine carreau_model_points
+
+  ! ---- Parameters ----
+
+  function carreau_parameter_count() result(count)
+    integer(c_int32_t) :: count
+    count = c_parameter_count()
+  end function carreau_parameter_count
+
+  !> index: from 1.
+  subroutine carreau_parameter_info(index, parameter, status)
+    integer(c_int32_t), intent(in) :: index
+    type(carreau_parameter), intent(out) :: parameter
+    integer(c_int32_t), intent(out) :: status
+    type(c_parameter) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_parameter_info(index - 1, c)
+    if (status /= CARREAU_OK) return
+    parameter%name = carreau_string(c%name)
+    parameter%help = carreau_string(c%help)
+    parameter%default_text = carreau_string(c%default_text)
+    parameter%choices = carreau_string(c%choices)
+    parameter%type = c%type
+    parameter%minimum = c%minimum
+    parameter%maximum = c%maximum
+    parameter%default_number = c%default_number
+    parameter%diag_relative = c%diag_relative /= 0
+  end subroutine carreau_parameter_info
+
+  subroutine carreau_set_integer(session, name, value, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(in) :: value
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_integer(session%handle, c_text(name), value)
+  end subroutine carreau_set_integer
+
+  subroutine carreau_set_real(session, name, value, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name
+    real(c_double), intent(in) :: value
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_real(session%handle, c_text(name), value)
+  end subroutine carreau_set_real
+
+  subroutine carreau_set_text(session, name, value, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name, value
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_text(session%handle, c_text(name), c_text(value))
+  end subroutine carreau_set_text
+
+  subroutine carreau_set_word(session, name, word, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name, word
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_word(session%handle, c_text(name), c_text(word))
+  end subroutine carreau_set_word
+
+  subroutine carreau_get_integer(session, name, value, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(out) :: value, status
+    value = 0
+    status = c_get_integer(session%handle, c_text(name), value)
+  end subroutine carreau_get_integer
+
+  subroutine carreau_get_real(session, name, value, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name
+    real(c_double), intent(out) :: value
+    integer(c_int32_t), intent(out) :: status
+    value = 0
+    status = c_get_real(session%handle, c_text(name), value)
+  end subroutine carreau_get_real
+
+  subroutine carreau_get_text(session, name, value, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name
+    character(len=:), allocatable, intent(out) :: value
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr) :: text
+    text = c_null_ptr
+    status = c_get_text(session%handle, c_text(name), text)
+    value = carreau_string(text)
+  end subroutine carreau_get_text
+
+  subroutine carreau_reset_parameter(session, name, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(out) :: status
+    status = c_reset_parameter(session%handle, c_text(name))
+  end subroutine carreau_reset_parameter
+
+  subroutine carreau_reset_parameters(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_reset_parameters(session%handle)
+  end subroutine carreau_reset_parameters
+
+  ! ---- Messages, progress, stop ----
+
+  !> Without a callback: none from now on.
+  subroutine carreau_set_message_callback(session, status, callback, user)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    procedure(carreau_message_fn), optional :: callback
+    type(c_ptr), intent(in), optional :: user
+    type(c_funptr) :: c_callback
+    type(c_ptr) :: c_user
+    c_callback = c_null_funptr
+    c_user = c_null_ptr
+    if (present(callback)) c_callback = c_funloc(callback)
+    if (present(user)) c_user = user
+    status = c_set_message_callback(session%handle, c_callback, c_user)
+  end subroutine carreau_set_message_callback
+
+  !> Without a callback: none from now on.
+  subroutine carreau_set_progress_callback(session, status, callback, user)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    procedure(carreau_progress_fn), optional :: callback
+    type(c_ptr), intent(in), optional :: user
+    type(c_funptr) :: c_callback
+    type(c_ptr) :: c_user
+    c_callback = c_null_funptr
+    c_user = c_null_ptr
+    if (present(callback)) c_callback = c_funloc(callback)
+    if (present(user)) c_user = user
+    status = c_set_progress_callback(session%handle, c_callback, c_user)
+  end subroutine carreau_set_progress_callback
+
+  subroutine carreau_stop(session)
+    type(carreau_session), intent(in) :: session
+    call c_stop(session%handle)
+  end subroutine carreau_stop
+
+  ! ---- Run ----
+
+  subroutine carreau_mesh_generate(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_generate(session%handle)
+  end subroutine carreau_mesh_generate
+
+  subroutine carreau_run_env(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_run_env(session%handle, c_text(path))
+  end subroutine carreau_run_env
+
+  subroutine carreau_session_report(session, report, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    type(c_report) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_session_report(session%handle, c)
+    if (status /= CARREAU_OK) return
+    report = carreau_report(c%diag, c%surf0_calls, c%surf1_calls, c%surf2_calls, c%curv0_calls, c%curv1_calls, &
+      c%curv2_calls, c%size_calls, c%seconds_curves, c%seconds_sampling, c%seconds_plane, c%seconds_lift, &
+      c%seconds_total)
+  end subroutine carreau_session_report
+
+  ! ---- Meshes ----
+
+  subroutine carreau_session_mesh(session, mesh, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_mesh), intent(out) :: mesh
+    integer(c_int32_t), intent(out) :: status
+    status = c_session_mesh(session%handle, mesh%handle)
+  end subroutine carreau_session_mesh
+
+  subroutine carreau_mesh_create(mesh, status)
+    type(carreau_mesh), intent(out) :: mesh
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_create(mesh%handle)
+  end subroutine carreau_mesh_create
+
+  subroutine carreau_mesh_free(mesh)
+    type(carreau_mesh), intent(inout) :: mesh
+    call c_mesh_free(mesh%handle)
+    mesh%handle = c_null_ptr
+  end subroutine carreau_mesh_free
+
+  function carreau_mesh_last_error(mesh) result(sentence)
+    type(carreau_mesh), intent(in) :: mesh
+    character(len=:), allocatable :: sentence
+    sentence = carreau_string(c_mesh_last_error(mesh%handle))
+  end function carreau_mesh_last_error
+
+  subroutine carreau_mesh_read(mesh, path, status)
+    type(carreau_mesh), intent(in) :: mesh
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_read(mesh%handle, c_text(path))
+  end subroutine carreau_mesh_read
+
+  subroutine carreau_mesh_write(mesh, path, status)
+    type(carreau_mesh), intent(in) :: mesh
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_mesh_write(mesh%handle, c_text(path))
+  end subroutine carreau_mesh_write
+
+  subroutine carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(out) :: vertices, triangles, edges, faces
+    integer(c_int32_t), intent(out) :: status
+    vertices = 0; triangles = 0; edges = 0; faces = 0
+    status = c_mesh_count(mesh%handle, vertices, triangles, edges, faces)
+  end subroutine carreau_mesh_count
+
+  subroutine carreau_mesh_dimension(mesh, dimension, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(out) :: dimension, status
+    dimension = 0
+    status = c_mesh_dimension(mesh%handle, dimension)
+  end subroutine carreau_mesh_dimension
+
+  !> xyz(3, n)
+  subroutine carreau_mesh_vertices(mesh, xyz, status)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (xyz(3, n))
+    status = c_mesh_vertices(mesh%handle, n, xyz)
+  end subroutine carreau_mesh_vertices
+
+  subroutine carreau_mesh_vertex_refs(mesh, refs, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: refs(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(n))
+    status = c_mesh_vertex_refs(mesh%handle, n, refs)
+  end subroutine carreau_mesh_vertex_refs
+
+  subroutine carreau_mesh_vertex_sizes(mesh, sizes, status)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(out) :: sizes(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (sizes(n))
+    status = c_mesh_vertex_sizes(mesh%handle, n, sizes)
+    if (status /= CARREAU_OK) deallocate (sizes)
+  end subroutine carreau_mesh_vertex_sizes
+
+  !> vertices(3, m), from 1
+  subroutine carreau_mesh_triangles(mesh, vertices, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: vertices(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (vertices(3, m))
+    status = c_mesh_triangles(mesh%handle, m, vertices)
+    vertices = vertices + 1
+  end subroutine carreau_mesh_triangles
+
+  subroutine carreau_mesh_triangle_refs(mesh, refs, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: refs(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(m))
+    status = c_mesh_triangle_refs(mesh%handle, m, refs)
+  end subroutine carreau_mesh_triangle_refs
+
+  !> uv(2, 3, m)
+  subroutine carreau_mesh_corner_uv(mesh, uv, status)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), allocatable, intent(out) :: uv(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (uv(2, 3, m))
+    status = c_mesh_corner_uv(mesh%handle, m, uv)
+    if (status /= CARREAU_OK) deallocate (uv)
+  end subroutine carreau_mesh_corner_uv
+
+  !> vertices(2, k), from 1
+  subroutine carreau_mesh_edges(mesh, vertices, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: vertices(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (vertices(2, k))
+    status = c_mesh_edges(mesh%handle, k, vertices)
+    vertices = vertices + 1
+  end subroutine carreau_mesh_edges
+
+  subroutine carreau_mesh_edge_refs(mesh, refs, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: refs(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(k))
+    status = c_mesh_edge_refs(mesh%handle, k, refs)
+  end subroutine carreau_mesh_edge_refs
+
+  !> index: from 1.
+  subroutine carreau_mesh_face(mesh, index, face, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_face), intent(out) :: face
+    integer(c_int32_t), intent(out) :: status
+    type(c_face) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_mesh_face(mesh%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    face%ref = c%ref
+    face%status = c%status
+    face%triangles = c%triangles
+    face%why = carreau_string(c%why)
+  end subroutine carreau_mesh_face
+
+  subroutine carreau_mesh_quality(mesh, quality, status)
+    type(carreau_mesh), intent(in) :: mesh
+    type(carreau_quality), intent(out) :: quality
+    integer(c_int32_t), intent(out) :: status
+    type(c_quality) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_mesh_quality(mesh%handle, c)
+    if (status /= CARREAU_OK) return
+    quality = carreau_quality(c%vertices, c%triangles, c%edges, c%open_edges, c%q1_mean, c%q1_min, c%q1_p1, &
+      c%q1_max, c%q2_mean, c%q2_min, c%q2_p1, c%q2_max, c%angle_min, c%angle_max, c%area, c%edge_min, c%edge_mean, &
+      c%edge_max, c%degree6)
+  end subroutine carreau_mesh_quality
+
+  subroutine carreau_mesh_defects(mesh, closed, limit, count, text, status)
+    type(carreau_mesh), intent(in) :: mesh
+    logical, intent(in) :: closed
+    integer(c_int64_t), intent(in) :: limit
+    integer(c_int64_t), intent(out) :: count
+    character(len=:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr) :: c_sentences
+    count = 0
+    c_sentences = c_null_ptr
+    status = c_mesh_defects(mesh%handle, merge(1_c_int32_t, 0_c_int32_t, closed), limit, count, c_sentences)
+    text = carreau_string(c_sentences)
+  end subroutine carreau_mesh_defects
+end module carreau
