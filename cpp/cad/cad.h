@@ -30,6 +30,7 @@ struct Interval {
 struct CallCounts {
   std::int64_t surf0 = 0, surf1 = 0, surf2 = 0, curv0 = 0, curv1 = 0, curv2 = 0, sizes = 0;
   [[nodiscard]] std::int64_t surface() const noexcept { return surf0 + surf1 + surf2; }
+  friend bool operator==(const CallCounts&, const CallCounts&) = default;
 };
 
 /// The host's geometry (RT-0232 sec. 3.1). `face` is the reference of a face, `ic` the rank of a curve
@@ -55,7 +56,15 @@ class Cad {
   virtual std::optional<double> curve_radius(int /*face*/, int /*ic*/, double /*t*/) { return {}; }
 
   [[nodiscard]] virtual bool reentrant() const noexcept { return false; }
+  /// Calls since the object was made; all zero when it keeps no count.
   [[nodiscard]] virtual CallCounts counts() const noexcept { return {}; }
+
+  /// The Want bits that come from the host itself; the others are found by finite differences.
+  [[nodiscard]] virtual unsigned surface_gives() const noexcept { return want_position | want_first | want_second; }
+  [[nodiscard]] virtual unsigned curve_gives() const noexcept { return want_position | want_first | want_second; }
+  /// Tells the box of a face's parameter domain, so that finite differences have the right steps and stay inside.
+  /// Not while other threads evaluate.
+  virtual void set_parameter_box(int /*face*/, Vec2 /*low*/, Vec2 /*high*/) {}
 };
 
 /// One point.

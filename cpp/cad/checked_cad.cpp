@@ -1,5 +1,8 @@
 #include "cad/checked_cad.h"
 
+#include <cmath>
+#include <string>
+
 #include "support/error.h"
 #include "support/format.h"
 
@@ -11,13 +14,14 @@ namespace {
   throw CallbackError(where, std::string(routine) + " returned a value that is not finite");
 }
 
+[[noreturn]] void not_a_number(const Where& where, const char* routine) {
+  throw CallbackError(where, std::string(routine) + " returned a value that is not a number");
+}
+
 }  // namespace
 
 void CheckedCad::surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
-  const auto n = static_cast<std::int64_t>(uv.size());
-  if ((want & want_position) != 0) counts_.surf0 += n;
-  if ((want & want_first) != 0) counts_.surf1 += n;
-  if ((want & want_second) != 0) counts_.surf2 += n;
+  counter_.add_surface(want, uv.size());
   host_.surface(face, want, uv, out);
   for (std::size_t i = 0; i < uv.size(); ++i) {
     const SurfaceJet& jet = out[i];
@@ -39,9 +43,7 @@ Interval CheckedCad::curve_interval(int face, int ic) {
 }
 
 CurveJet CheckedCad::curve(int face, int ic, unsigned want, double t) {
-  counts_.curv0 += (want & want_position) != 0;
-  counts_.curv1 += (want & want_first) != 0;
-  counts_.curv2 += (want & want_second) != 0;
+  counter_.add_curve(want);
   const CurveJet jet = host_.curve(face, ic, want, t);
   const Where where{.face = face, .curve_index = ic, .t = t};
   if ((want & want_position) != 0 && !is_finite(jet.c)) not_finite(where, "curv0");
@@ -50,19 +52,52 @@ CurveJet CheckedCad::curve(int face, int ic, unsigned want, double t) {
   return jet;
 }
 
-// Sizes and radii are judged by the size rules, which know what an infinite one means.
+// Only an infinite radius has a meaning (a plane, a straight line: RT-0232 sec. 3.1.3 b).
 std::optional<double> CheckedCad::surface_size(int face, Vec2 uv) {
-  return ++counts_.sizes, host_.surface_size(face, uv);
+  counter_.add_size();
+  const std::optional<double> h = host_.surface_size(face, uv);
+  if (h && !std::isfinite(*h)) not_finite({.face = face, .uv = uv}, "cad_hphys");
+  return h;
 }
+
 std::optional<double> CheckedCad::curve_size(int face, int ic, double t) {
-  return ++counts_.sizes, host_.curve_size(face, ic, t);
+  counter_.add_size();
+  const std::optional<double> h = host_.curve_size(face, ic, t);
+  if (h && !std::isfinite(*h)) not_finite({.face = face, .curve_index = ic, .t = t}, "cad_hphyc");
+  return h;
 }
-std::optional<double> CheckedCad::point_size(int point) { return ++counts_.sizes, host_.point_size(point); }
+
+std::optional<double> CheckedCad::point_size(int point) {
+  counter_.add_size();
+  const std::optional<double> h = host_.point_size(point);
+  if (h && !std::isfinite(*h)) not_finite({.point = point}, "cad_hphyp");
+  return h;
+}
+
 std::optional<double> CheckedCad::surface_radius(int face, Vec2 uv) {
-  return ++counts_.sizes, host_.surface_radius(face, uv);
+  counter_.add_size();
+  const std::optional<double> rho = host_.surface_radius(face, uv);
+  if (rho && std::isnan(*rho)) not_a_number({.face = face, .uv = uv}, "cad_rads");
+  return rho;
 }
+
 std::optional<double> CheckedCad::curve_radius(int face, int ic, double t) {
-  return ++counts_.sizes, host_.curve_radius(face, ic, t);
+  counter_.add_size();
+  const std::optional<double> rho = host_.curve_radius(face, ic, t);
+  if (rho && std::isnan(*rho)) not_a_number({.face = face, .curve_index = ic, .t = t}, "cad_radc");
+  return rho;
+}
+
+CallCounts CheckedCad::counts() const noexcept {
+  const CallCounts now = host_.counts();
+  if (now == CallCounts{}) return counter_.counts();  // the host keeps no count (or nothing was called)
+  return {.surf0 = now.surf0 - before_.surf0,
+          .surf1 = now.surf1 - before_.surf1,
+          .surf2 = now.surf2 - before_.surf2,
+          .curv0 = now.curv0 - before_.curv0,
+          .curv1 = now.curv1 - before_.curv1,
+          .curv2 = now.curv2 - before_.curv2,
+          .sizes = now.sizes - before_.sizes};
 }
 
 }  // namespace carreau

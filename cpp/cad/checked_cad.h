@@ -1,15 +1,16 @@
 // A host's geometry that can be trusted: every value is looked at before the engine sees it.
 #pragma once
 
-#include "cad/cad.h"
+#include "cad/call_counter.h"
 
 namespace carreau {
 
-/// Passes calls on and checks what comes back: values that are not finite, intervals that are reversed or infinite are
-/// a CallbackError that names face, curve, (u, v) or t and the routine. Counts calls. Keeps a reference to `host`.
+/// Passes calls on and checks what comes back: positions, derivatives and sizes must be finite, radii may be infinite
+/// but not NaN, intervals must be finite with a < b. What is wrong is a CallbackError that names face, curve, (u, v)
+/// or t and the routine. Keeps a reference to `host`.
 class CheckedCad : public Cad {
  public:
-  explicit CheckedCad(Cad& host) : host_(host) {}
+  explicit CheckedCad(Cad& host) : host_(host), before_(host.counts()) {}
 
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override;
   Interval curve_interval(int face, int ic) override;
@@ -20,12 +21,17 @@ class CheckedCad : public Cad {
   std::optional<double> surface_radius(int face, Vec2 uv) override;
   std::optional<double> curve_radius(int face, int ic, double t) override;
   [[nodiscard]] bool reentrant() const noexcept override { return host_.reentrant(); }
-  /// One call for each routine (surf0, surf1, surf2, …) and point, as a cad_m module sees them.
-  [[nodiscard]] CallCounts counts() const noexcept override { return counts_; }
+  /// Calls through this object: by the host's own count when it keeps one (finite differences included), else one call
+  /// for each routine wanted and point.
+  [[nodiscard]] CallCounts counts() const noexcept override;
+  [[nodiscard]] unsigned surface_gives() const noexcept override { return host_.surface_gives(); }
+  [[nodiscard]] unsigned curve_gives() const noexcept override { return host_.curve_gives(); }
+  void set_parameter_box(int face, Vec2 low, Vec2 high) override { host_.set_parameter_box(face, low, high); }
 
  private:
   Cad& host_;
-  CallCounts counts_;
+  CallCounts before_;  // of the host, when this object was made
+  CallCounter counter_;
 };
 
 }  // namespace carreau

@@ -1,0 +1,192 @@
+#include "cad/difference_cad.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+// Truncation step^2 against rounding eps / step: cube root of eps, a little wider for hosts that compute less well.
+constexpr double first_step = 1e-5;
+// The same with eps / step^2: fourth root of eps.
+constexpr double second_step = 2e-4;
+// Points whose stencils are evaluated in one batch.
+constexpr std::size_t chunk = 512;
+
+// Points of all formulas of one (u, v), in the order in which `combine` reads the values.
+void append_points(bool second_from_position, Vec2 uv, DifferenceStep u, DifferenceStep v, std::vector<Vec2>& points) {
+  const int order = second_from_position ? 2 : 1;
+  const Stencil along_u = stencil_of(order, u.side), along_v = stencil_of(order, v.side);
+  for (int i = 0; i < along_u.count; ++i) points.push_back({uv.x + along_u.offset[i] * u.step, uv.y});
+  for (int i = 0; i < along_v.count; ++i) points.push_back({uv.x, uv.y + along_v.offset[i] * v.step});
+  if (!second_from_position) return;
+  const Stencil mixed_u = stencil_of(1, u.side), mixed_v = stencil_of(1, v.side);
+  for (int i = 0; i < mixed_u.count; ++i)
+    for (int j = 0; j < mixed_v.count; ++j)
+      points.push_back({uv.x + mixed_u.offset[i] * u.step, uv.y + mixed_v.offset[j] * v.step});
+}
+
+// Consumes the values of one (u, v) and returns their number.
+std::size_t combine(unsigned missing, unsigned from, DifferenceStep u, DifferenceStep v, const SurfaceJet* value,
+                    SurfaceJet& out) {
+  const bool from_position = from == want_position;
+  const int order = from_position && missing == want_second ? 2 : 1;
+  const Stencil along_u = stencil_of(order, u.side), along_v = stencil_of(order, v.side);
+  const double scale_u = 1 / std::pow(u.step, order), scale_v = 1 / std::pow(v.step, order);
+  Vec3 du_s, dv_s, du_su, du_sv, dv_su, dv_sv;
+  const SurfaceJet* const first = value;
+  for (int i = 0; i < along_u.count; ++i, ++value) {
+    const double w = along_u.weight[i] * scale_u;
+    du_s = du_s + w * value->s;
+    du_su = du_su + w * value->su;
+    du_sv = du_sv + w * value->sv;
+  }
+  for (int i = 0; i < along_v.count; ++i, ++value) {
+    const double w = along_v.weight[i] * scale_v;
+    dv_s = dv_s + w * value->s;
+    dv_su = dv_su + w * value->su;
+    dv_sv = dv_sv + w * value->sv;
+  }
+  if (missing == want_first) {
+    out.su = du_s, out.sv = dv_s;
+  } else if (!from_position) {
+    out.suu = du_su, out.svv = dv_sv, out.suv = 0.5 * (du_sv + dv_su);
+  } else {
+    out.suu = du_s, out.svv = dv_s, out.suv = {};
+    const Stencil mixed_u = stencil_of(1, u.side), mixed_v = stencil_of(1, v.side);
+    for (int i = 0; i < mixed_u.count; ++i)
+      for (int j = 0; j < mixed_v.count; ++j, ++value)
+        out.suv = out.suv + (mixed_u.weight[i] * mixed_v.weight[j] / (u.step * v.step)) * value->s;
+  }
+  return static_cast<std::size_t>(value - first);
+}
+
+bool is_finite(const SurfaceJet& jet, unsigned bit) {
+  return bit == want_first ? is_finite(jet.su) && is_finite(jet.sv)
+                           : is_finite(jet.suu) && is_finite(jet.suv) && is_finite(jet.svv);
+}
+
+}  // namespace
+
+DifferenceCad::DifferenceCad(std::unique_ptr<Cad> source, unsigned surface_gives, unsigned curve_gives)
+    : source_(std::move(source)), surface_gives_(surface_gives), curve_gives_(curve_gives) {}
+
+void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
+  if (!(is_finite(low) && is_finite(high) && low.x < high.x && low.y < high.y))
+    throw InvalidArgument(Where{.face = face},
+                          "a parameter box must have finite bounds, the low ones below the high ones");
+  boxes_[face] = {low, high};
+}
+
+DifferenceCad::Box DifferenceCad::box_at(int face, Vec2 uv) const {
+  const auto it = boxes_.find(face);
+  if (it != boxes_.end()) return it->second;
+  // Nothing is known: a box about the point, as wide as its parameters are large.
+  const Vec2 half = {std::max(1.0, std::abs(uv.x)) / 2, std::max(1.0, std::abs(uv.y)) / 2};
+  return {uv - half, uv + half};
+}
+
+void DifferenceCad::surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
+  const unsigned given = want & surface_gives_, missing = want & ~surface_gives_;
+  if (given != 0) source_->surface(face, given, uv, out);
+  for (const unsigned bit : {want_first, want_second}) {
+    if ((missing & bit) == 0) continue;
+    Task task{bit, want_position, bit == want_first ? first_step : second_step};
+    if (bit == want_second && (surface_gives_ & want_first) != 0) task.from = want_first, task.relative = first_step;
+    for (std::size_t i = 0; i < uv.size(); i += chunk) {
+      const std::size_t n = std::min(chunk, uv.size() - i);
+      add_differences(face, task, uv.subspan(i, n), out.subspan(i, n));
+    }
+  }
+}
+
+void DifferenceCad::add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
+  const bool second_from_position = task.missing == want_second && task.from == want_position;
+  std::vector<Vec2> points;
+  std::vector<std::pair<DifferenceStep, DifferenceStep>> steps;
+  steps.reserve(uv.size());
+  for (const Vec2 p : uv) {
+    const Box box = box_at(face, p);
+    steps.emplace_back(difference_step(p.x, box.low.x, box.high.x, task.relative),
+                       difference_step(p.y, box.low.y, box.high.y, task.relative));
+    append_points(second_from_position, p, steps.back().first, steps.back().second, points);
+  }
+  std::vector<SurfaceJet> values(points.size());
+  bool failed = false;
+  try {
+    source_->surface(face, task.from, points, values);
+  } catch (const CallbackError&) {
+    failed = true;  // perhaps only beside the domain: each point is tried alone
+  }
+  const SurfaceJet* value = values.data();
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    if (!failed) value += combine(task.missing, task.from, steps[i].first, steps[i].second, value, out[i]);
+    if (failed || !is_finite(out[i], task.missing)) add_one_sided(face, task, uv[i], out[i]);
+  }
+}
+
+bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v,
+                                       SurfaceJet& out) {
+  std::vector<Vec2> points;
+  append_points(task.missing == want_second && task.from == want_position, uv, u, v, points);
+  std::vector<SurfaceJet> values(points.size());
+  try {
+    source_->surface(face, task.from, points, values);
+  } catch (const CallbackError&) {
+    return false;
+  }
+  combine(task.missing, task.from, u, v, values.data(), out);
+  return is_finite(out, task.missing);
+}
+
+// The host's domain ends near the point in a way that its box does not tell: every pair of sides that the box allows.
+void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out) {
+  const Box box = box_at(face, uv);
+  DifferenceStep u = difference_step(uv.x, box.low.x, box.high.x, task.relative),
+                 v = difference_step(uv.y, box.low.y, box.high.y, task.relative);
+  const auto sides = [](Side side) {
+    return side == Side::central ? std::vector{Side::central, Side::forward, Side::backward} : std::vector{side};
+  };
+  for (const Side side_u : sides(u.side))
+    for (const Side side_v : sides(v.side)) {
+      u.side = side_u, v.side = side_v;
+      if (add_differences_at(face, task, uv, u, v, out)) return;
+    }
+  throw CallbackError(
+      Where{.face = face, .uv = uv},
+      std::string(task.missing == want_first ? "first" : "second") +
+          " derivatives are not given, and the finite differences that replace them are not finite here");
+}
+
+CurveJet DifferenceCad::curve(int face, int ic, unsigned want, double t) {
+  const unsigned given = want & curve_gives_, missing = want & ~curve_gives_;
+  CurveJet jet;
+  if (given != 0) jet = source_->curve(face, ic, given, t);
+  if (missing == 0) return jet;
+  const Interval interval = source_->curve_interval(face, ic);
+  if (!(std::isfinite(interval.a) && std::isfinite(interval.b) && interval.a < interval.b))
+    throw CallbackError(Where{.face = face, .curve_index = ic}, "the interval [" + format_number(interval.a) + ", " +
+                                                                    format_number(interval.b) +
+                                                                    "] is reversed, empty or not finite");
+  const auto difference = [&](int order, unsigned from, double relative) {
+    const DifferenceStep step = difference_step(t, interval.a, interval.b, relative);
+    const Stencil stencil = stencil_of(order, step.side);
+    Vec2 sum;
+    for (int i = 0; i < stencil.count; ++i) {
+      const CurveJet other = source_->curve(face, ic, from, t + stencil.offset[i] * step.step);
+      sum = sum + stencil.weight[i] * (from == want_first ? other.ct : other.c);
+    }
+    return (1 / std::pow(step.step, order)) * sum;
+  };
+  if ((missing & want_first) != 0) jet.ct = difference(1, want_position, first_step);
+  if ((missing & want_second) != 0)
+    jet.ctt = (curve_gives_ & want_first) != 0 ? difference(1, want_first, first_step)
+                                               : difference(2, want_position, second_step);
+  return jet;
+}
+
+}  // namespace carreau

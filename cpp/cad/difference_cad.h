@@ -1,0 +1,60 @@
+// Derivatives that a host does not give, by finite differences of those that it gives.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cad/cad.h"
+#include "cad/stencil.h"
+
+namespace carreau {
+
+/// Passes on what `source` gives and finds the rest by differences of second order of accuracy: first derivatives from
+/// positions (relative error near 1e-10 for smooth functions), second ones from first ones when they are given (1e-10),
+/// else from positions (1e-7). On curves the points stay in [a, b]; on surfaces they stay in the face's box when it is
+/// known (set_parameter_box), else the steps are relative to max(1, |u|) and max(1, |v|).
+/// Where a point beside (u, v) is outside the host's domain (NaN, infinity or a failure there), one-sided formulas are
+/// tried; when none works the error is a CallbackError at (u, v).
+class DifferenceCad : public Cad {
+ public:
+  /// *_gives: the Want bits that `source` answers itself; want_position must be among them.
+  DifferenceCad(std::unique_ptr<Cad> source, unsigned surface_gives, unsigned curve_gives);
+
+  void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override;
+  Interval curve_interval(int face, int ic) override { return source_->curve_interval(face, ic); }
+  CurveJet curve(int face, int ic, unsigned want, double t) override;
+  std::optional<double> surface_size(int face, Vec2 uv) override { return source_->surface_size(face, uv); }
+  std::optional<double> curve_size(int face, int ic, double t) override { return source_->curve_size(face, ic, t); }
+  std::optional<double> point_size(int point) override { return source_->point_size(point); }
+  std::optional<double> surface_radius(int face, Vec2 uv) override { return source_->surface_radius(face, uv); }
+  std::optional<double> curve_radius(int face, int ic, double t) override { return source_->curve_radius(face, ic, t); }
+  [[nodiscard]] bool reentrant() const noexcept override { return source_->reentrant(); }
+  /// Calls of the source, differences included.
+  [[nodiscard]] CallCounts counts() const noexcept override { return source_->counts(); }
+  [[nodiscard]] unsigned surface_gives() const noexcept override { return surface_gives_; }
+  [[nodiscard]] unsigned curve_gives() const noexcept override { return curve_gives_; }
+  void set_parameter_box(int face, Vec2 low, Vec2 high) override;
+
+ private:
+  struct Box {
+    Vec2 low, high;
+  };
+  /// What is differenced to get the missing bits: derivatives of order `want` wanted, from `from`.
+  struct Task {
+    unsigned missing = 0;
+    unsigned from = want_position;
+    double relative = 0;
+  };
+  [[nodiscard]] Box box_at(int face, Vec2 uv) const;
+  void add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out);
+  bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
+  void add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out);
+
+  std::unique_ptr<Cad> source_;
+  unsigned surface_gives_, curve_gives_;
+  std::map<int, Box> boxes_;
+};
+
+}  // namespace carreau
