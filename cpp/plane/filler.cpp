@@ -13,7 +13,7 @@ constexpr double done_radius = 0.70;     // circumradius of a triangle that is s
 constexpr double row_distance = 0.75;    // least distance of a row's point to other vertices
 constexpr double imposed_height = 0.40;  // least height over an imposed edge
 constexpr double degenerate_height = 0.70;
-constexpr double leftover_radius = 0.80;
+constexpr double leftover_radius = 0.88;
 constexpr double merge_gap = 0.55, extend_gap = 1.5, widest_gap = 2.6;
 constexpr double shortest_in_strain = 0.6;
 constexpr int strain_window = 5;
