@@ -1,0 +1,69 @@
+// Triangles a second and quality of the plane mesher alone: bench_plane CASE H [runs] [algebraic].
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "plane/plane_mesher.h"
+#include "plane_cases.h"
+#include "plane_checks.h"
+
+namespace {
+
+using namespace carreau;
+using namespace carreau::testing;
+
+PlaneCase make_case(const std::string& name, double h) {
+  if (name == "square") return flat_square(h);
+  if (name == "paraboloid" || name == "0") return paraboloid(h);
+  if (name == "hemisphere" || name == "1") return hemisphere(h);
+  if (name == "swirl" || name == "2") return swirl(h);
+  if (name == "swirl20") return swirl(h, 20);
+  if (name == "stretched" || name == "3") return stretched(h);
+  if (name == "sizes" || name == "4") return size_field(h);
+  if (name == "holes" || name == "5") return holes(h);
+  if (name == "star" || name == "6") return star(h);
+  if (name == "torus" || name == "7") return torus_patch(h);
+  if (name == "internal") return internal_curves(h);
+  if (name == "disc") return polar_disc(h);
+  if (name == "cone") return polar_cone(h, 0.25);
+  if (name == "sphere") return sphere_two_poles(h);
+  std::fprintf(stderr, "bench_plane: no case %s\n", name.c_str());
+  std::exit(2);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: bench_plane CASE H [RUNS] [algebraic]\n");
+    return 2;
+  }
+  const PlaneCase c = make_case(argv[1], std::atof(argv[2]));
+  const int runs = argc > 3 ? std::max(1, std::atoi(argv[3])) : 5;
+  PlaneMesherOptions options;
+  options.frontal = !(argc > 4 && std::strcmp(argv[4], "algebraic") == 0);
+  const ControlSpace space = control_space(c, 0.005);
+  Monitor monitor;
+  std::vector<double> seconds;
+  PlaneMesh mesh;
+  for (int run = 0; run < runs; ++run) {
+    mesh = {};
+    const auto start = std::chrono::steady_clock::now();
+    mesh = mesh_plane(c.domain, space, options, monitor);
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  const double n = static_cast<double>(mesh.triangles.size());
+  std::printf("%s %s: boundary %zu, %s\n", argv[1], argv[2], c.domain.edges.size(), to_string(measure(c, mesh)).c_str());
+  std::printf("  %.0f triangles/s median of %d, %.0f best\n", n / seconds[seconds.size() / 2], runs, n / seconds[0]);
+  if (std::getenv("CHECK") != nullptr || n < 20000) {
+    const auto defects = find_plane_defects(c.domain, mesh);
+    for (std::size_t i = 0; i < defects.size() && i < 5; ++i) std::printf("  DEFECT %s\n", defects[i].c_str());
+    if (!defects.empty()) return 1;
+  }
+  return 0;
+}
