@@ -20,7 +20,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST(Files, ReadBackWhatWasWritten) {
   const TemporaryFolder folder;
   std::string content;
-  for (int i = 0; i < 200000; ++i) content += static_cast<char>(i * i % 251);
+  for (int i = 0; i < 200000; ++i) content += static_cast<char>(i % 251);
   for (const std::string& text : {std::string(), std::string("one"), content}) {
     write_file(folder.file("x.bin"), text);
     EXPECT_EQ(read_file(folder.file("x.bin")), text);
