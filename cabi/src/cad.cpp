@@ -5,13 +5,18 @@
 #include "guard.h"
 
 using carreau::CadMTable;
+using carreau::CurveJet;
 using carreau::HostCad;
 using carreau::HostTable;
-using carreau::InvalidArgument;
+using carreau::Interval;
+using carreau::Monitor;
+using carreau::SurfaceJet;
+using carreau::Vec2;
 using namespace carreau::abi;
 
 static_assert(std::is_same_v<int, std::int32_t>, "a default integer of Fortran is an int32_t and an int");
 static_assert(carreau::no_answer == CARREAU_HVIDE);
+static_assert(carreau::no_answer_status == CARREAU_NO_ANSWER);
 
 namespace {
 
@@ -30,87 +35,63 @@ CadMTable table_of(const carreau_cad_m& routines) {
           .cad_radc = routines.cad_radc};
 }
 
-/// Calls the callbacks of a carreau_cad for the engine, whose `user` is that struct.
-struct Thunks {
-  static const carreau_cad& of(void* user) { return *static_cast<const carreau_cad*>(user); }
-
-  /// CARREAU_NO_ANSWER leaves what means "no answer" to the engine.
-  static std::int32_t answered(std::int32_t status, double* value) {
-    if (status != CARREAU_NO_ANSWER) return status;
-    *value = CARREAU_HVIDE;
-    return 0;
-  }
-
-  static std::int32_t surface(std::int32_t face, double u, double v, std::int32_t order, double* s, double* su,
-                              double* sv, double* suu, double* suv, double* svv, void* user) {
-    const carreau_cad& cad = of(user);
-    if (cad.surface != nullptr) return cad.surface(face, u, v, order, s, su, sv, suu, suv, svv, cad.user);
-    const double uv[2] = {u, v};
-    return cad.surface_batch(face, 1, uv, order, s, order >= 1 ? su : nullptr, order >= 1 ? sv : nullptr,
-                             order == 2 ? suu : nullptr, order == 2 ? suv : nullptr, order == 2 ? svv : nullptr,
-                             cad.user);
-  }
-  static std::int32_t surface_batch(std::int32_t face, std::int64_t n, const double* uv, std::int32_t order, double* s,
-                                    double* su, double* sv, double* suu, double* suv, double* svv, void* user) {
-    const carreau_cad& cad = of(user);
-    return n == 0 ? 0 : cad.surface_batch(face, n, uv, order, s, su, sv, suu, suv, svv, cad.user);
-  }
-  static std::int32_t curve_interval(std::int32_t face, std::int32_t ic, double* a, double* b, void* user) {
-    return of(user).curve_interval(face, ic, a, b, of(user).user);
-  }
-  static std::int32_t curve(std::int32_t face, std::int32_t ic, double t, std::int32_t order, double* c, double* ct,
-                            double* ctt, void* user) {
-    return of(user).curve(face, ic, t, order, c, ct, ctt, of(user).user);
-  }
-  static std::int32_t surface_size(std::int32_t face, double u, double v, double* h, void* user) {
-    return answered(of(user).surface_size(face, u, v, h, of(user).user), h);
-  }
-  static std::int32_t curve_size(std::int32_t face, std::int32_t ic, double t, double* h, void* user) {
-    return answered(of(user).curve_size(face, ic, t, h, of(user).user), h);
-  }
-  static std::int32_t point_size(std::int32_t point, double* h, void* user) {
-    return answered(of(user).point_size(point, h, of(user).user), h);
-  }
-  static std::int32_t surface_radius(std::int32_t face, double u, double v, double* rho, void* user) {
-    return answered(of(user).surface_radius(face, u, v, rho, of(user).user), rho);
-  }
-  static std::int32_t curve_radius(std::int32_t face, std::int32_t ic, double t, double* rho, void* user) {
-    return answered(of(user).curve_radius(face, ic, t, rho, of(user).user), rho);
-  }
-};
-
-template <typename Callback, typename Thunk>
-Thunk when_given(Callback callback, Thunk thunk) {
-  return callback != nullptr ? thunk : nullptr;
+HostTable table_of(const carreau_cad& callbacks) {
+  return {.user = callbacks.user,
+          .surface_order = callbacks.surface_order,
+          .curve_order = callbacks.curve_order,
+          .reentrant = callbacks.reentrant,
+          .surface = callbacks.surface,
+          .surface_batch = callbacks.surface_batch,
+          .curve_interval = callbacks.curve_interval,
+          .curve = callbacks.curve,
+          .surface_size = callbacks.surface_size,
+          .curve_size = callbacks.curve_size,
+          .point_size = callbacks.point_size,
+          .surface_radius = callbacks.surface_radius,
+          .curve_radius = callbacks.curve_radius};
 }
 
-struct CallbackStore {
-  carreau_cad callbacks;
-};
-
-/// The store is a base, so that it is there when HostCad is made.
-class CallbackCad final : private CallbackStore, public HostCad {
+/// Obeys a stop after each callback: a host may be slow, and the engine asks for many points at a time.
+class StoppableCad final : public HostCad {
  public:
-  explicit CallbackCad(const carreau_cad& given) : CallbackStore{given}, HostCad(table_of(CallbackStore::callbacks)) {}
+  StoppableCad(const carreau_cad_m& routines, const Monitor& monitor)
+      : HostCad(table_of(routines)), batched_(false), monitor_(monitor) {}
+  StoppableCad(const carreau_cad& callbacks, const Monitor& monitor)
+      : HostCad(table_of(callbacks)), batched_(callbacks.surface_batch != nullptr), monitor_(monitor) {}
+
+  void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
+    const std::size_t together = batched_ ? uv.size() : 1;
+    for (std::size_t from = 0; from < uv.size(); from += together) {
+      HostCad::surface(face, want, uv.subspan(from, together), out.subspan(from, together));
+      obey();
+    }
+  }
+  Interval curve_interval(int face, int ic) override { return obeyed(HostCad::curve_interval(face, ic)); }
+  CurveJet curve(int face, int ic, unsigned want, double t) override {
+    return obeyed(HostCad::curve(face, ic, want, t));
+  }
+  std::optional<double> surface_size(int face, Vec2 uv) override { return obeyed(HostCad::surface_size(face, uv)); }
+  std::optional<double> curve_size(int face, int ic, double t) override {
+    return obeyed(HostCad::curve_size(face, ic, t));
+  }
+  std::optional<double> point_size(int point) override { return obeyed(HostCad::point_size(point)); }
+  std::optional<double> surface_radius(int face, Vec2 uv) override { return obeyed(HostCad::surface_radius(face, uv)); }
+  std::optional<double> curve_radius(int face, int ic, double t) override {
+    return obeyed(HostCad::curve_radius(face, ic, t));
+  }
 
  private:
-  static HostTable table_of(carreau_cad& c) {
-    HostTable table;
-    table.user = &c;
-    table.surface_order = c.surface_order;
-    table.curve_order = c.curve_order;
-    table.reentrant = c.reentrant;
-    if (c.surface != nullptr || c.surface_batch != nullptr) table.surface = Thunks::surface;
-    table.surface_batch = when_given(c.surface_batch, &Thunks::surface_batch);
-    table.curve_interval = when_given(c.curve_interval, &Thunks::curve_interval);
-    table.curve = when_given(c.curve, &Thunks::curve);
-    table.surface_size = when_given(c.surface_size, &Thunks::surface_size);
-    table.curve_size = when_given(c.curve_size, &Thunks::curve_size);
-    table.point_size = when_given(c.point_size, &Thunks::point_size);
-    table.surface_radius = when_given(c.surface_radius, &Thunks::surface_radius);
-    table.curve_radius = when_given(c.curve_radius, &Thunks::curve_radius);
-    return table;
+  void obey() const {
+    if (monitor_.stop_requested()) throw carreau::Cancelled("stopped by the host");
   }
+  template <typename Value>
+  Value obeyed(Value value) const {
+    obey();
+    return value;
+  }
+
+  bool batched_;
+  const Monitor& monitor_;
 };
 
 }  // namespace
@@ -118,7 +99,7 @@ class CallbackCad final : private CallbackStore, public HostCad {
 carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* routines) {
   return guarded(session, [&] {
     const carreau_cad_m known = read_struct(routines, "carreau_cad_m");
-    auto cad = std::make_shared<HostCad>(table_of(known));
+    auto cad = std::make_shared<StoppableCad>(known, session->monitor);
     if (known.cad_init != nullptr) known.cad_init();
     session->session.set_cad(std::move(cad));
     session->has_cad = true;
@@ -128,7 +109,7 @@ carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* 
 carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks) {
   return guarded(session, [&] {
     const carreau_cad known = read_struct(callbacks, "carreau_cad");
-    session->session.set_cad(std::make_shared<CallbackCad>(known));
+    session->session.set_cad(std::make_shared<StoppableCad>(known, session->monitor));
     session->has_cad = true;
   });
 }

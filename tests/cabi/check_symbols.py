@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""The shared library exports exactly the functions of cabi/abi/symbols.txt.
+
+    check_symbols.py <libcarreau.so> <symbols.txt> [--refresh] [--nm NM]
+"""
+import argparse
+import subprocess
+import sys
+
+
+def exported(nm, library):
+    lines = subprocess.run([nm, "-D", "--defined-only", library], check=True, capture_output=True, text=True).stdout
+    return sorted(line.split()[-1] for line in lines.splitlines() if line.strip())
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("library")
+    parser.add_argument("symbols")
+    parser.add_argument("--refresh", action="store_true")
+    parser.add_argument("--nm", default="nm")
+    args = parser.parse_args()
+    found = exported(args.nm, args.library)
+    if args.refresh:
+        with open(args.symbols, "w") as out:
+            out.write("\n".join(found) + "\n")
+        return 0
+    with open(args.symbols) as listed_file:
+        listed = listed_file.read().split()
+    for name in sorted(set(found) - set(listed)):
+        print(f"exported, not in the list: {name}")
+    for name in sorted(set(listed) - set(found)):
+        print(f"in the list, not exported: {name}")
+    if found == listed:
+        print(f"{len(found)} symbols, as listed")
+        return 0
+    print(f"If this is wanted (a removal or a change needs a new CARREAU_SOVERSION), refresh the list:\n"
+          f"  python3 {sys.argv[0]} {args.library} {args.symbols} --refresh")
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
