@@ -21,6 +21,8 @@ struct PlaneEdge {
   PlaneEdgeKind kind = PlaneEdgeKind::boundary;
   int curve = -1;    ///< index of the curve that it comes from (for messages and refinement)
   int segment = -1;  ///< rank of the edge on that curve
+  /// Of a degenerate edge: the least number of triangles that this domain must contribute around the point of space.
+  int least_fan = 1;
 };
 
 /// A discretised parameter domain: closed loops of boundary edges (holes and several components are

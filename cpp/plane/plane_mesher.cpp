@@ -3,6 +3,7 @@
 #include <string>
 
 #include "plane/constraints.h"
+#include "plane/fans.h"
 #include "plane/filler.h"
 #include "plane/optimiser.h"
 
@@ -25,7 +26,8 @@ PlaneMesh to_mesh(const plane::Triangulation& triangulation) {
 
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor) {
-  plane::Triangulation triangulation = plane::triangulate(domain, monitor);
+  const PlaneDomain with_rings = plane::with_fans(domain, metric);
+  plane::Triangulation triangulation = plane::triangulate(with_rings, monitor);
   for (plane::Vertex& v : triangulation.vertices) {
     const Metric2 m = metric.at(v.point());
     v.a = static_cast<float>(m.a), v.b = static_cast<float>(m.b), v.c = static_cast<float>(m.c);
@@ -35,7 +37,7 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
     filler.march();
   else
     filler.split_long_edges();
-  plane::Optimiser(triangulation, static_cast<int>(domain.vertices.size()), metric, monitor).run(sweeps);
+  plane::Optimiser(triangulation, static_cast<int>(with_rings.vertices.size()), metric, monitor).run(sweeps);
   return to_mesh(triangulation);
 }
 

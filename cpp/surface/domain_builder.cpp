@@ -69,6 +69,14 @@ class Builder {
     return ends_.back().vertex;
   }
 
+  // An apex needs three triangles (HDR sec. 4.5.4), shared out among the faces that have a side there.
+  [[nodiscard]] int least_fan(const Curve& apex) const {
+    int sides = 0;
+    for (const int c : topology_.points[apex.end1].curves)
+      if (topology_.curves[c].degenerate) sides += static_cast<int>(topology_.curves[c].uses.size());
+    return (3 + sides - 1) / std::max(sides, 1);
+  }
+
   void add_curve(int c) {
     const int curve = curve_of_[c];
     const Curve& shape = topology_.curves[curve];
@@ -91,7 +99,7 @@ class Builder {
       } else {
         vertex = add_vertex(uv[i], {.curve = curve, .node = i}, {discrete.size[i], discrete.physical[i]});
       }
-      if (i > 0) domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1});
+      if (i > 0) domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1, shape.degenerate ? least_fan(shape) : 1});
       if (i == 1 && c + 1 == std::abs(face_.orientation)) {
         seed_ = static_cast<int>(domain_.plane.edges.size()) - 1;
         // The sign of the orientation is for the face's own direction of the curve.

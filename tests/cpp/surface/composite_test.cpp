@@ -12,14 +12,14 @@ namespace {
 
 using testing::AnalyticCad;
 
-struct Run {
+struct MeshedCase {
   std::shared_ptr<AnalyticCad> cad;
   Monitor monitor;
   std::unique_ptr<Session> session;
   FlatMesh mesh;
   QualitySummary quality;
 
-  Run(AnalyticCad geometry, double size, const std::function<void(Parameters&)>& more = {})
+  MeshedCase(AnalyticCad geometry, double size, const std::function<void(Parameters&)>& more = {})
       : cad(std::make_shared<AnalyticCad>(std::move(geometry))) {
     session = std::make_unique<Session>(monitor);
     session->set_cad(cad);
@@ -56,7 +56,7 @@ struct Run {
 };
 
 TEST(Paraboloid, DefaultMeshIsTheManuals) {
-  const Run run(testing::paraboloid(), 0);
+  const MeshedCase run(testing::paraboloid(), 0);
   EXPECT_EQ(run.session->mesh().edge_count(), 216U);
   EXPECT_EQ(run.quality.open_edges, 216U);
   EXPECT_NEAR(static_cast<double>(run.quality.triangles), 4980, 0.06 * 4980);
@@ -96,7 +96,7 @@ class SmoothPatch : public ::testing::TestWithParam<PatchCase> {};
 
 TEST_P(SmoothPatch, Near100000TrianglesMeetsTheQualityAsked) {
   const PatchCase& c = GetParam();
-  const Run run(c.make(), c.size);
+  const MeshedCase run(c.make(), c.size);
   EXPECT_NEAR(static_cast<double>(run.quality.triangles), 100000, 30000);
   EXPECT_GE(run.quality.q2.mean, 0.996);
   EXPECT_GE(run.quality.q2.p1, 0.94);
@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Uniform, SmoothPatch,
 
 TEST(Calls, AreAtMostThreeAVertexWhenUniform) {
   for (const auto& cad : {testing::paraboloid(), testing::hemisphere(), testing::torus_patch()}) {
-    const Run run(cad, 0.035);
+    const MeshedCase run(cad, 0.035);
     ASSERT_GE(run.quality.triangles, 10000U);
     EXPECT_LE(run.calls_per_vertex(), 3);
   }
@@ -123,7 +123,7 @@ TEST(Calls, AreAtMostThreeAVertexWhenUniform) {
 
 TEST(Calls, AreAtMostFiveAVertexWhenGeometric) {
   for (const auto& cad : {testing::paraboloid(), testing::hemisphere(), testing::torus_patch()}) {
-    const Run run(cad, 0, [](Parameters& p) {
+    const MeshedCase run(cad, 0, [](Parameters& p) {
       p.set("hphy_flag", 0);
       p.set("hgeo_flag", 1);
       p.set("angle_mesh", 1.0);
@@ -135,7 +135,7 @@ TEST(Calls, AreAtMostFiveAVertexWhenGeometric) {
 }
 
 TEST(Teapot, IsConformingWithTheManualsCurves) {
-  const Run run(testing::teapot(), 0.1);
+  const MeshedCase run(testing::teapot(), 0.1);
   int shared = 0, free = 0, degenerate = 0;
   for (const CurveMesh& curve : run.session->mesh().curves) {
     if (curve.vertices.size() < 2)
@@ -154,7 +154,7 @@ TEST(Teapot, IsConformingWithTheManualsCurves) {
 }
 
 TEST(Teapot, BordersAreNoWorseThanTheMiddle) {
-  const Run run(testing::teapot(), 0.1);
+  const MeshedCase run(testing::teapot(), 0.1);
   std::vector<char> on_curve(run.mesh.vertices.size(), 0);
   for (const CurveMesh& curve : run.session->mesh().curves)
     for (const auto v : curve.vertices) on_curve[v] = 1;
@@ -167,14 +167,14 @@ TEST(Teapot, BordersAreNoWorseThanTheMiddle) {
 }
 
 TEST(Teapot, FineMeshMeetsTheQualityAsked) {
-  const Run run(testing::teapot(), 0.035);
+  const MeshedCase run(testing::teapot(), 0.035);
   EXPECT_GE(run.quality.q2.mean, 0.990);
   EXPECT_GE(run.quality.q2.p1, 0.89);
   EXPECT_GE(run.quality.q2.min, 0.4);
 }
 
 TEST(Teapot, GeometricMeshMeetsTheQualityAsked) {
-  const Run run(testing::teapot(), 0, [](Parameters& p) {
+  const MeshedCase run(testing::teapot(), 0, [](Parameters& p) {
     p.set("hphy_flag", 0);
     p.set("hgeo_flag", 1);
   });
@@ -187,7 +187,7 @@ TEST(Torus, OneFaceWithTwoSeamsIsClosed) {
   constexpr double pi = std::numbers::pi;
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) { return testing::torus_jet(p, 2, 0.7); }, testing::rectangle({0, 0}, {2 * pi, 2 * pi})};
-  const Run run(cad, 0.2);
+  const MeshedCase run(cad, 0.2);
   EXPECT_EQ(find_defects(run.session->mesh(), {.closed = true}), std::vector<std::string>{});
   const auto euler = static_cast<std::ptrdiff_t>(run.quality.vertices + run.quality.triangles) -
                      static_cast<std::ptrdiff_t>(run.quality.edges);
@@ -205,7 +205,7 @@ TEST(Cone, HasAtLeastThreeTrianglesAtItsApex) {
                                         {-v * c, -v * s, 0},   {-s, c, 0},         {0, 0, 0}};
                     },
                     testing::rectangle({0, 0}, {2 * pi, 1})};
-    const Run run(cad, size);
+    const MeshedCase run(cad, size);
     std::vector<int> around(run.mesh.vertices.size(), 0);
     for (const auto& t : run.mesh.triangles)
       for (const auto v : t) ++around[v];
@@ -216,7 +216,7 @@ TEST(Cone, HasAtLeastThreeTrianglesAtItsApex) {
 }
 
 TEST(Mesh, IsTheSameTwice) {
-  const Run first(testing::teapot(), 0.15), second(testing::teapot(), 0.15);
+  const MeshedCase first(testing::teapot(), 0.15), second(testing::teapot(), 0.15);
   EXPECT_EQ(first.mesh.vertices, second.mesh.vertices);
   EXPECT_EQ(first.mesh.triangles, second.mesh.triangles);
 }
