@@ -177,6 +177,6 @@ inline AnalyticCad bezier_file(const std::string& path) {
   return cad;
 }
 
-inline AnalyticCad teapot() { return bezier_file(CARREAU_TEST_DATA "/../../fortran_examples/teapot/teapot.bpt"); }
+inline AnalyticCad teapot() { return bezier_file(CARREAU_SOURCE_DIR "/fortran_examples/teapot/teapot.bpt"); }
 
 }  // namespace carreau::testing
