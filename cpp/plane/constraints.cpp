@@ -160,6 +160,7 @@ class Constrainer {
     if (!sector.has_edge) {
       recover(edge, sector);
       sector = sector_of(edge.a, edge.b);
+      if (!sector.has_edge) fail(mesh_.at(edge.a), name_of(edge) + " cannot be recovered");
     }
     const int i = sector.edge_is_next ? prev3[sector.corner] : next3[sector.corner];
     mark(4 * sector.triangle + i, edge);
@@ -226,18 +227,21 @@ class Constrainer {
     }
   }
 
+  // Turns around u, one way and then, when u lies on the border of the box, the other.
   HalfEdge half_edge(int u, int v) {
     const int start = mesh_.vertices[u].triangle;
-    int t = start;
-    do {
-      const Triangle& T = mesh_.triangles[t];
-      const int k = mesh_.corner_of(t, u);
-      if (T.v[next3[k]] == v) return 4 * t + prev3[k];
-      if (T.v[prev3[k]] == v) return 4 * t + next3[k];
-      const HalfEdge after = T.n[next3[k]];
-      if (after == no_edge) break;
-      t = after >> 2;
-    } while (t != start);
+    for (const bool left : {true, false}) {
+      int t = start;
+      do {
+        const Triangle& T = mesh_.triangles[t];
+        const int k = mesh_.corner_of(t, u);
+        if (T.v[next3[k]] == v) return 4 * t + prev3[k];
+        if (T.v[prev3[k]] == v) return 4 * t + next3[k];
+        const HalfEdge after = T.n[left ? next3[k] : prev3[k]];
+        if (after == no_edge) break;
+        t = after >> 2;
+      } while (t != start);
+    }
     return no_edge;
   }
 
