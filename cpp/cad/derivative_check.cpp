@@ -1,7 +1,11 @@
 #include "cad/derivative_check.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
 
 #include "support/error.h"
 #include "support/format.h"
@@ -10,22 +14,143 @@ namespace carreau {
 
 namespace {
 
-constexpr double steps[] = {1e-3, 1e-4};  // of the parameter's range
-constexpr double disagreement = 0.02;     // relative: far above truncation and rounding, far below a factor or a sign
-constexpr double agreement = 0.004;       // of the two differences with each other
+// Steps, as shares of the parameter's range: the first one decides for a sound derivative.
+constexpr double coarse = 1e-3, fine = 1e-4;
+// Relative; hosts that approximate their derivatives are not wrong, a factor, a sign or a term that is missing is.
+constexpr double tolerance = 0.01;
+// Derivatives below this share of extent / range are zero.
+constexpr double negligible = 1e-3;
+// How far from a suspicious point the second opinion is sought; not along a parameter line or a diagonal.
+constexpr Vec2 nearby{0.0131, 0.0073};
 
-std::string text(Vec3 v) {
-  return "(" + format_number(v.x) + ", " + format_number(v.y) + ", " + format_number(v.z) + ")";
+/// Values along one parameter: up to two functions, each asked once at each offset.
+class Line {
+ public:
+  using Values = std::array<Vec3, 2>;
+  explicit Line(std::function<Values(double)> sample) : sample_(std::move(sample)) {}
+  const Values& at(double offset) {
+    const auto it = known_.find(offset);
+    return it != known_.end() ? it->second : known_.emplace(offset, sample_(offset)).first->second;
+  }
+
+ private:
+  std::function<Values(double)> sample_;
+  std::map<double, Values> known_;
+};
+
+struct Claim {
+  const char* name;
+  Vec3 given;
+  std::size_t slot;  // of Line::Values: what `given` is the derivative of
+};
+
+/// What finite differences say when the claim is wrong; empty when it is right or nothing can be said.
+/// `scale`: the size that a derivative of this order has when it matters.
+std::optional<Vec3> contradiction(const Claim& claim, Line& line, double range, double scale) {
+  const auto value = [&](double offset) { return line.at(offset)[claim.slot]; };
+  const auto central = [&](double h) { return (0.5 / h) * (value(h) - value(-h)); };
+  const Vec3 first = central(coarse * range);
+  const auto off = [&](Vec3 difference, double uncertainty) {
+    const double size = std::max({norm(claim.given), norm(difference), negligible * scale});
+    // Written so that what is not finite is not off.
+    return norm(claim.given - difference) > std::max(tolerance * size, uncertainty);
+  };
+  if (!off(first, 0)) return {};
+  const double h = fine * range;
+  const Vec3 second = central(h);
+  // The differences converge to each other at least, or they say nothing.
+  const double uncertainty = 5 * norm(first - second);
+  if (!off(second, uncertainty)) return {};
+  const Vec3 here = value(0);
+  if (!off((1 / h) * (value(h) - here), uncertainty) || !off((1 / h) * (here - value(-h)), uncertainty)) return {};
+  return second;
 }
 
-// `value(step)` is a central difference with that step; `scale` the size of what is differentiated over the whole
-// range.
-bool is_wrong(Vec3 given, double range, double scale, const std::function<Vec3(double)>& difference, Vec3& found) {
-  const Vec3 coarse = difference(steps[0] * range), fine = difference(steps[1] * range);
-  const double size = std::max({norm(fine), norm(given), 1e-6 * scale / range});
-  if (norm(coarse - fine) > agreement * size) return false;
-  found = fine;
-  return norm(given - fine) > disagreement * size;
+double shown(double value, double size) {
+  if (std::abs(value) < 1e-9 * size || !std::isfinite(value)) return value == value ? 0 : value;
+  const double unit = std::pow(10.0, 5 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * unit) / unit;
+}
+
+// `components`: 3 in space, 2 in the parameter plane. Six digits are enough of a finite difference.
+std::string text(Vec3 v, int components, bool rounded) {
+  const double size = norm(v);
+  const auto number = [&](double x) { return format_number(rounded ? shown(x, size) : x); };
+  return "(" + number(v.x) + ", " + number(v.y) + (components == 3 ? ", " + number(v.z) : "") + ")";
+}
+
+std::string sentence(const Where& where, const char* routine, const Claim& claim, Vec3 found, int components) {
+  return where.prefix() + routine + " gives " + claim.name + " = " + text(claim.given, components, false) +
+         ", but finite differences give " + text(found, components, true);
+}
+
+/// A claim and what it is judged by.
+struct Test {
+  Claim claim;
+  Line& line;
+  double range;
+  double extent;  // of the function that is differentiated, over the range
+};
+
+std::optional<std::string> first_contradiction(std::span<const Test> tests, const Where& where, const char* routine,
+                                               int components) {
+  for (const Test& test : tests)
+    if (const std::optional<Vec3> found = contradiction(test.claim, test.line, test.range, test.extent / test.range))
+      return sentence(where, routine, test.claim, *found, components);
+  return {};
+}
+
+std::optional<std::string> test_surface(Cad& cad, int face, Vec2 p, Vec2 range, int order) {
+  const auto sample = [&](Vec2 at) {
+    const SurfaceJet jet = surface_at(cad, face, order == 1 ? want_position : want_first, at);
+    return order == 1 ? Line::Values{jet.s, {}} : Line::Values{jet.su, jet.sv};
+  };
+  Line along_u([&](double d) { return sample({p.x + d, p.y}); });
+  Line along_v([&](double d) { return sample({p.x, p.y + d}); });
+  const SurfaceJet jet = surface_at(cad, face, order == 1 ? want_first : want_second, p);
+  const Where where{.face = face, .uv = p};
+  if (order == 1) {
+    const double extent = norm(jet.su) * range.x + norm(jet.sv) * range.y;
+    const std::array tests{Test{{"Su", jet.su, 0}, along_u, range.x, extent},
+                           Test{{"Sv", jet.sv, 0}, along_v, range.y, extent}};
+    return first_contradiction(tests, where, "surf1", 3);
+  }
+  const auto size = [](Line& line, double r, std::size_t slot) { return norm(line.at(coarse * r)[slot]); };
+  const std::array tests{Test{{"Suu", jet.suu, 0}, along_u, range.x, size(along_u, range.x, 0)},
+                         Test{{"Suv", jet.suv, 1}, along_u, range.x, size(along_u, range.x, 1)},
+                         Test{{"Svv", jet.svv, 1}, along_v, range.y, size(along_v, range.y, 1)}};
+  return first_contradiction(tests, where, "surf2", 3);
+}
+
+std::optional<std::string> test_curve(Cad& cad, int face, int ic, double t, double range, int order) {
+  const auto lift = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  Line line([&](double d) {
+    const CurveJet jet = cad.curve(face, ic, order == 1 ? want_position : want_first, t + d);
+    return Line::Values{lift(order == 1 ? jet.c : jet.ct), {}};
+  });
+  const CurveJet jet = cad.curve(face, ic, order == 1 ? want_first : want_second, t);
+  const Where where{.face = face, .curve_index = ic, .t = t};
+  if (order == 1) {
+    const std::array tests{Test{{"Ct", lift(jet.ct), 0}, line, range, norm(jet.ct) * range}};
+    return first_contradiction(tests, where, "curv1", 2);
+  }
+  const std::array tests{Test{{"Ctt", lift(jet.ctt), 0}, line, range, norm(line.at(coarse * range)[0])}};
+  return first_contradiction(tests, where, "curv2", 2);
+}
+
+/// A host may fail at a single point: nothing can be said there.
+std::optional<std::string> where_defined(const std::function<std::optional<std::string>()>& test) {
+  try {
+    return test();
+  } catch (const CallbackError&) {
+    return {};
+  }
+}
+
+/// x moved by `shift` towards the middle of [low, high], then away from the ends by the widest stencil.
+double inside(double x, double shift, double low, double high) {
+  const double margin = 2 * coarse * (high - low);
+  return std::clamp(x < (low + high) / 2 ? x + shift : x - shift, low + margin, high - margin);
 }
 
 }  // namespace
@@ -34,38 +159,22 @@ std::vector<std::string> find_wrong_surface_derivatives(Cad& cad, int face, std:
                                                         Vec2 high, bool second) {
   std::vector<std::string> wrong;
   const Vec2 range = high - low;
-  bool alarmed[2] = {false, false};
-  for (const Vec2 p : uv) {
-    // Points whose stencil would leave the box say nothing.
-    if (p.x - steps[0] * range.x < low.x || p.x + steps[0] * range.x > high.x || p.y - steps[0] * range.y < low.y ||
-        p.y + steps[0] * range.y > high.y)
-      continue;
-    const SurfaceJet jet = surface_at(cad, face, want_position | want_first | (second ? want_second : 0U), p);
-    const auto at = [&](double du, double dv, unsigned want) {
-      return surface_at(cad, face, want, {p.x + du, p.y + dv});
-    };
-    const double scale = norm(jet.su) * range.x + norm(jet.sv) * range.y;
-    const auto test = [&](int order, const char* routine, const char* name, Vec3 given, double width,
-                          const std::function<Vec3(double)>& difference) {
-      Vec3 found;
-      if (alarmed[order - 1] ||
-          !is_wrong(given, width, order == 1 ? scale : scale / std::min(range.x, range.y), difference, found))
-        return;
-      alarmed[order - 1] = true;
-      wrong.push_back(Where{.face = face, .uv = p}.prefix() + routine + " gives " + name + " = " + text(given) +
-                      ", finite differences give " + text(found));
-    };
-    test(1, "surf1", "Su", jet.su, range.x,
-         [&](double h) { return (0.5 / h) * (at(h, 0, want_position).s - at(-h, 0, want_position).s); });
-    test(1, "surf1", "Sv", jet.sv, range.y,
-         [&](double h) { return (0.5 / h) * (at(0, h, want_position).s - at(0, -h, want_position).s); });
-    if (!second || alarmed[0]) continue;
-    test(2, "surf2", "Suu", jet.suu, range.x,
-         [&](double h) { return (0.5 / h) * (at(h, 0, want_first).su - at(-h, 0, want_first).su); });
-    test(2, "surf2", "Suv", jet.suv, range.y,
-         [&](double h) { return (0.5 / h) * (at(0, h, want_first).su - at(0, -h, want_first).su); });
-    test(2, "surf2", "Svv", jet.svv, range.y,
-         [&](double h) { return (0.5 / h) * (at(0, h, want_first).sv - at(0, -h, want_first).sv); });
+  const auto moved = [&](Vec2 p, Vec2 share) {
+    return Vec2{inside(p.x, share.x * range.x, low.x, high.x), inside(p.y, share.y * range.y, low.y, high.y)};
+  };
+  for (const int order : {1, 2}) {
+    const unsigned bit = order == 1 ? want_first : want_second;
+    if ((cad.surface_gives() & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
+    for (const Vec2 given : uv) {
+      const Vec2 p = moved(given, {}), other = moved(p, nearby);
+      const auto test = [&](Vec2 at) {
+        return where_defined([&] { return test_surface(cad, face, at, range, order); });
+      };
+      std::optional<std::string> found = test(p);
+      if (!found || !test(other)) continue;
+      wrong.push_back(std::move(*found));
+      break;
+    }
   }
   return wrong;
 }
@@ -74,30 +183,19 @@ std::vector<std::string> find_wrong_curve_derivatives(Cad& cad, int face, int ic
                                                       Interval range, bool second) {
   std::vector<std::string> wrong;
   const double width = range.b - range.a;
-  const auto lift = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
-  bool alarmed = false;
-  for (const double at : t) {
-    if (at - steps[0] * width < range.a || at + steps[0] * width > range.b || alarmed) continue;
-    const CurveJet jet = cad.curve(face, ic, want_position | want_first | (second ? want_second : 0U), at);
-    const double scale = norm(jet.ct) * width;
-    const auto test = [&](const char* routine, const char* name, Vec2 given, double size,
-                          const std::function<Vec3(double)>& difference) {
-      Vec3 found;
-      if (alarmed || !is_wrong(lift(given), width, size, difference, found)) return;
-      alarmed = true;
-      wrong.push_back(Where{.face = face, .curve_index = ic, .t = at}.prefix() + routine + " gives " + name + " = (" +
-                      format_number(given.x) + ", " + format_number(given.y) + "), finite differences give (" +
-                      format_number(found.x) + ", " + format_number(found.y) + ")");
-    };
-    test("curv1", "Ct", jet.ct, scale, [&](double h) {
-      return lift((0.5 / h) *
-                  (cad.curve(face, ic, want_position, at + h).c - cad.curve(face, ic, want_position, at - h).c));
-    });
-    if (second)
-      test("curv2", "Ctt", jet.ctt, scale / width, [&](double h) {
-        return lift((0.5 / h) *
-                    (cad.curve(face, ic, want_first, at + h).ct - cad.curve(face, ic, want_first, at - h).ct));
-      });
+  for (const int order : {1, 2}) {
+    const unsigned bit = order == 1 ? want_first : want_second;
+    if ((cad.curve_gives() & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
+    for (const double given : t) {
+      const double p = inside(given, 0, range.a, range.b), other = inside(p, nearby.x * width, range.a, range.b);
+      const auto test = [&](double at) {
+        return where_defined([&] { return test_curve(cad, face, ic, at, width, order); });
+      };
+      std::optional<std::string> found = test(p);
+      if (!found || !test(other)) continue;
+      wrong.push_back(std::move(*found));
+      break;
+    }
   }
   return wrong;
 }

@@ -151,8 +151,9 @@ void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJe
   const auto sides = [](Side side) {
     return side == Side::central ? std::vector{Side::central, Side::forward, Side::backward} : std::vector{side};
   };
-  for (const Side side_u : sides(u.side))
-    for (const Side side_v : sides(v.side)) {
+  const std::vector<Side> sides_u = sides(u.side), sides_v = sides(v.side);
+  for (const Side side_u : sides_u)
+    for (const Side side_v : sides_v) {
       u.side = side_u, v.side = side_v;
       if (add_differences_at(face, task, uv, u, v, out)) return;
     }

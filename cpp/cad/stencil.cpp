@@ -18,8 +18,8 @@ Stencil stencil_of(int order, Side side) noexcept {
 
 DifferenceStep difference_step(double x, double low, double high, double relative) noexcept {
   const double range = high - low;
-  // Far from the origin the rounding of x + step counts: 1e-3 |x| stands for the range there.
-  const double scale = std::max({range, 1e-3 * std::abs(low), 1e-3 * std::abs(high)});
+  // Far from the origin a host cannot be more precise than its argument: eps |x| / step against step^2 / range^2.
+  const double scale = range * std::max(1.0, std::cbrt(std::max(std::abs(low), std::abs(high)) / range));
   // Three steps, the longest stencil, must fit on one side whatever x is.
   const double wanted = std::min(relative * scale, range / 8);
   const double step = std::exp2(std::floor(std::log2(wanted)));

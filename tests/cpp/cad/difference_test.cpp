@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "cad/difference_cad.h"
+#include "cad/stencil.h"
+#include "surfaces.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+double apply(const Stencil& stencil, int order, double x, double step) {
+  double sum = 0;
+  for (int i = 0; i < stencil.count; ++i) sum += stencil.weight[i] * std::exp(2 * (x + stencil.offset[i] * step));
+  return sum / std::pow(step, order);
+}
+
+TEST(Stencil, ConvergesToSecondOrderOnEverySide) {
+  const double x = 0.3;
+  for (const int order : {1, 2})
+    for (const Side side : {Side::central, Side::forward, Side::backward}) {
+      const double exact = std::pow(2, order) * std::exp(2 * x);
+      const Stencil stencil = stencil_of(order, side);
+      const double coarse = std::abs(apply(stencil, order, x, 1.0 / 64) - exact);
+      const double fine = std::abs(apply(stencil, order, x, 1.0 / 128) - exact);
+      EXPECT_NEAR(std::log2(coarse / fine), 2, 0.12) << "order " << order << ", side " << static_cast<int>(side);
+    }
+}
+
+TEST(DifferenceStep, KeepsTheLongestStencilInside) {
+  for (const double low : {-1.0, 0.0, 1e6})
+    for (const double range : {1e-6, 1.0, 1e5})
+      for (const double share : {0.0, 1e-9, 1e-6, 0.3, 0.999999, 1.0}) {
+        const double high = low + range, x = std::min(low + share * range, high);
+        for (const double relative : {1e-5, 2e-4, 0.5}) {
+          const DifferenceStep step = difference_step(x, low, high, relative);
+          ASSERT_GT(step.step, 0);
+          EXPECT_EQ(std::exp2(std::round(std::log2(step.step))), step.step);
+          for (const int order : {1, 2}) {
+            const Stencil stencil = stencil_of(order, step.side);
+            for (int i = 0; i < stencil.count; ++i) {
+              EXPECT_GE(x + stencil.offset[i] * step.step, low);
+              EXPECT_LE(x + stencil.offset[i] * step.step, high);
+            }
+          }
+        }
+      }
+}
+
+/// Torus whose derivatives above `gives` are wrong, so that a test sees whether they are used; a stencil that leaves
+/// `inside` gets NaN.
+struct Source : FaceCad {
+  std::function<bool(Vec2)> inside = [](Vec2) { return true; };
+  std::vector<Vec2> asked;
+  void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
+    EXPECT_EQ(want & ~gives, 0U);
+    FaceCad::surface(face, want, uv, out);
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+      asked.push_back(uv[i]);
+      if (!inside(uv[i])) out[i] = {{nan, nan, nan}, {nan, nan, nan}, {nan, nan, nan}, {}, {}, {}};
+    }
+  }
+};
+
+SurfaceJet exact(Vec2 p) { return torus_jet(p, 2, 0.7); }
+
+DifferenceCad differenced(unsigned gives, Source** source = nullptr) {
+  auto host = std::make_unique<Source>();
+  host->jet = exact;
+  host->gives = gives;
+  if (source != nullptr) *source = host.get();
+  return {std::move(host), gives, gives};
+}
+
+void expect_first(const SurfaceJet& jet, Vec2 p, double tolerance) {
+  EXPECT_LE(norm(jet.su - exact(p).su), tolerance);
+  EXPECT_LE(norm(jet.sv - exact(p).sv), tolerance);
+}
+
+void expect_second(const SurfaceJet& jet, Vec2 p, double tolerance) {
+  EXPECT_LE(norm(jet.suu - exact(p).suu), tolerance);
+  EXPECT_LE(norm(jet.suv - exact(p).suv), tolerance);
+  EXPECT_LE(norm(jet.svv - exact(p).svv), tolerance);
+}
+
+constexpr unsigned everything = want_position | want_first | want_second;
+
+TEST(DifferenceCad, FindsDerivativesFromPositions) {
+  DifferenceCad cad = differenced(want_position);
+  cad.set_parameter_box(1, {0, 0}, {2, 3});
+  for (const Vec2 p : {Vec2{1, 1}, Vec2{0, 0}, Vec2{2, 3}, Vec2{0, 1.7}, Vec2{1.99999999, 1e-9}}) {
+    const SurfaceJet jet = surface_at(cad, 1, everything, p);
+    EXPECT_EQ(jet.s, exact(p).s);
+    expect_first(jet, p, 4e-9);
+    expect_second(jet, p, 2e-6);
+  }
+}
+
+TEST(DifferenceCad, FindsSecondDerivativesFromFirstOnes) {
+  DifferenceCad cad = differenced(want_position | want_first);
+  cad.set_parameter_box(1, {0, 0}, {2, 3});
+  for (const Vec2 p : {Vec2{1, 1}, Vec2{0, 0}, Vec2{2, 3}}) {
+    const SurfaceJet jet = surface_at(cad, 1, everything, p);
+    EXPECT_EQ(jet.su, exact(p).su);
+    expect_second(jet, p, 1e-8);
+  }
+}
+
+TEST(DifferenceCad, FindsFirstDerivativesWhenOnlyTheSecondOnesAreGiven) {
+  DifferenceCad cad = differenced(want_position | want_second);
+  const SurfaceJet jet = surface_at(cad, 1, everything, {1, 1});
+  expect_first(jet, {1, 1}, 1e-8);
+  EXPECT_EQ(jet.suu, exact({1, 1}).suu);
+}
+
+TEST(DifferenceCad, StaysInsideTheBox) {
+  Source* source = nullptr;
+  for (const unsigned gives : {unsigned{want_position}, want_position | want_first}) {
+    DifferenceCad cad = differenced(gives, &source);
+    const Vec2 low{0.25, -3}, high{0.75, 100};
+    cad.set_parameter_box(1, low, high);
+    for (const Vec2 p : {low, high, Vec2{low.x, high.y}, Vec2{0.25000001, 99.9999}, Vec2{0.5, 0}})
+      surface_at(cad, 1, everything, p);
+    for (const Vec2 p : source->asked) {
+      EXPECT_TRUE(low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y) << p.x << " " << p.y;
+    }
+  }
+}
+
+TEST(DifferenceCad, TakesOtherSidesWhereTheHostIsNotDefined) {
+  // A disc that its box does not tell.
+  for (const unsigned gives : {unsigned{want_position}, want_position | want_first}) {
+    Source* source = nullptr;
+    DifferenceCad cad = differenced(gives, &source);
+    cad.set_parameter_box(1, {-1, -1}, {1, 1});
+    source->inside = [](Vec2 p) { return dot(p, p) <= 1; };
+    for (const Vec2 p : {Vec2{0.6, 0.7999999999}, Vec2{-0.6, 0.7999999999}, Vec2{0.6, -0.7999999999}}) {
+      const SurfaceJet jet = surface_at(cad, 1, everything, p);
+      expect_first(jet, p, 1e-8);
+      expect_second(jet, p, 1e-5);
+    }
+  }
+}
+
+TEST(DifferenceCad, TellsWhereNoDifferenceIsFinite) {
+  Source* source = nullptr;
+  DifferenceCad cad = differenced(want_position, &source);
+  source->inside = [](Vec2 p) { return p == Vec2{0.5, 0.5}; };
+  const std::string text = callback_error([&] { surface_at(cad, 7, want_first, {0.5, 0.5}); });
+  EXPECT_NE(text.find("face 7"), std::string::npos) << text;
+  EXPECT_NE(text.find("u = 0.5, v = 0.5"), std::string::npos) << text;
+  EXPECT_NE(text.find("first derivatives are not given"), std::string::npos) << text;
+}
+
+TEST(DifferenceCad, AnswersABatchAsItAnswersSinglePoints) {
+  DifferenceCad cad = differenced(want_position);
+  cad.set_parameter_box(1, {0, 0}, {1, 1});
+  std::vector<Vec2> points;
+  for (int i = 0; i < 1500; ++i) points.push_back({(i % 40) / 39.0, i / 1499.0});
+  std::vector<SurfaceJet> jets(points.size());
+  cad.surface(1, everything, points, jets);
+  for (std::size_t i = 0; i < points.size(); i += 7) {
+    const SurfaceJet alone = surface_at(cad, 1, everything, points[i]);
+    EXPECT_EQ(alone.su, jets[i].su);
+    EXPECT_EQ(alone.suv, jets[i].suv);
+  }
+}
+
+TEST(DifferenceCad, KeepsItsAccuracyFarFromTheOrigin) {
+  auto host = std::make_unique<Source>();
+  const double far = 1e6;
+  host->jet = [&](Vec2 p) { return exact({p.x - far, p.y}); };
+  host->gives = want_position;
+  DifferenceCad cad(std::move(host), want_position, want_position);
+  cad.set_parameter_box(1, {far, 0}, {far + 1, 1});
+  expect_first(surface_at(cad, 1, want_first, {far + 0.5, 0.5}), {0.5, 0.5}, 1e-6);
+}
+
+TEST(DifferenceCad, FindsDerivativesOfCurvesInsideTheirInterval) {
+  for (const unsigned gives : {unsigned{want_position}, want_position | want_first, want_position | want_second}) {
+    auto host = std::make_unique<FaceCad>();
+    const auto along = host->along;
+    host->along = [along](double t) {
+      EXPECT_TRUE(0 <= t && t <= 2) << t;
+      return along(t);
+    };
+    DifferenceCad cad(std::move(host), everything, gives);
+    for (const double t : {0.0, 1e-7, 1.0, 1.9999999, 2.0}) {
+      const CurveJet jet = cad.curve(1, 1, everything, t);
+      EXPECT_EQ(jet.c, along(t).c);
+      EXPECT_LE(norm(jet.ct - along(t).ct), 1e-8) << t;
+      EXPECT_LE(norm(jet.ctt - along(t).ctt), (gives & want_first) != 0 ? 1e-7 : 1e-5) << t;
+    }
+  }
+}
+
+TEST(DifferenceCad, RefusesABoxThatIsNoBox) {
+  DifferenceCad cad = differenced(want_position);
+  EXPECT_THROW(cad.set_parameter_box(1, {0, 0}, {0, 1}), InvalidArgument);
+  EXPECT_THROW(cad.set_parameter_box(1, {0, nan}, {1, 1}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace carreau
