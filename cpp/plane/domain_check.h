@@ -1,5 +1,9 @@
 // Detection of what makes a discretised parameter domain impossible or bad to mesh, and of the edges to
 // refine to mend it (HDR sec. 3.3.1-3.3.3, RT-0232 sec. 3.3 CheckCloseEdges and its sisters).
+//
+// All decisions are exact; n log n on usual domains (predicates/edge_grid.h). All functions but find_loop_defects and
+// find_open_loops throw InvalidArgument when an edge refers to a vertex that does not exist or a vertex is not finite.
+// Sentences and indices name PlaneEdge::curve and segment as they are: the caller translates them.
 #pragma once
 
 #include <string>
@@ -12,33 +16,45 @@ namespace carreau {
 
 /// Two edges that meet where they should not.
 struct EdgeConflict {
-  int first = 0, second = 0;  ///< indices in PlaneDomain::edges
-  Vec2 uv;                    ///< where
+  int first = 0, second = 0;  ///< indices in PlaneDomain::edges, first < second
+  Vec2 uv;                    ///< where: a vertex, or the crossing to rounding
 };
 
-/// Pairs of edges that cross, overlap, or touch away from a common vertex. Exact; n log n on usual domains.
-/// Includes an imposed vertex that lies on an edge it does not belong to only as far as edges are concerned
-/// (isolated points on edges: see find_points_on_edges).
+/// Pairs of edges of any kind that cross, overlap, duplicate each other, or touch at a point that is not the same
+/// vertex of both (two vertices at one place count as different). Sorted by first, then second. When there are more
+/// than four times as many as edges the search ends early.
 std::vector<EdgeConflict> find_crossings(const PlaneDomain& domain);
 
-/// Sentences about loops: a boundary vertex without exactly as many edges in as out, a loop of zero area,
-/// an outer loop turned the wrong way (the domain would be unbounded), a hole outside every component,
-/// imposed points outside the domain or on an edge.
+/// What can be said before the edges are turned: indices or coordinates that make no sense, edges without
+/// length, a domain without boundary, boundary vertices where an odd number of boundary edges end (HDR fig. 3.1,
+/// third).
+std::vector<std::string> find_open_loops(const PlaneDomain& domain);
+
+/// Those of find_open_loops, alone if there are any; else loops without area, loops turned the wrong way (the
+/// domain would be unbounded, or a hole lies outside every component), edges against their neighbours, internal curves
+/// outside, imposed points outside, on an edge or twice at one place. For domains without crossings.
 std::vector<std::string> find_loop_defects(const PlaneDomain& domain);
 
-/// Turns boundary edges so that the domain lies on their left: for every loop, by nesting, given that edge
-/// `seed` has the domain on its left when `left` and on its right otherwise. When `seed` contradicts the nesting
-/// (the domain would be the outside), returns false and leaves the domain as it was (HDR fig. 3.1).
+/// Turns boundary and degenerate edges so that the domain, the bounded even-odd region, lies on their left, given
+/// that edge `seed` as it stands has the domain on its left when `left` and on its right otherwise. False, and the
+/// domain stays as it was, when a loop is open or the seed contradicts the nesting (HDR fig. 3.1, third and fourth). On
+/// a boundary that crosses itself the larger part of each run of edges decides, so that it can be mended afterwards.
+/// Throws DomainError when the seed is not a bounding edge.
 bool orient_loops(PlaneDomain& domain, int seed, bool left);
 
-/// Edges to subdivide so that crossing edges stop crossing: of each pair the longer (HDR sec. 3.3.1).
+/// Edges to subdivide so that crossing edges stop crossing: of each pair the longer in (u, v), both when they join the
+/// same vertices (HDR sec. 3.3.1). Never a degenerate edge. Increasing.
 std::vector<int> edges_to_split_for_crossings(const PlaneDomain& domain);
 
-/// Edges longer than what is close to them allows: a foreign vertex lies within coef * length of the edge, lengths in
-/// the metric (HDR sec. 3.3.2; narrower at acute corners). coef: CoefRectangle.
+/// Edges longer than what is close to them allows: a vertex that is none of its ends lies within coef * length of the
+/// edge, on the domain's side, lengths in the metric at the edge's midpoint (HDR sec. 3.3.2). The band is narrower
+/// where an acute corner explains the closeness, so that splitting in halves and checking again ends (README). Needs
+/// loops that are turned and do not cross. Never a degenerate edge. Increasing. coef: CoefRectangle; none when it is
+/// not positive.
 std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef);
 
-/// Edges more than `ratio` times longer, in the metric, than the next edge of their curve or loop (HDR sec. 3.3.3).
+/// Edges more than `ratio` times longer, in the metric at the midpoints, than the next edge of their curve or loop (HDR
+/// sec. 3.3.3). Never a degenerate edge. Increasing. ratio >= 2, else InvalidArgument: below, halving need not end.
 std::vector<int> edges_to_split_for_balance(const PlaneDomain& domain, const ControlSpace& metric, double ratio = 2);
 
 }  // namespace carreau

@@ -25,7 +25,7 @@ PolygonLocator::PolygonLocator(std::span<const Vec2> vertices, std::span<const s
   reversed_.reserve(edges.size());
   for (const auto& [first, second] : edges) {
     const Vec2 a = vertices[first], b = vertices[second];
-    const bool reversed = b.x < a.x || (b.x == a.x && b.y < a.y);
+    const bool reversed = comes_after(a, b);
     segment_.push_back(reversed ? Segment{b, a} : Segment{a, b});
     reversed_.push_back(reversed ? 1 : 0);
   }
@@ -101,25 +101,34 @@ int PolygonLocator::edge_through(Vec2 p) const noexcept {
   return lowest;
 }
 
-/// As `contains`, for the point that lies on the edge, infinitely near to its low end, and then just below the edge, or
-/// just right of it when the edge is vertical.
-bool PolygonLocator::inside_left_of(int edge) const noexcept {
-  const Vec2 p = segment_[edge].low, along = segment_[edge].high;
-  if (p == along) return false;
-  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
-  const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{p.x, corner.y};
+/// As `contains`, for the point that lies on low - high, infinitely near to low, and then just below, or just right
+/// when low - high is vertical. `edge`: which edge low - high is, or -1.
+bool PolygonLocator::inside_below(Vec2 low, Vec2 high, int edge) const noexcept {
+  const int column = grid_.column_of(low.x), row = grid_.row_of(low.y);
+  const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{low.x, corner.y};
   bool inside = corner_inside_[static_cast<std::size_t>(row) * grid_.columns() + column] != 0;
   for (const int e : grid_.edges_in(column, row)) {
     const Segment& s = segment_[e];
-    if (crosses_horizontally(s, corner, p.x)) inside = !inside;
-    if (p.x < s.low.x || p.x >= s.high.x) continue;
-    // An edge through p passes below the point when it passes below the far end of `edge`.
-    int target = orientation(s.low, s.high, p);
-    if (target == 0) target = orientation(s.low, s.high, along);
+    if (crosses_horizontally(s, corner, low.x)) inside = !inside;
+    if (low.x < s.low.x || low.x >= s.high.x) continue;
+    // An edge through `low` passes below the point when it passes below `high`.
+    int target = orientation(s.low, s.high, low);
+    if (target == 0) target = orientation(s.low, s.high, high);
     if (e == edge || target == 0) target = -1;
     if (side(s, turn) != target) inside = !inside;
   }
-  return (reversed_[edge] != 0) == inside;
+  return inside;
+}
+
+bool PolygonLocator::inside_left_of(int edge) const noexcept {
+  const Segment& s = segment_[edge];
+  if (s.low == s.high) return false;
+  return (reversed_[edge] != 0) == inside_below(s.low, s.high, edge);
+}
+
+bool PolygonLocator::inside_along(Vec2 p, Vec2 q) const noexcept {
+  if (p == q || !in_box(p) || !in_box(q)) return false;
+  return comes_after(p, q) ? inside_below(q, p, -1) : inside_below(p, q, -1);
 }
 
 }  // namespace carreau
