@@ -1,6 +1,7 @@
 // The metric field of one parameter domain, sampled once and then evaluated without callbacks.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -13,17 +14,18 @@
 
 namespace carreau {
 
-/// Gives the true metric at points of the domain; may return a tensor that is not definite (a degenerate side): it is
-/// clamped. Called in batches, never for a point outside the domain given to the builder.
+/// Gives the true metric at points of the domain: finite; may be semi-definite (a degenerate side): it is clamped.
+/// Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
 struct ControlSpaceOptions {
-  /// Relative error of a squared length below which a cell is not refined further.
-  double tolerance = 0.004;
-  /// Samples for each vertex of the mesh to come: accuracy beyond that costs more calls than it is worth.
+  /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
+  /// the mesh.
+  double tolerance = 0.02;
+  /// Samples for each vertex of the mesh to come, on fields that are smooth: more only where the tolerance is violated.
   double samples_per_vertex = 1.5;
-  std::size_t min_samples = 81;
-  std::size_t max_samples = 400'000;
+  std::size_t min_samples = 60;       ///< approximate
+  std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
 };
 
 /// The closed parameter domain in which sampling is allowed: discretised loops, any orientation.
@@ -32,12 +34,12 @@ struct SampledDomain {
   std::vector<std::pair<int, int>> edges;  ///< boundary only
 };
 
-/// Control space of RR-2928 sec. 2: bilinear interpolation of the tensor on a balanced quadtree over the domain's box.
-/// Continuous, symmetric positive definite. Copies and calls of at() are safe from several threads.
+/// Control space of RR-2928 sec. 2: the square root of the metric, piecewise biquadratic on a balanced quadtree over
+/// the domain's box. Continuous, symmetric positive definite. Copies and calls of at() are safe from several threads.
 class ControlSpace {
  public:
-  /// Samples `sampler` inside `domain` and refines where interpolation is off. Throws what the sampler throws, and
-  /// Cancelled.
+  /// Samples `sampler` inside `domain` and refines where prediction and sample disagree. Deterministic. Throws
+  /// DomainError when the domain has no area, what the sampler throws, and Cancelled.
   static ControlSpace build(const SampledDomain& domain, const MetricSampler& sampler,
                             const ControlSpaceOptions& options, Monitor& monitor);
   /// The same metric everywhere.
@@ -45,53 +47,56 @@ class ControlSpace {
 
   /// Metric at (u, v). Points outside the box take the value of its nearest point.
   [[nodiscard]] Metric2 at(Vec2 uv) const noexcept {
-    const double x = into_unit((uv.x - low_.x) * scale_.x), y = into_unit((uv.y - low_.y) * scale_.y);
-    std::int32_t cell = table_[static_cast<std::size_t>(y * table_size_) * static_cast<std::size_t>(table_size_) +
-                               static_cast<std::size_t>(x * table_size_)];
-    while (cells_[static_cast<std::size_t>(cell)].child >= 0) {
-      const Cell& c = cells_[static_cast<std::size_t>(cell)];
-      cell = c.child + (x * c.scale - c.x >= 0.5 ? 1 : 0) + (y * c.scale - c.y >= 0.5 ? 2 : 0);
-    }
-    const Cell& c = cells_[static_cast<std::size_t>(cell)];
-    const double fx = x * c.scale - c.x, fy = y * c.scale - c.y;
-    const double w11 = fx * fy, w10 = fx - w11, w01 = fy - w11, w00 = 1 - fx - w01;
-    const Metric2 &m00 = nodes_[static_cast<std::size_t>(c.node[0])],
-                  &m10 = nodes_[static_cast<std::size_t>(c.node[1])],
-                  &m01 = nodes_[static_cast<std::size_t>(c.node[2])],
-                  &m11 = nodes_[static_cast<std::size_t>(c.node[3])];
-    return {w00 * m00.a + w10 * m10.a + w01 * m01.a + w11 * m11.a,
-            w00 * m00.b + w10 * m10.b + w01 * m01.b + w11 * m11.b,
-            w00 * m00.c + w10 * m10.c + w01 * m01.c + w11 * m11.c};
+    const double x = within((uv.x - low_.x) * scale_.x, last_.x), y = within((uv.y - low_.y) * scale_.y, last_.y);
+    const int i = static_cast<int>(x), j = static_cast<int>(y);
+    std::int32_t cell = table_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)];
+    if (cell < 0) cell = descend(cell, x - i, y - j);
+    const Leaf& l = leaves_[static_cast<std::size_t>(cell)];
+    const double s = (x - l.x) * l.scale, t = (y - l.y) * l.scale;
+    // Columns of coefficients: powers of s; rows: powers of t.
+    double root[3];
+    for (int k = 0; k < 3; ++k)
+      root[k] = ((l.c[8][k] * s + l.c[7][k]) * s + l.c[6][k]) * (t * t) +
+                ((l.c[5][k] * s + l.c[4][k]) * s + l.c[3][k]) * t + ((l.c[2][k] * s + l.c[1][k]) * s + l.c[0][k]);
+    return {unit_.a * (root[0] * root[0] + root[1] * root[1]), unit_.b * (root[1] * (root[0] + root[2])),
+            unit_.c * (root[1] * root[1] + root[2] * root[2])};
   }
 
-  /// Number of triangles of unit edges that the domain holds.
+  /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
   /// Points at which the sampler was called.
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return nodes_.capacity() * sizeof(Metric2) + cells_.capacity() * sizeof(Cell) +
-           table_.capacity() * sizeof(std::int32_t);
+    return leaves_.capacity() * sizeof(Leaf) + table_.capacity() * sizeof(std::int32_t) +
+           children_.capacity() * sizeof(children_[0]);
   }
 
  private:
-  friend class ControlSpaceBuilder;
+  friend class ControlSpaceWriter;
 
-  /// A square of the unit square: [x, x + 1] / scale times [y, y + 1] / scale.
-  struct Cell {
-    double scale = 1, x = 0, y = 0;
-    std::int32_t child = -1;              ///< first of four, -1: a leaf
-    std::int32_t node[4] = {0, 0, 0, 0};  ///< corners of a leaf: 00, 10, 01, 11
+  /// S(s, t) = sum of c[3 m + n] s^n t^m for (s, t) in [-1, 1]^2, about the centre (x, y) in units of the table.
+  struct Leaf {
+    double x = 0, y = 0, scale = 1;
+    std::array<std::array<double, 3>, 9> c{{{1, 0, 1}}};
   };
-  static double into_unit(double x) noexcept {
-    constexpr double below_one = 1 - 1e-15;
-    return x > 0 ? (x < below_one ? x : below_one) : 0;
+
+  static double within(double x, double last) noexcept { return x > 0 ? (x < last ? x : last) : 0; }
+  [[nodiscard]] std::int32_t descend(std::int32_t cell, double fx, double fy) const noexcept {
+    do {
+      fx += fx, fy += fy;
+      const int right = fx >= 1 ? 1 : 0, upper = fy >= 1 ? 1 : 0;
+      fx -= right, fy -= upper;
+      cell = children_[static_cast<std::size_t>(~cell)][static_cast<std::size_t>(2 * upper + right)];
+    } while (cell < 0);
+    return cell;
   }
 
-  Vec2 low_{}, scale_{1, 1};
-  double table_size_ = 1;
-  std::vector<std::int32_t> table_{0};  ///< cells by a uniform grid, so that most points find their leaf at once
-  std::vector<Cell> cells_{Cell{}};
-  std::vector<Metric2> nodes_{Metric2{}};
+  Vec2 low_{}, scale_{0, 0}, last_{0, 0};
+  std::size_t columns_ = 1;
+  Metric2 unit_{1, 1, 1};                  ///< from the units of the roots to those of the parameters
+  std::vector<std::int32_t> table_ = {0};  ///< a leaf, or ~index of children_
+  std::vector<std::array<std::int32_t, 4>> children_;
+  std::vector<Leaf> leaves_ = {Leaf{}};
   double measure_ = 0;
   std::size_t samples_ = 0;
 };

@@ -1,0 +1,104 @@
+// The nodes of a control space under construction. Private to the builder.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "metric/metric2.h"
+#include "predicates/polygon_locator.h"
+
+namespace carreau::detail {
+
+/// Column and row on the finest grid that the tree can reach: cells of any size share their nodes exactly.
+struct GridPoint {
+  std::int32_t i = 0, j = 0;
+};
+
+/// From pairs of integers to consecutive numbers.
+class GridIndex {
+ public:
+  /// -1 when absent.
+  [[nodiscard]] std::int32_t find(GridPoint p) const noexcept;
+  /// The number of p, and whether it is new (then it is the next one).
+  std::pair<std::int32_t, bool> insert(GridPoint p);
+
+ private:
+  static std::uint64_t key(GridPoint p) noexcept;
+  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const noexcept;
+  void grow();
+  std::vector<std::uint64_t> key_ = std::vector<std::uint64_t>(1024, 0);  // 0: free
+  std::vector<std::int32_t> value_ = std::vector<std::int32_t>(1024, -1);
+  std::int32_t size_ = 0;
+};
+
+/// A value predicted from others, with the order of the error's leading term (2 linear, 3 quadratic, 4 cubic
+/// interpolation; 1: extrapolation; 0: nothing is known).
+struct Prediction {
+  Metric2 root{};
+  int order = 0;
+};
+
+/// Whether `root` is definite and no larger than twice, no smaller than half of what is beside it.
+bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept;
+
+/// Square roots of metrics at the nodes of nested grids over a box, in units of the coarsest cells. Nodes that were not
+/// sampled are predicted from coarser grids by cubic interpolation along a line (four points, fewer near the
+/// boundary), which is an interpolating subdivision.
+class Lattice {
+ public:
+  /// columns x rows coarsest cells, each `step` units of the finest grid wide; step a power of two.
+  Lattice(Vec2 low, Vec2 high, int columns, int rows, std::int32_t step, const PolygonLocator& domain);
+
+  [[nodiscard]] std::int32_t step() const noexcept { return step_; }
+  [[nodiscard]] GridPoint end() const noexcept { return end_; }
+  [[nodiscard]] Vec2 low() const noexcept { return low_; }
+  /// Extents of a coarsest cell.
+  [[nodiscard]] Vec2 cell() const noexcept { return cell_; }
+  /// Parameters of a node; exact on the sides of the box, where hosts are often defined just so far.
+  [[nodiscard]] Vec2 parameters(GridPoint p) const noexcept;
+  /// Position in units of the finest grid, not rounded.
+  [[nodiscard]] Vec2 position(Vec2 uv) const noexcept {
+    return {(uv.x - low_.x) / cell_.x * step_, (uv.y - low_.y) / cell_.y * step_};
+  }
+  [[nodiscard]] bool contains(GridPoint p) const noexcept {
+    return p.i >= 0 && p.j >= 0 && p.i <= end_.i && p.j <= end_.j;
+  }
+
+  /// The number of a node, created when new.
+  std::int32_t node(GridPoint p);
+  [[nodiscard]] GridPoint point(std::int32_t node) const noexcept { return nodes_[node].point; }
+  [[nodiscard]] std::int32_t size() const noexcept { return static_cast<std::int32_t>(nodes_.size()); }
+  [[nodiscard]] bool inside(std::int32_t node) const noexcept { return nodes_[node].inside; }
+  [[nodiscard]] bool sampled(std::int32_t node) const noexcept { return nodes_[node].sampled; }
+  void set_sample(std::int32_t node, Metric2 root) noexcept;
+  [[nodiscard]] Metric2 value(std::int32_t node) const noexcept { return nodes_[node].root; }
+
+  /// Null when p was not sampled.
+  [[nodiscard]] const Metric2* sample(GridPoint p) const noexcept;
+  /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
+  Prediction predict(GridPoint p);
+  void forget() noexcept { ++pass_; }
+
+ private:
+  struct Node {
+    GridPoint point;
+    Metric2 root{};  // a sample, or the prediction of pass `pass`
+    std::int32_t pass = -1;
+    std::int8_t order = 0;
+    bool inside = false, sampled = false;
+  };
+  std::optional<Metric2> fetch(GridPoint p);
+  template <typename Get>
+  static Prediction along_line(const Get& get);
+
+  Vec2 low_, high_, cell_;
+  std::int32_t step_;
+  GridPoint end_;
+  const PolygonLocator& domain_;
+  GridIndex index_;
+  std::vector<Node> nodes_;
+  std::int32_t pass_ = 0;
+};
+
+}  // namespace carreau::detail

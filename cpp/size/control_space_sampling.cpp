@@ -1,0 +1,337 @@
+#include "size/control_space_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "metric/metric2_algebra.h"
+
+namespace carreau::detail {
+
+namespace {
+
+constexpr std::size_t batch = 4096;
+
+// Exploration: a cell for each so many vertices; beyond many vertices, their number grows with the square root.
+constexpr double usual_vertices_per_cell = 10, many_vertices = 40'000, least_cells = 25;
+// Samples that a cell of a uniform grid costs: a node, its centre, its share of the border.
+constexpr double samples_per_cell = 2.4;
+// Coarsest cells along a side, and units of the finest grid.
+constexpr int least_side = 3, most_side = 1024;
+constexpr std::int32_t most_units = 1 << 29, most_step = 1 << 20;
+// A cell that holds this many times the vertices wanted is split without asking.
+constexpr double crowded = 1.6;
+
+// Lengths of a cell below this many edges do not matter.
+constexpr double negligible_length = 0.03;
+// The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
+// mesh, than half an edge, than a quarter of one. Smaller cells serve nobody.
+constexpr double share_wide = 0.125, share_edge = 0.5, share_half = 1;
+// A boundary sample is compared with an extrapolation that does not know it; later it takes part.
+constexpr double border_relief = 0.25;
+
+// Samples that splitting a cell costs: usually, and at most.
+constexpr double usual_cost = 7, worst_cost = 12;
+// Smooth fields may use these beyond the samples for each vertex.
+constexpr double spare_samples = 200;
+constexpr std::size_t least_of_max_samples = 1000;
+
+}  // namespace
+
+ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const MetricSampler& sampler,
+                                           const ControlSpaceOptions& options, Monitor& monitor)
+    : domain_(domain),
+      locator_(domain.vertices, domain.edges),
+      sampler_(sampler),
+      options_(options),
+      monitor_(monitor),
+      vertex_sampled_(domain.vertices.size(), 0) {
+  options_.max_samples = std::max(options_.max_samples, least_of_max_samples);
+}
+
+void ControlSpaceSampling::run() {
+  const Survey s = survey(domain_, locator_, [this](std::span<const Vec2> uv) { return ask(uv); });
+  choose_grid(s);
+  for (std::size_t k = 0; k < s.vertices.size(); ++k) {
+    border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of(s.metrics[k]));
+    vertex_sampled_[s.vertices[k]] = 1;
+  }
+  sample_roots();
+  std::vector<std::int32_t> active;
+  for (std::int32_t c = 0; c < tree_->size(); ++c)
+    if ((*tree_)[c].relevant) active.push_back(c);
+  while (!active.empty()) {
+    test(active);
+    estimate_vertices();
+    active = refine(affordable(std::move(active)));
+  }
+}
+
+void ControlSpaceSampling::choose_grid(const Survey& s) {
+  vertices_ = std::max(s.vertices_in_box * s.share, 1.0);
+  double cells = std::min(vertices_, std::sqrt(vertices_ * many_vertices)) / usual_vertices_per_cell;
+  cells = std::max(cells, static_cast<double>(options_.min_samples) / samples_per_cell);
+  cells = std::min(cells, static_cast<double>(options_.max_samples) / (2 * samples_per_cell));
+  vertices_per_cell_ = vertices_ / cells;
+  // Powers of four are left to the tree, so that large cells remain possible where the mesh is coarse.
+  double coarsest = std::max(cells / s.share, least_cells);
+  const auto shorter_side = [&](double count) { return std::sqrt(count * std::min(s.aspect, 1 / s.aspect)); };
+  while (coarsest >= 4 * least_cells && shorter_side(coarsest / 4) >= least_side) coarsest /= 4;
+  const auto side = [](double count) {
+    return static_cast<int>(std::clamp(std::round(count), double{least_side}, double{most_side}));
+  };
+  // The side that is rounded most comes first, so that the product remains.
+  int columns, rows;
+  if (s.aspect >= 1) {
+    rows = side(std::sqrt(coarsest / s.aspect));
+    columns = side(coarsest / rows);
+  } else {
+    columns = side(std::sqrt(coarsest * s.aspect));
+    rows = side(coarsest / columns);
+  }
+  std::int32_t step = most_step;
+  while (step > most_units / std::max(columns, rows)) step /= 2;
+  lattice_.emplace(s.low, s.high, columns, rows, step, locator_);
+  border_.emplace(*lattice_);
+  tree_.emplace(domain_, locator_, *lattice_);
+  floor_ = s.floor;
+}
+
+std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
+  std::vector<Metric2> metric(uv.size());
+  for (std::size_t start = 0; start < uv.size(); start += batch) {
+    monitor_.checkpoint();
+    const std::size_t n = std::min(batch, uv.size() - start);
+    sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n));
+    samples_ += n;
+  }
+  return metric;
+}
+
+// In units of the coarsest cells.
+Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept {
+  const Vec2 w = lattice_->cell();
+  const double columns = tree_->columns(), rows = tree_->rows();
+  const Metric2 in_box{m.a * w.x * w.x * columns * columns, m.b * w.x * w.y * columns * rows,
+                       m.c * w.y * w.y * rows * rows};
+  const Metric2 clamped = clamp_eigenvalues(in_box, floor_, std::numeric_limits<double>::max());
+  return square_root({clamped.a / (columns * columns), clamped.b / (columns * rows), clamped.c / (rows * rows)});
+}
+
+void ControlSpaceSampling::sample_roots() {
+  std::vector<char> wanted;
+  std::vector<std::int32_t> nodes;
+  std::vector<Vec2> uv;
+  for (std::int32_t c = 0; c < tree_->size(); ++c) {
+    if (!(*tree_)[c].relevant) continue;
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t n = lattice_->node((*tree_)[c].corner(k));
+      wanted.resize(static_cast<std::size_t>(lattice_->size()), 1);
+      if (wanted[n] == 0) continue;
+      wanted[n] = 0;
+      if (!lattice_->inside(n)) continue;
+      nodes.push_back(n);
+      uv.push_back(lattice_->parameters(lattice_->point(n)));
+    }
+  }
+  const std::vector<Metric2> metric = ask(uv);
+  for (std::size_t k = 0; k < nodes.size(); ++k) lattice_->set_sample(nodes[k], root_of(metric[k]));
+}
+
+// What the samples known so far say about a node.
+Metric2 ControlSpaceSampling::expected_at(std::int32_t node, std::int32_t size) {
+  const GridPoint p = lattice_->point(node);
+  const Prediction guess = lattice_->predict(p);
+  if (guess.order >= 3) return guess.root;
+  return border_->fit({static_cast<double>(p.i), static_cast<double>(p.j)}, size);
+}
+
+bool ControlSpaceSampling::wholly_inside(const TreeCell& cell) {
+  if (cell.edges_begin == cell.edges_end) return true;
+  if (!lattice_->inside(lattice_->node(cell.centre()))) return false;
+  for (int k = 0; k < 4; ++k)
+    if (!lattice_->inside(lattice_->node(cell.corner(k)))) return false;
+  return true;
+}
+
+std::vector<ControlSpaceSampling::NodeProbe> ControlSpaceSampling::centres_of(std::span<const std::int32_t> cells) {
+  std::vector<NodeProbe> probes;
+  for (const std::int32_t c : cells) {
+    const TreeCell& cell = (*tree_)[c];
+    const std::int32_t n = lattice_->node(cell.centre());
+    if (lattice_->inside(n)) probes.push_back({n, c, expected_at(n, cell.size)});
+  }
+  return probes;
+}
+
+// A vertex of the boundary in each cell that is partly outside.
+std::vector<ControlSpaceSampling::BorderPoint> ControlSpaceSampling::border_points_of(
+    std::span<const std::int32_t> cells) {
+  std::vector<BorderPoint> points;
+  std::vector<int> found;
+  for (const std::int32_t c : cells) {
+    const TreeCell& cell = (*tree_)[c];
+    if (wholly_inside(cell)) continue;
+    tree_->vertices_in(cell, found);
+    if (found.empty()) continue;
+    const int v = found[found.size() / 2];
+    if (vertex_sampled_[v] != 0) continue;
+    vertex_sampled_[v] = 1;
+    points.push_back({v, c, border_->fit(lattice_->position(domain_.vertices[v]), cell.size)});
+  }
+  return points;
+}
+
+// Samples what tells whether cells need splitting, and finds their errors and numbers of vertices.
+void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
+  lattice_->forget();
+  const std::vector<NodeProbe> centres = centres_of(cells);
+  const std::vector<BorderPoint> points = border_points_of(cells);
+  std::vector<Vec2> uv;
+  for (const NodeProbe& p : centres) uv.push_back(lattice_->parameters(lattice_->point(p.node)));
+  for (const BorderPoint& p : points) uv.push_back(domain_.vertices[p.vertex]);
+  const std::vector<Metric2> metric = ask(uv);
+  for (const std::int32_t c : cells) {
+    (*tree_)[c].error = 0;
+    (*tree_)[c].tested = true;
+  }
+  // The centre, where there is one, says last how many vertices there are.
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    TreeCell& cell = (*tree_)[points[k].cell];
+    const Metric2 truth = root_of(metric[centres.size() + k]);
+    border_->add(lattice_->position(domain_.vertices[points[k].vertex]), truth);
+    cell.error = border_relief * error_between(points[k].expected, truth, cell);
+    cell.vertices = vertices_of(cell, truth);
+  }
+  for (std::size_t k = 0; k < centres.size(); ++k) {
+    TreeCell& cell = (*tree_)[centres[k].cell];
+    const Metric2 truth = root_of(metric[k]);
+    lattice_->set_sample(centres[k].node, truth);
+    cell.error = std::max(cell.error, error_between(centres[k].expected, truth, cell));
+    cell.vertices = vertices_of(cell, truth);
+  }
+}
+
+void ControlSpaceSampling::estimate_vertices() {
+  double sum = 0;
+  for (std::int32_t c = 0; c < tree_->size(); ++c) {
+    const TreeCell& cell = (*tree_)[c];
+    if (cell.child >= 0 || !cell.relevant) continue;
+    double inside = 5;
+    if (cell.edges_begin != cell.edges_end) {
+      inside = lattice_->inside(lattice_->node(cell.centre())) ? 1 : 0;
+      for (int k = 0; k < 4; ++k) inside += lattice_->inside(lattice_->node(cell.corner(k))) ? 1 : 0;
+    }
+    sum += cell.vertices * inside / 5;
+  }
+  // Exploration is planned for the first estimate; it grows as much as that was too low.
+  if (sum > vertices_) vertices_per_cell_ *= std::sqrt(sum / vertices_);
+  vertices_ = std::max(sum, 1.0);
+}
+
+double ControlSpaceSampling::vertices_of(const TreeCell& cell, Metric2 root) const noexcept {
+  const double share = static_cast<double>(cell.size) / lattice_->step();
+  return std::max(accurate_determinant(root), 0.0) * share * share / area_per_vertex;
+}
+
+double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const TreeCell& cell) const noexcept {
+  const double share = static_cast<double>(cell.size) / lattice_->step();
+  constexpr double floor = negligible_length * negligible_length;
+  const auto lifted = [&](Metric2 r) {
+    const Metric2 m = share * share * square(r);
+    return Metric2{m.a + floor, m.b, m.c + floor};
+  };
+  return length_error(lifted(root), lifted(truth));
+}
+
+double ControlSpaceSampling::allowed_error(const TreeCell& cell) const noexcept {
+  const double width = std::sqrt(cell.vertices * area_per_vertex);
+  if (width > 1) return share_wide * options_.tolerance;
+  if (width > 0.5) return share_edge * options_.tolerance;
+  if (width > 0.25) return share_half * options_.tolerance;
+  return std::numeric_limits<double>::infinity();
+}
+
+// Cells to split, in their order: crowded ones and those beyond the tolerance as far as max_samples allows, the others
+// as far as samples_per_vertex does, the worst first.
+std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int32_t> cells) const {
+  std::vector<std::int32_t> must, may;
+  for (const std::int32_t c : cells) {
+    const TreeCell& cell = (*tree_)[c];
+    if (!tree_->can_split(c)) continue;
+    const double allowed = allowed_error(cell);
+    if (cell.vertices > crowded * vertices_per_cell_ || cell.error > std::max(allowed, options_.tolerance))
+      must.push_back(c);
+    else if (cell.error > allowed)
+      may.push_back(c);
+  }
+  const auto cut = [this](std::vector<std::int32_t>& list, double samples, double cost) {
+    const auto count = static_cast<std::size_t>(std::max(samples / cost, 0.0));
+    if (list.size() <= count) return;
+    std::stable_sort(list.begin(), list.end(),
+                     [this](std::int32_t p, std::int32_t q) { return (*tree_)[p].error > (*tree_)[q].error; });
+    list.resize(count);
+  };
+  const double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(must.size());
+  cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
+  must.insert(must.end(), may.begin(), may.end());
+  cut(must, static_cast<double>(options_.max_samples - std::min(samples_, options_.max_samples)), worst_cost);
+  std::sort(must.begin(), must.end());
+  return must;
+}
+
+// Splits cells, and neighbours that turn out to be as bad; returns the new leaves that have points of the domain.
+std::vector<std::int32_t> ControlSpaceSampling::refine(std::span<const std::int32_t> cells) {
+  std::vector<std::int32_t> now(cells.begin(), cells.end()), fresh;
+  while (!now.empty()) {
+    for (const std::int32_t c : now) {
+      tree_->split(c);
+      for (std::int32_t k = (*tree_)[c].child; k < (*tree_)[c].child + 4; ++k)
+        if ((*tree_)[k].relevant) fresh.push_back(k);
+    }
+    now = affordable(sample_middles(now));
+  }
+  return fresh;
+}
+
+// Samples the middles of the sides of cells; returns the leaves beside those where prediction was wrong.
+std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const std::int32_t> cells) {
+  lattice_->forget();
+  std::vector<NodeProbe> probes;
+  for (const std::int32_t c : cells)
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t n = lattice_->node((*tree_)[c].middle(k));
+      if (lattice_->inside(n) && !lattice_->sampled(n)) probes.push_back({n, c});
+    }
+  std::stable_sort(probes.begin(), probes.end(),
+                   [](const NodeProbe& p, const NodeProbe& q) { return p.node < q.node; });
+  probes.erase(std::unique(probes.begin(), probes.end(),
+                           [](const NodeProbe& p, const NodeProbe& q) { return p.node == q.node; }),
+               probes.end());
+  std::vector<Vec2> uv;
+  for (NodeProbe& p : probes) {
+    p.expected = expected_at(p.node, (*tree_)[p.cell].size);
+    uv.push_back(lattice_->parameters(lattice_->point(p.node)));
+  }
+  const std::vector<Metric2> metric = ask(uv);
+  std::vector<std::int32_t> beside;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const Metric2 truth = root_of(metric[k]);
+    lattice_->set_sample(probes[k].node, truth);
+    const GridPoint p = lattice_->point(probes[k].node);
+    for (const GridPoint q : {p, GridPoint{p.i - 1, p.j}, GridPoint{p.i, p.j - 1}}) {
+      const std::int32_t leaf = tree_->leaf_at(q);
+      // Leaves just made will be tested by their own centres.
+      if (leaf < 0 || !(*tree_)[leaf].relevant || !(*tree_)[leaf].tested) continue;
+      const double error = error_between(probes[k].expected, truth, (*tree_)[leaf]);
+      if (error <= allowed_error((*tree_)[leaf])) continue;
+      (*tree_)[leaf].error = std::max((*tree_)[leaf].error, error);
+      beside.push_back(leaf);
+    }
+  }
+  std::sort(beside.begin(), beside.end());
+  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+  return beside;
+}
+
+}  // namespace carreau::detail

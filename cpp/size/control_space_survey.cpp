@@ -1,0 +1,96 @@
+#include "size/control_space_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "metric/metric2_algebra.h"
+#include "support/error.h"
+
+namespace carreau::detail {
+
+const double area_per_vertex = 0.5 * std::numbers::sqrt3;
+
+namespace {
+
+constexpr std::size_t most_border_points = 16;
+// Inner points along each side of the box; points along each side to find the share of the box.
+constexpr int inner_points = 3, share_points = 16;
+
+// A length of the whole box in any direction is at least this many edges, or this share of what is usual if that is
+// less: metrics are clamped where the parametrisation is degenerate (HDR sec. 4.5.4).
+constexpr double least_box_length = 1e-2, least_share_of_usual = 1e-3;
+
+void find_box(const SampledDomain& domain, Survey& s) {
+  if (domain.edges.empty()) throw DomainError("the parameter domain has no boundary");
+  s.low = s.high = domain.vertices[domain.edges[0].first];
+  for (const auto& [a, b] : domain.edges)
+    for (const Vec2 p : {domain.vertices[a], domain.vertices[b]}) {
+      s.low = {std::min(s.low.x, p.x), std::min(s.low.y, p.y)};
+      s.high = {std::max(s.high.x, p.x), std::max(s.high.y, p.y)};
+    }
+  const Vec2 w = s.high - s.low;
+  if (!(w.x > 0) || !(w.y > 0)) throw DomainError("the parameter domain has no area");
+}
+
+// The points of the box's regular n x n grid of cell centres that are inside.
+std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int n) {
+  std::vector<Vec2> points;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const Vec2 p{s.low.x + (i + 0.5) / n * (s.high.x - s.low.x), s.low.y + (j + 0.5) / n * (s.high.y - s.low.y)};
+      if (locator.contains(p)) points.push_back(p);
+    }
+  return points;
+}
+
+// The smallest eigenvalue allowed, from the smallest lengths of the box at the samples.
+double floor_from(std::vector<double> shortest, double longest) {
+  std::sort(shortest.begin(), shortest.end());
+  double usual = shortest[shortest.size() / 2];
+  if (!(usual > 0)) usual = shortest.back();
+  if (!(usual > 0)) usual = longest > 0 ? longest : 1;
+  const double length = std::min(least_box_length, least_share_of_usual * usual);
+  return length * length;
+}
+
+}  // namespace
+
+Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
+              const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask) {
+  Survey s;
+  find_box(domain, s);
+  std::vector<Vec2> uv;
+  const std::size_t stride = std::max<std::size_t>(1, domain.edges.size() / most_border_points);
+  for (std::size_t e = 0; e < domain.edges.size() && uv.size() < most_border_points; e += stride) {
+    const int v = domain.edges[e].first;
+    if (std::find(s.vertices.begin(), s.vertices.end(), v) != s.vertices.end()) continue;
+    s.vertices.push_back(v);
+    uv.push_back(domain.vertices[v]);
+  }
+  const std::vector<Vec2> inner = inner_grid(s, locator, inner_points);
+  uv.insert(uv.end(), inner.begin(), inner.end());
+  s.metrics = ask(uv);
+
+  const Vec2 w = s.high - s.low;
+  std::vector<double> shortest;
+  double longest = 0, density = 0, along_u = 0, along_v = 0;
+  for (const Metric2& m : s.metrics) {
+    const Eigen2 e = eigen({m.a * w.x * w.x, m.b * w.x * w.y, m.c * w.y * w.y});
+    const double minor = std::max(e.minor, 0.0);
+    shortest.push_back(std::sqrt(minor));
+    longest = std::max(longest, std::sqrt(e.major));
+    density += std::sqrt(e.major * minor);
+    along_u += std::sqrt(std::max(m.a, 0.0)) * w.x;
+    along_v += std::sqrt(std::max(m.c, 0.0)) * w.y;
+  }
+  s.floor = floor_from(std::move(shortest), longest);
+  s.vertices_in_box = density / static_cast<double>(uv.size()) / area_per_vertex;
+  if (along_u > 0 && along_v > 0) s.aspect = along_u / along_v;
+  const double points = share_points * share_points;
+  s.share = (static_cast<double>(inner_grid(s, locator, share_points).size()) + 1) / (points + 1);
+  s.metrics.resize(s.vertices.size());
+  return s;
+}
+
+}  // namespace carreau::detail

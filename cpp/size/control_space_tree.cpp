@@ -1,0 +1,101 @@
+#include "size/control_space_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carreau::detail {
+
+namespace {
+
+// Cells are widened by this share of their size before they are compared with an edge: rounding must not lose one.
+constexpr double widening = 1e-9;
+
+}  // namespace
+
+Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, const Lattice& lattice)
+    : domain_(domain),
+      locator_(locator),
+      lattice_(lattice),
+      columns_(lattice.end().i / lattice.step()),
+      rows_(lattice.end().j / lattice.step()) {
+  // The coarsest cells that the box of an edge overlaps.
+  std::vector<std::vector<std::int32_t>> candidates(static_cast<std::size_t>(columns_) *
+                                                    static_cast<std::size_t>(rows_));
+  const auto cell_of = [&](double x, int count, double shift) {
+    return std::clamp(static_cast<int>(std::floor(x / lattice_.step() + shift)), 0, count - 1);
+  };
+  for (std::size_t e = 0; e < domain.edges.size(); ++e) {
+    const Vec2 p = lattice.position(domain.vertices[domain.edges[e].first]);
+    const Vec2 q = lattice.position(domain.vertices[domain.edges[e].second]);
+    const int i0 = cell_of(std::min(p.x, q.x), columns_, -widening),
+              i1 = cell_of(std::max(p.x, q.x), columns_, widening);
+    const int j0 = cell_of(std::min(p.y, q.y), rows_, -widening), j1 = cell_of(std::max(p.y, q.y), rows_, widening);
+    for (int j = j0; j <= j1; ++j)
+      for (int i = i0; i <= i1; ++i)
+        candidates[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(e));
+  }
+  cells_.reserve(candidates.size());
+  for (int j = 0; j < rows_; ++j)
+    for (int i = 0; i < columns_; ++i) {
+      TreeCell cell{.i = i * lattice.step(), .j = j * lattice.step(), .size = lattice.step()};
+      complete(cell, candidates[static_cast<std::size_t>(j * columns_ + i)]);
+      cells_.push_back(cell);
+    }
+}
+
+// Separating axes of the closed square and the segment.
+bool Tree::meets(const TreeCell& cell, std::int32_t edge) const noexcept {
+  const Vec2 p = lattice_.position(domain_.vertices[domain_.edges[edge].first]);
+  const Vec2 q = lattice_.position(domain_.vertices[domain_.edges[edge].second]);
+  const double half = 0.5 * cell.size * (1 + widening);
+  const Vec2 centre{cell.i + 0.5 * cell.size, cell.j + 0.5 * cell.size};
+  const Vec2 middle = 0.5 * (p + q) - centre, d = 0.5 * (q - p);
+  const double x = std::abs(d.x), y = std::abs(d.y);
+  return std::abs(middle.x) <= half + x && std::abs(middle.y) <= half + y &&
+         std::abs(cross(d, middle)) <= half * (x + y) * (1 + widening);
+}
+
+void Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates) {
+  cell.edges_begin = static_cast<std::int32_t>(edges_.size());
+  for (const std::int32_t e : candidates)
+    if (meets(cell, e)) edges_.push_back(e);
+  cell.edges_end = static_cast<std::int32_t>(edges_.size());
+  cell.relevant = cell.edges_end > cell.edges_begin || locator_.contains(lattice_.parameters(cell.centre()));
+}
+
+void Tree::split(std::int32_t number) {
+  const TreeCell cell = cells_[number];
+  const std::int32_t half = cell.size / 2;
+  const std::vector<std::int32_t> candidates(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
+  cells_[number].child = size();
+  for (int k = 0; k < 4; ++k) {
+    TreeCell child{.i = cell.i + (k % 2) * half, .j = cell.j + (k / 2) * half, .size = half};
+    child.error = cell.error;
+    child.vertices = cell.vertices / 4;
+    if (cell.relevant) complete(child, candidates);
+    cells_.push_back(child);
+  }
+}
+
+std::int32_t Tree::leaf_at(GridPoint p) const noexcept {
+  if (p.i < 0 || p.j < 0 || p.i >= lattice_.end().i || p.j >= lattice_.end().j) return -1;
+  std::int32_t cell = (p.j / lattice_.step()) * columns_ + p.i / lattice_.step();
+  while (cells_[cell].child >= 0) {
+    const TreeCell& c = cells_[cell];
+    cell = c.child + (p.i >= c.i + c.size / 2 ? 1 : 0) + (p.j >= c.j + c.size / 2 ? 2 : 0);
+  }
+  return cell;
+}
+
+void Tree::vertices_in(const TreeCell& cell, std::vector<int>& found) const {
+  found.clear();
+  for (std::int32_t k = cell.edges_begin; k < cell.edges_end; ++k)
+    for (const int v : {domain_.edges[edges_[k]].first, domain_.edges[edges_[k]].second}) {
+      const Vec2 p = lattice_.position(domain_.vertices[v]);
+      if (p.x >= cell.i && p.x <= cell.i + cell.size && p.y >= cell.j && p.y <= cell.j + cell.size) found.push_back(v);
+    }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+}
+
+}  // namespace carreau::detail

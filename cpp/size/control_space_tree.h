@@ -1,0 +1,64 @@
+// The cells of a control space under construction. Private to size/.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "size/control_space.h"
+#include "size/control_space_lattice.h"
+
+namespace carreau::detail {
+
+/// [i, i + size] x [j, j + size] in units of the finest grid.
+struct TreeCell {
+  std::int32_t i = 0, j = 0, size = 0;
+  std::int32_t child = -1;                      ///< first of four, -1: a leaf
+  std::int32_t edges_begin = 0, edges_end = 0;  ///< range of boundary edges that meet the closed cell
+  bool relevant = false;                        ///< has points of the domain
+  bool tested = false;                          ///< its centre was sampled, or cannot be
+  double error = 0;                             ///< of prediction against sample, relative, in length
+  double vertices = 0;                          ///< that a mesh would have in the whole cell
+  [[nodiscard]] GridPoint centre() const noexcept { return {i + size / 2, j + size / 2}; }
+  /// Corners (k = 0..3: lower left, lower right, upper left, upper right).
+  [[nodiscard]] GridPoint corner(int k) const noexcept { return {i + (k % 2) * size, j + (k / 2) * size}; }
+  /// Middles of the sides (k = 0..3: lower, upper, left, right).
+  [[nodiscard]] GridPoint middle(int k) const noexcept {
+    return k < 2 ? GridPoint{i + size / 2, j + k * size} : GridPoint{i + (k - 2) * size, j + size / 2};
+  }
+};
+
+/// Square cells over the lattice, each a leaf or split into four.
+class Tree {
+ public:
+  Tree(const SampledDomain& domain, const PolygonLocator& locator, const Lattice& lattice);
+
+  [[nodiscard]] std::int32_t size() const noexcept { return static_cast<std::int32_t>(cells_.size()); }
+  TreeCell& operator[](std::int32_t cell) noexcept { return cells_[cell]; }
+  const TreeCell& operator[](std::int32_t cell) const noexcept { return cells_[cell]; }
+  /// Cells that are not children of others, row by row: numbers 0 .. columns() * rows() - 1.
+  [[nodiscard]] int columns() const noexcept { return columns_; }
+  [[nodiscard]] int rows() const noexcept { return rows_; }
+  /// A leaf of size 2 has no more nodes to give.
+  [[nodiscard]] bool can_split(std::int32_t cell) const noexcept {
+    return cells_[cell].child < 0 && cells_[cell].size >= 4;
+  }
+  void split(std::int32_t cell);
+  /// The leaf that holds the unit cell [i, i + 1] x [j, j + 1] of the finest grid; -1 outside of the box.
+  [[nodiscard]] std::int32_t leaf_at(GridPoint p) const noexcept;
+  /// Boundary vertices in the closed cell, increasing indices in SampledDomain::vertices.
+  void vertices_in(const TreeCell& cell, std::vector<int>& found) const;
+
+ private:
+  void complete(TreeCell& cell, std::span<const std::int32_t> candidates);
+  [[nodiscard]] bool meets(const TreeCell& cell, std::int32_t edge) const noexcept;
+
+  const SampledDomain& domain_;
+  const PolygonLocator& locator_;
+  const Lattice& lattice_;
+  int columns_, rows_;
+  std::vector<TreeCell> cells_;
+  std::vector<std::int32_t> edges_;
+};
+
+}  // namespace carreau::detail

@@ -1,0 +1,317 @@
+#include "size/control_space_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "metric/metric2_algebra.h"
+
+namespace carreau {
+
+using detail::GridPoint;
+using detail::TreeCell;
+
+namespace {
+
+// Inner Bernstein coefficients have eigenvalues of at least this share of those of the values beside them: all
+// coefficients being definite, so is the polynomial.
+constexpr double least_share = 0.1;
+// Steps in which a side or a cell is straightened until it is so.
+constexpr int straightening_steps = 8;
+// Entries of the table for each leaf, at most.
+constexpr std::size_t table_per_leaf = 2;
+// Points along each side of a cut leaf that tell which part of it is inside.
+constexpr int share_points = 4;
+
+double smaller_eigenvalue(Metric2 m) noexcept {
+  const double half = 0.5 * (m.a - m.c);
+  return 0.5 * (m.a + m.c) - std::sqrt(half * half + m.b * m.b);
+}
+
+// straight + theta (bent - straight) with the largest theta of 1, 7/8, ... 0 for which it is definite enough.
+Metric2 definite_between(Metric2 straight, Metric2 bent, double least) noexcept {
+  for (int k = straightening_steps; k > 0; --k) {
+    const double theta = static_cast<double>(k) / straightening_steps;
+    const Metric2 m = (1 - theta) * straight + theta * bent;
+    if (smaller_eigenvalue(m) >= least) return m;
+  }
+  return straight;
+}
+
+}  // namespace
+
+ControlSpaceWriter::ControlSpaceWriter(detail::ControlSpaceSampling& sampling, Monitor& monitor)
+    : sampling_(sampling), tree_(sampling.tree()), lattice_(sampling.lattice()), monitor_(monitor) {}
+
+ControlSpace ControlSpaceWriter::run() {
+  balance();
+  sort_leaves();
+  set_values();
+  fill_outside();
+  straighten_sides();
+  write();
+  return std::move(space_);
+}
+
+// A leaf has no neighbour of less than half or more than twice its size.
+void ControlSpaceWriter::balance() {
+  std::vector<std::int32_t> todo;
+  for (std::int32_t c = 0; c < tree_.size(); ++c)
+    if (tree_[c].child < 0) todo.push_back(c);
+  while (!todo.empty()) {
+    const TreeCell cell = tree_[todo.back()];
+    todo.pop_back();
+    if (cell.child >= 0) continue;
+    const std::int32_t half = cell.size / 2;
+    for (const GridPoint p : {GridPoint{cell.i - 1, cell.j + half}, GridPoint{cell.i + cell.size, cell.j + half},
+                              GridPoint{cell.i + half, cell.j - 1}, GridPoint{cell.i + half, cell.j + cell.size}}) {
+      for (std::int32_t leaf = tree_.leaf_at(p); leaf >= 0 && tree_[leaf].size > 2 * cell.size;
+           leaf = tree_.leaf_at(p)) {
+        tree_.split(leaf);
+        for (int k = 0; k < 4; ++k) todo.push_back(tree_[leaf].child + k);
+      }
+    }
+  }
+}
+
+void ControlSpaceWriter::sort_leaves() {
+  for (std::int32_t c = 0; c < tree_.size(); ++c)
+    if (tree_[c].child < 0) leaves_.push_back(c);
+  std::stable_sort(leaves_.begin(), leaves_.end(),
+                   [this](std::int32_t p, std::int32_t q) { return tree_[p].size > tree_[q].size; });
+}
+
+Metric2& ControlSpaceWriter::value(GridPoint p) {
+  const std::int32_t n = lattice_.node(p);
+  if (static_cast<std::size_t>(n) >= value_.size()) {
+    value_.resize(static_cast<std::size_t>(n) + 1);
+    known_.resize(static_cast<std::size_t>(n) + 1, 0);
+  }
+  return value_[n];
+}
+
+void ControlSpaceWriter::set_value(GridPoint p, const TreeCell& cell) {
+  Metric2& v = value(p);
+  const std::int32_t n = lattice_.node(p);
+  if (known_[n] != 0) return;
+  if (lattice_.sampled(n)) {
+    v = lattice_.value(n);
+    known_[n] = 1;
+    return;
+  }
+  if (lattice_.inside(n)) {
+    const detail::Prediction guess = lattice_.predict(p);
+    if (guess.order >= 3) {
+      // predict() may have added nodes, but none here.
+      v = guess.root;
+      known_[n] = 1;
+      return;
+    }
+  } else if (!cell.relevant) {
+    return;
+  }
+  v = sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size);
+  known_[n] = 1;
+}
+
+// From fine to coarse: a node outside is extrapolated from the nearest samples that there are.
+void ControlSpaceWriter::set_values() {
+  lattice_.forget();
+  std::size_t count = 0;
+  for (auto leaf = leaves_.rbegin(); leaf != leaves_.rend(); ++leaf) {
+    if (++count % 1024 == 0) monitor_.checkpoint();
+    const TreeCell cell = tree_[*leaf];
+    for (int k = 0; k < 4; ++k) set_value(cell.corner(k), cell);
+    for (int k = 0; k < 4; ++k) set_value(cell.middle(k), cell);
+    set_value(cell.centre(), cell);
+  }
+}
+
+// Far outside any continuation does: the mean of what is known in a leaf spreads from leaf to leaf.
+void ControlSpaceWriter::fill_outside() {
+  std::vector<std::int32_t> todo = leaves_;
+  while (!todo.empty()) {
+    std::vector<std::int32_t> later;
+    for (const std::int32_t leaf : todo) {
+      const TreeCell cell = tree_[leaf];
+      Metric2 sum{0, 0, 0};
+      int known = 0;
+      std::vector<GridPoint> unknown;
+      for (int k = 0; k < 9; ++k) {
+        const GridPoint p{cell.i + (k % 3) * (cell.size / 2), cell.j + (k / 3) * (cell.size / 2)};
+        const Metric2 v = value(p);
+        if (known_[lattice_.node(p)] != 0)
+          sum = sum + v, ++known;
+        else
+          unknown.push_back(p);
+      }
+      if (known == 0) {
+        later.push_back(leaf);
+        continue;
+      }
+      for (const GridPoint p : unknown) {
+        value(p) = (1.0 / known) * sum;
+        known_[lattice_.node(p)] = 1;
+      }
+    }
+    if (later.size() == todo.size()) break;  // nothing is known anywhere: cannot happen after a sample
+    todo.swap(later);
+  }
+}
+
+bool ControlSpaceWriter::beside_coarser(const TreeCell& cell, int side) const {
+  const GridPoint middle = cell.middle(side);
+  const GridPoint outside = side == 0   ? GridPoint{middle.i, middle.j - 1}
+                            : side == 2 ? GridPoint{middle.i - 1, middle.j}
+                                        : middle;
+  const std::int32_t leaf = tree_.leaf_at(outside);
+  return leaf >= 0 && tree_[leaf].size > cell.size;
+}
+
+// Along each side, from coarse to fine, the middle Bernstein coefficient of the quadratic becomes definite.
+void ControlSpaceWriter::straighten_sides() {
+  constexpr int ends[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
+  for (const std::int32_t leaf : leaves_) {
+    const TreeCell& cell = tree_[leaf];
+    for (int side = 0; side < 4; ++side) {
+      if (beside_coarser(cell, side)) continue;
+      const Metric2 a = value(cell.corner(ends[side][0])), b = value(cell.corner(ends[side][1]));
+      Metric2& middle = value(cell.middle(side));
+      const Metric2 mean = 0.5 * (a + b);
+      const Metric2 inner = 2.0 * middle + -1.0 * mean;
+      const double least = least_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
+      if (smaller_eigenvalue(inner) >= least) continue;
+      middle = 0.5 * (mean + definite_between(mean, inner, least));
+    }
+  }
+}
+
+// Values at the nine nodes. Where a side is half of a coarser one its middle lies on that one's quadratic.
+ControlSpaceWriter::Nine ControlSpaceWriter::nodes_of(const TreeCell& cell) {
+  const std::int32_t half = cell.size / 2;
+  Nine v;
+  for (int k = 0; k < 9; ++k) v[k] = value({cell.i + (k % 3) * half, cell.j + (k / 3) * half});
+  for (int side = 0; side < 4; ++side) {
+    if (!beside_coarser(cell, side)) continue;
+    // The coarser side: from its end `far` through its middle and on. Which corner is its middle tells the grid.
+    const bool horizontal = side < 2;
+    const GridPoint low = cell.corner(side == 1 ? 2 : side == 3 ? 1 : 0);
+    const std::int32_t along = horizontal ? low.i : low.j;
+    const bool first_half = along / cell.size % 2 == 0;
+    const std::int32_t start = first_half ? along : along - cell.size;
+    const auto on_side = [&](std::int32_t s) {
+      return value(horizontal ? GridPoint{start + s, low.j} : GridPoint{low.i, start + s});
+    };
+    const Metric2 a = on_side(0), m = on_side(cell.size), b = on_side(2 * cell.size);
+    const int middle = side == 0 ? 1 : side == 1 ? 7 : side == 2 ? 3 : 5;
+    // The quadratic at 1/4 or 3/4.
+    v[middle] = first_half ? 0.375 * a + 0.75 * m + -0.125 * b : 0.375 * b + 0.75 * m + -0.125 * a;
+  }
+  // The centre's Bernstein coefficient, kept definite as on the sides; the sides' own are combinations of definite
+  // ones.
+  const Metric2 corners = v[0] + v[2] + v[6] + v[8];
+  const Metric2 inner_sides = 2.0 * (v[1] + v[3] + v[5] + v[7]) + -1.0 * corners;
+  const Metric2 straight = 0.25 * inner_sides;
+  const Metric2 inner = 4.0 * v[4] + -0.25 * corners + -0.5 * inner_sides;
+  const double least = least_share * smaller_eigenvalue(straight);
+  if (smaller_eigenvalue(inner) < least) {
+    const Metric2 definite = definite_between(straight, inner, least);
+    v[4] = 0.0625 * corners + 0.125 * inner_sides + 0.25 * definite;
+  }
+  return v;
+}
+
+void ControlSpaceWriter::add_measure(const TreeCell& cell, const Nine& v) {
+  const double side = static_cast<double>(cell.size) / lattice_.step();
+  // Simpson's rule in both directions.
+  constexpr double weight[9] = {1, 4, 1, 4, 16, 4, 1, 4, 1};
+  double sum = 0;
+  for (int k = 0; k < 9; ++k) sum += weight[k] / 36 * accurate_determinant(v[k]);
+  double share = 1;
+  if (cell.edges_begin != cell.edges_end) {
+    int inside = 0;
+    for (int k = 0; k < share_points * share_points; ++k) {
+      const double x = (k % share_points + 0.5) / share_points, y = (k / share_points + 0.5) / share_points;
+      const Vec2 p{lattice_.low().x + (cell.i + x * cell.size) / lattice_.step() * lattice_.cell().x,
+                   lattice_.low().y + (cell.j + y * cell.size) / lattice_.step() * lattice_.cell().y};
+      inside += sampling_.locator().contains(p) ? 1 : 0;
+    }
+    share = static_cast<double>(inside) / (share_points * share_points);
+  }
+  space_.measure_ += share * sum * side * side / (0.25 * std::numbers::sqrt3);
+}
+
+std::int32_t ControlSpaceWriter::write_leaf(const TreeCell& cell) {
+  const Nine v = nodes_of(cell);
+  if (cell.relevant) add_measure(cell, v);
+  ControlSpace::Leaf leaf;
+  leaf.x = (cell.i + 0.5 * cell.size) / table_step_;
+  leaf.y = (cell.j + 0.5 * cell.size) / table_step_;
+  leaf.scale = 2.0 * table_step_ / cell.size;
+  // Three values at -1, 0, 1 to coefficients of 1, s, s^2: first along rows, then across them.
+  const auto quadratic = [](Metric2 low, Metric2 middle, Metric2 high) {
+    return std::array<Metric2, 3>{middle, 0.5 * (high + -1.0 * low), 0.5 * (low + high) + -1.0 * middle};
+  };
+  std::array<std::array<Metric2, 3>, 3> rows;
+  for (int r = 0; r < 3; ++r) rows[r] = quadratic(v[3 * r], v[3 * r + 1], v[3 * r + 2]);
+  for (int n = 0; n < 3; ++n) {
+    const auto column = quadratic(rows[0][n], rows[1][n], rows[2][n]);
+    for (int m = 0; m < 3; ++m) leaf.c[3 * m + n] = {column[m].a, column[m].b, column[m].c};
+  }
+  space_.leaves_.push_back(leaf);
+  return static_cast<std::int32_t>(space_.leaves_.size()) - 1;
+}
+
+// A cell of the tree no larger than those of the table, and all below it.
+std::int32_t ControlSpaceWriter::write_cell(std::int32_t number) {
+  const TreeCell cell = tree_[number];
+  if (cell.child < 0) return write_leaf(cell);
+  const auto at = static_cast<std::int32_t>(space_.children_.size());
+  space_.children_.push_back({});
+  for (int k = 0; k < 4; ++k) {
+    const std::int32_t child = write_cell(cell.child + k);
+    space_.children_[at][k] = child;
+  }
+  return ~at;
+}
+
+void ControlSpaceWriter::write() {
+  const auto count = [this](std::int32_t step) {
+    return static_cast<std::size_t>(lattice_.end().i / step) * static_cast<std::size_t>(lattice_.end().j / step);
+  };
+  const std::int32_t finest = tree_[leaves_.back()].size;
+  table_step_ = lattice_.step();
+  while (table_step_ > finest && count(table_step_ / 2) <= table_per_leaf * leaves_.size()) table_step_ /= 2;
+
+  const std::int32_t columns = lattice_.end().i / table_step_, rows = lattice_.end().j / table_step_;
+  space_.columns_ = static_cast<std::size_t>(columns);
+  space_.table_.assign(space_.columns_ * static_cast<std::size_t>(rows), -1);
+  space_.leaves_.reserve(leaves_.size());
+  // Cells at least as large as those of the table, each with all entries that it covers; depth first, so that near
+  // leaves are near in memory.
+  std::vector<std::int32_t> stack;
+  for (std::int32_t c = tree_.columns() * tree_.rows(); c-- > 0;) stack.push_back(c);
+  while (!stack.empty()) {
+    const TreeCell cell = tree_[stack.back()];
+    const std::int32_t number = stack.back();
+    stack.pop_back();
+    if (cell.child >= 0 && cell.size > table_step_) {
+      for (int k = 3; k >= 0; --k) stack.push_back(cell.child + k);
+      continue;
+    }
+    const std::int32_t entry = write_cell(number);
+    for (std::int32_t j = cell.j / table_step_; j < (cell.j + cell.size) / table_step_; ++j)
+      for (std::int32_t i = cell.i / table_step_; i < (cell.i + cell.size) / table_step_; ++i)
+        space_.table_[static_cast<std::size_t>(j) * space_.columns_ + static_cast<std::size_t>(i)] = entry;
+  }
+  space_.children_.shrink_to_fit();
+  space_.low_ = lattice_.low();
+  const Vec2 unit = lattice_.cell();
+  const double per_cell = static_cast<double>(lattice_.step()) / table_step_;
+  space_.scale_ = {per_cell / unit.x, per_cell / unit.y};
+  space_.last_ = {std::nextafter(static_cast<double>(columns), 0.0), std::nextafter(static_cast<double>(rows), 0.0)};
+  space_.unit_ = {1 / (unit.x * unit.x), 1 / (unit.x * unit.y), 1 / (unit.y * unit.y)};
+  space_.samples_ = sampling_.samples();
+}
+
+}  // namespace carreau

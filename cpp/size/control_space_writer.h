@@ -1,0 +1,50 @@
+// From samples to the piecewise polynomial of a control space. Private to size/.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "size/control_space.h"
+#include "size/control_space_sampling.h"
+
+namespace carreau {
+
+/// Balances the tree, gives a value to the nine nodes of every leaf (corners, middles of sides, centre), and writes
+/// biquadratic polynomials that are continuous and positive definite.
+class ControlSpaceWriter {
+ public:
+  ControlSpaceWriter(detail::ControlSpaceSampling& sampling, Monitor& monitor);
+  /// Call once.
+  ControlSpace run();
+
+ private:
+  using Nine = std::array<Metric2, 9>;  // row by row
+
+  void balance();
+  void sort_leaves();
+  void set_values();
+  void set_value(detail::GridPoint p, const detail::TreeCell& cell);
+  void fill_outside();
+  void straighten_sides();
+  [[nodiscard]] Nine nodes_of(const detail::TreeCell& cell);
+  [[nodiscard]] bool beside_coarser(const detail::TreeCell& cell, int side) const;
+  [[nodiscard]] Metric2& value(detail::GridPoint p);
+
+  void write();
+  std::int32_t write_cell(std::int32_t cell);
+  std::int32_t write_leaf(const detail::TreeCell& cell);
+  void add_measure(const detail::TreeCell& cell, const Nine& nodes);
+
+  detail::ControlSpaceSampling& sampling_;
+  detail::Tree& tree_;
+  detail::Lattice& lattice_;
+  Monitor& monitor_;
+  std::vector<std::int32_t> leaves_;  // from coarse to fine
+  std::vector<Metric2> value_;        // by node of the lattice
+  std::vector<char> known_;
+  std::int32_t table_step_ = 1;  // units of the finest grid
+  ControlSpace space_;
+};
+
+}  // namespace carreau
