@@ -1,0 +1,358 @@
+! Module carreau: the same paraboloid as in C, bit for bit; base 1; texts; callbacks; errors.
+module paraboloid_m
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
+  use carreau
+  implicit none
+
+  !> What `user` points to.
+  type :: watch
+    integer :: reports = 0, stop_at = 0, messages = 0
+    character(len=200) :: last_message = ' '
+  end type watch
+
+  real(c_double), parameter :: corner(2, 5) = reshape([-2.5d0, -2.5d0, 2.5d0, -2.5d0, 2.5d0, 2.5d0, -2.5d0, 2.5d0, &
+    -2.5d0, -2.5d0], [2, 5])
+contains
+  subroutine surf0(refs, uv, S) bind(c)
+    integer(c_int32_t), intent(in) :: refs
+    real(c_double), intent(in) :: uv(2)
+    real(c_double), intent(out) :: S(3)
+    S = [uv(1), uv(2), (uv(1)*uv(1) + uv(2)*uv(2))/2]
+    if (refs /= 1) S = 0
+  end subroutine surf0
+
+  subroutine surf1(refs, uv, Su, Sv) bind(c)
+    integer(c_int32_t), intent(in) :: refs
+    real(c_double), intent(in) :: uv(2)
+    real(c_double), intent(out) :: Su(3), Sv(3)
+    Su = [1.d0, 0.d0, uv(1)]
+    Sv = [0.d0, 1.d0, uv(2)]
+    if (refs /= 1) Su = 0
+  end subroutine surf1
+
+  subroutine surf2(refs, uv, Suu, Suv, Svv) bind(c)
+    integer(c_int32_t), intent(in) :: refs
+    real(c_double), intent(in) :: uv(2)
+    real(c_double), intent(out) :: Suu(3), Suv(3), Svv(3)
+    Suu = [0.d0, 0.d0, 1.d0]
+    Suv = 0*uv(1)
+    Svv = Suu
+    if (refs /= 1) Suu = 0
+  end subroutine surf2
+
+  subroutine curv_int(refs, ic, a, b) bind(c)
+    integer(c_int32_t), intent(in) :: refs, ic
+    real(c_double), intent(out) :: a, b
+    a = 0*refs
+    b = 1 + 0*ic
+  end subroutine curv_int
+
+  subroutine curv0(refs, ic, t, C) bind(c)
+    integer(c_int32_t), intent(in) :: refs, ic
+    real(c_double), intent(in) :: t
+    real(c_double), intent(out) :: C(2)
+    C = corner(:, ic) + t*(corner(:, ic + refs) - corner(:, ic))
+  end subroutine curv0
+
+  subroutine curv1(refs, ic, t, C) bind(c)
+    integer(c_int32_t), intent(in) :: refs, ic
+    real(c_double), intent(in) :: t
+    real(c_double), intent(out) :: C(2)
+    C = corner(:, ic + refs) - corner(:, ic) + 0*t
+  end subroutine curv1
+
+  subroutine curv2(refs, ic, t, C) bind(c)
+    integer(c_int32_t), intent(in) :: refs, ic
+    real(c_double), intent(in) :: t
+    real(c_double), intent(out) :: C(2)
+    C = 0*t*(refs + ic)
+  end subroutine curv2
+
+  ! The same by value.
+  function surface(face, u, v, order, S, Su, Sv, Suu, Suv, Svv, user) result(status) bind(c)
+    integer(c_int32_t), value :: face, order
+    real(c_double), value :: u, v
+    real(c_double), intent(inout) :: S(3), Su(3), Sv(3), Suu(3), Suv(3), Svv(3)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    call surf0(face, [u, v], S)
+    if (order >= 1) call surf1(face, [u, v], Su, Sv)
+    if (order >= 2) call surf2(face, [u, v], Suu, Suv, Svv)
+    status = merge(0, 1, c_associated(user))
+  end function surface
+
+  function interval(face, ic, a, b, user) result(status) bind(c)
+    integer(c_int32_t), value :: face, ic
+    real(c_double), intent(inout) :: a, b
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    call curv_int(face, ic, a, b)
+    status = merge(0, 1, c_associated(user))
+  end function interval
+
+  function curve(face, ic, t, order, C, Ct, Ctt, user) result(status) bind(c)
+    integer(c_int32_t), value :: face, ic, order
+    real(c_double), value :: t
+    real(c_double), intent(inout) :: C(2), Ct(2), Ctt(2)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    call curv0(face, ic, t, C)
+    if (order >= 1) call curv1(face, ic, t, Ct)
+    if (order >= 2) call curv2(face, ic, t, Ctt)
+    status = merge(0, 1, c_associated(user))
+  end function curve
+
+  function progress(phase, entity, fraction, user) result(status) bind(c)
+    integer(c_int32_t), value :: phase, entity
+    real(c_double), value :: fraction
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    type(watch), pointer :: w
+    call c_f_pointer(user, w)
+    w%reports = w%reports + 1
+    status = 0
+    if (w%reports == w%stop_at) status = 1
+    if (phase < CARREAU_PHASE_IDLE .or. fraction < 0 .or. fraction > 1 .or. entity < 0) w%reports = -1000
+  end function progress
+
+  subroutine message(level, text, user) bind(c)
+    integer(c_int32_t), value :: level
+    type(c_ptr), value :: text, user
+    type(watch), pointer :: w
+    call c_f_pointer(user, w)
+    w%messages = w%messages + 1
+    w%last_message = carreau_string(text)
+    if (level < CARREAU_LEVEL_ERROR) w%messages = -1000
+  end subroutine message
+end module paraboloid_m
+
+program fortran_test
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_ptr
+  use carreau
+  use paraboloid_m
+  implicit none
+  interface
+    function c_paraboloid(hphydef, capacity, xyz, triangles, out_triangles) result(n) bind(c, name="c_paraboloid")
+      import :: c_double, c_int32_t, c_int64_t
+      implicit none
+      real(c_double), value :: hphydef
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(out) :: xyz(*)
+      integer(c_int32_t), intent(out) :: triangles(*)
+      integer(c_int64_t), intent(out) :: out_triangles
+      integer(c_int64_t) :: n
+    end function c_paraboloid
+  end interface
+  real(c_double), parameter :: h = 0.2d0
+  integer(c_int64_t), parameter :: capacity = 20000
+  integer :: failures = 0
+
+  call test_versions_and_parameters
+  call test_same_mesh_as_in_c
+  call test_callbacks_by_value_and_files
+  call test_errors
+  if (failures > 0) stop 1
+  print '(a)', 'fortran_test: all passed'
+
+contains
+
+  subroutine expect(holds, what)
+    logical, intent(in) :: holds
+    character(len=*), intent(in) :: what
+    if (holds) return
+    failures = failures + 1
+    print '(2a)', 'FAILED: ', what
+  end subroutine expect
+
+  subroutine expect_ok(status, session, what)
+    integer(c_int32_t), intent(in) :: status
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: what
+    call expect(status == CARREAU_OK, what//': '//carreau_last_error(session))
+  end subroutine expect_ok
+
+  subroutine build_model(session)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t) :: ic, status
+    call carreau_model_add_face(session, 1, 1, status)
+    call expect_ok(status, session, 'add_face')
+    do ic = 1, 4
+      call carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, ic, ic, mod(ic, 4) + 1, status)
+      call expect_ok(status, session, 'add_curve')
+    end do
+  end subroutine build_model
+
+  subroutine test_versions_and_parameters
+    type(carreau_session) :: session
+    type(carreau_parameter) :: parameter
+    integer(c_int32_t) :: i, status, verb
+    character(len=:), allocatable :: pref
+    real(c_double) :: lss
+    call expect(carreau_status_name(CARREAU_ERR_FILE) == 'CARREAU_ERR_FILE', 'status name')
+    call expect(carreau_status_meaning(CARREAU_OK) == 'success', 'status meaning')
+    call expect(carreau_version_number() >= 100, 'version number')
+    call expect(index(carreau_version(), '.') > 0, 'version')
+    call carreau_session_create(session, status)
+    call expect(status == CARREAU_OK, 'create')
+    do i = 1, carreau_parameter_count()
+      call carreau_parameter_info(i, parameter, status)
+      call expect(status == CARREAU_OK .and. len(parameter%help) > 10, 'parameter '//parameter%name)
+      if (parameter%name == 'hphydef') call expect(parameter%diag_relative .and. &
+        abs(parameter%default_number - 0.02d0) < 1d-15 .and. parameter%type == CARREAU_REAL, 'hphydef is diag/50')
+      if (parameter%name == 'format') call expect(parameter%default_text == 'mesh' .and. &
+        index(parameter%choices, 'vtu') > 0, 'choices of format')
+    end do
+    call carreau_parameter_info(0, parameter, status)
+    call expect(status == CARREAU_ERR_ARGUMENT, 'parameters count from 1')
+    call carreau_set_integer(session, 'verb  ', 50, status) ! trailing blanks do not count
+    call expect_ok(status, session, 'set verb')
+    call carreau_get_integer(session, 'verb', verb, status)
+    call expect(verb == 50, 'get verb')
+    call carreau_set_text(session, 'pref', 'teapot', status)
+    call carreau_get_text(session, 'pref', pref, status)
+    call expect(pref == 'teapot' .and. len(pref) == 6, 'get pref')
+    call carreau_set_word(session, 'LSS', '2.5d-1', status)
+    call carreau_get_real(session, 'LSS', lss, status)
+    call expect(lss == 0.25d0, 'get LSS')
+    call carreau_reset_parameters(session, status)
+    call carreau_get_text(session, 'pref', pref, status)
+    call expect(pref == 'x', 'reset')
+    call carreau_session_free(session)
+    call carreau_session_free(session) ! a handle that is no longer one
+  end subroutine test_versions_and_parameters
+
+  subroutine test_same_mesh_as_in_c
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    type(carreau_face) :: face
+    type(carreau_quality) :: quality
+    type(carreau_report) :: report
+    real(c_double), allocatable :: xyz(:, :), c_xyz(:, :), uv(:, :, :), sizes(:)
+    integer(c_int32_t), allocatable :: triangles(:, :), c_triangles(:, :), refs(:), edges(:, :), edge_refs(:), ends(:, :)
+    integer(c_int32_t), allocatable :: face_refs(:), types(:), curve_refs(:)
+    integer(c_int64_t) :: n, m, k, f, c_n, c_m, defects, t
+    integer(c_int32_t) :: status
+    character(len=:), allocatable :: text
+    call carreau_session_create(session, status)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status, surf1=surf1, surf2=surf2, curv1=curv1, curv2=curv2)
+    call expect_ok(status, session, 'set_cad_m')
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', h, status)
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'generate')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    call carreau_mesh_vertices(mesh, xyz, status)
+    call expect(status == CARREAU_OK .and. all(shape(xyz) == [3_c_int64_t, n]), 'vertices')
+    call carreau_mesh_triangles(mesh, triangles, status)
+    call expect(minval(triangles) == 1 .and. maxval(triangles) == n, 'triangles count from 1')
+
+    allocate (c_xyz(3, capacity), c_triangles(3, capacity))
+    c_n = c_paraboloid(h, capacity, c_xyz, c_triangles, c_m)
+    call expect(c_n == n .and. c_m == m, 'as many vertices and triangles as in C')
+    if (c_n == n .and. c_m == m) then
+      call expect(all(transfer(xyz, [0_c_int64_t]) == transfer(c_xyz(:, :n), [0_c_int64_t])), 'vertices are those of C')
+      call expect(all(triangles - 1 == c_triangles(:, :m)), 'triangles are those of C')
+    end if
+
+    call carreau_mesh_corner_uv(mesh, uv, status)
+    call expect(status == CARREAU_OK .and. all(shape(uv) == [2_c_int64_t, 3_c_int64_t, m]), 'corner_uv')
+    do t = 1, m
+      if (any(uv(:, :, t) /= xyz(1:2, triangles(:, t)))) exit
+    end do
+    call expect(t == m + 1, '(u, v) of each corner')
+    call carreau_mesh_vertex_sizes(mesh, sizes, status)
+    call expect(size(sizes, kind=c_int64_t) == n .and. all(abs(sizes - h) < 1d-12), 'vertex_sizes')
+    call carreau_mesh_vertex_refs(mesh, refs, status)
+    call expect(count(refs /= 0) == 4, 'four corners')
+    call carreau_mesh_triangle_refs(mesh, refs, status)
+    call expect(size(refs, kind=c_int64_t) == m .and. all(refs == 1), 'triangle_refs')
+    call carreau_mesh_edges(mesh, edges, status)
+    call carreau_mesh_edge_refs(mesh, edge_refs, status)
+    call expect(size(edges, 2, kind=c_int64_t) == k .and. minval(edges) >= 1 .and. maxval(edges) <= n, 'edges')
+    call expect(all(edge_refs >= 1 .and. edge_refs <= 4), 'edge_refs')
+    call carreau_mesh_face(mesh, 1_c_int64_t, face, status)
+    call expect(face%ref == 1 .and. face%status == CARREAU_FACE_MESHED .and. face%triangles == m .and. face%why == '', &
+      'face 1')
+    call carreau_mesh_face(mesh, 0_c_int64_t, face, status)
+    call expect(status == CARREAU_ERR_ARGUMENT, 'faces count from 1')
+    call carreau_mesh_quality(mesh, quality, status)
+    call expect(quality%vertices == n .and. quality%triangles == m .and. quality%open_edges == k .and. &
+      quality%q2_mean > 0.97d0 .and. quality%degree6 > 0.5d0, 'quality')
+    call carreau_mesh_defects(mesh, .false., 10_c_int64_t, defects, text, status)
+    call expect(defects == 0 .and. text == '', 'no defects')
+    call carreau_session_report(session, report, status)
+    call expect(report%surf0_calls >= n .and. report%seconds_total > 0 .and. abs(report%diag - 7.735d0) < 0.01d0, 'report')
+    call carreau_model_curves(session, face_refs, types, curve_refs, ends, status)
+    call expect(all(ends(2, :) == [2, 3, 4, 1]) .and. all(types == CARREAU_BOUNDARY) .and. all(face_refs == 1) .and. &
+      all(curve_refs == [1, 2, 3, 4]), 'model_curves')
+    call carreau_session_free(session)
+  end subroutine test_same_mesh_as_in_c
+
+  subroutine test_callbacks_by_value_and_files
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh, read
+    type(watch), target :: w
+    real(c_double), allocatable :: xyz(:, :), c_xyz(:, :), read_xyz(:, :), uv(:, :, :)
+    integer(c_int32_t), allocatable :: c_triangles(:, :)
+    integer(c_int64_t) :: c_n, c_m
+    integer(c_int32_t) :: status
+    character(len=*), parameter :: path = 'carreau_fortran_test.mesh'
+    call carreau_session_create(session, status)
+    call carreau_set_cad(session, surface, interval, curve, status, user=c_loc(w))
+    call expect_ok(status, session, 'set_cad')
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', h, status)
+    call carreau_set_progress_callback(session, status, progress, c_loc(w))
+    call carreau_set_message_callback(session, status, message, c_loc(w))
+    call carreau_set_real(session, 'eps_ends', 100.d0, status) ! each curve is reported
+    w%stop_at = 2
+    call carreau_mesh_generate(session, status)
+    call expect(status == CARREAU_ERR_CANCELLED, 'a status of the progress callback stops the run')
+    w%stop_at = 0
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'generate after a stop')
+    call expect(w%reports > 2 .and. w%messages >= 4 .and. len_trim(w%last_message) > 10, 'progress and messages')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_vertices(mesh, xyz, status)
+    allocate (c_xyz(3, capacity), c_triangles(3, capacity))
+    c_n = c_paraboloid(h, capacity, c_xyz, c_triangles, c_m)
+    call expect(size(xyz, 2, kind=c_int64_t) == c_n, 'by value: as many vertices as in C')
+    if (size(xyz, 2, kind=c_int64_t) == c_n) call expect(all(xyz == c_xyz(:, :c_n)), 'by value: the vertices of C')
+    call carreau_mesh_write(mesh, path, status)
+    call expect(status == CARREAU_OK, carreau_mesh_last_error(mesh))
+    call carreau_mesh_create(read, status)
+    call carreau_mesh_read(read, path, status)
+    call expect(status == CARREAU_OK, carreau_mesh_last_error(read))
+    call carreau_mesh_vertices(read, read_xyz, status)
+    call expect(all(shape(read_xyz) == shape(xyz)), 'read back')
+    if (all(shape(read_xyz) == shape(xyz))) call expect(all(read_xyz == xyz), 'read back bit for bit')
+    call carreau_mesh_corner_uv(read, uv, status)
+    call expect(status == CARREAU_ERR_SEQUENCE .and. .not. allocated(uv), 'a file has no (u, v)')
+    call carreau_mesh_free(read)
+    open (unit=10, file=path)
+    close (unit=10, status='delete')
+    call carreau_session_free(session)
+  end subroutine test_callbacks_by_value_and_files
+
+  subroutine test_errors
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    type(carreau_error_place) :: place
+    real(c_double), allocatable :: xyz(:, :)
+    integer(c_int32_t) :: status
+    call carreau_session_create(session, status)
+    call carreau_mesh_generate(session, status)
+    call expect(status == CARREAU_ERR_SEQUENCE, 'generate without geometry')
+    call carreau_set_integer(session, 'frontel', 1, status)
+    call expect(carreau_last_error(session) == "there is no parameter 'frontel'; did you mean 'frontal'?", 'last_error')
+    call carreau_model_add_face(session, 7, 0, status)
+    call carreau_last_error_place(session, place, status)
+    call expect(status == CARREAU_OK .and. place%face == 7, 'error_place')
+    call carreau_session_mesh(session, mesh, status)
+    call expect(status == CARREAU_ERR_SEQUENCE, 'no mesh yet')
+    call carreau_mesh_vertices(mesh, xyz, status)
+    call expect(status == CARREAU_ERR_ARGUMENT .and. .not. allocated(xyz), 'a mesh that is none')
+    call carreau_session_free(session)
+  end subroutine test_errors
+end program fortran_test

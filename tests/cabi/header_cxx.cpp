@@ -1,0 +1,4 @@
+// carreau.h is C++ too, from C++11 on.
+#include "carreau.h"
+
+carreau_status carreau_h_in_cxx11() { return CARREAU_OK; }
