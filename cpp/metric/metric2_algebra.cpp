@@ -95,6 +95,10 @@ Metric2 compose(const Eigen2& e) noexcept {
 }
 
 Metric2 clamp_eigenvalues(Metric2 m, double low, double high) noexcept {
+  // det(M - low I) and det(high I - M) tell at once whether there is nothing to do.
+  if (m.a > low && m.c > low && (m.a - low) * (m.c - low) > m.b * m.b && m.a < high && m.c < high &&
+      (high - m.a) * (high - m.c) > m.b * m.b)
+    return m;
   Eigen2 e = eigen(m);
   if (e.minor >= low && e.major <= high) return m;
   e.major = std::clamp(e.major, low, high);
@@ -111,8 +115,11 @@ Metric2 square_root(Metric2 m) noexcept {
 }
 
 LengthRatios length_ratios(Metric2 m, Metric2 reference) noexcept {
-  const Reduction r = reduce(reference, m);
-  return {std::sqrt(std::max(r.axes.minor, 0.0)), std::sqrt(r.axes.major)};
+  const Metric2 n = transformed_back(m, factor(reference));
+  const double half = 0.5 * (n.a - n.c);
+  const double major = 0.5 * (n.a + n.c) + std::sqrt(half * half + n.b * n.b);
+  const double minor = accurate_determinant(m) / accurate_determinant(reference) / major;
+  return {std::sqrt(std::max(minor, 0.0)), std::sqrt(major)};
 }
 
 double length_error(Metric2 m, Metric2 reference) noexcept {

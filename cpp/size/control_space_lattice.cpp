@@ -9,41 +9,34 @@ std::uint64_t GridIndex::key(GridPoint p) noexcept {
 }
 
 std::size_t GridIndex::slot_of(std::uint64_t key) const noexcept {
-  const std::size_t mask = key_.size() - 1;
+  const std::size_t mask = slots_.size() - 1;
   std::uint64_t mixed = key * 0x9E3779B97F4A7C15u;
   mixed ^= mixed >> 29;
   std::size_t slot = static_cast<std::size_t>(mixed * 0xBF58476D1CE4E5B9u >> 24) & mask;
-  while (key_[slot] != 0 && key_[slot] != key) slot = (slot + 1) & mask;
+  while (slots_[slot].key != 0 && slots_[slot].key != key) slot = (slot + 1) & mask;
   return slot;
 }
 
-std::int32_t GridIndex::find(GridPoint p) const noexcept { return value_[slot_of(key(p))]; }
+std::int32_t GridIndex::find(GridPoint p) const noexcept { return slots_[slot_of(key(p))].number; }
 
 std::pair<std::int32_t, bool> GridIndex::insert(GridPoint p) {
-  if (2 * static_cast<std::size_t>(size_) >= key_.size()) grow();
-  const std::size_t slot = slot_of(key(p));
-  if (key_[slot] != 0) return {value_[slot], false};
-  key_[slot] = key(p);
-  value_[slot] = size_;
+  if (2 * static_cast<std::size_t>(size_) >= slots_.size()) grow();
+  Slot& slot = slots_[slot_of(key(p))];
+  if (slot.key != 0) return {slot.number, false};
+  slot = {key(p), size_};
   return {size_++, true};
 }
 
 void GridIndex::grow() {
-  std::vector<std::uint64_t> keys(2 * key_.size(), 0);
-  std::vector<std::int32_t> values(2 * value_.size(), -1);
-  keys.swap(key_);
-  values.swap(value_);
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (keys[k] == 0) continue;
-    const std::size_t slot = slot_of(keys[k]);
-    key_[slot] = keys[k];
-    value_[slot] = values[k];
-  }
+  std::vector<Slot> old(4 * slots_.size());
+  old.swap(slots_);
+  for (const Slot& s : old)
+    if (s.key != 0) slots_[slot_of(s.key)] = s;
 }
 
 bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept {
   // Twice the eigenvalues are tr +- sqrt(tr^2 - 4 det) = tr +- norm of the deviator.
-  const auto spread = [](Metric2 m) { return std::hypot(m.a - m.c, 2 * m.b); };
+  const auto spread = [](Metric2 m) { return std::sqrt((m.a - m.c) * (m.a - m.c) + 4 * m.b * m.b); };
   const double trace = root.a + root.c, s = spread(root);
   const double tp = p.a + p.c, sp = spread(p), tq = q.a + q.c, sq = spread(q);
   return trace - s >= 0.5 * std::min(tp - sp, tq - sq) && trace + s <= 2 * std::max(tp + sp, tq + sq);
@@ -63,11 +56,11 @@ Vec2 Lattice::parameters(GridPoint p) const noexcept {
           p.j == end_.j ? high_.y : low_.y + y * (high_.y - low_.y)};
 }
 
-std::int32_t Lattice::node(GridPoint p) {
+std::int32_t Lattice::node(GridPoint p, Place place) {
   const auto [number, added] = index_.insert(p);
   if (added) {
     nodes_.push_back({.point = p});
-    nodes_.back().inside = domain_.contains(parameters(p));
+    nodes_.back().inside = place == Place::inside || (place == Place::unknown && domain_.contains(parameters(p)));
   }
   return number;
 }
@@ -85,10 +78,11 @@ const Metric2* Lattice::sample(GridPoint p) const noexcept {
 
 std::optional<Metric2> Lattice::fetch(GridPoint p) {
   if (!contains(p)) return std::nullopt;
-  const std::int32_t n = node(p);
+  std::int32_t n = index_.find(p);
+  if (n < 0) n = node(p);
   if (nodes_[n].sampled) return nodes_[n].root;
   if (!nodes_[n].inside) return std::nullopt;
-  const Prediction known = predict(p);
+  const Prediction known = predict(n);
   if (known.order < 2) return std::nullopt;
   return known.root;
 }
@@ -119,29 +113,37 @@ Prediction Lattice::along_line(const Get& get) {
   return {plausible(linear, next, next) ? linear : next, 1};
 }
 
-Prediction Lattice::predict(GridPoint p) {
-  const std::int32_t n = node(p);
-  if (nodes_[n].pass == pass_) return {nodes_[n].root, nodes_[n].order};
-  const std::int32_t bits = p.i | p.j, s = bits & -bits;
+// `coarser`: whether the neighbours along this line belong to a coarser grid. If not they are centres of cells, which
+// have been sampled or are not yet wanted.
+Prediction Lattice::predicted_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser) {
+  return along_line([&](int k) -> std::optional<Metric2> {
+    const GridPoint q = horizontal ? GridPoint{p.i + k * spacing, p.j} : GridPoint{p.i, p.j + k * spacing};
+    if (coarser) return fetch(q);
+    const Metric2* known = sample(q);
+    return known != nullptr ? std::optional(*known) : std::nullopt;
+  });
+}
+
+Prediction Lattice::predict(std::int32_t node) {
+  if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
+  const GridPoint p = nodes_[node].point;
+  const std::int32_t bits = p.i | p.j, spacing = bits & -bits;
   Prediction result;
-  if (s != 0 && s < step_) {
-    const bool odd_i = (p.i & s) != 0, odd_j = (p.j & s) != 0;
-    // A node amid a side lies between centres of cells too; those centres were sampled or are not yet wanted.
-    const auto at = [&](GridPoint q, bool coarser) -> std::optional<Metric2> {
-      if (coarser) return fetch(q);
-      const Metric2* known = sample(q);
-      return known != nullptr ? std::optional(*known) : std::nullopt;
-    };
-    const Prediction row = along_line([&](int k) { return at({p.i + k * s, p.j}, odd_i); });
-    const Prediction column = along_line([&](int k) { return at({p.i, p.j + k * s}, odd_j); });
-    if (row.order == column.order)
-      result = {0.5 * (row.root + column.root), row.order};
-    else
-      result = row.order > column.order ? row : column;
+  if (spacing != 0 && spacing < step_) {
+    const bool odd_i = (p.i & spacing) != 0, odd_j = (p.j & spacing) != 0;
+    result = predicted_along(p, spacing, true, odd_i);
+    // At a centre both directions give the same product of cubics.
+    if (result.order < 4 || !(odd_i && odd_j)) {
+      const Prediction column = predicted_along(p, spacing, false, odd_j);
+      if (result.order == column.order)
+        result.root = 0.5 * (result.root + column.root);
+      else if (column.order > result.order)
+        result = column;
+    }
   }
-  nodes_[n].pass = pass_;
-  nodes_[n].order = static_cast<std::int8_t>(result.order);
-  if (!nodes_[n].sampled) nodes_[n].root = result.root;
+  nodes_[node].pass = pass_;
+  nodes_[node].order = static_cast<std::int8_t>(result.order);
+  if (!nodes_[node].sampled) nodes_[node].root = result.root;
   return result;
 }
 

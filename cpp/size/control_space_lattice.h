@@ -15,6 +15,9 @@ struct GridPoint {
   std::int32_t i = 0, j = 0;
 };
 
+/// What is known about a node before it exists.
+enum class Place { unknown, inside, outside };
+
 /// From pairs of integers to consecutive numbers.
 class GridIndex {
  public:
@@ -24,11 +27,14 @@ class GridIndex {
   std::pair<std::int32_t, bool> insert(GridPoint p);
 
  private:
+  struct Slot {
+    std::uint64_t key = 0;  // 0: free
+    std::int32_t number = -1;
+  };
   static std::uint64_t key(GridPoint p) noexcept;
   [[nodiscard]] std::size_t slot_of(std::uint64_t key) const noexcept;
   void grow();
-  std::vector<std::uint64_t> key_ = std::vector<std::uint64_t>(1024, 0);  // 0: free
-  std::vector<std::int32_t> value_ = std::vector<std::int32_t>(1024, -1);
+  std::vector<Slot> slots_ = std::vector<Slot>(1024);
   std::int32_t size_ = 0;
 };
 
@@ -65,8 +71,8 @@ class Lattice {
     return p.i >= 0 && p.j >= 0 && p.i <= end_.i && p.j <= end_.j;
   }
 
-  /// The number of a node, created when new.
-  std::int32_t node(GridPoint p);
+  /// The number of a node, created when new: numbers count from 0 in the order of creation.
+  std::int32_t node(GridPoint p, Place place = Place::unknown);
   [[nodiscard]] GridPoint point(std::int32_t node) const noexcept { return nodes_[node].point; }
   [[nodiscard]] std::int32_t size() const noexcept { return static_cast<std::int32_t>(nodes_.size()); }
   [[nodiscard]] bool inside(std::int32_t node) const noexcept { return nodes_[node].inside; }
@@ -77,7 +83,7 @@ class Lattice {
   /// Null when p was not sampled.
   [[nodiscard]] const Metric2* sample(GridPoint p) const noexcept;
   /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
-  Prediction predict(GridPoint p);
+  Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
 
  private:
@@ -89,6 +95,7 @@ class Lattice {
     bool inside = false, sampled = false;
   };
   std::optional<Metric2> fetch(GridPoint p);
+  Prediction predicted_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser);
   template <typename Get>
   static Prediction along_line(const Get& get);
 

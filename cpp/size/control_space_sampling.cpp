@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t batch = 4096;
 
 // Exploration: a cell for each so many vertices; beyond many vertices, their number grows with the square root.
-constexpr double usual_vertices_per_cell = 10, many_vertices = 40'000, least_cells = 25;
+constexpr double usual_vertices_per_cell = 10, many_vertices = 10'000, least_cells = 25;
 // Samples that a cell of a uniform grid costs: a node, its centre, its share of the border.
 constexpr double samples_per_cell = 2.4;
 // Coarsest cells along a side, and units of the finest grid.
@@ -119,14 +119,13 @@ Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept {
 }
 
 void ControlSpaceSampling::sample_roots() {
-  std::vector<char> wanted;
+  std::vector<char> wanted(static_cast<std::size_t>(lattice_->size()), 1);
   std::vector<std::int32_t> nodes;
   std::vector<Vec2> uv;
   for (std::int32_t c = 0; c < tree_->size(); ++c) {
     if (!(*tree_)[c].relevant) continue;
-    for (int k = 0; k < 4; ++k) {
-      const std::int32_t n = lattice_->node((*tree_)[c].corner(k));
-      wanted.resize(static_cast<std::size_t>(lattice_->size()), 1);
+    for (const int k : corners_of_cell) {
+      const std::int32_t n = (*tree_)[c].node[k];
       if (wanted[n] == 0) continue;
       wanted[n] = 0;
       if (!lattice_->inside(n)) continue;
@@ -140,44 +139,49 @@ void ControlSpaceSampling::sample_roots() {
 
 // What the samples known so far say about a node.
 Metric2 ControlSpaceSampling::expected_at(std::int32_t node, std::int32_t size) {
-  const GridPoint p = lattice_->point(node);
-  const Prediction guess = lattice_->predict(p);
+  const Prediction guess = lattice_->predict(node);
   if (guess.order >= 3) return guess.root;
+  const GridPoint p = lattice_->point(node);
   return border_->fit({static_cast<double>(p.i), static_cast<double>(p.j)}, size);
 }
 
-bool ControlSpaceSampling::wholly_inside(const TreeCell& cell) {
-  if (cell.edges_begin == cell.edges_end) return true;
-  if (!lattice_->inside(lattice_->node(cell.centre()))) return false;
-  for (int k = 0; k < 4; ++k)
-    if (!lattice_->inside(lattice_->node(cell.corner(k)))) return false;
-  return true;
+// Of the corners and the centre.
+int ControlSpaceSampling::nodes_inside(const TreeCell& cell) const noexcept {
+  if (cell.edges_begin == cell.edges_end) return cell.relevant ? 5 : 0;
+  int count = lattice_->inside(cell.centre()) ? 1 : 0;
+  for (const int k : corners_of_cell) count += lattice_->inside(cell.node[k]) ? 1 : 0;
+  return count;
 }
 
 std::vector<ControlSpaceSampling::NodeProbe> ControlSpaceSampling::centres_of(std::span<const std::int32_t> cells) {
   std::vector<NodeProbe> probes;
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
-    const std::int32_t n = lattice_->node(cell.centre());
+    const std::int32_t n = cell.centre();
     if (lattice_->inside(n)) probes.push_back({n, c, expected_at(n, cell.size)});
   }
   return probes;
 }
 
-// A vertex of the boundary in each cell that is partly outside.
+// Vertices of the boundary in each cell that is partly outside.
 std::vector<ControlSpaceSampling::BorderPoint> ControlSpaceSampling::border_points_of(
     std::span<const std::int32_t> cells) {
   std::vector<BorderPoint> points;
   std::vector<int> found;
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
-    if (wholly_inside(cell)) continue;
+    if (nodes_inside(cell) == 5) continue;
     tree_->vertices_in(cell, found);
+    std::erase_if(found, [this](int v) { return vertex_sampled_[v] != 0; });
     if (found.empty()) continue;
-    const int v = found[found.size() / 2];
-    if (vertex_sampled_[v] != 0) continue;
-    vertex_sampled_[v] = 1;
-    points.push_back({v, c, border_->fit(lattice_->position(domain_.vertices[v]), cell.size)});
+    // One in the middle, or two at the quarters.
+    const std::size_t n = found.size();
+    const std::size_t picks[2] = {n >= 4 ? n / 4 : n / 2, n >= 4 ? 3 * n / 4 : n / 2};
+    for (std::size_t k = 0; k < (n >= 4 ? 2 : 1); ++k) {
+      const int v = found[picks[k]];
+      vertex_sampled_[v] = 1;
+      points.push_back({v, c, border_->fit(lattice_->position(domain_.vertices[v]), cell.size)});
+    }
   }
   return points;
 }
@@ -200,7 +204,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
     TreeCell& cell = (*tree_)[points[k].cell];
     const Metric2 truth = root_of(metric[centres.size() + k]);
     border_->add(lattice_->position(domain_.vertices[points[k].vertex]), truth);
-    cell.error = border_relief * error_between(points[k].expected, truth, cell);
+    cell.error = std::max(cell.error, border_relief * error_between(points[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
   for (std::size_t k = 0; k < centres.size(); ++k) {
@@ -217,12 +221,7 @@ void ControlSpaceSampling::estimate_vertices() {
   for (std::int32_t c = 0; c < tree_->size(); ++c) {
     const TreeCell& cell = (*tree_)[c];
     if (cell.child >= 0 || !cell.relevant) continue;
-    double inside = 5;
-    if (cell.edges_begin != cell.edges_end) {
-      inside = lattice_->inside(lattice_->node(cell.centre())) ? 1 : 0;
-      for (int k = 0; k < 4; ++k) inside += lattice_->inside(lattice_->node(cell.corner(k))) ? 1 : 0;
-    }
-    sum += cell.vertices * inside / 5;
+    sum += cell.vertices * nodes_inside(cell) / 5;
   }
   // Exploration is planned for the first estimate; it grows as much as that was too low.
   if (sum > vertices_) vertices_per_cell_ *= std::sqrt(sum / vertices_);
@@ -299,8 +298,8 @@ std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const s
   lattice_->forget();
   std::vector<NodeProbe> probes;
   for (const std::int32_t c : cells)
-    for (int k = 0; k < 4; ++k) {
-      const std::int32_t n = lattice_->node((*tree_)[c].middle(k));
+    for (const int k : middles_of_sides) {
+      const std::int32_t n = (*tree_)[c].node[k];
       if (lattice_->inside(n) && !lattice_->sampled(n)) probes.push_back({n, c});
     }
   std::stable_sort(probes.begin(), probes.end(),

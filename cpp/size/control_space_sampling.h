@@ -49,7 +49,7 @@ class ControlSpaceSampling {
   [[nodiscard]] Metric2 expected_at(std::int32_t node, std::int32_t size);
 
   void test(std::span<const std::int32_t> cells);
-  [[nodiscard]] bool wholly_inside(const TreeCell& cell);
+  [[nodiscard]] int nodes_inside(const TreeCell& cell) const noexcept;
   [[nodiscard]] std::vector<NodeProbe> centres_of(std::span<const std::int32_t> cells);
   [[nodiscard]] std::vector<BorderPoint> border_points_of(std::span<const std::int32_t> cells);
   void estimate_vertices();

@@ -12,7 +12,7 @@ constexpr double widening = 1e-9;
 
 }  // namespace
 
-Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, const Lattice& lattice)
+Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& lattice)
     : domain_(domain),
       locator_(locator),
       lattice_(lattice),
@@ -60,7 +60,11 @@ void Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates) {
   for (const std::int32_t e : candidates)
     if (meets(cell, e)) edges_.push_back(e);
   cell.edges_end = static_cast<std::int32_t>(edges_.size());
-  cell.relevant = cell.edges_end > cell.edges_begin || locator_.contains(lattice_.parameters(cell.centre()));
+  const bool cut = cell.edges_end > cell.edges_begin;
+  cell.relevant = cut || locator_.contains(lattice_.parameters(cell.point(4)));
+  // A closed cell that no edge meets is on one side.
+  const Place place = cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
+  for (int k = 0; k < 9; ++k) cell.node[k] = lattice_.node(cell.point(k), place);
 }
 
 void Tree::split(std::int32_t number) {
@@ -72,7 +76,7 @@ void Tree::split(std::int32_t number) {
     TreeCell child{.i = cell.i + (k % 2) * half, .j = cell.j + (k / 2) * half, .size = half};
     child.error = cell.error;
     child.vertices = cell.vertices / 4;
-    if (cell.relevant) complete(child, candidates);
+    complete(child, candidates);
     cells_.push_back(child);
   }
 }

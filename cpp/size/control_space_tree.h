@@ -1,6 +1,7 @@
 // The cells of a control space under construction. Private to size/.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,19 +20,20 @@ struct TreeCell {
   bool tested = false;                          ///< its centre was sampled, or cannot be
   double error = 0;                             ///< of prediction against sample, relative, in length
   double vertices = 0;                          ///< that a mesh would have in the whole cell
-  [[nodiscard]] GridPoint centre() const noexcept { return {i + size / 2, j + size / 2}; }
-  /// Corners (k = 0..3: lower left, lower right, upper left, upper right).
-  [[nodiscard]] GridPoint corner(int k) const noexcept { return {i + (k % 2) * size, j + (k / 2) * size}; }
-  /// Middles of the sides (k = 0..3: lower, upper, left, right).
-  [[nodiscard]] GridPoint middle(int k) const noexcept {
-    return k < 2 ? GridPoint{i + size / 2, j + k * size} : GridPoint{i + (k - 2) * size, j + size / 2};
-  }
+  /// In the lattice, row by row: corners, middles of sides, centre.
+  std::array<std::int32_t, 9> node{};
+
+  [[nodiscard]] GridPoint point(int k) const noexcept { return {i + (k % 3) * (size / 2), j + (k / 3) * (size / 2)}; }
+  [[nodiscard]] std::int32_t centre() const noexcept { return node[4]; }
 };
+/// Ranks in TreeCell::node: corners; middles of the lower, upper, left, right side; ends of these sides.
+inline constexpr int corners_of_cell[4] = {0, 2, 6, 8}, middles_of_sides[4] = {1, 7, 3, 5};
+inline constexpr int ends_of_sides[4][2] = {{0, 2}, {6, 8}, {0, 6}, {2, 8}};
 
 /// Square cells over the lattice, each a leaf or split into four.
 class Tree {
  public:
-  Tree(const SampledDomain& domain, const PolygonLocator& locator, const Lattice& lattice);
+  Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& lattice);
 
   [[nodiscard]] std::int32_t size() const noexcept { return static_cast<std::int32_t>(cells_.size()); }
   TreeCell& operator[](std::int32_t cell) noexcept { return cells_[cell]; }
@@ -55,7 +57,7 @@ class Tree {
 
   const SampledDomain& domain_;
   const PolygonLocator& locator_;
-  const Lattice& lattice_;
+  Lattice& lattice_;
   int columns_, rows_;
   std::vector<TreeCell> cells_;
   std::vector<std::int32_t> edges_;

@@ -81,102 +81,83 @@ void ControlSpaceWriter::sort_leaves() {
                    [this](std::int32_t p, std::int32_t q) { return tree_[p].size > tree_[q].size; });
 }
 
-Metric2& ControlSpaceWriter::value(GridPoint p) {
-  const std::int32_t n = lattice_.node(p);
-  if (static_cast<std::size_t>(n) >= value_.size()) {
-    value_.resize(static_cast<std::size_t>(n) + 1);
-    known_.resize(static_cast<std::size_t>(n) + 1, 0);
+// False when the node lies far outside.
+bool ControlSpaceWriter::set_value(std::int32_t node, const TreeCell& cell) {
+  if (lattice_.sampled(node)) {
+    value_[node] = lattice_.value(node);
+    return true;
   }
-  return value_[n];
-}
-
-void ControlSpaceWriter::set_value(GridPoint p, const TreeCell& cell) {
-  Metric2& v = value(p);
-  const std::int32_t n = lattice_.node(p);
-  if (known_[n] != 0) return;
-  if (lattice_.sampled(n)) {
-    v = lattice_.value(n);
-    known_[n] = 1;
-    return;
-  }
-  if (lattice_.inside(n)) {
-    const detail::Prediction guess = lattice_.predict(p);
+  if (lattice_.inside(node)) {
+    const detail::Prediction guess = lattice_.predict(node);
     if (guess.order >= 3) {
-      // predict() may have added nodes, but none here.
-      v = guess.root;
-      known_[n] = 1;
-      return;
+      value_[node] = guess.root;
+      return true;
     }
   } else if (!cell.relevant) {
-    return;
+    return false;
   }
-  v = sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size);
-  known_[n] = 1;
+  const GridPoint p = lattice_.point(node);
+  value_[node] = sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size);
+  return true;
 }
 
 // From fine to coarse: a node outside is extrapolated from the nearest samples that there are.
 void ControlSpaceWriter::set_values() {
+  value_.resize(static_cast<std::size_t>(lattice_.size()));
+  known_.resize(static_cast<std::size_t>(lattice_.size()), 0);
   lattice_.forget();
   std::size_t count = 0;
   for (auto leaf = leaves_.rbegin(); leaf != leaves_.rend(); ++leaf) {
     if (++count % 1024 == 0) monitor_.checkpoint();
-    const TreeCell cell = tree_[*leaf];
-    for (int k = 0; k < 4; ++k) set_value(cell.corner(k), cell);
-    for (int k = 0; k < 4; ++k) set_value(cell.middle(k), cell);
-    set_value(cell.centre(), cell);
+    const TreeCell& cell = tree_[*leaf];
+    for (const std::int32_t n : cell.node)
+      if (known_[n] == 0 && set_value(n, cell)) known_[n] = 1;
   }
 }
 
 // Far outside any continuation does: the mean of what is known in a leaf spreads from leaf to leaf.
 void ControlSpaceWriter::fill_outside() {
-  std::vector<std::int32_t> todo = leaves_;
+  std::vector<std::int32_t> todo;
+  for (const std::int32_t leaf : leaves_)
+    if (!tree_[leaf].relevant) todo.push_back(leaf);
   while (!todo.empty()) {
     std::vector<std::int32_t> later;
     for (const std::int32_t leaf : todo) {
-      const TreeCell cell = tree_[leaf];
       Metric2 sum{0, 0, 0};
       int known = 0;
-      std::vector<GridPoint> unknown;
-      for (int k = 0; k < 9; ++k) {
-        const GridPoint p{cell.i + (k % 3) * (cell.size / 2), cell.j + (k / 3) * (cell.size / 2)};
-        const Metric2 v = value(p);
-        if (known_[lattice_.node(p)] != 0)
-          sum = sum + v, ++known;
-        else
-          unknown.push_back(p);
-      }
+      for (const std::int32_t n : tree_[leaf].node)
+        if (known_[n] != 0) sum = sum + value_[n], ++known;
       if (known == 0) {
         later.push_back(leaf);
         continue;
       }
-      for (const GridPoint p : unknown) {
-        value(p) = (1.0 / known) * sum;
-        known_[lattice_.node(p)] = 1;
-      }
+      for (const std::int32_t n : tree_[leaf].node)
+        if (known_[n] == 0) value_[n] = (1.0 / known) * sum, known_[n] = 1;
     }
     if (later.size() == todo.size()) break;  // nothing is known anywhere: cannot happen after a sample
     todo.swap(later);
   }
 }
 
-bool ControlSpaceWriter::beside_coarser(const TreeCell& cell, int side) const {
-  const GridPoint middle = cell.middle(side);
-  const GridPoint outside = side == 0   ? GridPoint{middle.i, middle.j - 1}
-                            : side == 2 ? GridPoint{middle.i - 1, middle.j}
-                                        : middle;
+// The larger leaf on the other side of a side, or -1.
+std::int32_t ControlSpaceWriter::coarser_beside(const TreeCell& cell, int side) const {
+  const std::int32_t half = cell.size / 2;
+  const GridPoint outside = side == 0   ? GridPoint{cell.i + half, cell.j - 1}
+                            : side == 1 ? GridPoint{cell.i + half, cell.j + cell.size}
+                            : side == 2 ? GridPoint{cell.i - 1, cell.j + half}
+                                        : GridPoint{cell.i + cell.size, cell.j + half};
   const std::int32_t leaf = tree_.leaf_at(outside);
-  return leaf >= 0 && tree_[leaf].size > cell.size;
+  return leaf >= 0 && tree_[leaf].size > cell.size ? leaf : -1;
 }
 
 // Along each side, from coarse to fine, the middle Bernstein coefficient of the quadratic becomes definite.
 void ControlSpaceWriter::straighten_sides() {
-  constexpr int ends[4][2] = {{0, 1}, {2, 3}, {0, 2}, {1, 3}};
   for (const std::int32_t leaf : leaves_) {
     const TreeCell& cell = tree_[leaf];
     for (int side = 0; side < 4; ++side) {
-      if (beside_coarser(cell, side)) continue;
-      const Metric2 a = value(cell.corner(ends[side][0])), b = value(cell.corner(ends[side][1]));
-      Metric2& middle = value(cell.middle(side));
+      const Metric2 a = value_[cell.node[detail::ends_of_sides[side][0]]];
+      const Metric2 b = value_[cell.node[detail::ends_of_sides[side][1]]];
+      Metric2& middle = value_[cell.node[detail::middles_of_sides[side]]];
       const Metric2 mean = 0.5 * (a + b);
       const Metric2 inner = 2.0 * middle + -1.0 * mean;
       const double least = least_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
@@ -186,29 +167,25 @@ void ControlSpaceWriter::straighten_sides() {
   }
 }
 
-// Values at the nine nodes. Where a side is half of a coarser one its middle lies on that one's quadratic.
-ControlSpaceWriter::Nine ControlSpaceWriter::nodes_of(const TreeCell& cell) {
-  const std::int32_t half = cell.size / 2;
+// Where a side is half of a coarser one its middle lies on that one's quadratic.
+ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) const {
   Nine v;
-  for (int k = 0; k < 9; ++k) v[k] = value({cell.i + (k % 3) * half, cell.j + (k / 3) * half});
+  for (int k = 0; k < 9; ++k) v[k] = value_[cell.node[k]];
   for (int side = 0; side < 4; ++side) {
-    if (!beside_coarser(cell, side)) continue;
-    // The coarser side: from its end `far` through its middle and on. Which corner is its middle tells the grid.
-    const bool horizontal = side < 2;
-    const GridPoint low = cell.corner(side == 1 ? 2 : side == 3 ? 1 : 0);
-    const std::int32_t along = horizontal ? low.i : low.j;
-    const bool first_half = along / cell.size % 2 == 0;
-    const std::int32_t start = first_half ? along : along - cell.size;
-    const auto on_side = [&](std::int32_t s) {
-      return value(horizontal ? GridPoint{start + s, low.j} : GridPoint{low.i, start + s});
-    };
-    const Metric2 a = on_side(0), m = on_side(cell.size), b = on_side(2 * cell.size);
-    const int middle = side == 0 ? 1 : side == 1 ? 7 : side == 2 ? 3 : 5;
+    const std::int32_t other = coarser_beside(cell, side);
+    if (other < 0) continue;
+    const TreeCell& coarser = tree_[other];
+    // The same side as seen from beyond: lower and upper, left and right change places.
+    const int facing = side ^ 1;
+    const Metric2 low = value_[coarser.node[detail::ends_of_sides[facing][0]]];
+    const Metric2 middle = value_[coarser.node[detail::middles_of_sides[facing]]];
+    const Metric2 high = value_[coarser.node[detail::ends_of_sides[facing][1]]];
+    const bool first_half = side < 2 ? cell.i == coarser.i : cell.j == coarser.j;
     // The quadratic at 1/4 or 3/4.
-    v[middle] = first_half ? 0.375 * a + 0.75 * m + -0.125 * b : 0.375 * b + 0.75 * m + -0.125 * a;
+    v[detail::middles_of_sides[side]] =
+        first_half ? 0.375 * low + 0.75 * middle + -0.125 * high : 0.375 * high + 0.75 * middle + -0.125 * low;
   }
-  // The centre's Bernstein coefficient, kept definite as on the sides; the sides' own are combinations of definite
-  // ones.
+  // The centre's Bernstein coefficient, kept definite as on the sides.
   const Metric2 corners = v[0] + v[2] + v[6] + v[8];
   const Metric2 inner_sides = 2.0 * (v[1] + v[3] + v[5] + v[7]) + -1.0 * corners;
   const Metric2 straight = 0.25 * inner_sides;
@@ -242,7 +219,7 @@ void ControlSpaceWriter::add_measure(const TreeCell& cell, const Nine& v) {
 }
 
 std::int32_t ControlSpaceWriter::write_leaf(const TreeCell& cell) {
-  const Nine v = nodes_of(cell);
+  const Nine v = values_in(cell);
   if (cell.relevant) add_measure(cell, v);
   ControlSpace::Leaf leaf;
   leaf.x = (cell.i + 0.5 * cell.size) / table_step_;

@@ -24,12 +24,11 @@ class ControlSpaceWriter {
   void balance();
   void sort_leaves();
   void set_values();
-  void set_value(detail::GridPoint p, const detail::TreeCell& cell);
+  [[nodiscard]] bool set_value(std::int32_t node, const detail::TreeCell& cell);
   void fill_outside();
   void straighten_sides();
-  [[nodiscard]] Nine nodes_of(const detail::TreeCell& cell);
-  [[nodiscard]] bool beside_coarser(const detail::TreeCell& cell, int side) const;
-  [[nodiscard]] Metric2& value(detail::GridPoint p);
+  [[nodiscard]] Nine values_in(const detail::TreeCell& cell) const;
+  [[nodiscard]] std::int32_t coarser_beside(const detail::TreeCell& cell, int side) const;
 
   void write();
   std::int32_t write_cell(std::int32_t cell);
