@@ -26,7 +26,7 @@ TEST_F(SessionTest, MeshesTheParaboloidFromMemory) {
   double hphydef = 0;
   ASSERT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK) << error();
   EXPECT_NEAR(hphydef, report().diag / 50, 1e-12);
-  for (const double h : data.sizes) ASSERT_NEAR(h, hphydef, 1e-9);
+  for (const double h : data.sizes) ASSERT_NEAR(h, hphydef, 1e-4 * hphydef);
 
   // Every corner's (u, v) gives the vertex, and triangles are counterclockwise in (u, v).
   for (std::size_t t = 0; t < data.triangle_count(); ++t) {
@@ -321,11 +321,13 @@ TEST_F(MeshFileTest, DefectsOfAFileAreFound) {
   };
   EXPECT_EQ(defects("Triangles 2\n1 2 3 1\n3 2 4 1\n"), "vertex 4: it belongs to no triangle");
   EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n3 2 4 1\n2 5 4 1\n"), "");
-  EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n2 3 4 1\n2 5 4 1\n"),
-            "edge 1-2: 2 triangles of reference 1 share it and are turned against each other");
-  EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n2 3 4 2\n2 5 4 2\n"), "");  // another face may be turned otherwise
+  const std::string turned = " share it and are turned against each other";
+  EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n2 3 4 1\n2 4 5 1\n"), "edge 1-2: 2 triangles of reference 1" + turned);
+  EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n2 3 4 2\n2 4 5 2\n"), "");  // another face may be turned otherwise
+  EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n2 3 4 1\n2 4 5 1\nEdges 1\n2 3 9\n"), "");  // so may a curve's other side
   EXPECT_EQ(defects("Triangles 4\n1 2 3 1\n3 2 4 1\n2 5 4 1\n3 1 2 1\n"),
-            "triangle 3: the same vertices as triangle 0\nedge 1-2: 3 triangles of reference 1 share it");
+            "triangle 3: the same vertices as triangle 0\nedge 0-1: 2 triangles of reference 1" + turned +
+                "\nedge 0-2: 2 triangles of reference 1" + turned + "\nedge 1-2: 3 triangles of reference 1 share it");
   EXPECT_EQ(defects("Triangles 3\n1 2 3 1\n3 2 4 1\n5 5 4 1\n"), "triangle 2: it repeats a vertex");
 }
 

@@ -38,7 +38,7 @@ TEST_F(FailingHostTest, NotANumberStopsTheRunAndIsNamed) {
   for (const std::int64_t from : {std::int64_t{1}, middle}) {
     EXPECT_EQ(run_with(HOST_NAN, from), CARREAU_ERR_CALLBACK);
     EXPECT_NE(error().find("face 1"), std::string::npos) << error();
-    EXPECT_NE(error().find("nan"), std::string::npos) << error();
+    EXPECT_NE(error().find("surf0 returned a value that is not finite"), std::string::npos) << error();
     auto place = sized<carreau_error_place>();
     ASSERT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
     EXPECT_EQ(place.face, 1);
@@ -51,7 +51,7 @@ TEST_F(FailingHostTest, NotANumberStopsTheRunAndIsNamed) {
 
 TEST_F(FailingHostTest, InfinityStopsTheRunAndIsNamed) {
   EXPECT_EQ(run_with(HOST_INFINITY, middle), CARREAU_ERR_CALLBACK);
-  EXPECT_NE(error().find("inf"), std::string::npos) << error();
+  EXPECT_NE(error().find("surf0 returned a value that is not finite"), std::string::npos) << error();
   expect_old_mesh_and_a_usable_session();
 }
 
