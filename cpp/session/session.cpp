@@ -1,6 +1,7 @@
 #include "session/session.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cad/checked_cad.h"
 #include "io/files.h"
@@ -78,6 +79,34 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
     }
 }
 
+// The few lines that a person wants after a run.
+void describe_result(const CompositeResult& result, Monitor& monitor) {
+  const SurfaceMesh& mesh = result.mesh;
+  const auto whole = [](std::int64_t n) { return std::to_string(n); };
+  const auto count = [&](FaceStatus status) {
+    return std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                         [&](const FaceMesh& face) { return face.status == status; });
+  };
+  std::string faces = whole(static_cast<std::int64_t>(mesh.faces.size())) + " faces";
+  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them with curves refined";
+  if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
+  monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
+                                      " vertices, " + whole(static_cast<std::int64_t>(mesh.triangle_count())) +
+                                      " triangles, " + whole(static_cast<std::int64_t>(mesh.edge_count())) +
+                                      " edges on curves");
+  const QualitySummary q = summarise_quality(flatten(mesh, false));
+  const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
+  monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
+                                      short_text(q.q2.p1) + ", worst " + short_text(q.q2.min) + "; angles " +
+                                      short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
+  const CompositeReport& r = result.report;
+  monitor.message(Level::summary, "diag " + short_text(r.diag) + "; " + whole(r.calls.surface()) +
+                                      " evaluations of surfaces; " + short_text(r.seconds_total) + " s (curves " +
+                                      short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +
+                                      ", plane meshes " + short_text(r.seconds_plane) + ", lift " +
+                                      short_text(r.seconds_lift) + ")");
+}
+
 }  // namespace
 
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}
@@ -150,6 +179,7 @@ void Session::make_mesh() {
   s.supports = std::move(supports);
   s.meshed_model = std::move(model);
   s.has_mesh = true;
+  describe_result(s.result, s.monitor);
   s.monitor.progress(Phase::idle, 0, 1);
 }
 

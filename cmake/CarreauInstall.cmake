@@ -1,0 +1,19 @@
+# Package config, pkg-config file and documents. Targets install themselves where they are defined.
+include(CMakePackageConfigHelpers)
+
+set(CARREAU_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/carreau)
+set(CARREAU_FORTRAN_DIR ${CMAKE_INSTALL_DATADIR}/carreau/fortran)
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/carreau-config.cmake.in ${PROJECT_BINARY_DIR}/carreau-config.cmake
+  INSTALL_DESTINATION ${CARREAU_CONFIG_DIR} PATH_VARS CARREAU_FORTRAN_DIR)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/carreau-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(EXPORT carreau-targets NAMESPACE carreau:: DESTINATION ${CARREAU_CONFIG_DIR} COMPONENT development)
+install(FILES ${PROJECT_BINARY_DIR}/carreau-config.cmake ${PROJECT_BINARY_DIR}/carreau-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/CarreauBlsurf.cmake DESTINATION ${CARREAU_CONFIG_DIR} COMPONENT development)
+
+# Relative to the file itself: the installed tree can be moved.
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  OUTPUT_VARIABLE CARREAU_PC_TO_PREFIX)
+string(REGEX REPLACE "/$" "" CARREAU_PC_TO_PREFIX "${CARREAU_PC_TO_PREFIX}")
+configure_file(${CMAKE_CURRENT_LIST_DIR}/carreau.pc.in ${PROJECT_BINARY_DIR}/carreau.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/carreau.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC)
