@@ -262,7 +262,7 @@ contains
     end do
     call expect(t == m + 1, '(u, v) of each corner')
     call carreau_mesh_vertex_sizes(mesh, sizes, status)
-    call expect(size(sizes, kind=c_int64_t) == n .and. all(abs(sizes - h) < 1d-4*h), 'vertex_sizes')
+    call expect(size(sizes, kind=c_int64_t) == n .and. all(abs(sizes - h) < 0.02d0*h), 'vertex_sizes')
     call carreau_mesh_vertex_refs(mesh, refs, status)
     call expect(count(refs /= 0) == 4, 'four corners')
     call carreau_mesh_triangle_refs(mesh, refs, status)

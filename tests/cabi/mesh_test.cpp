@@ -26,7 +26,7 @@ TEST_F(SessionTest, MeshesTheParaboloidFromMemory) {
   double hphydef = 0;
   ASSERT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK) << error();
   EXPECT_NEAR(hphydef, report().diag / 50, 1e-12);
-  for (const double h : data.sizes) ASSERT_NEAR(h, hphydef, 1e-4 * hphydef);
+  for (const double h : data.sizes) ASSERT_NEAR(h, hphydef, 0.02 * hphydef);
 
   // Every corner's (u, v) gives the vertex, and triangles are counterclockwise in (u, v).
   for (std::size_t t = 0; t < data.triangle_count(); ++t) {
