@@ -8,6 +8,7 @@
 #include "plane/domain_check.h"
 #include "plane/domain_graph.h"
 #include "predicates/edge_grid.h"
+#include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
 
 namespace carreau {
@@ -31,6 +32,8 @@ class Sides {
   [[nodiscard]] double length_of(int edge) const { return length_[edge]; }
   [[nodiscard]] bool same_point(int v, int w) const { return point_[v] == point_[w]; }
 
+  /// Is there an edge between the vertices?
+  [[nodiscard]] bool joined(int v, int w) const;
   /// Half-width of the band of `edge` as far as `vertex`, at distance d, is concerned.
   [[nodiscard]] double band(int edge, int vertex, double d, double coef) const;
 
@@ -88,6 +91,12 @@ void Sides::join_poles() {
   for (const PlaneEdge& e : domain_.edges)
     if (e.kind == PlaneEdgeKind::degenerate) point_[std::max(root(e.a), root(e.b))] = std::min(root(e.a), root(e.b));
   for (int v = 0; v < static_cast<int>(point_.size()); ++v) point_[v] = root(v);
+}
+
+bool Sides::joined(int v, int w) const {
+  const auto around = incidence_.at(v);
+  return std::any_of(around.begin(), around.end(),
+                     [&](int e) { return domain_.edges[e].a == w || domain_.edges[e].b == w; });
 }
 
 Vec2 Sides::away_from(int vertex, int edge) const {
@@ -190,6 +199,7 @@ class ClosenessCheck {
         metric_(metric),
         coef_(coef),
         sides_(domain, metric),
+        inside_(domain.vertices, bounding_edges(domain)),
         grid_(domain.vertices, points_of(domain)) {}
 
   [[nodiscard]] bool is_too_long(int edge) const;
@@ -201,14 +211,26 @@ class ClosenessCheck {
     for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v) points.emplace_back(v, v);
     return points;
   }
+  [[nodiscard]] bool sees(const PlaneEdge& e, int vertex, double w) const;
   [[nodiscard]] bool is_near(int edge, int vertex, Metric2 m) const;
 
   const PlaneDomain& domain_;
   const ControlSpace& metric_;
   double coef_;
   Sides sides_;
+  PolygonLocator inside_;
   EdgeGrid grid_;
 };
+
+/// Does the domain lie between the vertex and the point of the edge that is nearest to it (w: 0 the end a, 1 the end
+/// b)? What is close behind the boundary is not meshed.
+bool ClosenessCheck::sees(const PlaneEdge& e, int vertex, double w) const {
+  const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
+  if (w > 0 && w < 1) return !bounds(e) || orientation(a, b, p) > 0;
+  const int end = w > 0 ? e.b : e.a;
+  // On a straight side the next vertex is neither on the left nor on the right, or either by rounding.
+  return sides_.joined(end, vertex) || inside_.inside_along(domain_.vertices[end], p);
+}
 
 /// Is the vertex in the Hausdorff band {p: d(p, A) <= delta} of edge A (HDR eq. 2.23)?
 bool ClosenessCheck::is_near(int edge, int vertex, Metric2 m) const {
@@ -217,10 +239,7 @@ bool ClosenessCheck::is_near(int edge, int vertex, Metric2 m) const {
   const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
   const double w = std::clamp(dot(m, p - a, b - a) / squared_length(m, b - a), 0.0, 1.0);
   const double d = length(m, p - lerp(a, b, w));
-  if (!(d <= coef_ * sides_.length_of(edge))) return false;
-  // What lies behind the boundary is not meshed.
-  if (bounds(e) && orientation(a, b, p) < 0) return false;
-  return d <= sides_.band(edge, vertex, d, coef_);
+  return d <= coef_ * sides_.length_of(edge) && d <= sides_.band(edge, vertex, d, coef_) && sees(e, vertex, w);
 }
 
 bool ClosenessCheck::is_too_long(int edge) const {

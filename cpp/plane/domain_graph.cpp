@@ -34,6 +34,13 @@ std::string name_of_place(Vec2 uv) {
   return name + ")";
 }
 
+std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain) {
+  std::vector<std::pair<int, int>> edges;
+  for (const PlaneEdge& e : domain.edges)
+    if (bounds(e)) edges.emplace_back(e.a, e.b);
+  return edges;
+}
+
 Incidence::Incidence(const PlaneDomain& domain, Which which) {
   const auto counts = [&](const PlaneEdge& e) { return which == Which::all || bounds(e); };
   first_.assign(domain.vertices.size() + 1, 0);

@@ -20,6 +20,9 @@ std::string name_of_place(Vec2 uv);
 
 inline bool bounds(const PlaneEdge& edge) noexcept { return edge.kind != PlaneEdgeKind::internal; }
 
+/// The ends of the boundary and degenerate edges, in their order.
+std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain);
+
 /// The edges at each vertex, in increasing order.
 class Incidence {
  public:

@@ -16,13 +16,6 @@ namespace {
 
 using Sentences = std::vector<std::string>;
 
-std::vector<std::pair<int, int>> bounding_edges(const PlaneDomain& domain) {
-  std::vector<std::pair<int, int>> edges;
-  for (const PlaneEdge& e : domain.edges)
-    if (bounds(e)) edges.emplace_back(e.a, e.b);
-  return edges;
-}
-
 /// The boundary alone, with exact answers about its inside.
 class Boundary {
  public:
