@@ -210,7 +210,9 @@ TEST(Cone, HasAtLeastThreeTrianglesAtItsApex) {
     for (const auto& t : run.mesh.triangles)
       for (const auto v : t) ++around[v];
     for (std::size_t v = 0; v < around.size(); ++v)
-      if (norm(run.mesh.vertices[v]) == 0) EXPECT_GE(around[v], 3) << "size " << size;
+      if (norm(run.mesh.vertices[v]) == 0) {
+        EXPECT_GE(around[v], 3) << "size " << size;
+      }
     EXPECT_GE(run.quality.q2.min, 0.2) << "size " << size;
   }
 }
