@@ -1,9 +1,9 @@
-#include <algorithm>
-#include <array>
-#include <cstdint>
+#include <cmath>
 #include <map>
-#include <numeric>
+#include <utility>
 
+#include "model/near_points.h"
+#include "model/places.h"
 #include "model/topology.h"
 #include "model/traces.h"
 #include "support/error.h"
@@ -13,50 +13,107 @@ namespace carreau {
 
 namespace {
 
-/// Sets of numbers; the representative is the smallest.
-class Merger {
- public:
-  explicit Merger(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void merge(std::size_t i, std::size_t j) {
-    i = find(i), j = find(j);
-    if (i != j) parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
-
-// Points by cells of the size of the tolerance: only neighbours can be near.
-void merge_near_points(const std::vector<Vec3>& points, double eps, Merger& merger) {
-  using Cell = std::array<std::int64_t, 3>;
-  std::map<Cell, std::vector<std::size_t>> grid;
-  const auto cell_of = [&](Vec3 p) {
-    const auto index = [&](double x) {
-      return static_cast<std::int64_t>(std::clamp(std::floor(x / eps), -9e15, 9e15));
-    };
-    return Cell{index(p.x), index(p.y), index(p.z)};
-  };
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Cell c = cell_of(points[i]);
-    for (std::int64_t dx = -1; dx <= 1; ++dx)
-      for (std::int64_t dy = -1; dy <= 1; ++dy)
-        for (std::int64_t dz = -1; dz <= 1; ++dz) {
-          const auto it = grid.find({c[0] + dx, c[1] + dy, c[2] + dz});
-          if (it == grid.end()) continue;
-          for (const std::size_t j : it->second)
-            if (norm(points[i] - points[j]) < eps) merger.merge(i, j);
-        }
-    grid[c].push_back(i);
-  }
-}
+// Tolerance inside one face against tolerance between faces: HDR sec. 4.5.1 recommends 1e-5 and 1e-2. The opposite
+// sides of a narrow face must not become one; a seam is exact.
+constexpr double inside_share = 1e-3;
+// Ends farther apart than this share of eps_glue are not one by rounding only.
+constexpr double rounding_share = 1e-3;
 
 struct Entry {
   std::size_t face, curve;
   std::span<const Vec3> trace;
+};
+
+class Gluer {
+ public:
+  Gluer(const Model& model, const CurveTraces& traces, double eps, std::vector<std::string>* remarks)
+      : model_(model),
+        eps_(eps),
+        remarks_(remarks),
+        entries_(entries_of(model, traces)),
+        points_(2 * entries_.size()),
+        curves_(entries_.size()) {}
+
+  Model run() {
+    std::vector<Vec3> ends;
+    for (const Entry& entry : entries_) {
+      ends.push_back(entry.trace.front());
+      ends.push_back(entry.trace.back());
+    }
+    merge_near_points(ends, eps_, points_);
+    for (std::size_t k = 0; k < entries_.size(); ++k) merge_curve(k);
+    return numbered();
+  }
+
+ private:
+  static std::vector<Entry> entries_of(const Model& model, const CurveTraces& traces) {
+    std::vector<Entry> entries;
+    for (std::size_t f = 0; f < model.faces.size(); ++f)
+      for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) entries.push_back({f, c, traces[f][c]});
+    return entries;
+  }
+
+  void merge_curve(std::size_t k) {
+    const Entry& entry = entries_[k];
+    const double gap = norm(entry.trace.back() - entry.trace.front());
+    if (trace_extent(entry.trace) < eps_) {
+      // One point of space, but a curve of its own: it is not subdivided, and each face has another one (HDR
+      // sec. 4.5.4).
+      points_.merge(2 * k, 2 * k + 1);
+      if (const double length = trace_length(entry.trace); length > rounding_share * eps_)
+        remark(k, "the whole curve, " + format_number(length) +
+                      " long, is nearer to a point than eps_glue = " + format_number(eps_) + " and becomes one");
+      return;
+    }
+    const std::size_t p = points_.find(2 * k), q = points_.find(2 * k + 1);
+    if (p == q && gap > rounding_share * eps_)
+      remark(k, "its ends are " + format_number(gap) + " apart, which is less than eps_glue = " + format_number(eps_) +
+                    " or bridged by other points, and become one point");
+    auto& same_ends = by_ends_[std::minmax(p, q)];
+    for (const std::size_t other : same_ends)
+      if (are_one(entry, entries_[other])) {
+        curves_.merge(other, k);
+        break;
+      }
+    same_ends.push_back(k);
+  }
+
+  [[nodiscard]] bool are_one(const Entry& a, const Entry& b) const {
+    double tolerance = eps_;
+    if (a.face == b.face) {
+      const auto is_boundary = [&](const Entry& e) {
+        return model_.faces[e.face].curves[e.curve].type == CurveType::boundary;
+      };
+      if (!is_boundary(a) || !is_boundary(b)) return false;  // a seam is made of two sides
+      tolerance = std::min(eps_, inside_share * eps_ + trace_deviation(a.trace) + trace_deviation(b.trace));
+    }
+    return hausdorff_distance(a.trace, b.trace, tolerance) < tolerance;
+  }
+
+  // The numbering of HDR fig. 4.18: curve k (from 1) has the ends 2 k - 1 and 2 k; sets take their smallest number.
+  Model numbered() {
+    Model glued = model_;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      FaceCurve& curve = glued.faces[entries_[k].face].curves[entries_[k].curve];
+      curve.ref = static_cast<int>(curves_.find(k)) + 1;
+      curve.end1 = static_cast<int>(points_.find(2 * k)) + 1;
+      curve.end2 = static_cast<int>(points_.find(2 * k + 1)) + 1;
+    }
+    return glued;
+  }
+
+  void remark(std::size_t k, const std::string& sentence) {
+    if (remarks_ == nullptr) return;
+    const Entry& entry = entries_[k];
+    remarks_->push_back(place_of(model_, entry.face, entry.curve).prefix() + sentence);
+  }
+
+  const Model& model_;
+  double eps_;
+  std::vector<std::string>* remarks_;
+  std::vector<Entry> entries_;
+  UnionFind points_, curves_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends_;
 };
 
 }  // namespace
@@ -66,79 +123,10 @@ bool needs_gluing(const Model& model) {
 }
 
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks) {
-  if (!(eps_glue > 0)) throw InvalidArgument("eps_glue must be positive to glue curves");
-  std::vector<Entry> entries;
-  std::vector<Vec3> ends;
-  for (std::size_t f = 0; f < model.faces.size(); ++f)
-    for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) {
-      entries.push_back({f, c, traces[f][c]});
-      ends.push_back(traces[f][c].front());
-      ends.push_back(traces[f][c].back());
-    }
-  Merger points(ends.size());
-  merge_near_points(ends, eps_glue, points);
-
-  Merger curves(entries.size());
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends;
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    const Entry& entry = entries[k];
-    if (trace_extent(entry.trace) < eps_glue) {
-      // One point of space, a curve of its own (HDR sec. 4.5.4).
-      points.merge(2 * k, 2 * k + 1);
-      const double length = trace_length(entry.trace);
-      if (remarks != nullptr && length > 1e-6 * eps_glue)
-        remarks->push_back(
-            Where{.face = model.faces[entry.face].ref, .curve_index = static_cast<int>(entry.curve) + 1}.prefix() +
-            "the curve is shorter (" + format_number(length) + ") than eps_glue and becomes one point");
-      continue;
-    }
-    const std::size_t p = points.find(2 * k), q = points.find(2 * k + 1);
-    auto& same_ends = by_ends[{std::min(p, q), std::max(p, q)}];
-    for (const std::size_t other : same_ends)
-      if (hausdorff_distance(entry.trace, entries[other].trace, eps_glue) < eps_glue) {
-        curves.merge(k, other);
-        break;
-      }
-    same_ends.push_back(k);
-  }
-  Model glued = model;
-  for (std::size_t k = 0; k < entries.size(); ++k) {
-    FaceCurve& curve = glued.faces[entries[k].face].curves[entries[k].curve];
-    curve.ref = static_cast<int>(curves.find(k)) + 1;
-    curve.end1 = static_cast<int>(points.find(2 * k)) + 1;
-    curve.end2 = static_cast<int>(points.find(2 * k + 1)) + 1;
-  }
-  return glued;
-}
-
-Model collapse_tiny_curves(const Model& model, const CurveTraces& traces, double eps_collapse,
-                           std::vector<std::string>* remarks) {
-  Model result = model;
-  std::map<int, double> length;  // of the first curve of each reference, which stands for all
-  std::map<int, int> renamed;    // point reference -> the one that replaces it
-  const auto name_of = [&](int ref) {
-    for (auto it = renamed.find(ref); it != renamed.end(); it = renamed.find(ref)) ref = it->second;
-    return ref;
-  };
-  for (std::size_t f = 0; f < result.faces.size(); ++f)
-    for (std::size_t c = 0; c < result.faces[f].curves.size(); ++c) {
-      FaceCurve& curve = result.faces[f].curves[c];
-      const auto [it, first] = length.try_emplace(curve.ref, trace_length(traces[f][c]));
-      if (it->second >= eps_collapse) continue;
-      curve.collapsed = true;
-      const int p = name_of(curve.end1), q = name_of(curve.end2);
-      if (p != q) renamed[std::max(p, q)] = std::min(p, q);
-      if (first && remarks != nullptr)
-        remarks->push_back(
-            Where{.face = result.faces[f].ref, .curve_index = static_cast<int>(c) + 1, .curve = curve.ref}.prefix() +
-            "the curve is eliminated: its length " + format_number(it->second) + " is below eps_collapse");
-    }
-  for (Face& face : result.faces)
-    for (FaceCurve& curve : face.curves) {
-      curve.end1 = name_of(curve.end1);
-      curve.end2 = name_of(curve.end2);
-    }
-  return result;
+  if (!(eps_glue > 0) || !std::isfinite(eps_glue))
+    throw InvalidArgument("eps_glue must be positive to find references; it is " + format_number(eps_glue));
+  check_traces(model, traces);
+  return Gluer(model, traces, eps_glue, remarks).run();
 }
 
 }  // namespace carreau

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
-#include <set>
+#include <optional>
 
+#include "model/places.h"
 #include "model/topology.h"
-#include "support/error.h"
 
 namespace carreau {
 
@@ -12,84 +12,178 @@ namespace {
 
 class ModelChecker {
  public:
-  explicit ModelChecker(const Model& model) : model_(model) {}
+  explicit ModelChecker(const Model& model) : model_(model), gluing_(needs_gluing(model)) {}
 
   std::vector<std::string> run() {
-    if (model_.faces.empty()) add({}, 0, "there is no surface");
-    const bool zero = needs_gluing(model_);
-    for (const Face& face : model_.faces) {
-      check_face(face);
-      for (std::size_t c = 0; c < face.curves.size(); ++c) check_curve(face, static_cast<int>(c), zero);
-      if (!zero) check_loops(face);
+    if (model_.faces.empty()) add({.file = model_.source}, "the model has no face");
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+      check_face(f);
+      check_orientation(f);
+      for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
+        check_type(f, c);
+        if (gluing_)
+          check_zero(f, c);
+        else if (check_positive(f, c))
+          check_uses(f, c);
+      }
+      if (!gluing_) check_loops(f);
+      check_points(f);
     }
     return std::move(defects_);
   }
 
  private:
-  void add(Where where, int line, const std::string& sentence) {
+  void add(const Where& where, const std::string& sentence) { defects_.push_back(where.prefix() + sentence); }
+
+  [[nodiscard]] Where place(std::size_t f, int line) const {
+    Where where{.face = model_.faces[f].ref};
     if (line > 0) where.file = model_.source, where.line = line;
-    defects_.push_back(where.prefix() + sentence);
+    return where;
   }
-  static std::string of_line(int line) { return line > 0 ? " (line " + std::to_string(line) + ")" : ""; }
+  [[nodiscard]] Where face_place(std::size_t f) const { return place(f, model_.faces[f].line); }
+  // As in "face number 3": ranks tell faces apart whose references do not.
+  static std::string rank(std::size_t index) { return std::to_string(index + 1); }
 
-  void check_face(const Face& face) {
-    const Where where{.face = face.ref};
-    const auto [it, added] = faces_.try_emplace(face.ref, &face);
-    if (!added) add(where, face.line, "another surface has the same reference" + of_line(it->second->line));
-    if (face.ref == 0) add(where, face.line, "the reference of a surface cannot be zero");
-    if (face.curves.empty()) add(where, face.line, "the surface has no curve");
-    const int ic = std::abs(face.orientation);
-    if (ic < 1 || static_cast<std::size_t>(ic) > face.curves.size())
-      add(where, face.line,
-          "orientation " + std::to_string(face.orientation) + " names no curve of the surface (it has " +
-              std::to_string(face.curves.size()) + ")");
-    else if (face.curves[ic - 1].type != CurveType::boundary)
-      add(where, face.line,
-          "orientation names curve " + std::to_string(ic) + ", which is not of the boundary type (typc 1)");
+  void check_face(std::size_t f) {
+    const Face& face = model_.faces[f];
+    if (face.ref <= 0)
+      add(face_place(f), "the reference of a face must be positive; that of face number " + rank(f) + " is " +
+                             std::to_string(face.ref));
+    const auto [it, added] = faces_.try_emplace(face.ref, f);
+    if (!added)
+      add(face_place(f), "face number " + rank(f) + " has the same reference as face number " + rank(it->second) +
+                             of_line(model_.faces[it->second].line));
   }
 
-  void check_curve(const Face& face, int c, bool zero) {
-    const FaceCurve& curve = face.curves[c];
-    const Where where{.face = face.ref, .curve_index = c + 1, .curve = curve.ref};
-    if (curve.type != CurveType::boundary && curve.type != CurveType::internal)
-      add(where, curve.line, "typc must be 1 (boundary) or 2 (internal)");
-    if (zero) return;  // references are found later, whatever stands here
-    if (curve.ref <= 0 || curve.end1 <= 0 || curve.end2 <= 0) {
-      add(where, curve.line,
-          "references must be positive (refc " + std::to_string(curve.ref) + ", refp1 " + std::to_string(curve.end1) +
-              ", refp2 " + std::to_string(curve.end2) +
-              "); to have them found, the very first curve must have the reference 0");
-      return;
+  void check_orientation(std::size_t f) {
+    const Face& face = model_.faces[f];
+    const bool bounded = std::any_of(face.curves.begin(), face.curves.end(),
+                                     [](const FaceCurve& c) { return c.type == CurveType::boundary; });
+    if (!bounded) {
+      add(face_place(f), face.curves.empty() ? "the face has no curve" : "the face has no curve of type 1 (boundary)");
+      return;  // no orientation could be right
     }
-    const auto [it, first] = ends_.try_emplace(curve.ref, &curve);
-    if (!first && std::minmax(curve.end1, curve.end2) != std::minmax(it->second->end1, it->second->end2))
-      add(where, curve.line,
-          "its ends " + std::to_string(curve.end1) + " and " + std::to_string(curve.end2) +
-              " are not those of the first curve of this reference, " + std::to_string(it->second->end1) + " and " +
-              std::to_string(it->second->end2) + of_line(it->second->line));
-    if (curve.type == CurveType::boundary && ++uses_[{face.ref, curve.ref}] == 3)
-      add(where, curve.line, "the curve bounds this surface more than twice (twice is a seam)");
-    if (curve.type == CurveType::internal && ++internal_uses_[{face.ref, curve.ref}] == 2)
-      add(where, curve.line, "the internal curve stands twice in this surface");
+    // Not std::abs, which overflows for the least int.
+    const long long ic = std::llabs(static_cast<long long>(face.orientation));
+    const std::string name = "orientation " + std::to_string(face.orientation);
+    if (ic < 1 || ic > static_cast<long long>(face.curves.size()))
+      add(face_place(f), name + " names no curve of the face, which has " + std::to_string(face.curves.size()));
+    else if (const FaceCurve& curve = face.curves[static_cast<std::size_t>(ic) - 1]; curve.type != CurveType::boundary)
+      add(face_place(f),
+          name + " names curve " + std::to_string(ic) + of_line(curve.line) + ", which is not of type 1 (boundary)");
   }
 
-  // Whatever the order of the curves, an even number of boundary ends meets at each point of the boundary.
-  void check_loops(const Face& face) {
-    std::map<int, int> ends;
-    for (const FaceCurve& curve : face.curves)
-      if (curve.type == CurveType::boundary) ++ends[curve.end1], ++ends[curve.end2];
-    for (const auto& [point, count] : ends)
-      if (count % 2 != 0)
-        add({.face = face.ref, .point = point}, face.line,
-            "the boundary does not close: " + std::to_string(count) + " boundary curve" +
-                (count == 1 ? " ends" : "s end") + " there");
+  void check_type(std::size_t f, std::size_t c) {
+    const CurveType type = model_.faces[f].curves[c].type;
+    if (type != CurveType::boundary && type != CurveType::internal)
+      add(place_of(model_, f, c),
+          "the type of a curve must be 1 (boundary) or 2 (internal); it is " + std::to_string(static_cast<int>(type)));
   }
+
+  static std::string references(const FaceCurve& c) {
+    return "refc " + std::to_string(c.ref) + ", refp1 " + std::to_string(c.end1) + ", refp2 " + std::to_string(c.end2);
+  }
+
+  // The very first curve decides (RT-0232 sec. 3.2).
+  void check_zero(std::size_t f, std::size_t c) {
+    const FaceCurve& curve = model_.faces[f].curves[c];
+    if (curve.ref == 0 && curve.end1 == 0 && curve.end2 == 0) return;
+    add(place_of(model_, f, c), "references (" + references(curve) +
+                                    ") are mixed with zero ones: the first curve of the model has the reference 0" +
+                                    of_line(model_.faces[0].curves[0].line) + ", so that all have to be found");
+  }
+
+  bool check_positive(std::size_t f, std::size_t c) {
+    const FaceCurve& curve = model_.faces[f].curves[c];
+    if (curve.ref > 0 && curve.end1 > 0 && curve.end2 > 0) return true;
+    const bool negative = curve.ref < 0 || curve.end1 < 0 || curve.end2 < 0;
+    add(place_of(model_, f, c), negative ? "references must be positive (" + references(curve) + ")"
+                                         : "zero references are mixed with others (" + references(curve) +
+                                               "): to have references found, those of all curves must be 0");
+    return false;
+  }
+
+  void check_uses(std::size_t f, std::size_t c) {
+    const FaceCurve& curve = model_.faces[f].curves[c];
+    const auto [it, first] = curves_.try_emplace(curve.ref, &curve);
+    if (!first && std::minmax(curve.end1, curve.end2) != std::minmax(it->second->end1, it->second->end2))
+      add(place_of(model_, f, c), "its ends " + std::to_string(curve.end1) + " and " + std::to_string(curve.end2) +
+                                      " are not those of the first curve of this reference, " +
+                                      std::to_string(it->second->end1) + " and " + std::to_string(it->second->end2) +
+                                      of_line(it->second->line));
+    std::vector<std::size_t>& uses = uses_[{f, curve.ref, curve.type}];
+    uses.push_back(c);
+    std::string others;  // those before
+    for (std::size_t i = 0; i + 1 < uses.size(); ++i)
+      others += (i == 0 ? "" : " and ") + std::to_string(uses[i] + 1) + of_line(model_.faces[f].curves[uses[i]].line);
+    if (curve.type == CurveType::boundary && uses.size() > 2)
+      add(place_of(model_, f, c), "the reference is that of boundary curves " + others +
+                                      " of the face already; twice is a seam, more is not possible");
+    if (curve.type == CurveType::internal && uses.size() > 1)
+      add(place_of(model_, f, c), "the reference is that of internal curve " + others + " of the face already");
+  }
+
+  // Loops close whatever the order of the curves: at each point of the boundary an even number of ends meets. Curves
+  // whose references are wrong have their own sentence.
+  void check_loops(std::size_t f) {
+    std::map<int, std::vector<std::size_t>> ends;
+    for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
+      const FaceCurve& curve = model_.faces[f].curves[c];
+      if (curve.type != CurveType::boundary) continue;
+      if (curve.ref <= 0 || curve.end1 <= 0 || curve.end2 <= 0) return;
+      ends[curve.end1].push_back(c);
+      ends[curve.end2].push_back(c);
+    }
+    for (const auto& [point, curves] : ends) {
+      if (curves.size() % 2 == 0) continue;
+      Where where = place_of(model_, f, curves.front());
+      where.curve_index = where.curve = 0;
+      where.point = point;
+      std::string names;
+      for (std::size_t i = 0; i < curves.size(); ++i)
+        names += (i == 0 ? "" : i + 1 == curves.size() ? " and " : ", ") + std::to_string(curves[i] + 1);
+      add(where, "the boundary of the face does not close: boundary curve" +
+                     (curves.size() == 1 ? " " + names + " ends there alone"
+                                         : "s " + names + " end there, which is an odd number of ends"));
+    }
+  }
+
+  void check_points(std::size_t f) {
+    std::map<std::pair<double, double>, std::size_t> known;
+    const std::vector<FacePoint>& points = model_.faces[f].points;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const FacePoint& point = points[p];
+      const std::string name = "internal point " + rank(p);
+      if (point.ref < 0)
+        add(place(f, point.line),
+            "the reference of " + name + " must not be negative; it is " + std::to_string(point.ref));
+      if (!is_finite(point.uv)) {
+        add(place(f, point.line), "the coordinates of " + name + " are not finite");
+        continue;
+      }
+      // + 0.0: no negative zero.
+      const auto [it, added] = known.try_emplace({point.uv.x + 0.0, point.uv.y + 0.0}, p);
+      if (added) continue;
+      Where where = place(f, point.line);
+      where.uv = point.uv;
+      add(where,
+          name + " is at the same place as internal point " + rank(it->second) + of_line(points[it->second].line));
+    }
+  }
+
+  struct UseKey {
+    std::size_t face;
+    int ref;
+    CurveType type;
+    auto operator<=>(const UseKey&) const = default;
+  };
 
   const Model& model_;
+  bool gluing_;
   std::vector<std::string> defects_;
-  std::map<int, const Face*> faces_;
-  std::map<int, const FaceCurve*> ends_;
-  std::map<std::pair<int, int>, int> uses_, internal_uses_;
+  std::map<int, std::size_t> faces_;        // by reference
+  std::map<int, const FaceCurve*> curves_;  // first of each reference
+  std::map<UseKey, std::vector<std::size_t>> uses_;
 };
 
 }  // namespace

@@ -1,9 +1,13 @@
 #include "model/topology.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
+#include "model/places.h"
 #include "model/traces.h"
+#include "model/union_find.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -11,15 +15,19 @@ namespace carreau {
 
 namespace {
 
-// Where closed curves are compared to tell their direction; not symmetric about the middle.
-constexpr double probes[] = {0.2, 0.3, 0.6};
+// A trace within this share of the tolerance is one point whatever its references say.
+constexpr double point_share = 1e-3;
+// Fractions of the length at which closed curves are compared: more than a symmetric shape can hide.
+constexpr int probes = 23;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class TopologyBuilder {
  public:
   TopologyBuilder(const Model& model, const CurveTraces& traces, double eps)
-      : model_(model), traces_(traces), eps_(eps) {}
+      : model_(model), traces_(traces), eps_(eps), corners_(prepare_corners()) {}
 
   Topology run() {
+    merge_ends_of_points();
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       topology_.curve_of.emplace_back();
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) add_use(static_cast<int>(f), static_cast<int>(c));
@@ -33,66 +41,135 @@ class TopologyBuilder {
     return model_.faces[use.face].curves[use.curve];
   }
   [[nodiscard]] std::span<const Vec3> trace(const CurveUse& use) const { return traces_[use.face][use.curve]; }
-  [[nodiscard]] Where where(const CurveUse& use) const {
-    const FaceCurve& curve = face_curve(use);
-    return {.face = model_.faces[use.face].ref,
-            .curve_index = use.curve + 1,
-            .curve = curve.ref,
-            .file = curve.line > 0 ? model_.source : "",
-            .line = curve.line};
+  [[nodiscard]] Where where(const CurveUse& use) const { return place_of(model_, use.face, use.curve); }
+  [[nodiscard]] std::string name(const CurveUse& use) const {
+    return "curve " + std::to_string(use.curve + 1) + " of face " + std::to_string(model_.faces[use.face].ref) +
+           of_line(face_curve(use).line);
   }
 
-  int point(int ref, Vec3 position) {
-    const auto [it, added] = point_of_.try_emplace(ref, static_cast<int>(topology_.points.size()));
-    if (added) topology_.points.push_back({ref, position, {}});
+  template <typename Visit>
+  void for_each_curve(Visit visit) const {
+    for (std::size_t f = 0; f < model_.faces.size(); ++f)
+      for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c)
+        visit(model_.faces[f].curves[c], std::span<const Vec3>(traces_[f][c]));
+  }
+
+  UnionFind prepare_corners() {
+    for_each_curve([&](const FaceCurve& curve, std::span<const Vec3>) {
+      rank_.try_emplace(curve.end1, rank_.size());
+      rank_.try_emplace(curve.end2, rank_.size());
+    });
+    slack_.assign(rank_.size(), 0);
+    return UnionFind(rank_.size());
+  }
+
+  // The manual demanded two references even where a side is one point: they are one corner. Ends of collapsed curves
+  // may be as far from their corner as the curves were long.
+  void merge_ends_of_points() {
+    for_each_curve([&](const FaceCurve& curve, std::span<const Vec3> points) {
+      if (curve.collapsed || is_point(points)) corners_.merge(rank_[curve.end1], rank_[curve.end2]);
+    });
+    for_each_curve([&](const FaceCurve& curve, std::span<const Vec3> points) {
+      if (curve.collapsed) slack_[corners_.find(rank_[curve.end1])] += trace_length(points);
+    });
+  }
+
+  [[nodiscard]] bool is_point(std::span<const Vec3> points) const { return trace_extent(points) <= point_share * eps_; }
+
+  // A small curve whose ends were glued together is a point too, but a small closed curve bounds a small hole.
+  [[nodiscard]] bool is_degenerate(const CurveUse& use, bool one_end) const {
+    const std::span<const Vec3> points = trace(use);
+    const double extent = trace_extent(points), gap = norm(points.back() - points.front());
+    return face_curve(use).collapsed || is_point(points) || (one_end && extent <= eps_ && gap > 0.1 * extent);
+  }
+
+  int corner(int ref, Vec3 position) {
+    const std::size_t set = corners_.find(rank_[ref]);
+    const auto [it, added] = index_of_corner_.try_emplace(set, static_cast<int>(topology_.points.size()));
+    if (added) {
+      topology_.points.push_back({ref, position, {}});
+      slack_of_point_.push_back(slack_[set]);
+    }
     return it->second;
   }
 
   void add_use(int f, int c) {
     CurveUse use{f, c, false};
     const FaceCurve& curve = face_curve(use);
+    const int end1 = corner(curve.end1, trace(use).front()), end2 = corner(curve.end2, trace(use).back());
+    const bool point = is_degenerate(use, end1 == end2);
+    check_ends(use, end1, end2);
     const auto [it, first] = curve_of_ref_.try_emplace(curve.ref, static_cast<int>(topology_.curves.size()));
     topology_.curve_of[f].push_back(it->second);
-    const int end1 = point(curve.end1, trace(use).front()), end2 = point(curve.end2, trace(use).back());
-    const bool one_point = curve.collapsed || trace_extent(trace(use)) <= 1e-3 * eps_;
     if (first) {
-      if (end1 == end2 && !one_point && norm(trace(use).back() - trace(use).front()) > eps_)
-        throw InvalidModel(where(use), "refp1 and refp2 are the same, yet the ends of the curve are " +
-                                           format_number(norm(trace(use).back() - trace(use).front())) + " apart");
-      topology_.curves.push_back({curve.ref, {use}, end1, end2, one_point});
+      topology_.curves.push_back({curve.ref, {use}, end1, end2, point});
       return;
     }
     Curve& shape = topology_.curves[it->second];
     const bool same = end1 == shape.end1 && end2 == shape.end2, against = end1 == shape.end2 && end2 == shape.end1;
     if (!same && !against)
-      throw InvalidModel(where(use), "its ends are not those of the other curves of the same reference");
-    use.reversed = same && against ? runs_against(shape, use) : against;
-    if (!shape.degenerate) check_gap(shape, use);
+      throw InvalidModel(where(use),
+                         "its ends are not those of " + name(shape.uses.front()) + ", which has the same reference");
+    if (!curve.collapsed) check_gap(shape, use);
+    if (shape.degenerate != point)
+      throw InvalidModel(
+          where(use), std::string("the curve is ") + (point ? "one point of space, but " : "no point, but ") +
+                          name(shape.uses.front()) + ", which has the same reference, is " + (point ? "not" : "one"));
+    use.reversed = same && against ? !point && runs_against(shape, use) : against;
     shape.uses.push_back(use);
   }
 
-  // A closed curve says nothing by its ends: the direction is the one in which the shapes agree.
-  bool runs_against(const Curve& shape, const CurveUse& use) const {
-    if (shape.degenerate) return false;
-    const std::span<const Vec3> first = trace(shape.uses.front()), other = trace(use);
-    double along = 0, back = 0;
-    for (const double r : probes) {
-      along = std::max(along, norm(trace_point(first, r) - trace_point(other, r)));
-      back = std::max(back, norm(trace_point(first, r) - trace_point(other, 1 - r)));
-    }
-    if (std::min(along, back) > eps_)
-      throw InvalidModel(where(use), "the closed curve is " + format_number(std::min(along, back)) +
-                                         " away from the first curve of the same reference");
-    return back < along;
+  // Each end must be where its reference was first seen.
+  void check_ends(const CurveUse& use, int end1, int end2) const {
+    const Vec3 front = trace(use).front(), back = trace(use).back();
+    const Vec3 p1 = topology_.points[end1].position, p2 = topology_.points[end2].position;
+    const double gap1 = norm(front - p1), gap2 = norm(back - p2), gap = std::max(gap1, gap2);
+    const double swapped = std::max(norm(front - p2), norm(back - p1));
+    if (gap > point_share * eps_ && swapped < 0.1 * gap)
+      throw InvalidModel(where(use), "refp1 and refp2 are exchanged: its first end is at the point of reference " +
+                                         std::to_string(face_curve(use).end2) + ", its second one at that of " +
+                                         std::to_string(face_curve(use).end1));
+    const bool first = gap1 - slack_of_point_[end1] > eps_;
+    if (!first && gap2 - slack_of_point_[end2] <= eps_) return;
+    if (face_curve(use).end1 == face_curve(use).end2 && norm(back - front) > eps_)
+      throw InvalidModel(where(use), "refp1 and refp2 are both " + std::to_string(face_curve(use).end1) +
+                                         ", but the ends of the curve are " + format_number(norm(back - front)) +
+                                         " apart, and " + format_number(gap) + " from where that point is");
+    throw InvalidModel(where(use), std::string("its ") + (first ? "first" : "second") + " end is " +
+                                       format_number(first ? gap1 : gap2) + " away from the point of reference " +
+                                       std::to_string(first ? face_curve(use).end1 : face_curve(use).end2) +
+                                       ", as another curve gave it before (tolerance " + format_number(eps_) + ")");
   }
 
   void check_gap(const Curve& shape, const CurveUse& use) const {
-    const double gap = hausdorff_distance(trace(shape.uses.front()), trace(use), eps_);
+    const std::span<const Vec3> first = trace(shape.uses.front()), other = trace(use);
+    if (hausdorff_distance(first, other, eps_) <= eps_) return;
+    throw InvalidModel(where(use), "the curve is up to " + format_number(hausdorff_distance(first, other, infinity)) +
+                                       " away from " + name(shape.uses.front()) +
+                                       ", which has the same reference (tolerance " + format_number(eps_) + ")");
+  }
+
+  // A closed curve says nothing by its ends: the direction is the one in which the shapes agree.
+  [[nodiscard]] bool runs_against(const Curve& shape, const CurveUse& use) const {
+    const std::span<const Vec3> first = trace(shape.uses.front()), other = trace(use);
+    double along = 0, back = 0;
+    for (int i = 1; i <= probes; ++i) {
+      const double r = static_cast<double>(i) / (probes + 1);
+      const Vec3 p = trace_point(first, r);
+      along = std::max(along, norm(p - trace_point(other, r)));
+      back = std::max(back, norm(p - trace_point(other, 1 - r)));
+    }
+    const double gap = std::min(along, back);
     if (gap > eps_)
-      throw InvalidModel(where(use), "the curve is " + format_number(gap) + " or more away from curve " +
-                                         std::to_string(shape.uses.front().curve + 1) + " of face " +
-                                         std::to_string(model_.faces[shape.uses.front().face].ref) +
-                                         ", which has the same reference");
+      throw InvalidModel(where(use), "the closed curve and " + name(shape.uses.front()) +
+                                         ", which has the same reference, are " + format_number(gap) +
+                                         " apart at equal lengths: do both start at the same point?");
+    // What agrees in both directions, there and back on one line, may be taken in any.
+    if (gap > std::max(0.5 * std::max(along, back), point_share * eps_))
+      throw InvalidModel(where(use), "the direction of the closed curve cannot be told: it is as near to " +
+                                         name(shape.uses.front()) + " forwards (" + format_number(along) +
+                                         ") as backwards (" + format_number(back) + ")");
+    return back < along;
   }
 
   void collect_curves_of_points() {
@@ -106,13 +183,21 @@ class TopologyBuilder {
   const Model& model_;
   const CurveTraces& traces_;
   double eps_;
+  std::map<int, std::size_t> rank_;  // of point references, by first appearance
+  std::vector<double> slack_;        // by rank, of the sets' smallest
+  UnionFind corners_;                // of ranks
+  std::map<std::size_t, int> index_of_corner_;
+  std::vector<double> slack_of_point_;
+  std::map<int, int> curve_of_ref_;
   Topology topology_;
-  std::map<int, int> curve_of_ref_, point_of_;
 };
 
 }  // namespace
 
 Topology build_topology(const Model& model, const CurveTraces& traces, double eps) {
+  if (!(eps > 0) || !std::isfinite(eps))
+    throw InvalidArgument("the tolerance of curves in space must be positive; it is " + format_number(eps));
+  check_traces(model, traces);
   return TopologyBuilder(model, traces, eps).run();
 }
 

@@ -40,9 +40,11 @@ struct Topology {
   std::vector<std::vector<int>> curve_of;
 };
 
-/// Checks every rule of RT-0232 sec. 3.2 that needs no geometry. One sentence a violation, with file and line
-/// when the model was read from a file; empty when the model is sound.
-/// Seams (a reference twice in one face) and curves that return to their starting point (closed, degenerate) are legal.
+/// Checks every rule of RT-0232 sec. 3.2 that needs no geometry. One sentence a violation, with file and line when the
+/// model was read from a file; empty when the model is sound. Before gluing (needs_gluing) all references must be zero;
+/// else all are positive, ends agree between the curves of one reference and every boundary closes by its references.
+/// Seams (a boundary reference twice in one face) and curves that return to their starting point (closed, degenerate)
+/// are legal, although the manual forbade them.
 std::vector<std::string> find_model_defects(const Model& model);
 
 /// Polylines that stand for the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
@@ -53,20 +55,29 @@ bool needs_gluing(const Model& model);
 
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
-/// distance is below eps_glue. Curves of one face may be glued to each other (a seam). Internal points keep their
-/// references. Ends are numbered 2k - 1 and 2k for the k-th curve of the model, curves k; what is merged takes the
-/// smallest number (the numbering of RT-0232 sec. 6.1). `remarks` (may be null) receives a sentence for each curve
-/// shorter than eps_glue.
+/// distance is below eps_glue. Two sides of one face become a seam when they agree a thousand times better (HDR's two
+/// tolerances), as far as the traces can tell. A curve that lies within eps_glue of a point keeps a reference of its
+/// own; its ends become one. Internal points keep their references. Ends are numbered 2k - 1 and 2k for the k-th curve
+/// of the model, curves k; what is merged takes the smallest number (the numbering of RT-0232 sec. 6.1, HDR fig. 4.18).
+/// `remarks` (may be null) receives a sentence for each curve whose ends are merged although they differ by more than
+/// rounding. Throws InvalidArgument when eps_glue is not positive or traces are missing.
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr);
 
 /// Marks curves shorter than eps_collapse (model length) as collapsed, in all faces, and gives their two ends one
-/// reference (RT-0232 sec. 3.3). The model must have references. A sentence a curve in `remarks` (may be null).
+/// reference, the smallest (RT-0232 sec. 3.3). The first curve of a reference decides. Internal curves are kept, and so
+/// are loops that would vanish. The model must have no defect. A sentence a curve in `remarks` (may be null).
+/// Throws InvalidArgument when eps_collapse is negative or traces are missing.
 Model collapse_tiny_curves(const Model& model, const CurveTraces& traces, double eps_collapse,
                            std::vector<std::string>* remarks = nullptr);
 
-/// Collects curves and points, finds directions and degenerate curves (all of the trace within `eps`, model length, of
-/// one point). The model must have no defect. Throws InvalidModel, naming face, curve and reference, when curves of one
-/// reference have other ends or when a closed curve's direction cannot be told.
+/// Collects curves and points; finds directions, of closed curves by comparing them at equal lengths; finds degenerate
+/// curves: collapsed ones, those whose trace lies within eps / 1000 of a point (their end references become one corner
+/// whatever they are), and those within `eps` of a point that are open and have one reference at both ends.
+/// `eps` (model length) is how far curves and ends of one reference may be apart. The model must have no defect.
+/// Throws InvalidModel, naming faces, curves, references and the gap: curves of one reference that are farther apart,
+/// ends that are not where their reference is (exchanged ones are told), refp1 = refp2 on a curve that does not return,
+/// a closed curve whose direction cannot be told. Throws InvalidArgument when eps is not positive or traces are
+/// missing.
 Topology build_topology(const Model& model, const CurveTraces& traces, double eps);
 
 }  // namespace carreau

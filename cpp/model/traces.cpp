@@ -3,7 +3,23 @@
 #include <algorithm>
 #include <limits>
 
+#include "model/places.h"
+
 namespace carreau {
+
+void check_traces(const Model& model, const CurveTraces& traces) {
+  if (traces.size() != model.faces.size())
+    throw InvalidArgument("the model has " + std::to_string(model.faces.size()) + " faces, its traces " +
+                          std::to_string(traces.size()));
+  for (std::size_t f = 0; f < traces.size(); ++f) {
+    if (traces[f].size() != model.faces[f].curves.size())
+      throw InvalidArgument(Where{.face = model.faces[f].ref},
+                            "the face has " + std::to_string(model.faces[f].curves.size()) + " curves, its traces " +
+                                std::to_string(traces[f].size()));
+    for (std::size_t c = 0; c < traces[f].size(); ++c)
+      if (traces[f][c].size() < 2) throw InvalidArgument(place_of(model, f, c), "the trace has less than two points");
+  }
+}
 
 double trace_length(std::span<const Vec3> trace) {
   double length = 0;
@@ -50,6 +66,13 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
 double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough) {
   const double first = one_sided_distance(p, q, enough);
   return first > enough ? first : std::max(first, one_sided_distance(q, p, enough));
+}
+
+double trace_deviation(std::span<const Vec3> trace) {
+  double worst = 0;
+  for (std::size_t i = 2; i < trace.size(); ++i)
+    worst = std::max(worst, squared_distance_to_segment(trace[i - 1], trace[i - 2], trace[i]));
+  return std::sqrt(worst);
 }
 
 double trace_extent(std::span<const Vec3> trace) {

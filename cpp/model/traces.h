@@ -4,17 +4,25 @@
 #include <span>
 #include <vector>
 
+#include "model/topology.h"
 #include "support/vec.h"
 
 namespace carreau {
 
+/// Throws InvalidArgument unless there is a trace of at least two points for each curve of the model.
+void check_traces(const Model& model, const CurveTraces& traces);
+
 double trace_length(std::span<const Vec3> trace);
 /// Point at a fraction of the length, from the start.
 Vec3 trace_point(std::span<const Vec3> trace, double fraction);
-/// Largest distance of a vertex of `from` to the polyline `to` (HDR eq. 2.25); may stop early once it exceeds `enough`.
+/// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds
+/// `enough`.
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough);
 /// Both sides (HDR sec. 4.5.1).
 double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough);
+/// How far the polyline may be off the curve that it samples, about: the largest distance of a vertex to the chord of
+/// its neighbours. 0 for straight ones.
+double trace_deviation(std::span<const Vec3> trace);
 /// Largest distance of a vertex to the first one.
 double trace_extent(std::span<const Vec3> trace);
 
