@@ -4,36 +4,48 @@
 #include <cstdint>
 #include <vector>
 
+#include "plane/frame.h"
 #include "plane/triangulation.h"
-#include "size/control_space.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {
 
-/// Never moves the first `imposed` vertices, never touches imposed edges, never turns a triangle over.
+/// Never moves the first `fixed` vertices, never touches imposed edges, never turns a triangle over.
 class Optimiser {
  public:
-  Optimiser(Triangulation& mesh, int imposed, const ControlSpace& space, Monitor& monitor);
+  Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
   void run(int sweeps);
 
  private:
-  void swap_to_delaunay(int passes);
-  void swap_to_degree_six();
-  void sweep();
-  void rescue_worst();
+  // swaps.cpp
+  void swap_to_delaunay();
   [[nodiscard]] bool wants_swap(int t, int i) const;
-  [[nodiscard]] double quality(int p, int q, int r) const;
+  void swap_to_degree_six();
+  void count_degrees();
+
+  // sweeps.cpp
+  void sweep();
+  void propose();
+  void undo_spoiling_moves();
   [[nodiscard]] bool sound(const Triangle& T) const;
 
+  // rescue.cpp
+  void rescue_worst();
+  bool rescue_by_swap(int t);
+  bool rescue_by_move(int v);
+  [[nodiscard]] double worst_around(int v) const;
+
   Triangulation& mesh_;
-  int imposed_;
-  const ControlSpace& space_;
+  int fixed_;
+  const Field& field_;
   Monitor& monitor_;
-  std::vector<double> sum_x_, sum_y_;
-  std::vector<float> weight_;
-  std::vector<Vec2> old_;
-  std::vector<std::uint8_t> degree_;
-  std::vector<std::uint8_t> wanted_degree_;
+  struct Proposal {
+    double x = 0, y = 0;
+    std::int32_t votes = 0;
+  };
+  std::vector<Proposal> proposals_;  // afterwards: the old places
+  std::vector<std::int32_t> work_, next_;
+  std::vector<std::uint8_t> degree_, wanted_degree_;
 };
 
 }  // namespace carreau::plane

@@ -1,9 +1,6 @@
 #include "plane/plane_mesher.h"
 
-#include <string>
-
-#include "plane/constraints.h"
-#include "plane/fans.h"
+#include "plane/boundary.h"
 #include "plane/filler.h"
 #include "plane/optimiser.h"
 
@@ -13,10 +10,13 @@ namespace {
 
 constexpr int sweeps = 3;
 
-PlaneMesh to_mesh(const plane::Triangulation& triangulation) {
+// The imposed vertices get the host's own numbers back: the frame's are equal, but for the smallest.
+PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangulation, const plane::Frame& frame) {
   PlaneMesh mesh;
   mesh.vertices.reserve(triangulation.vertices.size());
-  for (const plane::Vertex& v : triangulation.vertices) mesh.vertices.push_back(v.point());
+  for (const Vec2 p : domain.vertices) mesh.vertices.push_back(p);
+  for (std::size_t v = domain.vertices.size(); v < triangulation.vertices.size(); ++v)
+    mesh.vertices.push_back(frame.outward(triangulation.vertices[v].point()));
   mesh.triangles.reserve(triangulation.triangles.size());
   for (const plane::Triangle& t : triangulation.triangles) mesh.triangles.push_back({t.v[0], t.v[1], t.v[2]});
   return mesh;
@@ -26,23 +26,24 @@ PlaneMesh to_mesh(const plane::Triangulation& triangulation) {
 
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor) {
-  const PlaneDomain with_rings = plane::with_fans(domain, metric);
-  plane::Triangulation triangulation = plane::triangulate(with_rings, monitor);
-  for (plane::Vertex& v : triangulation.vertices) {
-    const Metric2 m = metric.at(v.point());
-    v.a = static_cast<float>(m.a), v.b = static_cast<float>(m.b), v.c = static_cast<float>(m.c);
+  plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
+  const plane::Field field(metric, boundary.frame);
+  int fixed = 0;
+  {
+    plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);
+    fixed = filler.surround_degenerate_edges(domain);
+    if (options.frontal)
+      filler.march();
+    else
+      filler.split_long_edges();
   }
-  plane::Filler filler(triangulation, metric, options.max_triangles, monitor);
-  if (options.frontal)
-    filler.march();
-  else
-    filler.split_long_edges();
-  plane::Optimiser(triangulation, static_cast<int>(with_rings.vertices.size()), metric, monitor).run(sweeps);
-  return to_mesh(triangulation);
+  plane::Optimiser(boundary.mesh, fixed, field, monitor).run(sweeps);
+  return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 
 PlaneMesh triangulate_domain(const PlaneDomain& domain, Monitor& monitor) {
-  return to_mesh(plane::triangulate(domain, monitor));
+  const plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
+  return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 
 }  // namespace carreau

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "metric/metric2.h"
@@ -17,38 +18,52 @@ struct Vertex {
 
   [[nodiscard]] Vec2 point() const noexcept { return {x, y}; }
   [[nodiscard]] Metric2 metric() const noexcept { return {a, b, c}; }
+  void set_metric(Metric2 m) noexcept {
+    a = static_cast<float>(m.a), b = static_cast<float>(m.b), c = static_cast<float>(m.c);
+  }
 };
 
 /// Half-edge i of triangle t lies opposite to its corner i and is written 4 t + i; -1: nothing beyond.
 using HalfEdge = std::int32_t;
 constexpr HalfEdge no_edge = -1;
 
+/// State of a triangle for the front.
+enum class Done : std::uint8_t {
+  no,      ///< too large: points are still to be placed in it
+  yes,     ///< small enough
+  frozen,  ///< imposed with all its edges (round a degenerate side)
+};
+
 /// 32 bytes, counterclockwise. Edge i runs from corner i+1 to corner i+2.
 struct Triangle {
   std::int32_t v[3] = {-1, -1, -1};
   HalfEdge n[3] = {no_edge, no_edge, no_edge};
-  float radius2 = 0;            ///< squared circumradius in the metric, as last judged
   std::uint8_t imposed = 0;     ///< bit i: edge i is never swapped, crossed or removed
   std::uint8_t degenerate = 0;  ///< bit i: edge i is one point in space
-  std::uint8_t done = 0;        ///< small enough: the front has passed
-  std::uint8_t mark = 0;
+  Done done = Done::no;
+  std::uint8_t mark = 0;   ///< scratch, 0 between uses
+  std::int32_t spare = 0;  ///< keeps triangles aligned to half a cache line
 };
 
 constexpr int next3[3] = {1, 2, 0}, prev3[3] = {2, 0, 1};
 
-/// Edge of the rim of a cavity as seen from the new point, with its ends relative to the point in units of its metric.
+/// Edge of the rim of a cavity as seen from the new point p: a before b counterclockwise.
 struct RimEdge {
   std::int32_t a, b;
   HalfEdge outside;
   std::uint8_t imposed, degenerate;
-  double ax, ay, bx, by;
+  bool crossed;           ///< p lies on it, so that it cannot stay
+  double ax, ay, bx, by;  ///< a - p, b - p
+  double a2, b2;          ///< their squared lengths in the metric of p
+  double area;            ///< cross(a - p, b - p)
 };
 
-/// How a point is inserted.
+/// Distances that a new point keeps; zero: none.
 struct InsertRules {
-  double least_distance2 = 0;  ///< squared metric distance to the cavity's vertices below which a point is refused
-  double least_height = 0;     ///< height over an imposed edge, in lengths of that edge
-  double least_degenerate_height = 0;  ///< metric distance to a degenerate edge as a whole
+  double distance2 = 0;                    ///< squared metric distance to the cavity's vertices
+  double height = 0;                       ///< to an imposed edge, in units of its length, at most 1
+  double degenerate_height = 0;            ///< to a degenerate edge as a whole
+  std::span<const std::int32_t> exempt{};  ///< vertices that need no distance
 };
 
 class Triangulation {
@@ -57,47 +72,48 @@ class Triangulation {
   std::vector<Triangle> triangles;
 
   /// Triangle that contains p (on its border counts), walking from triangle `hint`; -1 when the walk leaves the
-  /// triangulation or meets an imposed edge that it may not cross.
-  [[nodiscard]] int locate(Vec2 p, int hint, bool cross_imposed = false) const noexcept;
+  /// triangulation or meets an imposed edge.
+  [[nodiscard]] int locate(Vec2 p, int hint) const noexcept;
 
-  /// Inserts p into the cavity of its triangle `start` (RR-2928 eq. 3-8): true when done, then `star()` lists the
-  /// triangles around the new vertex, the last of `vertices`. The cavity is star-shaped about p by exact tests, so the
-  /// result is always a triangulation.
-  bool insert(Vec2 p, Metric2 metric, int start, const InsertRules& rules);
+  /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.
+  /// False: the point is refused by the rules, or lies on an imposed edge or a vertex.
+  bool dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules);
+  /// Fills the cavity with triangles around the vertex p; `star()` lists them, `rim()` their outer edges in the same
+  /// order (edge 0, opposite to p).
+  void fill(int p);
   [[nodiscard]] const std::vector<std::int32_t>& star() const noexcept { return cavity_; }
   [[nodiscard]] const std::vector<RimEdge>& rim() const noexcept { return rim_; }
 
-  /// Exchanges the diagonal of the two triangles at half-edge (t, i). They keep their numbers.
+  /// Exchanges the diagonal of the two triangles at half-edge (t, i). They keep their numbers; the new diagonal is edge
+  /// 1 of t and edge 2 of the other.
   void swap_edge(int t, int i) noexcept;
   /// Whether both triangles of the other diagonal are counterclockwise. Exact.
   [[nodiscard]] bool can_swap(int t, int i) const noexcept;
+  /// A half-edge u - v in either direction among the triangles of u's fan, or no_edge.
+  [[nodiscard]] HalfEdge find_edge(int u, int v) const noexcept;
 
   [[nodiscard]] Vec2 at(int v) const noexcept { return vertices[v].point(); }
   [[nodiscard]] int corner_of(int t, int v) const noexcept {
     const Triangle& T = triangles[t];
     return T.v[0] == v ? 0 : T.v[1] == v ? 1 : 2;
   }
+  [[nodiscard]] bool is_imposed(int t, int i) const noexcept { return (triangles[t].imposed >> i & 1) != 0; }
+  /// Marks the edge imposed in both its triangles.
+  void impose(HalfEdge he, bool degenerate) noexcept;
   /// Squared length of an edge in the mean of its ends' metrics.
   [[nodiscard]] double squared_length(int u, int v) const noexcept;
   /// Squared circumradius in the mean metric of the corners.
   [[nodiscard]] double squared_radius(int t) const noexcept;
+  /// Q2 (HDR eq. 1.6) of the corners in their mean metric; 0 unless counterclockwise (exactly).
+  [[nodiscard]] double quality(int p, int q, int r) const noexcept;
 
  private:
-  bool dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules);
-  void fill(int p);
+  [[nodiscard]] bool too_near(Vec2 p, int v, double d2, const InsertRules& rules) const noexcept;
+  [[nodiscard]] bool wanted(const RimEdge& e, const Vertex& d, Metric2 metric, double dx, double dy, double d2,
+                            double ad, double db) const noexcept;
 
   std::vector<std::int32_t> cavity_;
   std::vector<RimEdge> rim_, stack_;
-};
-
-/// Cholesky factor of a metric: maps the plane to one where the metric is Euclidean.
-struct Factor {
-  double p, q, r;
-  explicit Factor(Metric2 m) noexcept;
-  void apply(double dx, double dy, double& X, double& Y) const noexcept {
-    X = p * dx + q * dy;
-    Y = r * dy;
-  }
 };
 
 }  // namespace carreau::plane

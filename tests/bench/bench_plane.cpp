@@ -21,7 +21,7 @@ PlaneCase make_case(const std::string& name, double h) {
   if (name == "paraboloid" || name == "0") return paraboloid(h);
   if (name == "hemisphere" || name == "1") return hemisphere(h);
   if (name == "swirl" || name == "2") return swirl(h);
-  if (name == "swirl20") return swirl(h, 20);
+  if (name == "swirl7") return swirl(h, 7);
   if (name == "stretched" || name == "3") return stretched(h);
   if (name == "sizes" || name == "4") return size_field(h);
   if (name == "holes" || name == "5") return holes(h);
@@ -58,7 +58,8 @@ int main(int argc, char** argv) {
   }
   std::sort(seconds.begin(), seconds.end());
   const double n = static_cast<double>(mesh.triangles.size());
-  std::printf("%s %s: boundary %zu, %s\n", argv[1], argv[2], c.domain.edges.size(), to_string(measure(c, mesh)).c_str());
+  std::printf("%s %s: boundary %zu, %s\n", argv[1], argv[2], c.domain.edges.size(),
+              to_string(measure(c, mesh)).c_str());
   std::printf("  %.0f triangles/s median of %d, %.0f best\n", n / seconds[seconds.size() / 2], runs, n / seconds[0]);
   if (std::getenv("CHECK") != nullptr || n < 20000) {
     const auto defects = find_plane_defects(c.domain, mesh);

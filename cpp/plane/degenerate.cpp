@@ -1,0 +1,178 @@
+// Degenerate sides (HDR sec. 4.5.4): an edge of the parameter plane that is one point in space, the apex. The metric
+// near it is clamped, so that neither fronts nor the kernel can be trusted there: the fan of triangles that surrounds
+// the apex is built first, and never touched again.
+#include <algorithm>
+#include <cmath>
+
+#include "plane/edge_recovery.h"
+#include "plane/filler.h"
+#include "predicates/predicates.h"
+
+namespace carreau::plane {
+
+namespace {
+
+constexpr int rays = 65;
+constexpr double step = 0.05;                                    // unit lengths
+constexpr double enough_room = 1.5;                              // a row fits between the ring and what is beyond it
+constexpr double least_room = 0.5;                               // below, no ring
+constexpr double ring_distance = 0.5;                            // least distance of a ring point to other vertices
+constexpr double longest_lateral = 1.6, shortest_lateral = 0.5;  // of a lateral edge that takes part in the fan
+
+}  // namespace
+
+// Rays from the degenerate edge a - b into the domain, by the length walked on them.
+struct Filler::Ring {
+  std::int32_t before = -1, after = -1;  // other ends of the lateral edges at a and at b
+  int triangle = -1;                     // that has the degenerate edge
+  int fan = 0;                           // triangles that already surround the apex
+  double room = 0;
+  std::vector<std::vector<Vec2>> ray;  // ray[k][i]: at i steps
+};
+
+int Filler::surround_degenerate_edges(const PlaneDomain& domain) {
+  for (const PlaneEdge& edge : domain.edges) {
+    if (edge.kind != PlaneEdgeKind::degenerate) continue;
+    degenerate_.push_back({edge.a, edge.b, edge.least_fan});
+    degenerate_ends_.insert(degenerate_ends_.end(), {edge.a, edge.b});
+  }
+  for (DegenerateEdge& edge : degenerate_) {
+    monitor_.checkpoint();
+    surround(edge);
+  }
+  touched_.clear();
+  return static_cast<int>(mesh_.vertices.size());
+}
+
+Filler::Ring Filler::sample_ring(const DegenerateEdge& edge) const {
+  Ring ring;
+  const HalfEdge he = mesh_.find_edge(edge.a, edge.b);
+  ring.triangle = he >> 2;
+  // Round b and round a to the lateral edges.
+  int t = he >> 2, i = he & 3;
+  for (;;) {
+    const int j = next3[i];
+    ring.after = mesh_.triangles[t].v[i];
+    const HalfEdge other = mesh_.triangles[t].n[j];
+    if (other == no_edge) break;
+    t = other >> 2, i = other & 3;
+    ++ring.fan;
+  }
+  t = he >> 2, i = he & 3;
+  for (;;) {
+    const int j = prev3[i];
+    ring.before = mesh_.triangles[t].v[i];
+    const HalfEdge other = mesh_.triangles[t].n[j];
+    if (other == no_edge) break;
+    t = other >> 2, i = other & 3;
+    ++ring.fan;
+  }
+  const Vec2 a = mesh_.at(edge.a), b = mesh_.at(edge.b);
+  const Vec2 from_a = mesh_.at(ring.before) - a, from_b = mesh_.at(ring.after) - b;
+  const int steps = static_cast<int>(enough_room / step + 0.5);
+  int room = steps;
+  for (int k = 0; k < rays; ++k) {
+    const double s = static_cast<double>(k) / (rays - 1);
+    const Vec2 direction = lerp(from_a, from_b, s);
+    std::vector<Vec2> ray{lerp(a, b, s)};
+    int hint = ring.triangle;
+    while (static_cast<int>(ray.size()) <= steps) {
+      const Vec2 p = ray.back();
+      const double speed = length(field_.at(p), direction);
+      if (!(speed > 0)) break;
+      const Vec2 middle = p + (0.5 * step / speed) * direction;
+      const Vec2 next = p + (step / length(field_.at(middle), direction)) * direction;
+      if (k > 0 && k + 1 < rays) {
+        hint = is_finite(next) ? mesh_.locate(next, hint) : -1;
+        if (hint < 0) break;
+      }
+      ray.push_back(next);
+    }
+    room = std::min(room, static_cast<int>(ray.size()) - 1);
+    ring.ray.push_back(std::move(ray));
+  }
+  ring.room = room * step;
+  return ring;
+}
+
+// Equally spaced along the ring, one unit apart as nearly as possible.
+std::vector<Vec2> Filler::points_on(const Ring& ring, double height, int least) const {
+  std::vector<Vec2> at;
+  std::vector<double> along;
+  for (const auto& ray : ring.ray) {
+    const auto i = std::min(static_cast<std::size_t>(height / step + 0.5), ray.size() - 1);
+    along.push_back(at.empty() ? 0 : along.back() + distance(at.back(), ray[i]));
+    at.push_back(ray[i]);
+  }
+  const int pieces = std::max(least, static_cast<int>(std::min(along.back() + 0.5, 1e6)));
+  std::vector<Vec2> points;
+  std::size_t k = 0;
+  for (int q = 1; q < pieces; ++q) {
+    const double target = along.back() * q / pieces;
+    while (k + 2 < at.size() && along[k + 1] < target) ++k;
+    const double gap = along[k + 1] - along[k];
+    points.push_back(gap > 0 ? lerp(at[k], at[k + 1], std::min((target - along[k]) / gap, 1.0)) : at[k]);
+  }
+  return points;
+}
+
+void Filler::surround(DegenerateEdge& edge) {
+  const Ring ring = sample_ring(edge);
+  const double height = ring.room >= enough_room - 0.5 * step ? 1 : 0.5 * ring.room;
+  if (ring.room < least_room || (height < 1 && ring.fan >= edge.least_fan)) return;
+  std::vector<std::int32_t> fan;
+  const auto takes_part = [&](int end, int v) {
+    const double l = length(field_.at(0.5 * (mesh_.at(end) + mesh_.at(v))), mesh_.at(v) - mesh_.at(end));
+    return l < longest_lateral * height && l > shortest_lateral * height;
+  };
+  if (takes_part(edge.a, ring.before)) fan.push_back(ring.before);
+  int hint = ring.triangle;
+  for (const Vec2 p : points_on(ring, height, edge.least_fan)) {
+    hint = mesh_.locate(p, hint);
+    if (hint < 0) {
+      hint = mesh_.vertices[edge.a].triangle;
+      continue;
+    }
+    const Metric2 metric = field_.at(p);
+    const double least = ring_distance * height;
+    if (!mesh_.dig(p, metric, hint, {least * least, 0, 0, degenerate_ends_})) continue;
+    insert_at(p, metric);
+    fan.push_back(static_cast<std::int32_t>(mesh_.vertices.size()) - 1);
+    hint = mesh_.vertices.back().triangle;
+  }
+  if (takes_part(edge.b, ring.after)) fan.push_back(ring.after);
+  edge.surrounded = freeze_fan(edge, fan);
+}
+
+// fan: from the side of a to that of b. The first half is joined to a, the other to b.
+bool Filler::freeze_fan(const DegenerateEdge& edge, const std::vector<std::int32_t>& fan) {
+  const int n = static_cast<int>(fan.size()), middle = n / 2;
+  if (n < 2) return false;
+  const auto end_of = [&](int k) { return k < middle ? edge.a : edge.b; };  // of the triangle on fan[k], fan[k + 1]
+  for (int k = 0; k + 1 < n; ++k)
+    if (orientation(mesh_.at(end_of(k)), mesh_.at(fan[k + 1]), mesh_.at(fan[k])) <= 0) return false;
+  if (orientation(mesh_.at(edge.a), mesh_.at(edge.b), mesh_.at(fan[middle])) <= 0) return false;
+  const auto force = [&](int u, int v) {
+    const HalfEdge he = recover_edge(mesh_, u, v).edge;
+    if (he != no_edge) mesh_.impose(he, false);
+    return he != no_edge;
+  };
+  bool whole = true;
+  for (int k = 0; k < n; ++k) {
+    if (k <= middle) whole = force(edge.a, fan[k]) && whole;
+    if (k >= middle) whole = force(edge.b, fan[k]) && whole;
+    if (k > 0) whole = force(fan[k - 1], fan[k]) && whole;
+  }
+  if (!whole) return false;
+  for (Triangle& T : mesh_.triangles) {
+    bool apex = false, inside = true;
+    for (const std::int32_t v : T.v) {
+      apex = apex || v == edge.a || v == edge.b;
+      inside = inside && (v == edge.a || v == edge.b || std::find(fan.begin(), fan.end(), v) != fan.end());
+    }
+    if (apex && inside) T.done = Done::frozen;
+  }
+  return true;
+}
+
+}  // namespace carreau::plane

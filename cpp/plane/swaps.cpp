@@ -1,0 +1,113 @@
+// Swaps over the whole mesh: to the Delaunay criterion in the metric, and towards degree six.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plane/optimiser.h"
+
+namespace carreau::plane {
+
+namespace {
+
+constexpr int passes = 10;
+constexpr int triangles_between_checks = 1 << 16;
+// Nearly cocircular vertices keep their diagonal.
+constexpr double cocircular = 1e-9;
+// A swap for the sake of degrees leaves no triangle worse than this.
+constexpr double swap_quality = 0.6;
+constexpr int degree_passes = 2;
+
+}  // namespace
+
+// Opposite angles that sum to more than pi, in the mean metric of the four vertices.
+bool Optimiser::wants_swap(int t, int i) const {
+  const Triangle& A = mesh_.triangles[t];
+  const HalfEdge o = A.n[i];
+  if (o == no_edge || (A.imposed >> i & 1) != 0) return false;
+  const Triangle& B = mesh_.triangles[o >> 2];
+  const Vertex &c = mesh_.vertices[A.v[i]], &a = mesh_.vertices[A.v[next3[i]]], &b = mesh_.vertices[A.v[prev3[i]]],
+               &d = mesh_.vertices[B.v[o & 3]];
+  const Metric2 m = a.metric() + b.metric() + c.metric() + d.metric();
+  const Vec2 ca = a.point() - c.point(), cb = b.point() - c.point(), da = a.point() - d.point(),
+             db = b.point() - d.point();
+  const double dot_c = dot(m, ca, cb), dot_d = dot(m, da, db), area_c = cross(ca, cb), area_d = cross(db, da);
+  const double s = dot_c * area_d + dot_d * area_c, scale = std::abs(dot_c) * area_d + std::abs(dot_d) * area_c;
+  return s < -cocircular * scale && mesh_.can_swap(t, i);
+}
+
+void Optimiser::swap_to_delaunay() {
+  const auto total = static_cast<std::int32_t>(mesh_.triangles.size());
+  work_.clear();
+  for (std::int32_t t = 0; t < total; ++t) {
+    if (t % triangles_between_checks == 0) monitor_.checkpoint();
+    for (int i = 0; i < 3; ++i) {
+      if ((mesh_.triangles[t].n[i] >> 2) < t || !wants_swap(t, i)) continue;
+      work_.push_back(t);
+      work_.push_back(mesh_.triangles[t].n[i] >> 2);
+      mesh_.swap_edge(t, i);
+      break;
+    }
+  }
+  // A bounded number of passes: in a metric that varies swaps can run in circles.
+  for (int pass = 0; pass < passes && !work_.empty(); ++pass) {
+    monitor_.checkpoint();
+    next_.clear();
+    for (const std::int32_t t : work_)
+      for (int i = 0; i < 3; ++i) {
+        if (!wants_swap(t, i)) continue;
+        next_.push_back(t);
+        next_.push_back(mesh_.triangles[t].n[i] >> 2);
+        mesh_.swap_edge(t, i);
+        break;
+      }
+    work_.swap(next_);
+  }
+}
+
+// Degrees are counted in triangles. On the border a vertex of angle w wants w / 60 degrees of them.
+void Optimiser::count_degrees() {
+  degree_.assign(mesh_.vertices.size(), 0);
+  wanted_degree_.assign(mesh_.vertices.size(), 6);
+  std::vector<float> angle(fixed_, 0);
+  std::vector<std::uint8_t> open(fixed_, 0);
+  for (const Triangle& T : mesh_.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const int v = T.v[i];
+      if (degree_[v] < 255) ++degree_[v];
+      if (T.n[i] == no_edge) open[T.v[next3[i]]] = open[T.v[prev3[i]]] = 1;
+      if (v >= fixed_) continue;
+      const Vec2 p = mesh_.at(v), u = mesh_.at(T.v[next3[i]]) - p, w = mesh_.at(T.v[prev3[i]]) - p;
+      const Metric2 m = mesh_.vertices[v].metric();
+      angle[v] += static_cast<float>(std::atan2(std::sqrt(std::max(determinant(m), 0.0)) * cross(u, w), dot(m, u, w)));
+    }
+  for (int v = 0; v < fixed_; ++v)
+    if (open[v] != 0)
+      wanted_degree_[v] = static_cast<std::uint8_t>(std::max(1.0, std::floor(angle[v] / (std::numbers::pi / 3) + 0.5)));
+}
+
+void Optimiser::swap_to_degree_six() {
+  count_degrees();
+  const auto excess = [&](int v) { return static_cast<int>(degree_[v]) - static_cast<int>(wanted_degree_[v]); };
+  for (int pass = 0; pass < degree_passes; ++pass) {
+    bool any = false;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t) {
+      if (t % triangles_between_checks == 0) monitor_.checkpoint();
+      for (int i = 0; i < 3; ++i) {
+        const Triangle& A = mesh_.triangles[t];
+        const HalfEdge o = A.n[i];
+        if (o == no_edge || (o >> 2) < t || (A.imposed >> i & 1) != 0) continue;
+        const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh_.triangles[o >> 2].v[o & 3];
+        // The sum of squares of the excesses changes by 2 (ec + ed - ea - eb) + 4.
+        if (excess(c) + excess(d) - excess(a) - excess(b) + 2 >= 0) continue;
+        if (mesh_.quality(c, a, d) <= swap_quality || mesh_.quality(c, d, b) <= swap_quality) continue;
+        mesh_.swap_edge(t, i);
+        --degree_[a], --degree_[b], ++degree_[c], ++degree_[d];
+        any = true;
+        break;
+      }
+    }
+    if (!any) break;
+  }
+}
+
+}  // namespace carreau::plane
