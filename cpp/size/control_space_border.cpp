@@ -117,7 +117,8 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) const {
     const Vec2 d = (1 / scale) * (s.position - position);
     const double q = softness + dot(d, d);
     equations.add(d.x, d.y, 1 / (q * q), s.root);
-    const double spread = std::hypot(s.root.a - s.root.c, 2 * s.root.b), trace = s.root.a + s.root.c;
+    const double across = s.root.a - s.root.c, trace = s.root.a + s.root.c;
+    const double spread = std::sqrt(across * across + 4 * s.root.b * s.root.b);
     low = std::min(low, accurate_determinant(s.root) / (0.5 * (trace + spread)));
     high = std::max(high, 0.5 * (trace + spread));
   }

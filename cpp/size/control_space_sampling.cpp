@@ -33,7 +33,9 @@ constexpr double border_relief = 0.25;
 // Samples that splitting a cell costs: usually, and at most.
 constexpr double usual_cost = 7, worst_cost = 12;
 // Smooth fields may use these beyond the samples for each vertex.
-constexpr double spare_samples = 200;
+constexpr double spare_samples = 100;
+// The same where the tolerance is violated.
+constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 constexpr std::size_t least_of_max_samples = 1000;
 
 }  // namespace
@@ -251,15 +253,17 @@ double ControlSpaceSampling::allowed_error(const TreeCell& cell) const noexcept 
   return std::numeric_limits<double>::infinity();
 }
 
-// Cells to split, in their order: crowded ones and those beyond the tolerance as far as max_samples allows, the others
-// as far as samples_per_vertex does, the worst first.
+// Cells to split, in their order: crowded ones as far as max_samples allows; those beyond the tolerance as far as there
+// are some samples a vertex; the others as far as samples_per_vertex allows. The worst first.
 std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int32_t> cells) const {
-  std::vector<std::int32_t> must, may;
+  std::vector<std::int32_t> crowd, must, may;
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
     if (!tree_->can_split(c)) continue;
     const double allowed = allowed_error(cell);
-    if (cell.vertices > crowded * vertices_per_cell_ || cell.error > std::max(allowed, options_.tolerance))
+    if (cell.vertices > crowded * vertices_per_cell_)
+      crowd.push_back(c);
+    else if (cell.error > std::max(allowed, options_.tolerance))
       must.push_back(c);
     else if (cell.error > allowed)
       may.push_back(c);
@@ -271,12 +275,15 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
                      [this](std::int32_t p, std::int32_t q) { return (*tree_)[p].error > (*tree_)[q].error; });
     list.resize(count);
   };
-  const double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(must.size());
+  double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(crowd.size());
+  cut(must, most_spare_samples + most_samples_per_vertex * vertices_ - spent, usual_cost);
+  spent += usual_cost * static_cast<double>(must.size());
   cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
-  must.insert(must.end(), may.begin(), may.end());
-  cut(must, static_cast<double>(options_.max_samples - std::min(samples_, options_.max_samples)), worst_cost);
-  std::sort(must.begin(), must.end());
-  return must;
+  crowd.insert(crowd.end(), must.begin(), must.end());
+  crowd.insert(crowd.end(), may.begin(), may.end());
+  cut(crowd, static_cast<double>(options_.max_samples - std::min(samples_, options_.max_samples)), worst_cost);
+  std::sort(crowd.begin(), crowd.end());
+  return crowd;
 }
 
 // Splits cells, and neighbours that turn out to be as bad; returns the new leaves that have points of the domain.

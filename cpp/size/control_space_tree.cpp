@@ -38,7 +38,7 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
   for (int j = 0; j < rows_; ++j)
     for (int i = 0; i < columns_; ++i) {
       TreeCell cell{.i = i * lattice.step(), .j = j * lattice.step(), .size = lattice.step()};
-      complete(cell, candidates[static_cast<std::size_t>(j * columns_ + i)]);
+      complete(cell, candidates[static_cast<std::size_t>(j * columns_ + i)], Place::unknown);
       cells_.push_back(cell);
     }
 }
@@ -55,13 +55,16 @@ bool Tree::meets(const TreeCell& cell, std::int32_t edge) const noexcept {
          std::abs(cross(d, middle)) <= half * (x + y) * (1 + widening);
 }
 
-void Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates) {
+void Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole) {
   cell.edges_begin = static_cast<std::int32_t>(edges_.size());
   for (const std::int32_t e : candidates)
     if (meets(cell, e)) edges_.push_back(e);
   cell.edges_end = static_cast<std::int32_t>(edges_.size());
   const bool cut = cell.edges_end > cell.edges_begin;
-  cell.relevant = cut || locator_.contains(lattice_.parameters(cell.point(4)));
+  if (whole == Place::unknown)
+    cell.relevant = cut || locator_.contains(lattice_.parameters(cell.point(4)));
+  else
+    cell.relevant = whole == Place::inside;
   // A closed cell that no edge meets is on one side.
   const Place place = cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
   for (int k = 0; k < 9; ++k) cell.node[k] = lattice_.node(cell.point(k), place);
@@ -72,11 +75,12 @@ void Tree::split(std::int32_t number) {
   const std::int32_t half = cell.size / 2;
   const std::vector<std::int32_t> candidates(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
   cells_[number].child = size();
+  const Place whole = !candidates.empty() ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
   for (int k = 0; k < 4; ++k) {
     TreeCell child{.i = cell.i + (k % 2) * half, .j = cell.j + (k / 2) * half, .size = half};
     child.error = cell.error;
     child.vertices = cell.vertices / 4;
-    complete(child, candidates);
+    complete(child, candidates, whole);
     cells_.push_back(child);
   }
 }

@@ -52,7 +52,8 @@ class Tree {
   void vertices_in(const TreeCell& cell, std::vector<int>& found) const;
 
  private:
-  void complete(TreeCell& cell, std::span<const std::int32_t> candidates);
+  /// `whole`: where all of the cell lies, when that is known.
+  void complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole);
   [[nodiscard]] bool meets(const TreeCell& cell, std::int32_t edge) const noexcept;
 
   const SampledDomain& domain_;

@@ -205,7 +205,7 @@ void ControlSpaceWriter::add_measure(const TreeCell& cell, const Nine& v) {
   double sum = 0;
   for (int k = 0; k < 9; ++k) sum += weight[k] / 36 * accurate_determinant(v[k]);
   double share = 1;
-  if (cell.edges_begin != cell.edges_end) {
+  if (std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t n) { return !lattice_.inside(n); })) {
     int inside = 0;
     for (int k = 0; k < share_points * share_points; ++k) {
       const double x = (k % share_points + 0.5) / share_points, y = (k / share_points + 0.5) / share_points;
