@@ -6,6 +6,7 @@
 // Sentences and indices name PlaneEdge::curve and segment as they are: the caller translates them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,13 @@ struct EdgeConflict {
 };
 
 /// Pairs of edges of any kind that cross, overlap, duplicate each other, or touch at a point that is not the same
-/// vertex of both (two vertices at one place count as different). Sorted by first, then second. When there are more
-/// than four times as many as edges the search ends early.
+/// vertex of both (two vertices at one place count as different). Sorted by first, then second. Complete but for
+/// domains where there are more than four times as many as edges, or thousands of edges beside each edge: then some, at
+/// least one.
 std::vector<EdgeConflict> find_crossings(const PlaneDomain& domain);
+
+/// One of those pairs, if there is any. n log n whatever the domain.
+std::optional<EdgeConflict> find_a_crossing(const PlaneDomain& domain);
 
 /// What can be said before the edges are turned: indices or coordinates that make no sense, edges without
 /// length, a domain without boundary, boundary vertices where an odd number of boundary edges end (HDR fig. 3.1,

@@ -70,14 +70,18 @@ TEST(FindCrossings, AgreesWithIntegersOnRandomLatticeGraphs) {
       lattice.push_back({static_cast<std::int64_t>(random() % size), static_cast<std::int64_t>(random() % size)});
       domain.vertices.push_back({static_cast<double>(lattice.back().x), static_cast<double>(lattice.back().y)});
     }
-    for (int i = 0; i < n; ++i) {
+    // From a few edges, often without conflict, to more than vertices.
+    for (int i = 0; i < 1 + n * (trial % 7) / 6; ++i) {
       const int a = static_cast<int>(random() % n), b = static_cast<int>((a + 1 + random() % (n - 1)) % n);
       domain.edges.push_back({a, b, static_cast<PlaneEdgeKind>(random() % 3)});
     }
     Pairs expected;
-    for (int i = 0; i < n; ++i)
-      for (int j = i + 1; j < n; ++j)
+    for (int i = 0; i < static_cast<int>(domain.edges.size()); ++i)
+      for (int j = i + 1; j < static_cast<int>(domain.edges.size()); ++j)
         if (conflict(lattice, domain.edges[i], domain.edges[j])) expected.emplace(i, j);
+    const auto one = find_a_crossing(domain);
+    ASSERT_EQ(one.has_value(), !expected.empty()) << trial;
+    ASSERT_TRUE(!one || expected.count({one->first, one->second}) == 1) << trial;
     if (expected.size() > 4 * domain.edges.size()) continue;
     ASSERT_EQ(pairs_of(find_crossings(domain)), expected) << trial;
     // Powers of two change nothing, to the ends of the range.
@@ -112,7 +116,16 @@ TEST(FindCrossings, StarShapedPolygonsHaveNone) {
   for (const int n : {3, 10, 1000, 50000}) {
     std::vector<Vec2> loop = circle(n, {0, 0}, 1);
     for (Vec2& p : loop) p = radius(random) * p;
-    EXPECT_TRUE(find_crossings(polygon(loop)).empty()) << n;
+    PlaneDomain domain = polygon(loop);
+    EXPECT_TRUE(find_crossings(domain).empty()) << n;
+    EXPECT_FALSE(find_a_crossing(domain)) << n;
+    if (n == 3) continue;
+    // A vertex pulled through the centre to the far side, outside: its two edges must cross the boundary there.
+    domain.vertices[n / 2] = {30, 0};
+    EXPECT_TRUE(find_a_crossing(domain)) << n;
+    for (const EdgeConflict& c : find_crossings(domain))
+      EXPECT_TRUE(c.first == n / 2 - 1 || c.first == n / 2 || c.second == n / 2 - 1 || c.second == n / 2);
+    EXPECT_FALSE(find_crossings(domain).empty()) << n;
   }
 }
 
