@@ -3,9 +3,9 @@
 //
 // All decisions are exact; n log n on usual domains (predicates/edge_grid.h). All functions but find_loop_defects and
 // find_open_loops throw InvalidArgument when an edge refers to a vertex that does not exist or a vertex is not finite.
-// Sentences and indices name PlaneEdge::curve and segment as they are: the caller translates them.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,15 +30,20 @@ std::vector<EdgeConflict> find_crossings(const PlaneDomain& domain);
 /// One of those pairs, if there is any. n log n whatever the domain.
 std::optional<EdgeConflict> find_a_crossing(const PlaneDomain& domain);
 
+/// How a sentence calls an edge, for callers that know what PlaneEdge::curve stands for. Empty: "edge 3 of curve 2",
+/// PlaneEdge::segment and curve counted from 1, or "an edge" when the curve is unknown.
+using EdgeNamer = std::function<std::string(const PlaneEdge&)>;
+
 /// What can be said before the edges are turned: indices or coordinates that make no sense, edges without
 /// length, a domain without boundary, boundary vertices where an odd number of boundary edges end (HDR fig. 3.1,
-/// third).
-std::vector<std::string> find_open_loops(const PlaneDomain& domain);
+/// third). Sentences without a full stop, with (u, v).
+std::vector<std::string> find_open_loops(const PlaneDomain& domain, const EdgeNamer& name = {});
 
 /// Those of find_open_loops, alone if there are any; else loops without area, loops turned the wrong way (the
 /// domain would be unbounded, or a hole lies outside every component), edges against their neighbours, internal curves
-/// outside, imposed points outside, on an edge or twice at one place. For domains without crossings.
-std::vector<std::string> find_loop_defects(const PlaneDomain& domain);
+/// outside, imposed points outside, on an edge or twice at one place. For domains without crossings whose edges are
+/// turned.
+std::vector<std::string> find_loop_defects(const PlaneDomain& domain, const EdgeNamer& name = {});
 
 /// Turns boundary and degenerate edges so that the domain, the bounded even-odd region, lies on their left, given
 /// that edge `seed` as it stands has the domain on its left when `left` and on its right otherwise. False, and the

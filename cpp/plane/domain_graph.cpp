@@ -18,14 +18,6 @@ void require_sound(const PlaneDomain& domain) {
                             std::to_string(e.b) + " of " + std::to_string(n));
 }
 
-std::string name_of_edge(const PlaneDomain& domain, int edge) {
-  const PlaneEdge& e = domain.edges[edge];
-  if (e.curve < 0) return "edge " + std::to_string(edge);
-  std::string name = "curve " + std::to_string(e.curve);
-  if (e.segment >= 0) name += ", segment " + std::to_string(e.segment);
-  return name;
-}
-
 std::string name_of_place(Vec2 uv) {
   std::string name = "(u, v) = (";
   append_number(name, uv.x);

@@ -13,8 +13,6 @@ namespace carreau {
 /// Throws InvalidArgument when an edge refers to a vertex that does not exist or a coordinate is not finite.
 void require_sound(const PlaneDomain& domain);
 
-/// "curve 3, segment 0" as far as it is known, else "edge 12".
-std::string name_of_edge(const PlaneDomain& domain, int edge);
 /// "(u, v) = (0.5, 1)".
 std::string name_of_place(Vec2 uv);
 

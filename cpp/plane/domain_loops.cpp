@@ -1,9 +1,10 @@
 // Loops of a domain: do they close, which way are they turned, what lies outside.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "plane/domain_check.h"
 #include "plane/domain_graph.h"
@@ -15,6 +16,25 @@ namespace carreau {
 namespace {
 
 using Sentences = std::vector<std::string>;
+
+std::string default_name(const PlaneEdge& edge) {
+  if (edge.curve < 0) return "an edge";
+  const std::string of_curve = "curve " + std::to_string(edge.curve + 1);
+  return edge.segment < 0 ? "an edge of " + of_curve : "edge " + std::to_string(edge.segment + 1) + " of " + of_curve;
+}
+
+/// Collects sentences.
+struct Report {
+  const PlaneDomain& domain;
+  const EdgeNamer& namer;
+  Sentences sentences;
+
+  [[nodiscard]] std::string name(int edge) const {
+    return namer ? namer(domain.edges[edge]) : default_name(domain.edges[edge]);
+  }
+  [[nodiscard]] std::string place(int vertex) const { return name_of_place(domain.vertices[vertex]); }
+  void add(std::string sentence) { sentences.push_back(std::move(sentence)); }
+};
 
 /// The boundary alone, with exact answers about its inside.
 class Boundary {
@@ -62,31 +82,29 @@ double extent_of(const PlaneDomain& domain) {
   return extent > 0 ? extent : 1;
 }
 
-void report_invalid(const PlaneDomain& domain, Sentences& sentences) {
+void report_invalid(Report& report) {
   try {
-    require_sound(domain);
+    require_sound(report.domain);
   } catch (const InvalidArgument& error) {
-    sentences.emplace_back(error.what());
+    report.add(error.what());
   }
 }
 
-void report_edges_without_length(const PlaneDomain& domain, Sentences& sentences) {
-  for (int i = 0; i < static_cast<int>(domain.edges.size()); ++i) {
-    const PlaneEdge& e = domain.edges[i];
-    if (domain.vertices[e.a] == domain.vertices[e.b])
-      sentences.push_back("the edge of " + name_of_edge(domain, i) + " at " + name_of_place(domain.vertices[e.a]) +
-                          " has no length in the parameter plane");
+void report_edges_without_length(Report& report) {
+  for (int i = 0; i < static_cast<int>(report.domain.edges.size()); ++i) {
+    const PlaneEdge& e = report.domain.edges[i];
+    if (report.domain.vertices[e.a] == report.domain.vertices[e.b])
+      report.add(report.name(i) + ", at " + report.place(e.a) + ", has no length in the parameter plane");
   }
 }
 
-void report_odd_vertices(const PlaneDomain& domain, const Incidence& boundary, Sentences& sentences) {
-  for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v) {
+void report_odd_vertices(const Incidence& boundary, Report& report) {
+  for (int v = 0; v < static_cast<int>(report.domain.vertices.size()); ++v) {
     const auto around = boundary.at(v);
     if (around.size() % 2 == 0) continue;
-    const std::string count =
-        around.size() == 1 ? "only one boundary edge" : std::to_string(around.size()) + " boundary edges";
-    sentences.push_back("the boundary does not close: " + count + " (" + name_of_edge(domain, around[0]) + ") at " +
-                        name_of_place(domain.vertices[v]));
+    const std::string others =
+        around.size() == 1 ? " alone" : " and " + std::to_string(around.size() - 1) + " other boundary edges";
+    report.add("the boundary does not close: " + report.name(around[0]) + others + " at " + report.place(v));
   }
 }
 
@@ -100,12 +118,10 @@ bool is_flat(const PlaneDomain& domain, const Chain& chain) {
   });
 }
 
-void report_chain(const PlaneDomain& domain, const Boundary& boundary, const Chain& chain, Sentences& sentences) {
-  const int first = chain.edges[0];
-  const std::string where =
-      name_of_edge(domain, first) + ", from " + name_of_place(domain.vertices[domain.edges[first].a]);
-  if (chain.closed && is_flat(domain, chain)) {
-    sentences.push_back("the loop through " + where + " has no area");
+void report_chain(const Boundary& boundary, const Chain& chain, Report& report) {
+  const auto from = [&](int e) { return report.name(e) + ", from " + report.place(report.domain.edges[e].a) + ","; };
+  if (chain.closed && is_flat(report.domain, chain)) {
+    report.add("the loop through " + from(chain.edges[0]) + " has no area");
     return;
   }
   std::size_t wrong = 0;
@@ -115,28 +131,26 @@ void report_chain(const PlaneDomain& domain, const Boundary& boundary, const Cha
     if (wrong++ == 0) first_wrong = e;
   }
   if (wrong == chain.edges.size())
-    sentences.push_back("the boundary is turned the wrong way: along " + where +
-                        ", the inside of the domain is on the right");
+    report.add("the boundary is turned the wrong way: along " + from(chain.edges[0]) +
+               " the inside of the domain is on the right");
   else if (wrong > 0)
-    sentences.push_back("the edge of " + name_of_edge(domain, first_wrong) + " from " +
-                        name_of_place(domain.vertices[domain.edges[first_wrong].a]) +
-                        " is turned against other edges of its loop, or the loop crosses itself");
+    report.add(from(first_wrong) + " is turned against other edges of its loop, or the loop crosses itself");
 }
 
 /// One sentence a curve, for the first edge that is outside.
-void report_internal_edges(const PlaneDomain& domain, const Boundary& boundary, Sentences& sentences) {
+void report_internal_edges(const Boundary& boundary, Report& report) {
   std::set<int> told;
-  for (int i = 0; i < static_cast<int>(domain.edges.size()); ++i) {
-    const PlaneEdge& e = domain.edges[i];
-    const Vec2 a = domain.vertices[e.a], b = domain.vertices[e.b];
-    if (bounds(e) || boundary.inside().inside_along(a, b)) continue;
+  for (int i = 0; i < static_cast<int>(report.domain.edges.size()); ++i) {
+    const PlaneEdge& e = report.domain.edges[i];
+    if (bounds(e) || boundary.inside().inside_along(report.domain.vertices[e.a], report.domain.vertices[e.b])) continue;
     if (e.curve >= 0 && !told.insert(e.curve).second) continue;
-    sentences.push_back("the internal edge of " + name_of_edge(domain, i) + " from " + name_of_place(a) + " to " +
-                        name_of_place(b) + " is not inside the domain");
+    report.add(report.name(i) + ", internal, from " + report.place(e.a) + " to " + report.place(e.b) +
+               ", is not inside the domain");
   }
 }
 
-void report_points(const PlaneDomain& domain, const Boundary& boundary, Sentences& sentences) {
+void report_points(const Boundary& boundary, Report& report) {
+  const PlaneDomain& domain = report.domain;
   const Incidence incidence(domain, Incidence::Which::all);
   std::vector<int> alone;
   for (int v = 0; v < static_cast<int>(domain.vertices.size()); ++v)
@@ -145,41 +159,40 @@ void report_points(const PlaneDomain& domain, const Boundary& boundary, Sentence
   std::vector<std::pair<int, int>> edges;
   for (const PlaneEdge& e : domain.edges) edges.emplace_back(e.a, e.b);
   const PolygonLocator all(domain.vertices, edges);
-  std::map<std::pair<double, double>, int> seen;
+  std::set<std::pair<double, double>> seen;
   for (const int v : alone) {
     const Vec2 p = domain.vertices[v];
-    const std::string name = "the imposed point at " + name_of_place(p);
+    const std::string point = "the imposed point at " + report.place(v);
     if (const int e = all.edge_through(p); e >= 0)
-      sentences.push_back(name + " lies on the edge of " + name_of_edge(domain, e));
+      report.add(point + " lies on " + report.name(e));
     else if (!boundary.inside().contains(p))
-      sentences.push_back(name + " is outside the domain");
-    else if (!seen.emplace(std::pair(p.x, p.y), v).second)
-      sentences.push_back(name + " is imposed twice");
+      report.add(point + " is outside the domain");
+    else if (!seen.emplace(p.x, p.y).second)
+      report.add(point + " is imposed twice");
   }
 }
 
 }  // namespace
 
-Sentences find_open_loops(const PlaneDomain& domain) {
-  Sentences sentences;
-  report_invalid(domain, sentences);
-  if (!sentences.empty()) return sentences;
-  report_edges_without_length(domain, sentences);
-  if (std::none_of(domain.edges.begin(), domain.edges.end(), bounds))
-    sentences.emplace_back("the domain has no boundary");
-  report_odd_vertices(domain, Incidence(domain, Incidence::Which::bounding), sentences);
-  return sentences;
+Sentences find_open_loops(const PlaneDomain& domain, const EdgeNamer& name) {
+  Report report{domain, name, {}};
+  report_invalid(report);
+  if (!report.sentences.empty()) return report.sentences;
+  report_edges_without_length(report);
+  if (std::none_of(domain.edges.begin(), domain.edges.end(), bounds)) report.add("the domain has no boundary");
+  report_odd_vertices(Incidence(domain, Incidence::Which::bounding), report);
+  return report.sentences;
 }
 
-Sentences find_loop_defects(const PlaneDomain& domain) {
-  Sentences sentences = find_open_loops(domain);
-  if (!sentences.empty()) return sentences;
+Sentences find_loop_defects(const PlaneDomain& domain, const EdgeNamer& name) {
+  Report report{domain, name, find_open_loops(domain, name)};
+  if (!report.sentences.empty()) return report.sentences;
   const Boundary boundary(domain);
   const Incidence incidence(domain, Incidence::Which::bounding);
-  for (const Chain& chain : boundary_chains(domain, incidence)) report_chain(domain, boundary, chain, sentences);
-  report_internal_edges(domain, boundary, sentences);
-  report_points(domain, boundary, sentences);
-  return sentences;
+  for (const Chain& chain : boundary_chains(domain, incidence)) report_chain(boundary, chain, report);
+  report_internal_edges(boundary, report);
+  report_points(boundary, report);
+  return report.sentences;
 }
 
 bool orient_loops(PlaneDomain& domain, int seed, bool left) {

@@ -292,36 +292,38 @@ TEST(FindLoopDefects, SaysWhatIsWrong) {
   d.edges.pop_back();
   ASSERT_EQ(find_open_loops(d).size(), 2U);
   EXPECT_NE(find_open_loops(d)[0].find("does not close"), std::string::npos);
-  EXPECT_NE(find_open_loops(d)[0].find("curve 0, segment 0"), std::string::npos);
+  EXPECT_NE(find_open_loops(d)[0].find("edge 1 of curve 1"), std::string::npos);
   EXPECT_NE(find_open_loops(d)[1].find("(0, 4)"), std::string::npos);
 
   d = square;
   for (PlaneEdge& e : d.edges) std::swap(e.a, e.b);
-  expect_sentence(find_loop_defects(d), {"wrong way", "curve 0, segment 0"});
+  expect_sentence(find_loop_defects(d), {"wrong way", "edge 1 of curve 1"});
   EXPECT_TRUE(find_open_loops(d).empty());
 
   d = square;
   std::swap(d.edges[2].a, d.edges[2].b);
-  expect_sentence(find_loop_defects(d), {"against", "curve 0, segment 2", "(0, 4)"});
+  expect_sentence(find_loop_defects(d, [](const PlaneEdge& e) { return "side " + std::to_string(e.segment); }),
+                  {"side 2", "against"});
+  expect_sentence(find_loop_defects(d), {"against", "edge 3 of curve 1", "(0, 4)"});
 
   d = square;
   add_loop(d, circle(8, {2, 2}, 1), 7);  // a hole turned like an outer loop
-  expect_sentence(find_loop_defects(d), {"wrong way", "curve 7"});
+  expect_sentence(find_loop_defects(d), {"wrong way", "edge 1 of curve 8"});
   d = square;
   std::vector<Vec2> hole = circle(8, {12, 2}, 1);
   std::reverse(hole.begin(), hole.end());
   add_loop(d, hole, 7);  // a hole outside every component
-  expect_sentence(find_loop_defects(d), {"wrong way", "curve 7"});
+  expect_sentence(find_loop_defects(d), {"wrong way", "edge 1 of curve 8"});
 
   d = square;
   add_loop(d, {{1, 1}, {3, 3}}, 7);
-  expect_sentence(find_loop_defects(d), {"no area", "curve 7"});
+  expect_sentence(find_loop_defects(d), {"no area", "curve 8"});
 
   d = square;
   d.vertices.push_back(d.vertices[3]);
   d.edges.push_back({3, 4, PlaneEdgeKind::boundary, 5, 0});
   d.edges[3].a = 4;
-  expect_sentence(find_open_loops(d), {"no length", "curve 5, segment 0"});
+  expect_sentence(find_open_loops(d), {"no length", "edge 1 of curve 6"});
 
   expect_sentence(find_loop_defects(PlaneDomain{}), {"no boundary"});
   d = square;
@@ -342,12 +344,12 @@ TEST(FindLoopDefects, FindsInternalCurvesAndPointsOutside) {
 
   PlaneDomain d = domain;
   d.edges.push_back({2, 4, PlaneEdgeKind::internal, 4, 0});  // both ends on the boundary, across the notch
-  expect_sentence(find_loop_defects(d), {"curve 4, segment 0", "not inside"});
+  expect_sentence(find_loop_defects(d), {"edge 1 of curve 5", "not inside"});
   d = domain;
   d.vertices.push_back({9, 9});
   d.vertices.push_back({10, 9});
   d.edges.push_back({7, 8, PlaneEdgeKind::internal, 4, 2});
-  expect_sentence(find_loop_defects(d), {"curve 4, segment 2", "not inside"});
+  expect_sentence(find_loop_defects(d), {"edge 3 of curve 5", "not inside"});
 
   const auto with_point = [&](Vec2 p) {
     PlaneDomain with = domain;
@@ -357,10 +359,10 @@ TEST(FindLoopDefects, FindsInternalCurvesAndPointsOutside) {
   EXPECT_TRUE(with_point({0.5, 0.25}).empty());
   expect_sentence(with_point({2, 3}), {"(2, 3)", "outside"});
   expect_sentence(with_point({2, 2.0000000000000004}), {"outside"});
-  expect_sentence(with_point({1, 3}), {"(1, 3)", "lies on the edge of curve 0, segment 3"});
-  expect_sentence(with_point({0, 0}), {"lies on the edge of curve 0"});
-  expect_sentence(with_point({1.5, 1.5}), {"lies on the edge of curve 3, segment 1"});
-  expect_sentence(with_point({3, 1}), {"lies on the edge of curve 3, segment 0"});
+  expect_sentence(with_point({1, 3}), {"(1, 3)", "lies on edge 4 of curve 1"});
+  expect_sentence(with_point({0, 0}), {"lies on edge 1 of curve 1"});
+  expect_sentence(with_point({1.5, 1.5}), {"lies on edge 2 of curve 4"});
+  expect_sentence(with_point({3, 1}), {"lies on edge 1 of curve 4"});
 }
 
 TEST(FindLoopDefects, FindsPointsImposedTwice) {
