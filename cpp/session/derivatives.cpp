@@ -51,11 +51,10 @@ void check_derivatives(const Model& model, const ModelSupports& supports, Cad& c
     if (box.high.x > box.low.x && box.high.y > box.low.y)
       take(find_wrong_surface_derivatives(cad, model.faces[f].ref, sample_points(supports.of_face[f]), box.low,
                                           box.high, second));
-    // First derivatives of curves serve only the curvature.
-    for (std::size_t c = 0; second && c < supports.of_face[f].size(); ++c) {
+    for (std::size_t c = 0; c < supports.of_face[f].size(); ++c) {
       const Interval range{supports.of_face[f][c].t.front(), supports.of_face[f][c].t.back()};
       const std::array<double, 1> middle{range.a + 0.43 * (range.b - range.a)};
-      take(find_wrong_curve_derivatives(cad, model.faces[f].ref, static_cast<int>(c) + 1, middle, range, true));
+      take(find_wrong_curve_derivatives(cad, model.faces[f].ref, static_cast<int>(c) + 1, middle, range, second));
     }
   }
   if (wrong.empty()) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cad/checked_cad.h"
 #include "io/files.h"
@@ -63,6 +64,20 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   return options;
 }
 
+// Finite differences of a host without derivatives stay inside the box of each domain.
+void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad) {
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Vec2 low{far, far}, high{-far, -far};
+    for (const CurveSupport& support : supports.of_face[f])
+      for (const Vec2 p : support.uv) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      }
+    if (low.x < high.x && low.y < high.y) cad.set_parameter_box(model.faces[f].ref, low, high);
+  }
+}
+
 // A message for each curve whose ends are nearer than eps_ends, which is sometimes an error (RT-0232 sec. 3.3).
 void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor) {
   for (std::size_t f = 0; f < model.faces.size(); ++f)
@@ -87,7 +102,7 @@ void describe_result(const CompositeResult& result, Monitor& monitor) {
     return std::count_if(mesh.faces.begin(), mesh.faces.end(),
                          [&](const FaceMesh& face) { return face.status == status; });
   };
-  std::string faces = whole(static_cast<std::int64_t>(mesh.faces.size())) + " faces";
+  std::string faces = whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
   if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them with curves refined";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
   monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
@@ -117,7 +132,7 @@ void Session::set_cad(std::shared_ptr<Cad> cad) { state_->cad = std::move(cad); 
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_file; }
 
 void Session::set_model(Model model) {
-  if (!needs_gluing(model)) state_->check_model(model);
+  state_->check_model(model);
   state_->model = std::move(model);
   state_->model_from_file = false;
 }
@@ -150,6 +165,7 @@ void Session::make_mesh() {
   ModelSupports supports = build_supports(s.model, cad, angle_smo, s.monitor);
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
+  set_parameter_boxes(s.model, supports, cad);
   const CurveTraces traces = traces_of(supports);
   Model model = s.model;
   std::vector<std::string> remarks;
@@ -166,7 +182,7 @@ void Session::make_mesh() {
   const CompositeOptions options = composite_options(s.parameters, supports.diag);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, s.monitor);
-  const Topology topology = build_topology(model, traces, supports.diag / 100);
+  const Topology topology = build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, s.monitor);
   if (result.mesh.triangle_count() == 0) {

@@ -85,9 +85,10 @@ class Builder {
     // In the direction of the first use, whatever this face's own direction is.
     const std::vector<Vec2>& uv = discrete.uv_of_use[use];
     const int n = static_cast<int>(uv.size()) - 1;
-    const PlaneEdgeKind kind = shape.degenerate                              ? PlaneEdgeKind::degenerate
-                               : face_.curves[c].type == CurveType::internal ? PlaneEdgeKind::internal
-                                                                             : PlaneEdgeKind::boundary;
+    // An internal curve that is one point in space bounds nothing.
+    const PlaneEdgeKind kind = face_.curves[c].type == CurveType::internal ? PlaneEdgeKind::internal
+                               : shape.degenerate                          ? PlaneEdgeKind::degenerate
+                                                                           : PlaneEdgeKind::boundary;
     int previous = -1;
     for (int i = 0; i <= n; ++i) {
       int vertex;
