@@ -1,0 +1,37 @@
+#include "mesh_file.h"
+
+namespace command {
+
+MeshHandle read_mesh(const std::string& path) {
+  carreau_mesh* raw = nullptr;
+  if (carreau_mesh_create(&raw) != CARREAU_OK) throw Failure("Out of memory.");
+  MeshHandle mesh(raw);
+  require(raw, carreau_mesh_read(raw, path.c_str()));
+  return mesh;
+}
+
+void require(carreau_mesh* mesh, carreau_status status) {
+  if (status == CARREAU_OK) return;
+  const std::string sentence = carreau_mesh_last_error(mesh);
+  throw Failure(sentence.empty() ? carreau_status_meaning(status) : sentence);
+}
+
+MeshArrays arrays_of(carreau_mesh* mesh) {
+  MeshArrays arrays;
+  std::int64_t n = 0, m = 0, k = 0;
+  std::int32_t dimension = 3;
+  require(mesh, carreau_mesh_count(mesh, &n, &m, &k, nullptr));
+  require(mesh, carreau_mesh_dimension(mesh, &dimension));
+  arrays.dimension = dimension;
+  arrays.vertices.resize(static_cast<std::size_t>(n));
+  arrays.triangles.resize(static_cast<std::size_t>(m));
+  arrays.triangle_refs.resize(static_cast<std::size_t>(m));
+  arrays.edges.resize(static_cast<std::size_t>(k));
+  if (n > 0) require(mesh, carreau_mesh_vertices(mesh, n, arrays.vertices.front().data()));
+  if (m > 0) require(mesh, carreau_mesh_triangles(mesh, m, arrays.triangles.front().data()));
+  if (m > 0) require(mesh, carreau_mesh_triangle_refs(mesh, m, arrays.triangle_refs.data()));
+  if (k > 0) require(mesh, carreau_mesh_edges(mesh, k, arrays.edges.front().data()));
+  return arrays;
+}
+
+}  // namespace command

@@ -1,0 +1,44 @@
+// A mesh read from a file through the C interface.
+#pragma once
+
+#include <carreau.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace command {
+
+/// Ends the program with exit code 2 and the sentence.
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct FreeMesh {
+  void operator()(carreau_mesh* mesh) const noexcept { carreau_mesh_free(mesh); }
+};
+using MeshHandle = std::unique_ptr<carreau_mesh, FreeMesh>;
+
+/// Reads a .mesh or .meshb file. Throws Failure with the library's sentence.
+MeshHandle read_mesh(const std::string& path);
+
+/// Throws Failure with the sentence of the last call on `mesh` when `status` is an error.
+void require(carreau_mesh* mesh, carreau_status status);
+
+/// Copies of the arrays of a mesh; vertices and triangles count from 0.
+struct MeshArrays {
+  int dimension = 3;
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> triangle_refs;
+  std::vector<std::array<std::int32_t, 2>> edges;  ///< of curves
+};
+
+/// Throws Failure.
+MeshArrays arrays_of(carreau_mesh* mesh);
+
+}  // namespace command

@@ -1,0 +1,13 @@
+// Writing PNG files.
+#pragma once
+
+#include <string>
+
+#include "raster.h"
+
+namespace command {
+
+/// The file is complete, or as it was before. Throws Failure.
+void write_png(const Image& image, const std::string& path);
+
+}  // namespace command

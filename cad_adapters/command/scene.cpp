@@ -1,0 +1,137 @@
+#include "scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace command {
+namespace {
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+float linear_of_srgb(int byte) {
+  const double s = byte / 255.0;
+  return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+}
+
+Colour srgb(int hex) {
+  return {linear_of_srgb(hex >> 16 & 255), linear_of_srgb(hex >> 8 & 255), linear_of_srgb(hex & 255)};
+}
+
+/// Soft colours, far apart for neighbours in the list.
+Colour face_colour(std::size_t rank) {
+  static constexpr int palette[] = {0x8fb8de, 0xf2c078, 0x9fd0a4, 0xe39b94, 0xb9a7d6, 0xe8dc8c,
+                                    0x86cbc7, 0xe9aec8, 0xb7c48a, 0xa9b7c9, 0xd9b99b, 0x9bb0e6};
+  return srgb(palette[rank % std::size(palette)]);
+}
+
+/// 0: dark red, 1/2: yellow, 1: green-blue.
+Colour quality_colour(double q) {
+  static constexpr int stops[] = {0x7f0d23, 0xd73027, 0xfc8d59, 0xfee08b, 0xd9ef8b, 0x91cf60, 0x3aa99f};
+  const double x = std::clamp(q, 0.0, 1.0) * (std::size(stops) - 1);
+  const auto i = std::min(static_cast<std::size_t>(x), std::size(stops) - 2);
+  const auto t = static_cast<float>(x - static_cast<double>(i));
+  const Colour a = srgb(stops[i]), b = srgb(stops[i + 1]);
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
+/// Two lamps and some light from everywhere; both sides of a triangle are lit. `normal` is a unit vector in the frame
+/// of the camera.
+Colour shaded(Colour colour, Point normal) {
+  if (normal[2] < 0) normal = {-normal[0], -normal[1], -normal[2]};
+  static constexpr Point key{-0.42, 0.63, 0.653}, fill{0.78, -0.1, 0.618}, half{-0.231, 0.3465, 0.9092};
+  const double k = std::max(0.0, dot(normal, key)), f = std::max(0.0, dot(normal, fill));
+  const double light = 0.21 + 0.75 * k + 0.16 * f;
+  const double shine = 0.10 * std::pow(std::max(0.0, dot(normal, half)), 40);
+  for (float& c : colour) c = static_cast<float>(c * light + shine);
+  return colour;
+}
+
+std::uint64_t key_of(std::int32_t a, std::int32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
+}
+
+/// Lines fade where triangles are a few pixels wide, or a fine mesh would be black.
+Line line_on(double pixels, bool curve, bool edges) {
+  if (curve) return {0.95f, 0.95f};
+  if (!edges) return {};
+  return {0.42f, static_cast<float>(0.75 * std::clamp((pixels - 2) / 8, 0.0, 1.0))};
+}
+
+/// Sides along curves: the edges of the mesh, or what lies between two references when the file has none.
+std::unordered_set<std::uint64_t> sides_on_curves(const MeshArrays& mesh) {
+  std::unordered_set<std::uint64_t> curves;
+  for (const auto& [a, b] : mesh.edges) curves.insert(key_of(a, b));
+  if (!mesh.edges.empty()) return curves;
+  std::unordered_map<std::uint64_t, std::int32_t> first;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t side = key_of(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
+      const auto [at, fresh] = first.emplace(side, mesh.triangle_refs[i]);
+      if (!fresh && at->second != mesh.triangle_refs[i]) curves.insert(side);
+    }
+  return curves;
+}
+
+/// Rank of each reference in the order of their first triangle.
+std::map<std::int32_t, std::size_t> ranks_of(const std::vector<std::int32_t>& refs) {
+  std::map<std::int32_t, std::size_t> ranks;
+  for (const std::int32_t ref : refs) ranks.emplace(ref, ranks.size());
+  return ranks;
+}
+
+}  // namespace
+
+double shape_quality(const Point& a, const Point& b, const Point& c) {
+  const Point ab = minus(b, a), ac = minus(c, a), bc = minus(c, b), n = cross(ab, ac);
+  const double squares = dot(ab, ab) + dot(ac, ac) + dot(bc, bc);
+  return squares > 0 ? 2 * std::sqrt(3.0) * std::sqrt(dot(n, n)) / squares : 0;
+}
+
+std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, const SceneOptions& options, double x0,
+                                    double y0, double width, double height) {
+  const auto finite = [](const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
+  std::vector<Point> used;
+  for (const auto& t : mesh.triangles)
+    for (const std::int32_t v : t)
+      if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
+  const Projection projection(view, used, x0, y0, width, height);
+  const auto curves = sides_on_curves(mesh);
+  const auto ranks = ranks_of(mesh.triangle_refs);
+
+  std::vector<ScreenTriangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const auto& t = mesh.triangles[i];
+    const std::array<Point, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) continue;
+    Colour colour = srgb(0xbcc6d2);
+    if (options.paint == Paint::face) colour = face_colour(ranks.at(mesh.triangle_refs[i]));
+    if (options.paint == Paint::quality) colour = quality_colour(shape_quality(p[0], p[1], p[2]));
+    const Point a = projection.in_camera(p[0]);
+    Point normal = cross(minus(projection.in_camera(p[1]), a), minus(projection.in_camera(p[2]), a));
+    const double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0)) continue;
+    for (double& x : normal) x /= length;
+
+    ScreenTriangle s{{projection(p[0]), projection(p[1]), projection(p[2])}, shaded(colour, normal), {}};
+    double pixels = 0;
+    for (int k = 0; k < 3; ++k)
+      pixels +=
+          std::hypot(s.corners[k][0] - s.corners[(k + 1) % 3][0], s.corners[k][1] - s.corners[(k + 1) % 3][1]) / 3;
+    for (int k = 0; k < 3; ++k)
+      s.lines[k] = line_on(pixels, curves.contains(key_of(t[(k + 1) % 3], t[(k + 2) % 3])), options.edges);
+    triangles.push_back(s);
+  }
+  return triangles;
+}
+
+}  // namespace command

@@ -1,0 +1,28 @@
+// From a mesh to shaded triangles on a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh_file.h"
+#include "raster.h"
+#include "view.h"
+
+namespace command {
+
+enum class Paint { face, quality, none };
+
+struct SceneOptions {
+  Paint paint = Paint::face;
+  bool edges = true;  ///< lines along the sides of triangles; those along curves are always drawn
+};
+
+/// 4 sqrt(3) area / sum of squared edges (Q2 of HDR eq. 1.6): 1 for an equilateral triangle, 0 for a flat one.
+double shape_quality(const Point& a, const Point& b, const Point& c);
+
+/// The triangles of `mesh` as `view` shows them in the rectangle [x0, x0 + width] x [y0, y0 + height], in pixels.
+/// Triangles whose vertices are not finite are left out.
+std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, const SceneOptions& options, double x0,
+                                    double y0, double width, double height);
+
+}  // namespace command

@@ -1,0 +1,40 @@
+// Where a picture is taken from, and how the mesh is fitted into it.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace command {
+
+using Point = std::array<double, 3>;
+
+/// A camera far enough to see the whole mesh: right, up and towards the eye, orthonormal.
+struct View {
+  Point right, up, toward;
+};
+
+/// A view from a name (iso, front, back, left, right, top, bottom) or from a direction "x,y,z" that points from the
+/// mesh to the eye; z is up (y, when the direction is along z). Throws Failure.
+View view_from(const std::string& text);
+
+/// Perspective projection to pixels: x right, y down from the upper left corner; depth is larger for what is nearer,
+/// and linear on the image of a plane.
+class Projection {
+ public:
+  /// Fits the points into the rectangle [x0, x0 + width] x [y0, y0 + height] with a margin of 4 %.
+  Projection(const View& view, const std::vector<Point>& points, double x0, double y0, double width, double height);
+
+  /// {x, y, depth}.
+  [[nodiscard]] Point operator()(const Point& p) const;
+  /// The point in the frame of the camera: right, up, toward the eye.
+  [[nodiscard]] Point in_camera(const Point& p) const;
+
+ private:
+  View view_;
+  Point centre_{};
+  double distance_ = 1;  ///< from the centre of the mesh to the eye
+  double scale_ = 1, x_ = 0, y_ = 0;
+};
+
+}  // namespace command

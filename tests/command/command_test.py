@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""command_test.py CARREAU: the program `carreau`: pictures, checks, parameters, exit codes."""
+import math
+import os
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM = sys.argv[1]
+
+# The unit square in the plane z = 1, two triangles with references 1 and 2.
+SQUARE = """MeshVersionFormatted 2
+Dimension 3
+Vertices 4
+0 0 1 0
+1 0 1 0
+1 1 1 0
+0 1 1 0
+Triangles 2
+1 2 3 1
+1 3 4 2
+End
+"""
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def read_png(path):
+    """Rows of (r, g, b)."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert (depth, colour) == (8, 2)
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    raw, step = zlib.decompress(packed), 3 * width
+    rows, above = [], bytearray(step)
+    for y in range(height):
+        method, line = raw[y * (step + 1)], bytearray(raw[y * (step + 1) + 1:(y + 1) * (step + 1)])
+        for i in range(step):
+            left = line[i - 3] if i >= 3 else 0
+            corner = above[i - 3] if i >= 3 else 0
+            p = left + above[i] - corner
+            paeth = min((abs(p - left), 0, left), (abs(p - above[i]), 1, above[i]), (abs(p - corner), 2, corner))[2]
+            line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, paeth)[method]) & 255
+        rows.append([tuple(line[3 * x:3 * x + 3]) for x in range(width)])
+        above = line
+    return rows
+
+
+class Command(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau command ")
+        self.mesh = self.write("square.mesh", SQUARE)
+        self.png = os.path.join(self.folder, "out.png")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def write(self, name, text):
+        path = os.path.join(self.folder, name)
+        with open(path, "w") as file:
+            file.write(text)
+        return path
+
+    def picture(self, *arguments, mesh=None):
+        done = run("picture", mesh or self.mesh, "-o", self.png, *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return read_png(self.png)
+
+    def fails(self, *arguments, sentence, code=2):
+        done = run(*arguments)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        self.assertIn(sentence, done.stderr)
+
+    def test_a_square_from_the_top_fills_92_percent_of_the_height(self):
+        rows = self.picture("--view", "top", "--size", "300x200", "--no-edges", "--color", "none")
+        self.assertEqual((len(rows), len(rows[0])), (200, 300))
+        inside = [(x, y) for y in range(200) for x in range(300) if rows[y][x][0] < 220]
+        xs, ys = [x for x, _ in inside], [y for _, y in inside]
+        # 184 pixels each way, in the middle; the ends are mixed with the ground.
+        for low, high, middle in ((min(xs), max(xs), 150), (min(ys), max(ys), 100)):
+            self.assertAlmostEqual(high - low + 1, 184, delta=2)
+            self.assertAlmostEqual((high + low + 1) / 2, middle, delta=1)
+        self.assertAlmostEqual(len(inside), 184 * 184, delta=4 * 184)
+
+    def test_references_have_colours_and_a_dark_line_lies_between_them(self):
+        rows = self.picture("--view", "top", "--size", "200x200", "--color", "face")
+        lower, upper, between = rows[140][140], rows[60][60], rows[100][99]
+        self.assertNotEqual(lower, upper)
+        self.assertLess(sum(between), min(sum(lower), sum(upper)) / 2)
+
+    def test_quality_of_a_right_triangle_and_of_an_equilateral_one_differ(self):
+        height = math.sqrt(3) / 2
+        even = self.write("even.mesh", SQUARE.replace("Triangles 2\n1 2 3 1\n1 3 4 2", "Triangles 1\n1 2 3 1")
+                          .replace("1 1 1 0", f"0.5 {height!r} 1 0").replace("Vertices 4", "Vertices 3")
+                          .replace("0 1 1 0\n", ""))
+        middle = self.picture("--view", "top", "--size", "200x200", "--color", "quality", "--no-edges", mesh=even)[130][100]
+        right = self.picture("--view", "top", "--size", "200x200", "--color", "quality", "--no-edges")[140][140]
+        self.assertGreater(middle[2], middle[0])  # green-blue: 1
+        self.assertGreater(right[0], right[2])    # Q2 = sqrt(3) / 2 = 0.87: yellow-green
+
+    def test_what_is_in_front_hides_what_is_behind(self):
+        # A second square, of reference 3, above the first.
+        both = self.write("both.mesh", SQUARE.replace("Vertices 4", "Vertices 8").replace("Triangles 2", "Triangles 4")
+                          .replace("0 1 1 0\n", "0 1 1 0\n0 0 2 0\n1 0 2 0\n1 1 2 0\n0 1 2 0\n")
+                          .replace("1 3 4 2\n", "1 3 4 2\n5 6 7 3\n5 7 8 3\n"))
+        options = ("--size", "100x100", "--no-edges")
+        top = self.picture("--view", "top", *options, mesh=both)
+        bottom = self.picture("--view", "bottom", *options, mesh=both)
+        self.assertEqual(top[30][60], top[60][30])           # one colour: the upper square
+        self.assertNotEqual(bottom[30][60], bottom[60][30])  # two colours: the lower one, mirrored
+
+    def test_views_are_put_side_by_side(self):
+        single = self.picture("--view", "top", "--size", "100x100")
+        double = self.picture("--view", "top", "--view", "0,0,5", "--size", "200x100")
+        for y in range(10, 90):  # away from the ground, which is shaded over the whole height
+            for x in range(10, 90):
+                self.assertEqual(double[y][x], single[y][x])
+                self.assertEqual(double[y][x + 100], single[y][x])
+
+    def test_the_same_mesh_gives_the_same_picture(self):
+        self.assertEqual(self.picture("--size", "64x64"), self.picture("--size", "64x64"))
+
+    def test_check_prints_exact_figures(self):
+        done = run("check", self.mesh)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        values = {line[:12].strip(): line[12:] for line in done.stdout.splitlines()}
+        self.assertEqual((values["vertices"], values["triangles"], values["faces"]), ("4", "2", "2"))
+        self.assertEqual(values["edges"], "5 (4 with one triangle)")
+        self.assertEqual(values["area"], "1")
+        self.assertEqual(values["angles"], "45 to 90 degrees")
+        self.assertEqual(values["defects"], "none")
+        q2 = 4 * math.sqrt(3) * 0.5 / 4
+        self.assertEqual(values["shape Q2"], f"mean {q2:.4f}, first percentile {q2:.4f}, worst {q2:.4f}")
+
+    def test_defects_give_exit_code_1(self):
+        line = self.write("line.mesh", SQUARE.replace("1 1 1 0", "2 0 1 0"))
+        done = run("check", line)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("defects     1\n", done.stdout)
+        self.assertEqual(run("check", self.mesh, "--closed").returncode, 1)
+
+    def test_wrong_command_lines_and_files_give_a_sentence_and_exit_code_2(self):
+        self.fails(sentence="subcommand")
+        self.fails("draw", sentence="draw")
+        self.fails("picture", self.mesh, sentence="--output")
+        self.fails("picture", self.mesh, "-o", self.png, "--size", "12", sentence="WIDTHxHEIGHT")
+        self.fails("picture", self.mesh, "-o", self.png, "--view", "0,0,0", sentence="direction")
+        self.fails("picture", self.mesh, "-o", self.png, "--color", "red", sentence="red")
+        self.fails("check", self.mesh + "x", sentence="square.meshx")
+        self.fails("check", os.path.join(self.folder, "no.mesh"), sentence="no.mesh")
+        self.fails("picture", self.write("cut.mesh", SQUARE[:60]), "-o", self.png, sentence="cut.mesh")
+        self.fails("picture", self.mesh, "-o", os.path.join(self.folder, "no", "a.png"), sentence="a.png")
+        self.fails("params", "hphydeff", sentence="hphydeff")
+        self.assertEqual(os.listdir(self.folder), [name for name in os.listdir(self.folder) if name.endswith(".mesh")])
+
+    def test_parameters_are_those_of_the_manual(self):
+        done = run("params")
+        self.assertEqual(done.returncode, 0)
+        names = [line.split()[0] for line in done.stdout.splitlines() if not line.startswith(" ")]
+        manual = ("CheckAdjacentEdges CheckCloseEdges CheckWellDefined CoefRectangle LSS angle_mesh angle_smo element "
+                  "eps_collapse eps_ends eps_glue flag format frontal hgeo_flag hgeomax hgeomin hinterpol_flag hmean_flag "
+                  "hphy_flag hphydef hphymax hphymin option pref refs verb").split()  # RT-0232 fig. 13, without `call`
+        self.assertEqual(set(manual) - set(names), set())
+        self.assertIn("default 0.02 diag", run("params", "hphydef").stdout)
+
+    def test_help_and_version(self):
+        for arguments in (["--help"], ["picture", "--help"], ["check", "--help"], ["params", "--help"], ["--version"]):
+            done = run(*arguments)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertTrue(done.stdout)
+
+
+unittest.main(argv=sys.argv[:1])
