@@ -1,4 +1,4 @@
-# Package config, pkg-config file and documents. Targets install themselves where they are defined.
+# Package config, pkg-config files and documents. Targets install themselves where they are defined.
 include(CMakePackageConfigHelpers)
 
 set(CARREAU_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/carreau)
@@ -14,6 +14,14 @@ install(FILES ${PROJECT_BINARY_DIR}/carreau-config.cmake ${PROJECT_BINARY_DIR}/c
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/pkgconfig
   OUTPUT_VARIABLE CARREAU_PC_TO_PREFIX)
 string(REGEX REPLACE "/$" "" CARREAU_PC_TO_PREFIX "${CARREAU_PC_TO_PREFIX}")
-configure_file(${CMAKE_CURRENT_LIST_DIR}/carreau.pc.in ${PROJECT_BINARY_DIR}/carreau.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/carreau.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+set(pc_files carreau)
+if(CARREAU_FORTRAN)
+  list(APPEND pc_files carreau-fortran)
+  # Of the programs that carreau_add_blsurf makes.
+  install(FILES ${PROJECT_SOURCE_DIR}/docs/man/blsurf.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT development)
+endif()
+foreach(name IN LISTS pc_files)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+endforeach()
 install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG.md TYPE DOC)

@@ -3,11 +3,10 @@
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 . "$root/tests/setup.sh"
-need_packages g++ gcc gfortran cmake ninja-build libgtest-dev libpng-dev libcli11-dev pkg-config python3 clang libclang-rt-14-dev binutils
-mkdir -p "$root/build/test"
-cmake -S "$root" -B "$root/build/test" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCARREAU_BENCH=ON >"$root/build/test/configure.log" 2>&1 || {
-  cat "$root/build/test/configure.log" >&2
-  exit 1
-}
-cmake --build "$root/build/test" -j "$(jobs)"
-exec ctest --test-dir "$root/build/test" -j "$(jobs)" --output-on-failure
+need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils \
+  libgtest-dev libpng-dev libcli11-dev clang libclang-rt-dev # the last two: fuzzing
+build=$root/build/test
+configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_BENCH=ON
+cmake --build "$build" -j "$(processors)"
+cd "$build"
+exec ctest -j "$(processors)" --output-on-failure

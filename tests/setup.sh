@@ -1,13 +1,13 @@
 # Sourced by run.sh scripts: installs Debian packages that are missing, with the rights to do so; else says what to type.
-# Usage: . setup.sh; need_packages PACKAGE...
 
+# need_packages PACKAGE...: status 1 when some are missing and could not be installed.
 need_packages() {
-  missing=
   if ! command -v dpkg-query >/dev/null 2>&1; then
-    echo "This is not a Debian system: these Debian packages, or what corresponds to them, are needed:" >&2
+    echo "This is not a Debian system: what these Debian packages hold is needed, and not installed from here:" >&2
     echo "  $*" >&2
     return 0
   fi
+  missing=
   for package in "$@"; do
     state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) || state=
     [ "$state" = installed ] || missing="$missing $package"
@@ -19,21 +19,38 @@ need_packages() {
     as_root="sudo -n"
   else
     echo "Missing packages, and no right to install them. Type:" >&2
-    echo "  sudo apt-get install$missing" >&2
+    echo "  sudo apt-get update && sudo apt-get install$missing" >&2
     return 1
   fi
   echo "Installing:$missing"
-  export DEBIAN_FRONTEND=noninteractive
-  # A list of packages that is out of date is the usual cause of a failure: renew it and try once more.
-  # shellcheck disable=SC2086
-  { $as_root apt-get update -qq && $as_root apt-get install -y -qq $missing; } >/dev/null ||
-    { sleep 5; $as_root apt-get update -qq && $as_root apt-get install -y -qq $missing; } >/dev/null || {
+  # A mirror that does not answer is the usual cause of a failure: try once more.
+  install_packages || { sleep 5 && install_packages; } || {
     echo "The installation failed. Type:" >&2
-    echo "  apt-get update && apt-get install$missing" >&2
+    echo "  ${as_root:+sudo }apt-get update && ${as_root:+sudo }apt-get install$missing" >&2
     return 1
   }
 }
 
-jobs() {
+install_packages() {
+  # Lists of words, on purpose unquoted.
+  # shellcheck disable=SC2086
+  $as_root apt-get update -qq -o DPkg::Lock::Timeout=120 >/dev/null &&
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq -o DPkg::Lock::Timeout=120 \
+      --no-install-recommends $missing >/dev/null
+}
+
+# configure SOURCE BUILD OPTION...: quiet when it succeeds.
+configure() {
+  source_dir=$1 build_dir=$2
+  shift 2
+  mkdir -p "$build_dir"
+  cmake -S "$source_dir" -B "$build_dir" -G Ninja "$@" >"$build_dir/configure.log" 2>&1 || {
+    cat "$build_dir/configure.log" >&2
+    return 1
+  }
+}
+
+# Number of processors.
+processors() {
   nproc 2>/dev/null || echo 1
 }

@@ -1,0 +1,34 @@
+#!/bin/sh
+# installed_files.sh TREE WORK FORTRAN COMMAND: what an installed tree must hold, and must not.
+set -eu
+tree=$1 fortran=$3 command=$4
+cd -- "$tree"
+fail=0
+need() {
+  for path in "$@"; do
+    [ -e "$path" ] || { echo "missing: $path"; fail=1; }
+  done
+}
+need include/carreau.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
+  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md
+if [ "$fortran" = 1 ]; then
+  need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
+    lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1
+fi
+if [ "$command" = 1 ]; then
+  need bin/carreau
+  ./bin/carreau --version # finds its library in the tree
+fi
+# A manual page for each program.
+for program in bin/*; do
+  [ -e "$program" ] || continue
+  need "share/man/man1/${program##*/}.1"
+done
+# The one C header, and no file that knows where it was built.
+headers=$(find include -type f)
+[ "$headers" = include/carreau.h ] || { echo "headers: $headers"; fail=1; }
+if grep -rlI -e "$tree.first" .; then
+  echo "these files hold the path of the first installation"
+  fail=1
+fi
+exit $fail

@@ -1,0 +1,17 @@
+#!/bin/sh
+# pkg_config.sh TREE WORK PKG_CONFIG CC: a C program by pkg-config and the compiler alone.
+set -eu
+tree=$1 work=$2 pkg_config=$3 cc=$4
+source=$(CDPATH='' cd -- "$(dirname -- "$0")/c" && pwd)/main.c
+rm -rf -- "$work"
+mkdir -p -- "$work"
+cd -- "$work"
+pc=$(find "$tree" -name carreau.pc)
+PKG_CONFIG_PATH=$(dirname -- "$pc")
+export PKG_CONFIG_PATH
+test "$("$pkg_config" --modversion carreau)" = "$("$pkg_config" --modversion carreau-fortran)"
+# Blanks in paths come out with a backslash: eval.
+flags=$("$pkg_config" --cflags --libs carreau)
+eval "set -- $flags"
+"$cc" -std=c99 "$source" -o customer "$@" -lm
+LD_LIBRARY_PATH=$("$pkg_config" --variable=libdir carreau | sed 's/\\//g') ./customer
