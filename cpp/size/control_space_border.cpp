@@ -15,7 +15,7 @@ constexpr int terms = 6;  // 1, x, y, x^2, x y, y^2
 // Neighbours wanted before a quadratic is fitted.
 constexpr std::size_t enough = 10;
 // Reach of the neighbourhood in units of the size asked for, and how much the weights prefer near samples.
-constexpr double reach_in_sizes = 2.2, softness = 0.04;
+constexpr double reach_in_sizes = 2.2, near_share = 0.5, softness = 0.04;
 // Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
 // pulls slopes and curvatures that they do not determine to zero.
 constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
@@ -90,10 +90,15 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
   };
   const double right = std::min<double>(centre.x + reach, lattice_.end().i);
   const double top = std::min<double>(centre.y + reach, lattice_.end().j);
+  // Far nodes of the finer of both grids would add little but time.
+  const double near = near_share * reach;
   for (std::int32_t j = first(centre.y); j <= top; j += spacing)
-    for (std::int32_t i = first(centre.x); i <= right; i += spacing)
+    for (std::int32_t i = first(centre.x); i <= right; i += spacing) {
+      const bool fine = ((i | j) & spacing) != 0;
+      if (fine && (std::abs(i - centre.x) > near || std::abs(j - centre.y) > near)) continue;
       if (const Metric2* root = lattice_.sample({i, j}))
         found.push_back({{static_cast<double>(i), static_cast<double>(j)}, *root});
+    }
 }
 
 Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) const {

@@ -30,8 +30,9 @@ constexpr double share_wide = 0.125, share_edge = 0.5, share_half = 1;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
 constexpr double border_relief = 0.25;
 
-// Samples that splitting a cell costs: usually, and at most.
-constexpr double usual_cost = 7, worst_cost = 12;
+// Samples that splitting a cell costs: usually, and at most (4 middles, 4 centres, 8 boundary vertices); those of
+// testing it.
+constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
 // Smooth fields may use these beyond the samples for each vertex.
 constexpr double spare_samples = 100;
 // The same where the tolerance is violated.
@@ -65,7 +66,7 @@ void ControlSpaceSampling::run() {
   while (!active.empty()) {
     test(active);
     estimate_vertices();
-    active = refine(affordable(std::move(active)));
+    active = refine(affordable(std::move(active), 0));
   }
 }
 
@@ -254,8 +255,10 @@ double ControlSpaceSampling::allowed_error(const TreeCell& cell) const noexcept 
 }
 
 // Cells to split, in their order: crowded ones as far as max_samples allows; those beyond the tolerance as far as there
-// are some samples a vertex; the others as far as samples_per_vertex allows. The worst first.
-std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int32_t> cells) const {
+// are some samples a vertex; the others as far as samples_per_vertex allows. The worst first. `untested`:
+// cells that will cost samples anyway.
+std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int32_t> cells,
+                                                           std::size_t untested) const {
   std::vector<std::int32_t> crowd, must, may;
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
@@ -281,7 +284,10 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());
   crowd.insert(crowd.end(), may.begin(), may.end());
-  cut(crowd, static_cast<double>(options_.max_samples - std::min(samples_, options_.max_samples)), worst_cost);
+  cut(crowd,
+      static_cast<double>(options_.max_samples) - static_cast<double>(samples_) -
+          test_cost * static_cast<double>(untested),
+      worst_cost);
   std::sort(crowd.begin(), crowd.end());
   return crowd;
 }
@@ -295,7 +301,7 @@ std::vector<std::int32_t> ControlSpaceSampling::refine(std::span<const std::int3
       for (std::int32_t k = (*tree_)[c].child; k < (*tree_)[c].child + 4; ++k)
         if ((*tree_)[k].relevant) fresh.push_back(k);
     }
-    now = affordable(sample_middles(now));
+    now = affordable(sample_middles(now), fresh.size());
   }
   return fresh;
 }

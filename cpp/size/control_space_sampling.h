@@ -57,7 +57,7 @@ class ControlSpaceSampling {
   [[nodiscard]] double allowed_error(const TreeCell& cell) const noexcept;
   [[nodiscard]] double error_between(Metric2 root, Metric2 truth, const TreeCell& cell) const noexcept;
   [[nodiscard]] double vertices_of(const TreeCell& cell, Metric2 root) const noexcept;
-  [[nodiscard]] std::vector<std::int32_t> affordable(std::vector<std::int32_t> cells) const;
+  [[nodiscard]] std::vector<std::int32_t> affordable(std::vector<std::int32_t> cells, std::size_t untested) const;
   std::vector<std::int32_t> refine(std::span<const std::int32_t> cells);
   [[nodiscard]] std::vector<std::int32_t> sample_middles(std::span<const std::int32_t> cells);
 

@@ -263,6 +263,7 @@ void ControlSpaceWriter::write() {
   const std::int32_t columns = lattice_.end().i / table_step_, rows = lattice_.end().j / table_step_;
   space_.columns_ = static_cast<std::size_t>(columns);
   space_.table_.assign(space_.columns_ * static_cast<std::size_t>(rows), -1);
+  space_.leaves_.clear();
   space_.leaves_.reserve(leaves_.size());
   // Cells at least as large as those of the table, each with all entries that it covers; depth first, so that near
   // leaves are near in memory.
