@@ -222,7 +222,7 @@ std::vector<EdgeConflict> find_crossings(const PlaneDomain& domain) {
   const double n = static_cast<double>(domain.edges.size());
   // Long edges that run close together in a slanting direction crowd the cells: the sweep bears that, but finds one
   // pair only.
-  const double usual = 200 * n + 1e6, most = 10 * usual;
+  const double usual = 200 * n + 1e6, most = 3 * usual;
   std::optional<EdgeConflict> first;
   if (count_pairs(grid) > usual) {
     first = Sweep(domain).run();
