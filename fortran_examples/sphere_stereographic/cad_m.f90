@@ -1,5 +1,5 @@
 !> Unit sphere by stereographic projection (RT-0232 sec. 2.1 example 2): its lower half (face 1) from the North Pole, its upper half
-!> (face 2) from the South Pole, each a disc of radius 2; the equator is glued.
+!> (face 2) from the South Pole, turned so that both normals point outwards, each a disc of radius 2; the equator is glued.
 module cad_m
   implicit none
   double precision, parameter :: pi = 3.141592653589793d0
@@ -16,7 +16,7 @@ contains
     u = uv(1) ; v = uv(2)
     d = u**2 + v**2 + 4
     S = [4*u/d, 4*v/d, 2*(u**2 + v**2)/d]
-    if (refs == 2) S(3) = 8/d
+    if (refs == 2) S(2:3) = [-4*v/d, 8/d]
   end subroutine surf0
 
   subroutine surf1(refs, uv, Su, Sv)
@@ -26,8 +26,8 @@ contains
     d = u**2 + v**2 + 4
     Su = [4/d - 8*u**2/d**2, -8*u*v/d**2, 16*u/d**2]
     Sv = [-8*u*v/d**2, 4/d - 8*v**2/d**2, 16*v/d**2]
-    if (refs == 2) Su(3) = -Su(3)
-    if (refs == 2) Sv(3) = -Sv(3)
+    if (refs == 2) Su(2:3) = -Su(2:3)
+    if (refs == 2) Sv(2:3) = -Sv(2:3)
   end subroutine surf1
 
   subroutine surf2(refs, uv, Suu, Suv, Svv)
@@ -38,9 +38,9 @@ contains
     Suu = [-24*u/d**2 + 32*u**3/d**3, -8*v/d**2 + 32*u**2*v/d**3, 16/d**2 - 64*u**2/d**3]
     Suv = [-8*v/d**2 + 32*u**2*v/d**3, -8*u/d**2 + 32*u*v**2/d**3, -64*u*v/d**3]
     Svv = [-8*u/d**2 + 32*u*v**2/d**3, -24*v/d**2 + 32*v**3/d**3, 16/d**2 - 64*v**2/d**3]
-    if (refs == 2) Suu(3) = -Suu(3)
-    if (refs == 2) Suv(3) = -Suv(3)
-    if (refs == 2) Svv(3) = -Svv(3)
+    if (refs == 2) Suu(2:3) = -Suu(2:3)
+    if (refs == 2) Suv(2:3) = -Suv(2:3)
+    if (refs == 2) Svv(2:3) = -Svv(2:3)
   end subroutine surf2
 
   !> Two half circles, t is the angle
