@@ -114,14 +114,14 @@ class Refiner {
       if (const auto it = unbuilt_.find(f); it != unbuilt_.end()) result_.failure[f] = it->second;
       if (!result_.domain[f]) continue;
       const PlaneDomain& plane = result_.domain[f]->plane;
-      const std::vector<EdgeConflict> conflicts = find_crossings(plane);
+      const std::optional<EdgeConflict> conflict = find_a_crossing(plane);
       std::string why;
-      if (!conflicts.empty()) {
-        const Where where{.face = model_.faces[f].ref, .uv = conflicts.front().uv};
-        why = where.prefix() + "the discretised boundary meets itself: an edge of " +
-              name_of(plane.edges[conflicts.front().first], f) + " and an edge of " +
-              name_of(plane.edges[conflicts.front().second], f);
-      } else if (const auto defects = find_loop_defects(plane); !defects.empty()) {
+      if (conflict) {
+        const Where where{.face = model_.faces[f].ref, .uv = conflict->uv};
+        why = where.prefix() + "the discretised boundary meets itself: " + name_of(plane.edges[conflict->first], f) +
+              " and " + name_of(plane.edges[conflict->second], f);
+      } else if (const auto defects = find_loop_defects(plane, [&](const PlaneEdge& edge) { return name_of(edge, f); });
+                 !defects.empty()) {
         why = Where{.face = model_.faces[f].ref}.prefix() + defects.front();
       }
       if (why.empty()) continue;
@@ -130,14 +130,8 @@ class Refiner {
     }
   }
 
-  std::string name_of(const PlaneEdge& edge, int face) const {
-    std::string name = "curve ";
-    for (const CurveUse& use : topology_.curves[edge.curve].uses)
-      if (use.face == face) {
-        name += std::to_string(use.curve + 1);
-        break;
-      }
-    return name + " (reference " + std::to_string(topology_.curves[edge.curve].ref) + ")";
+  [[nodiscard]] std::string name_of(const PlaneEdge& edge, int face) const {
+    return "an edge of " + curve_name(topology_, edge.curve, face);
   }
 
   const CurveModel& curve_model_;

@@ -100,7 +100,8 @@ class Builder {
       } else {
         vertex = add_vertex(uv[i], {.curve = curve, .node = i}, {discrete.size[i], discrete.physical[i]});
       }
-      if (i > 0) domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1, shape.degenerate ? least_fan(shape) : 1});
+      if (i > 0)
+        domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1, shape.degenerate ? least_fan(shape) : 1});
       if (i == 1 && c + 1 == std::abs(face_.orientation)) {
         seed_ = static_cast<int>(domain_.plane.edges.size()) - 1;
         // The sign of the orientation is for the face's own direction of the curve.
@@ -111,7 +112,8 @@ class Builder {
   }
 
   void orient() {
-    std::vector<std::string> defects = find_loop_defects(domain_.plane);
+    const std::vector<std::string> defects = find_open_loops(
+        domain_.plane, [this](const PlaneEdge& edge) { return curve_name(topology_, edge.curve, index_); });
     if (orient_loops(domain_.plane, seed_, seed_left_)) return;
     const Where where{.face = face_.ref, .curve_index = std::abs(face_.orientation)};
     if (!defects.empty()) throw DomainError(where, defects.front());
@@ -132,6 +134,16 @@ class Builder {
 };
 
 }  // namespace
+
+std::string curve_name(const Topology& topology, int curve, int face) {
+  std::string name = "curve ";
+  for (const CurveUse& use : topology.curves[curve].uses)
+    if (use.face == face) {
+      name += std::to_string(use.curve + 1) + ' ';
+      break;
+    }
+  return name + "(reference " + std::to_string(topology.curves[curve].ref) + ")";
+}
 
 FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
                              int face) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "curve/discrete_curve.h"
@@ -32,5 +33,8 @@ struct FaceDomain {
 /// (HDR fig. 3.1).
 FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
                              int face);
+
+/// How messages call a curve of a face: "curve 2 (reference 17)", its rank from 1 and its reference.
+std::string curve_name(const Topology& topology, int curve, int face);
 
 }  // namespace carreau
