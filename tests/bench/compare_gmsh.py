@@ -1,0 +1,187 @@
+#!/usr/bin/python3
+"""Meshes the same surfaces by Gmsh's Frontal-Delaunay and by Carreau, in one run, and prints speed and quality.
+
+    apt-get install gmsh python3-gmsh python3-numpy
+    cmake --preset bench && cmake --build --preset bench --target bench_surface
+    python3 tests/bench/compare_gmsh.py build/bench/tests/bench/bench_surface [--cases REGEX] [--repeat N] [--json FILE]
+
+Both are timed on surface meshing alone, in one thread: Gmsh's generate(2) after generate(1), and Carreau's sampling, plane
+meshing and lift after its curves. Sizes are uniform. Quality is that of the triangles in space, 4 sqrt(3) area / sum of
+squared edges (HDR eq. 1.6), computed here for Gmsh and by bench_surface for Carreau.
+"""
+import argparse
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import time
+
+sys.path.append("/usr/lib/python3/dist-packages")  # where Debian's python3-gmsh is, whatever python3 runs this
+try:
+    import gmsh
+    import numpy as np
+except ImportError as error:
+    sys.exit(f"{error}. Type: apt-get install gmsh python3-gmsh python3-numpy")
+
+ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+
+# Case of bench_surface, size, and the ratio of speeds to reach.
+CASES = [
+    ("paraboloid", 0.15462, None),   # 5 k triangles
+    ("paraboloid", 0.03558, 30),     # 100 k
+    ("paraboloid", 0.011252, 30),    # 1 M
+    ("hemisphere", 0.0121, 30),
+    ("hemisphere", 0.00381, 30),
+    ("torus", 0.0145, 30),
+    ("torus", 0.0046, 30),
+    ("teapot", 0.1, 15),
+    ("teapot", 0.035, 15),
+]
+
+
+def paraboloid(occ):
+    """z = (u^2 + v^2) / 2 on [-2.5, 2.5]^2, exactly: a biquadratic Bezier patch."""
+    a = 2.5
+    x, square = (-a, 0, a), (a * a, -a * a, a * a)  # Bezier coefficients of u and u^2
+    occ.addBezierSurface([occ.addPoint(x[i], x[j], (square[i] + square[j]) / 2) for j in range(3) for i in range(3)], 3)
+
+
+def hemisphere(occ):
+    """Half of the unit sphere over the unit disc by stereographic projection, exactly: a rational biquadratic B-spline
+    surface on [-1, 1]^2 (with a knot at 0, so that weights are positive), trimmed by the unit circle."""
+    x, square = (-1, -0.5, 0.5, 1), (1, 0, 0, 1)  # B-spline coefficients of u and u^2
+    points, weights = [], []
+    for j in range(4):
+        for i in range(4):
+            s = square[i] + square[j]
+            points.append(occ.addPoint(2 * x[i] / (1 + s), 2 * x[j] / (1 + s), (1 - s) / (1 + s)))
+            weights.append(1 + s)
+    knots, counts = [-1, 0, 1], [3, 1, 3]
+    surface = occ.addBSplineSurface(points, 4, degreeU=2, degreeV=2, weights=weights, knotsU=knots, knotsV=knots,
+                                    multiplicitiesU=counts, multiplicitiesV=counts)
+    circle = occ.addWire([occ.addCircle(0, 0, 0, 1)])
+    occ.addTrimmedSurface(surface, [circle])
+    occ.remove([(2, surface)], recursive=True)
+
+
+def torus(occ):
+    """A quarter of the big circle (radius 2), half of the small one (radius 0.7), by angles."""
+    arc = occ.addCircle(2, 0, 0, 0.7, angle1=0, angle2=math.pi)
+    occ.rotate([(1, arc)], 2, 0, 0, 1, 0, 0, math.pi / 2)
+    occ.revolve([(1, arc)], 0, 0, 0, 0, 0, 1, math.pi / 2)
+
+
+def teapot(occ):
+    """32 bicubic Bezier patches, sides that are equal made one."""
+    with open(os.path.join(ROOT, "fortran_examples", "teapot", "teapot.bpt")) as file:
+        words = file.read().split()
+    at = 1
+    for _ in range(int(words[0])):
+        at += 2  # 3 3
+        points = []
+        for k in range(16):
+            points.append(occ.addPoint(*map(float, words[at + 3 * k:at + 3 * k + 3])))
+        occ.addBezierSurface(points, 4)
+        at += 48
+    occ.removeAllDuplicates()
+
+
+GEOMETRY = {"paraboloid": paraboloid, "hemisphere": hemisphere, "torus": torus, "teapot": teapot}
+
+
+def figures(points, triangles):
+    """Quality and counts, as bench_surface has them."""
+    p = points[triangles]
+    edges = [p[:, (k + 1) % 3] - p[:, k] for k in range(3)]
+    squares = sum((e * e).sum(axis=1) for e in edges)
+    areas = np.linalg.norm(np.cross(edges[0], edges[1]), axis=1) / 2
+    q2 = 4 * math.sqrt(3) * areas / squares
+    sides = np.sort(np.concatenate([triangles[:, (k, (k + 1) % 3)] for k in range(3)]), axis=1)
+    sides, count = np.unique(sides, axis=0, return_counts=True)
+    degree = np.bincount(sides.ravel(), minlength=len(points))
+    inside = degree > 0
+    inside[sides[count == 1].ravel()] = False
+    return {"triangles": len(triangles), "q2_mean": q2.mean(), "q2_p1": np.percentile(q2, 1), "q2_min": q2.min(),
+            "degree6": (degree[inside] == 6).mean(), "area": areas.sum()}
+
+
+def by_gmsh(name, size):
+    gmsh.initialize()
+    try:
+        for option, value in (("General.Terminal", 0), ("General.NumThreads", 1), ("Mesh.Algorithm", 6),
+                              ("Mesh.MeshSizeMin", size), ("Mesh.MeshSizeMax", size),
+                              ("Mesh.MeshSizeExtendFromBoundary", 0), ("Mesh.MeshSizeFromPoints", 0),
+                              ("Mesh.MeshSizeFromCurvature", 0)):
+            gmsh.option.setNumber(option, value)
+        gmsh.model.add(name)
+        GEOMETRY[name](gmsh.model.occ)
+        gmsh.model.occ.synchronize()
+        gmsh.model.mesh.generate(1)
+        start = time.perf_counter()
+        gmsh.model.mesh.generate(2)
+        seconds = time.perf_counter() - start
+        tags, xyz, _ = gmsh.model.mesh.getNodes()
+        corners = np.concatenate([nodes for kind, _, nodes in zip(*gmsh.model.mesh.getElements(2)) if kind == 2])
+    finally:
+        gmsh.finalize()
+    rank = np.zeros(int(max(tags)) + 1, dtype=np.int64)
+    rank[np.asarray(tags, dtype=np.int64)] = np.arange(len(tags))
+    row = figures(np.asarray(xyz).reshape(-1, 3), rank[np.asarray(corners, dtype=np.int64)].reshape(-1, 3))
+    return {"case": name, "size": size, "seconds": seconds, **row}
+
+
+def by_carreau(program, name, size, repeat):
+    done = subprocess.run([program, name, repr(size), str(repeat)], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        sys.exit(f"{program} {name} {size}: {done.stderr}")
+    return json.loads(done.stdout.splitlines()[-1])
+
+
+def show(who, row):
+    speed = row["triangles"] / row["seconds"]
+    print(f"{row['case']:11}{row['size']:<10g}{who:9}{row['triangles']:9d}{row['seconds']:10.3f} s{speed:12.0f} /s"
+          f"{row['q2_mean']:8.3f}{row['q2_p1']:7.3f}{row['q2_min']:7.3f}{100 * row['degree6']:7.1f} %"
+          f"{row['area']:10.4f}", flush=True)
+    return speed
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Carreau and Gmsh on the same surfaces")
+    parser.add_argument("bench", nargs="?", default=os.path.join(ROOT, "build/bench/tests/bench/bench_surface"),
+                        help="the program bench_surface")
+    parser.add_argument("--cases", default="", help="those whose `name size` matches this regular expression")
+    parser.add_argument("--repeat", type=int, default=3, help="runs, of which the best is taken (one of Gmsh when it is above 2 s)")
+    parser.add_argument("--json", help="file for all figures")
+    options = parser.parse_args()
+    if not os.access(options.bench, os.X_OK):
+        sys.exit(f"{options.bench} is not there. Type: cmake --preset bench && cmake --build --preset bench")
+
+    print(f"{'case':11}{'size':10}{'by':9}{'triangles':>9}{'time':>12}{'speed':>15}{'mean':>8}{'p1':>7}{'worst':>7}"
+          f"{'degree 6':>9}{'area':>10}")
+    gmsh.initialize()
+    version = gmsh.option.getString("General.Version")
+    gmsh.finalize()
+    rows, missed = [], 0
+    for name, size, wanted in CASES:
+        if not re.search(options.cases, f"{name} {size}"):
+            continue
+        theirs = by_gmsh(name, size)
+        for _ in range(options.repeat - 1 if theirs["seconds"] < 2 else 0):
+            theirs["seconds"] = min(theirs["seconds"], by_gmsh(name, size)["seconds"])
+        ours = by_carreau(options.bench, name, size, options.repeat)
+        slow, fast = show("gmsh", theirs), show("carreau", ours)
+        text = f"  wanted {wanted}" if wanted else ""
+        if wanted and fast / slow < wanted:
+            missed += 1
+            text += ": not reached"
+        print(f"{'':30}{fast / slow:.1f} times the speed{text}\n", flush=True)
+        rows.append({"gmsh": theirs, "carreau": ours, "ratio": fast / slow, "wanted": wanted})
+    print(f"Gmsh {version}; {len(rows)} cases, {missed} below the ratio wanted")
+    if options.json:
+        with open(options.json, "w") as file:
+            json.dump(rows, file, indent=1)
+
+
+main()
