@@ -87,10 +87,13 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
       if (gap >= eps_ends) continue;
       const Where where{
           .face = model.faces[f].ref, .curve_index = static_cast<int>(c) + 1, .curve = model.faces[f].curves[c].ref};
-      monitor.message(Level::warning, where.prefix() + "its ends are " + format_number(gap) +
-                                          " apart, less than eps_ends = " + format_number(eps_ends) +
-                                          (support.length() < eps_ends ? "; the whole curve is that small"
-                                                                       : "; the curve is closed or nearly so"));
+      // Closed curves and degenerate sides have one reference at both ends and are legal.
+      const FaceCurve& curve = model.faces[f].curves[c];
+      monitor.message(
+          curve.end1 == curve.end2 ? Level::detail : Level::warning,
+          where.prefix() + "its ends are " + format_number(gap) +
+              " apart, less than eps_ends = " + format_number(eps_ends) +
+              (support.length() < eps_ends ? "; the whole curve is that small" : "; the curve is closed or nearly so"));
     }
 }
 
@@ -102,7 +105,8 @@ void describe_result(const CompositeResult& result, Monitor& monitor) {
     return std::count_if(mesh.faces.begin(), mesh.faces.end(),
                          [&](const FaceMesh& face) { return face.status == status; });
   };
-  std::string faces = whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
+  std::string faces =
+      whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
   if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them with curves refined";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
   monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
@@ -182,7 +186,8 @@ void Session::make_mesh() {
   const CompositeOptions options = composite_options(s.parameters, supports.diag);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, s.monitor);
-  const Topology topology = build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
+  const Topology topology =
+      build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, s.monitor);
   if (result.mesh.triangle_count() == 0) {
