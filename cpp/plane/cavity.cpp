@@ -34,100 +34,120 @@ bool Triangulation::too_near(Vec2 p, int v, double d2, const InsertRules& rules)
   return 0.5 * (d2 + squared(w.metric(), w.x - p.x, w.y - p.y)) < rules.distance2;
 }
 
-// Whether p lies in the circle of the triangle beyond e, whose corner opposite to e is d: alpha < 1 in RR-2928 eq. 5-8.
-// Where all is near to p one metric stands for the product of four; farther away the mean tensor of the four vertices
-// does (README, "Differs").
-bool Triangulation::wanted(const RimEdge& e, const Vertex& d, Metric2 metric, double dx, double dy, double d2,
-                           double ad, double db) const noexcept {
-  if (d2 <= near2 || e.a2 <= near2 || e.b2 <= near2)
-    return e.a2 * db + e.b2 * ad - d2 * e.area > cocircular * d2 * e.area;
-  const Vertex &A = vertices[e.a], &B = vertices[e.b];
-  const Metric2 m = metric + A.metric() + B.metric() + d.metric();
-  const Vec2 a{e.ax, e.ay}, b{e.bx, e.by}, w{dx, dy};
-  return dot(m, a, b) * (ad + db - e.area) + dot(m, a - w, b - w) * e.area < 0;
+// Whether the new point lies in the circle through a, d, b, which are all far from it, in the mean of their metrics and
+// its own: opposite angles sum to more than pi. sum is the area of a, d, p and d, b, p together.
+bool Triangulation::in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
+                                  double area) const noexcept {
+  const Metric2 m = metric + vertices[a.v].metric() + vertices[b.v].metric() + vertices[d.v].metric();
+  const Vec2 pa{a.x, a.y}, pb{b.x, b.y}, pd{d.x, d.y};
+  return dot(m, pa, pb) * (sum - area) + dot(m, pa - pd, pb - pd) * area < 0;
 }
 
+void Triangulation::reserve_cavity(std::size_t triangles_in) {
+  if (points_.size() >= triangles_in + 8) return;
+  const std::size_t n = 2 * triangles_in + 64;
+  cavity_.resize(n);
+  points_.resize(n);
+  rim_.resize(n);
+  stack_.resize(n);
+}
+
+// alpha < 1 in RR-2928 eq. 5-8. Where all is near to p one metric stands for the product of four; farther away the mean
+// tensor of the four vertices does (README, "Differs").
 bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules) {
-  cavity_.clear();
-  rim_.clear();
-  stack_.clear();
+  reserve_cavity(64);
   const Triangle& S = triangles[start];
-  double X[3], Y[3], D[3];
+  std::size_t cavity_size = 0, rim_size = 0, top = 0, point_count = 3;
   for (int i = 0; i < 3; ++i) {
     const Vertex& w = vertices[S.v[i]];
-    X[i] = w.x - p.x, Y[i] = w.y - p.y;
-    D[i] = squared(metric, X[i], Y[i]);
-    if ((X[i] == 0 && Y[i] == 0) || (D[i] < rules.distance2 && too_near(p, S.v[i], D[i], rules))) return false;
+    const double x = w.x - p.x, y = w.y - p.y, d2 = squared(metric, x, y);
+    if ((x == 0 && y == 0) || (d2 < rules.distance2 && too_near(p, S.v[i], d2, rules))) return false;
+    points_[i] = {x, y, d2, S.v[i]};
   }
-  cavity_.push_back(start);
+  cavity_[cavity_size++] = start;
   for (int i = 2; i >= 0; --i) {
     const int a = next3[i], b = prev3[i];
     double area;
-    int sign = sign_of_cross(X[a], Y[a], X[b], Y[b], area);
+    int sign = sign_of_cross(points_[a].x, points_[a].y, points_[b].x, points_[b].y, area);
     if (sign == 0) sign = orientation(at(S.v[a]), at(S.v[b]), p);
     const bool imposed = (S.imposed >> i & 1) != 0;
     if (sign <= 0 && (imposed || S.n[i] == no_edge)) return false;
-    stack_.push_back({S.v[a], S.v[b], S.n[i], static_cast<std::uint8_t>(imposed),
-                      static_cast<std::uint8_t>(S.degenerate >> i & 1), sign <= 0, X[a], Y[a], X[b], Y[b], D[a], D[b],
-                      area});
+    stack_[top++] = {
+        a,         b,   S.n[i], static_cast<std::uint8_t>(imposed), static_cast<std::uint8_t>(S.degenerate >> i & 1),
+        sign <= 0, area};
   }
-  while (!stack_.empty()) {
-    RimEdge& e = stack_.back();
+  RimPoint* points = points_.data();
+  RimEdge *stack = stack_.data(), *rim = rim_.data();
+  while (top > 0) {
+    RimEdge& e = stack[top - 1];
+    const RimPoint &A = points[e.a], &B = points[e.b];
     if (e.imposed == 0 && e.outside != no_edge) {
       const int t = e.outside >> 2, i = e.outside & 3;
       const Triangle& N = triangles[t];
-      const int d = N.v[i];
-      const Vertex& w = vertices[d];
-      const double dx = w.x - p.x, dy = w.y - p.y, d2 = squared(metric, dx, dy);
+      const Vertex& w = vertices[N.v[i]];
+      RimPoint& D = points[point_count];
+      D.x = w.x - p.x, D.y = w.y - p.y, D.v = N.v[i];
+      D.d2 = squared(metric, D.x, D.y);
       double ad, db;
-      int left = sign_of_cross(e.ax, e.ay, dx, dy, ad), right = sign_of_cross(dx, dy, e.bx, e.by, db);
-      if (left >= 0 && right >= 0 && (e.crossed || wanted(e, w, metric, dx, dy, d2, ad, db))) {
-        if (left == 0) left = orientation(at(e.a), w.point(), p);
-        if (right == 0) right = orientation(w.point(), at(e.b), p);
-        if (left > 0 && right > 0) {
-          if (d2 < rules.distance2 && too_near(p, d, d2, rules)) return false;
-          cavity_.push_back(t);
-          const int ia = next3[i], ib = prev3[i];  // corner ia is b, corner ib is a
-          const RimEdge first{e.a,
-                              d,
-                              N.n[ia],
-                              static_cast<std::uint8_t>(N.imposed >> ia & 1),
-                              static_cast<std::uint8_t>(N.degenerate >> ia & 1),
-                              false,
-                              e.ax,
-                              e.ay,
-                              dx,
-                              dy,
-                              e.a2,
-                              d2,
-                              ad};
-          // The second edge takes the place of e.
-          e.a = d, e.outside = N.n[ib], e.crossed = false;
-          e.imposed = static_cast<std::uint8_t>(N.imposed >> ib & 1);
-          e.degenerate = static_cast<std::uint8_t>(N.degenerate >> ib & 1);
-          e.ax = dx, e.ay = dy, e.a2 = d2, e.area = db;
-          stack_.push_back(first);
-          continue;
+      int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
+      if (left >= 0 && right >= 0) {
+        bool inside = A.d2 * db + B.d2 * ad - D.d2 * e.area > cocircular * D.d2 * e.area;
+        if (std::max({A.d2, B.d2, D.d2}) > near2) {
+          const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
+          if (D.d2 <= near2)
+            inside = true;  // a sliver between what is near and what is far
+          else if (near_a && near_b)
+            inside = inside && dot(metric, Vec2{A.x, A.y}, Vec2{B.x, B.y}) < 0;
+          else if (!near_a && !near_b)
+            inside = in_far_circle(metric, A, B, D, ad + db, e.area);
+        }
+        if (inside || e.crossed) {
+          if (left == 0) left = orientation(at(A.v), w.point(), p);
+          if (right == 0) right = orientation(w.point(), at(B.v), p);
+          if (left > 0 && right > 0) {
+            if (D.d2 < rules.distance2 && too_near(p, D.v, D.d2, rules)) return false;
+            cavity_[cavity_size++] = t;
+            const auto d = static_cast<std::int32_t>(point_count++);
+            const int ia = next3[i], ib = prev3[i];  // corner ia is b, corner ib is a
+            const std::int32_t a = e.a;
+            // Of the two new edges the second takes the place of e.
+            e.a = d, e.outside = N.n[ib], e.crossed = false, e.area = db;
+            e.imposed = static_cast<std::uint8_t>(N.imposed >> ib & 1);
+            e.degenerate = static_cast<std::uint8_t>(N.degenerate >> ib & 1);
+            stack[top++] = {a,
+                            d,
+                            N.n[ia],
+                            static_cast<std::uint8_t>(N.imposed >> ia & 1),
+                            static_cast<std::uint8_t>(N.degenerate >> ia & 1),
+                            false,
+                            ad};
+            if (point_count + 8 > points_.size()) {
+              reserve_cavity(2 * point_count);
+              points = points_.data(), stack = stack_.data(), rim = rim_.data();
+            }
+            continue;
+          }
         }
       }
     }
     if (e.crossed) return false;
     if (e.imposed != 0 && (rules.height > 0 || e.degenerate != 0)) {
-      const double det = std::max(determinant(metric), 0.0), l2 = squared(metric, e.bx - e.ax, e.by - e.ay);
+      const double det = std::max(determinant(metric), 0.0), l2 = squared(metric, B.x - A.x, B.y - A.y);
       const double least2 = e.degenerate != 0 ? rules.degenerate_height * rules.degenerate_height
                                               : rules.height * rules.height * std::min(l2, 1.0);
       if (e.area * e.area * det < least2 * l2) return false;
     }
-    rim_.push_back(e);
-    stack_.pop_back();
+    rim[rim_size++] = e;
+    --top;
   }
+  cavity_size_ = cavity_size, rim_size_ = rim_size;
   return true;
 }
 
 void Triangulation::fill(int p) {
-  const int k = static_cast<int>(rim_.size());
-  while (static_cast<int>(cavity_.size()) < k) {
-    cavity_.push_back(static_cast<std::int32_t>(triangles.size()));
+  const int k = static_cast<int>(rim_size_);
+  while (cavity_size_ < rim_size_) {
+    cavity_[cavity_size_++] = static_cast<std::int32_t>(triangles.size());
     triangles.emplace_back();
   }
   Triangle* const all = triangles.data();
@@ -136,14 +156,14 @@ void Triangulation::fill(int p) {
     const RimEdge& e = rim_[i];
     const int s = star[i], after = star[i + 1 < k ? i + 1 : 0], before = star[i > 0 ? i - 1 : k - 1];
     Triangle& T = all[s];
-    T.v[0] = p, T.v[1] = e.a, T.v[2] = e.b;
+    T.v[0] = p, T.v[1] = points_[e.a].v, T.v[2] = points_[e.b].v;
     T.n[0] = e.outside, T.n[1] = 4 * after + 2, T.n[2] = 4 * before + 1;
     T.imposed = e.imposed;
     T.degenerate = e.degenerate;
     T.done = Done::no;
     T.mark = 0;
     if (e.outside != no_edge) all[e.outside >> 2].n[e.outside & 3] = 4 * s;
-    vertices[e.a].triangle = s;
+    vertices[T.v[1]].triangle = s;
   }
   vertices[p].triangle = star[0];
 }

@@ -96,15 +96,16 @@ Filler::Ring Filler::sample_ring(const DegenerateEdge& edge) const {
 }
 
 // Equally spaced along the ring, one unit apart as nearly as possible.
-std::vector<Vec2> Filler::points_on(const Ring& ring, double height, int least) const {
+std::vector<Vec2> Filler::points_on(const Ring& ring, double height, int least, double& spacing) const {
   std::vector<Vec2> at;
   std::vector<double> along;
   for (const auto& ray : ring.ray) {
     const auto i = std::min(static_cast<std::size_t>(height / step + 0.5), ray.size() - 1);
-    along.push_back(at.empty() ? 0 : along.back() + distance(at.back(), ray[i]));
+    along.push_back(at.empty() ? 0 : along.back() + distance_at_middle(at.back(), ray[i]));
     at.push_back(ray[i]);
   }
   const int pieces = std::max(least, static_cast<int>(std::min(along.back() + 0.5, 1e6)));
+  spacing = along.back() / pieces;
   std::vector<Vec2> points;
   std::size_t k = 0;
   for (int q = 1; q < pieces; ++q) {
@@ -127,14 +128,15 @@ void Filler::surround(DegenerateEdge& edge) {
   };
   if (takes_part(edge.a, ring.before)) fan.push_back(ring.before);
   int hint = ring.triangle;
-  for (const Vec2 p : points_on(ring, height, edge.least_fan)) {
+  double spacing = 0;
+  for (const Vec2 p : points_on(ring, height, edge.least_fan, spacing)) {
     hint = mesh_.locate(p, hint);
     if (hint < 0) {
       hint = mesh_.vertices[edge.a].triangle;
       continue;
     }
     const Metric2 metric = field_.at(p);
-    const double least = ring_distance * height;
+    const double least = ring_distance * std::min(spacing, height);
     if (!mesh_.dig(p, metric, hint, {least * least, 0, 0, degenerate_ends_})) continue;
     insert_at(p, metric);
     fan.push_back(static_cast<std::int32_t>(mesh_.vertices.size()) - 1);

@@ -65,8 +65,8 @@ bool Filler::try_insert(Vec2 p, int start, double distance, double height) {
   return true;
 }
 
-// Fills the cavity and judges the new triangles: first in the metric of the point, whose lengths are at hand, then in
-// the mean of their vertices.
+// Fills the cavity and judges the new triangles by their circumradius: in the metric of the point, whose lengths are at
+// hand, and, if small enough, in the mean of their vertices.
 void Filler::insert_at(Vec2 p, Metric2 metric) {
   constexpr double r2 = done_radius * done_radius;
   const auto v = static_cast<int>(mesh_.vertices.size());
@@ -76,14 +76,22 @@ void Filler::insert_at(Vec2 p, Metric2 metric) {
   mesh_.fill(v);
   check_limit();
   const double four_det = 4 * determinant(metric);
-  const auto& rim = mesh_.rim();
-  const auto& star = mesh_.star();
+  const auto rim = mesh_.rim();
+  const auto star = mesh_.star();
+  const Vertex* const V = mesh_.vertices.data();
+  const auto small = [](double a2, double b2, Vec2 a, Vec2 b, Metric2 m, double four_det_area2) {
+    return a2 * b2 * squared_length(m, b - a) < r2 * four_det_area2;
+  };
   for (std::size_t i = 0; i < star.size(); ++i) {
     const RimEdge& e = rim[i];
+    const RimPoint &A = mesh_.rim_point(e.a), &B = mesh_.rim_point(e.b);
     touched_.push_back(star[i]);
-    if (e.a2 > 4 * r2 || e.b2 > 4 * r2) continue;
-    const double ab2 = squared_length(metric, {e.bx - e.ax, e.by - e.ay});
-    if (e.a2 * e.b2 * ab2 < r2 * four_det * e.area * e.area) judge(star[i]);
+    if (std::max(A.d2, B.d2) > 4 * r2) continue;
+    const Vec2 a{A.x, A.y}, b{B.x, B.y};
+    if (!small(A.d2, B.d2, a, b, metric, four_det * e.area * e.area)) continue;
+    const Metric2 m = (1.0 / 3) * (metric + V[A.v].metric() + V[B.v].metric());
+    if (small(squared_length(m, a), squared_length(m, b), a, b, m, 4 * determinant(m) * e.area * e.area))
+      mesh_.triangles[star[i]].done = Done::yes;
   }
 }
 

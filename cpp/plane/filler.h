@@ -35,6 +35,7 @@ class Filler {
   };
   struct Candidate {
     Vec2 p;
+    Metric2 metric;  // near p
     HalfEdge edge;   // the front edge it was placed on
     std::int32_t a;  // start of that edge
   };
@@ -58,18 +59,19 @@ class Filler {
   void add_front_edge(HalfEdge he);
   void link_front();
   [[nodiscard]] std::int32_t next_around(const FrontEdge& edge) const;
-  [[nodiscard]] Vec2 apex(const FrontEdge& edge) const;
+  [[nodiscard]] Candidate apex(const FrontEdge& edge) const;
   void chain_up();
   void insert_row();
 
   // respacing.cpp
-  [[nodiscard]] double distance(Vec2 p, Vec2 q) const;
+  [[nodiscard]] static double distance(const Candidate& p, const Candidate& q) noexcept;
   void respace(bool closed);
   void merge_and_extend(bool closed);
   void go_round_corner(const Candidate& before, const Candidate& after);
   void share_strain();
 
   // leftovers.cpp
+  [[nodiscard]] double distance_at_middle(Vec2 p, Vec2 q) const;
   void fill_leftovers(double radius, double distance);
   [[nodiscard]] Vec2 circumcentre(int t) const;
 
@@ -77,7 +79,7 @@ class Filler {
   struct Ring;
   void surround(DegenerateEdge& edge);
   [[nodiscard]] Ring sample_ring(const DegenerateEdge& edge) const;
-  [[nodiscard]] std::vector<Vec2> points_on(const Ring& ring, double height, int least) const;
+  [[nodiscard]] std::vector<Vec2> points_on(const Ring& ring, double height, int least, double& spacing) const;
   bool freeze_fan(const DegenerateEdge& edge, const std::vector<std::int32_t>& fan);
 
   Triangulation& mesh_;

@@ -15,6 +15,8 @@ constexpr int most_pieces = 4096;  // of one edge in one pass; the next passes s
 
 }  // namespace
 
+double Filler::distance_at_middle(Vec2 p, Vec2 q) const { return length(field_.at(0.5 * (p + q)), q - p); }
+
 Vec2 Filler::circumcentre(int t) const {
   const Triangle& T = mesh_.triangles[t];
   const Vertex &A = mesh_.vertices[T.v[0]], &B = mesh_.vertices[T.v[1]], &C = mesh_.vertices[T.v[2]];
@@ -51,13 +53,13 @@ void Filler::split_long_edges() {
         const int a = T.v[next3[i]], b = T.v[prev3[i]];
         const Vec2 p = mesh_.at(a), q = mesh_.at(b);
         // Simpson's rule for the integral of RR-2928 sec. 2.2, "Longueur d'un segment".
-        const double l = (length(mesh_.vertices[a].metric(), q - p) + 4 * distance(p, q) +
+        const double l = (length(mesh_.vertices[a].metric(), q - p) + 4 * distance_at_middle(p, q) +
                           length(mesh_.vertices[b].metric(), q - p)) /
                          6;
         if (!(l > std::numbers::sqrt2)) continue;
         const int pieces = std::max(2, static_cast<int>(std::min(l + 0.5, static_cast<double>(most_pieces))));
         for (int k = 1; k < pieces; ++k)
-          row_.push_back({lerp(p, q, static_cast<double>(k) / pieces), 4 * t + i, static_cast<std::int32_t>(a)});
+          row_.push_back({lerp(p, q, static_cast<double>(k) / pieces), {}, 4 * t + i, static_cast<std::int32_t>(a)});
       }
     }
     const std::size_t before = mesh_.vertices.size();

@@ -5,10 +5,10 @@ namespace carreau::plane {
 Optimiser::Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor)
     : mesh_(mesh), fixed_(fixed), field_(field), monitor_(monitor) {}
 
-void Optimiser::run(int sweeps) {
+void Optimiser::run() {
   swap_to_delaunay();
   swap_to_degree_six();
-  for (int i = 0; i < sweeps; ++i) sweep();
+  sweep_all();
   swap_to_delaunay();
   rescue_worst();
 }

@@ -14,17 +14,21 @@ namespace carreau::plane {
 class Optimiser {
  public:
   Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
-  void run(int sweeps);
+  void run();
 
  private:
   // swaps.cpp
+  void collect_edges(std::int32_t first, std::int32_t end);
+  void prefetch_beyond(std::size_t k) const;
   void swap_to_delaunay();
   [[nodiscard]] bool wants_swap(int t, int i) const;
   void swap_to_degree_six();
   void count_degrees();
 
   // sweeps.cpp
-  void sweep();
+  void sweep_all();
+  void sweep(double relaxation);
+  void update_metrics();
   void propose();
   void undo_spoiling_moves();
   [[nodiscard]] bool sound(const Triangle& T) const;
@@ -44,6 +48,7 @@ class Optimiser {
     std::int32_t votes = 0;
   };
   std::vector<Proposal> proposals_;  // afterwards: the old places
+  std::vector<HalfEdge> edges_;
   std::vector<std::int32_t> work_, next_;
   std::vector<std::uint8_t> degree_, wanted_degree_;
 };

@@ -8,8 +8,6 @@ namespace carreau {
 
 namespace {
 
-constexpr int sweeps = 3;
-
 // The imposed vertices get the host's own numbers back: the frame's are equal, but for the smallest.
 PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangulation, const plane::Frame& frame) {
   PlaneMesh mesh;
@@ -37,7 +35,8 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
     else
       filler.split_long_edges();
   }
-  plane::Optimiser(boundary.mesh, fixed, field, monitor).run(sweeps);
+  boundary.mesh.renumber_if_large();
+  plane::Optimiser(boundary.mesh, fixed, field, monitor).run();
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 

@@ -15,7 +15,9 @@ constexpr int strain_window = 5;
 
 }  // namespace
 
-double Filler::distance(Vec2 p, Vec2 q) const { return length(field_.at(0.5 * (p + q)), q - p); }
+double Filler::distance(const Candidate& p, const Candidate& q) noexcept {
+  return length(0.5 * (p.metric + q.metric), q.p - p.p);
+}
 
 void Filler::respace(bool closed) {
   const bool round = closed && chain_.size() > 3;
@@ -39,9 +41,10 @@ void Filler::merge_and_extend(bool closed) {
     const bool last = i + 1 == n;
     if (last && (!closed || merged_first)) break;
     const Candidate& after = last ? chain_.front() : chain_[i + 1];
-    const double gap = distance(chain_[i].p, after.p);
+    const double gap = distance(chain_[i], after);
     if (gap < merge_gap) {
       spaced_.back().p = 0.5 * (chain_[i].p + after.p);
+      spaced_.back().metric = 0.5 * (chain_[i].metric + after.metric);
       if (last) {
         spaced_.front() = spaced_.back();
         spaced_.pop_back();
@@ -74,7 +77,7 @@ void Filler::go_round_corner(const Candidate& before, const Candidate& after) {
     const Vec2 d = std::cos(a) * e + std::sin(a) * f;
     const double l = length(0.5 * (m + field_.at(corner.point() + d)), d);
     const Candidate& near = 2 * k < pieces ? before : after;
-    spaced_.push_back({corner.point() + (1 / l) * d, near.edge, near.a});
+    spaced_.push_back({corner.point() + (1 / l) * d, m, near.edge, near.a});
   }
 }
 
@@ -83,7 +86,7 @@ void Filler::go_round_corner(const Candidate& before, const Candidate& after) {
 void Filler::share_strain() {
   const int n = static_cast<int>(chain_.size());
   gaps_.resize(chain_.size());
-  for (int i = 0; i + 1 < n; ++i) gaps_[i] = distance(chain_[i].p, chain_[i + 1].p);
+  for (int i = 0; i + 1 < n; ++i) gaps_[i] = distance(chain_[i], chain_[i + 1]);
   double strain = 0;
   int sent = 0;  // candidates before this one are in the row
   for (int i = 0; i + 1 < n; ++i) {
@@ -107,7 +110,7 @@ void Filler::share_strain() {
       while (k + 1 < high && before + gaps_[k] < target) before += gaps_[k++];
       const double w = (target - before) / gaps_[k];
       const Candidate& near = w < 0.5 ? chain_[k] : chain_[k + 1];
-      row_.push_back({lerp(chain_[k].p, chain_[k + 1].p, w), near.edge, near.a});
+      row_.push_back({lerp(chain_[k].p, chain_[k + 1].p, w), near.metric, near.edge, near.a});
     }
     sent = high;
     strain -= strain > 0 ? 1 : -1;

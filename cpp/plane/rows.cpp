@@ -98,7 +98,7 @@ std::int32_t Filler::next_around(const FrontEdge& edge) const {
 
 // Apex of the unit isosceles triangle on an edge, on the metric's normal, the metric being corrected once by that at
 // the apex.
-Vec2 Filler::apex(const FrontEdge& edge) const {
+Filler::Candidate Filler::apex(const FrontEdge& edge) const {
   const Vertex &A = mesh_.vertices[edge.a], &B = mesh_.vertices[edge.b];
   const double ex = B.x - A.x, ey = B.y - A.y;
   const Vec2 middle{0.5 * (A.x + B.x), 0.5 * (A.y + B.y)};
@@ -109,7 +109,8 @@ Vec2 Filler::apex(const FrontEdge& edge) const {
     return Vec2{middle.x - k * (m.b * ex + m.c * ey), middle.y + k * (m.a * ex + m.b * ey)};
   };
   const Metric2 at_ends = 0.5 * (A.metric() + B.metric());
-  return place(0.5 * (at_ends + field_.at(place(at_ends))));
+  const Metric2 at_apex = field_.at(place(at_ends));
+  return {place(0.5 * (at_ends + at_apex)), at_apex, edge.edge, edge.a};
 }
 
 void Filler::chain_up() {
@@ -121,7 +122,7 @@ void Filler::chain_up() {
       auto id = static_cast<std::int32_t>(k);
       for (; id >= 0 && !front_[id].chained; id = front_[id].next) {
         front_[id].chained = true;
-        chain_.push_back({apex(front_[id]), front_[id].edge, front_[id].a});
+        chain_.push_back(apex(front_[id]));
       }
       respace(id == static_cast<std::int32_t>(k));
     }

@@ -49,6 +49,26 @@ int Triangulation::locate(Vec2 p, int hint) const noexcept {
   return -1;
 }
 
+void Triangulation::renumber_if_large() {
+  constexpr std::size_t fits_in_cache = 200'000;  // triangles
+  if (triangles.size() < fits_in_cache) return;
+  // By counting on the largest vertex of each.
+  const auto key = [](const Triangle& T) { return std::max({T.v[0], T.v[1], T.v[2]}); };
+  std::vector<std::int32_t> next(vertices.size() + 1, 0), rank(triangles.size());
+  for (const Triangle& T : triangles) ++next[key(T) + 1];
+  for (std::size_t v = 0; v + 1 < next.size(); ++v) next[v + 1] += next[v];
+  for (std::size_t t = 0; t < triangles.size(); ++t) rank[t] = next[key(triangles[t])]++;
+  std::vector<Triangle> sorted(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Triangle& T = sorted[rank[t]];
+    T = triangles[t];
+    for (HalfEdge& n : T.n)
+      if (n != no_edge) n = 4 * rank[n >> 2] + (n & 3);
+  }
+  triangles.swap(sorted);
+  for (Vertex& v : vertices) v.triangle = rank[v.triangle];
+}
+
 bool Triangulation::can_swap(int t, int i) const noexcept {
   const Triangle& A = triangles[t];
   if (A.n[i] == no_edge || (A.imposed >> i & 1) != 0) return false;

@@ -45,17 +45,31 @@ struct Triangle {
   std::int32_t spare = 0;  ///< keeps triangles aligned to half a cache line
 };
 
+/// Hint to the processor; means nothing for the result.
+inline void prefetch(const void* address) noexcept {
+#if defined(__GNUC__) || defined(__clang__)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+
 constexpr int next3[3] = {1, 2, 0}, prev3[3] = {2, 0, 1};
 
-/// Edge of the rim of a cavity as seen from the new point p: a before b counterclockwise.
+/// Vertex of a cavity as seen from the new point p.
+struct RimPoint {
+  double x, y;  ///< relative to p
+  double d2;    ///< squared distance to p in the metric of p
+  std::int32_t v;
+};
+
+/// Edge of the rim of a cavity: from rim point a to rim point b, counterclockwise about the new point p.
 struct RimEdge {
   std::int32_t a, b;
   HalfEdge outside;
   std::uint8_t imposed, degenerate;
-  bool crossed;           ///< p lies on it, so that it cannot stay
-  double ax, ay, bx, by;  ///< a - p, b - p
-  double a2, b2;          ///< their squared lengths in the metric of p
-  double area;            ///< cross(a - p, b - p)
+  bool crossed;  ///< p lies on it, so that it cannot stay
+  double area;   ///< cross(a - p, b - p)
 };
 
 /// Distances that a new point keeps; zero: none.
@@ -81,8 +95,13 @@ class Triangulation {
   /// Fills the cavity with triangles around the vertex p; `star()` lists them, `rim()` their outer edges in the same
   /// order (edge 0, opposite to p).
   void fill(int p);
-  [[nodiscard]] const std::vector<std::int32_t>& star() const noexcept { return cavity_; }
-  [[nodiscard]] const std::vector<RimEdge>& rim() const noexcept { return rim_; }
+  [[nodiscard]] std::span<const std::int32_t> star() const noexcept { return {cavity_.data(), rim_size_}; }
+  [[nodiscard]] std::span<const RimEdge> rim() const noexcept { return {rim_.data(), rim_size_}; }
+  [[nodiscard]] const RimPoint& rim_point(std::int32_t k) const noexcept { return points_[k]; }
+
+  /// Sorts the triangles of a large mesh by their vertices, so that passes over them find memory in order. The kernel
+  /// leaves the numbers of what it removes to what it makes, anywhere.
+  void renumber_if_large();
 
   /// Exchanges the diagonal of the two triangles at half-edge (t, i). They keep their numbers; the new diagonal is edge
   /// 1 of t and edge 2 of the other.
@@ -109,11 +128,15 @@ class Triangulation {
 
  private:
   [[nodiscard]] bool too_near(Vec2 p, int v, double d2, const InsertRules& rules) const noexcept;
-  [[nodiscard]] bool wanted(const RimEdge& e, const Vertex& d, Metric2 metric, double dx, double dy, double d2,
-                            double ad, double db) const noexcept;
+  [[nodiscard]] bool in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
+                                   double area) const noexcept;
+  void reserve_cavity(std::size_t triangles);
 
+  // Scratch of dig(), used as plain arrays: their sizes are capacities.
   std::vector<std::int32_t> cavity_;
+  std::vector<RimPoint> points_;
   std::vector<RimEdge> rim_, stack_;
+  std::size_t cavity_size_ = 0, rim_size_ = 0;
 };
 
 }  // namespace carreau::plane
