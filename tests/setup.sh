@@ -44,7 +44,9 @@ configure() {
   source_dir=$1 build_dir=$2
   shift 2
   mkdir -p "$build_dir"
-  cmake -S "$source_dir" -B "$build_dir" -G Ninja "$@" >"$build_dir/configure.log" 2>&1 || {
+  # On other systems make will do.
+  if command -v ninja >/dev/null 2>&1; then set -- -G Ninja "$@"; fi
+  cmake -S "$source_dir" -B "$build_dir" "$@" >"$build_dir/configure.log" 2>&1 || {
     cat "$build_dir/configure.log" >&2
     return 1
   }

@@ -103,7 +103,7 @@ Image draw(const std::vector<ScreenTriangle>& triangles, int width, int height, 
           double sum = 0;
           for (int j = 0; j < samples; ++j)
             for (int i = 0; i < samples; ++i)
-              sum += band.colour[static_cast<std::size_t>(y * samples + j) * band.width + x * samples + i][c];
+              sum += band.colour[static_cast<std::size_t>(j + y * samples) * band.width + x * samples + i][c];
           image.bytes[(static_cast<std::size_t>(row + y) * width + x) * 3 + c] = to_srgb(sum / (samples * samples));
         }
   }
