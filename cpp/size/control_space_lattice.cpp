@@ -1,5 +1,6 @@
 #include "size/control_space_lattice.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace carreau::detail {
@@ -35,7 +36,11 @@ void GridIndex::grow() {
 }
 
 bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept {
-  // Twice the eigenvalues are tr +- sqrt(tr^2 - 4 det) = tr +- norm of the deviator.
+  // Cheap and nearly always enough: the difference to the mean is small against a lower bound of its eigenvalues.
+  const Metric2 twice = p + q, d = 2.0 * root + -1.0 * twice;
+  const double bound = 0.25 * determinant(twice) / (twice.a + twice.c);
+  if (bound > 0 && d.a * d.a + 2 * d.b * d.b + d.c * d.c < bound * bound) return true;
+  // Twice the eigenvalues are the trace plus and minus the norm of the deviator.
   const auto spread = [](Metric2 m) { return std::sqrt((m.a - m.c) * (m.a - m.c) + 4 * m.b * m.b); };
   const double trace = root.a + root.c, s = spread(root);
   const double tp = p.a + p.c, sp = spread(p), tq = q.a + q.c, sq = spread(q);
@@ -70,58 +75,52 @@ void Lattice::set_sample(std::int32_t node, Metric2 root) noexcept {
   nodes_[node].sampled = true;
 }
 
-const Metric2* Lattice::sample(GridPoint p) const noexcept {
-  if (!contains(p)) return nullptr;
+std::int32_t Lattice::sampled_node(GridPoint p) const noexcept {
+  if (!contains(p)) return -1;
   const std::int32_t n = index_.find(p);
-  return n >= 0 && nodes_[n].sampled ? &nodes_[n].root : nullptr;
+  return n >= 0 && nodes_[n].sampled ? n : -1;
 }
 
-std::optional<Metric2> Lattice::fetch(GridPoint p) {
-  if (!contains(p)) return std::nullopt;
+const Metric2* Lattice::sample(GridPoint p) const noexcept {
+  const std::int32_t n = sampled_node(p);
+  return n >= 0 ? &nodes_[n].root : nullptr;
+}
+
+std::int32_t Lattice::valued_node(GridPoint p) {
+  if (!contains(p)) return -1;
   std::int32_t n = index_.find(p);
   if (n < 0) n = node(p);
-  if (nodes_[n].sampled) return nodes_[n].root;
-  if (!nodes_[n].inside) return std::nullopt;
-  const Prediction known = predict(n);
-  if (known.order < 2) return std::nullopt;
-  return known.root;
+  if (nodes_[n].sampled) return n;
+  return nodes_[n].inside && predict(n).order >= 2 ? n : -1;
 }
 
-// The value at 0 from those at -5, -3, -1, 1, 3, 5.
-template <typename Get>
-Prediction Lattice::along_line(const Get& get) {
-  const std::optional<Metric2> before = get(-1), after = get(1);
-  if (before && after) {
-    const Metric2 mean = 0.5 * (*before + *after);
-    const std::optional<Metric2> first = get(-3), last = get(3);
-    Prediction p{mean, 2};
-    if (first && last)
-      p = {0.5625 * (*before + *after) + -0.0625 * (*first + *last), 4};
-    else if (first)
-      p = {0.375 * *after + 0.75 * *before + -0.125 * *first, 3};
-    else if (last)
-      p = {0.375 * *before + 0.75 * *after + -0.125 * *last, 3};
-    if (!plausible(p.root, *before, *after)) p.root = mean;
-    return p;
-  }
-  if (!before && !after) return {};
-  const int side = before ? -1 : 1;
-  const Metric2 next = before ? *before : *after;
-  const std::optional<Metric2> second = get(3 * side);
-  if (!second) return {next, 1};
-  const Metric2 linear = 1.5 * next + -0.5 * *second;
-  return {plausible(linear, next, next) ? linear : next, 1};
-}
-
-// `coarser`: whether the neighbours along this line belong to a coarser grid. If not they are centres of cells, which
-// have been sampled or are not yet wanted.
-Prediction Lattice::predicted_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser) {
-  return along_line([&](int k) -> std::optional<Metric2> {
+// From the neighbours at odd distances along a line. `coarser`: whether they belong to a coarser grid. If not they are
+// centres of cells, which have been sampled or are not yet wanted.
+Prediction Lattice::predict_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser) {
+  const auto neighbour = [&](int k) {
     const GridPoint q = horizontal ? GridPoint{p.i + k * spacing, p.j} : GridPoint{p.i, p.j + k * spacing};
-    if (coarser) return fetch(q);
-    const Metric2* known = sample(q);
-    return known != nullptr ? std::optional(*known) : std::nullopt;
-  });
+    return coarser ? valued_node(q) : sampled_node(q);
+  };
+  const std::int32_t before = neighbour(-1), after = neighbour(1);
+  if (before < 0 && after < 0) return {};
+  if (before < 0 || after < 0) {
+    const std::int32_t next = before < 0 ? after : before, second = neighbour(before < 0 ? 3 : -3);
+    const Metric2 near = nodes_[next].root;
+    if (second < 0) return {near, 1};
+    const Metric2 linear = 1.5 * near + -0.5 * nodes_[second].root;
+    return {plausible(linear, near, near) ? linear : near, 1};
+  }
+  const std::int32_t first = neighbour(-3), last = neighbour(3);
+  const Metric2 p0 = nodes_[before].root, p1 = nodes_[after].root, mean = 0.5 * (p0 + p1);
+  Prediction result{mean, 2};
+  if (first >= 0 && last >= 0)
+    result = {0.5625 * (p0 + p1) + -0.0625 * (nodes_[first].root + nodes_[last].root), 4};
+  else if (first >= 0)
+    result = {0.375 * p1 + 0.75 * p0 + -0.125 * nodes_[first].root, 3};
+  else if (last >= 0)
+    result = {0.375 * p0 + 0.75 * p1 + -0.125 * nodes_[last].root, 3};
+  if (!plausible(result.root, p0, p1)) result.root = mean;
+  return result;
 }
 
 Prediction Lattice::predict(std::int32_t node) {
@@ -131,10 +130,10 @@ Prediction Lattice::predict(std::int32_t node) {
   Prediction result;
   if (spacing != 0 && spacing < step_) {
     const bool odd_i = (p.i & spacing) != 0, odd_j = (p.j & spacing) != 0;
-    result = predicted_along(p, spacing, true, odd_i);
+    result = predict_along(p, spacing, true, odd_i);
     // At a centre both directions give the same product of cubics.
     if (result.order < 4 || !(odd_i && odd_j)) {
-      const Prediction column = predicted_along(p, spacing, false, odd_j);
+      const Prediction column = predict_along(p, spacing, false, odd_j);
       if (result.order == column.order)
         result.root = 0.5 * (result.root + column.root);
       else if (column.order > result.order)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "metric/metric2.h"
@@ -94,10 +93,10 @@ class Lattice {
     std::int8_t order = 0;
     bool inside = false, sampled = false;
   };
-  std::optional<Metric2> fetch(GridPoint p);
-  Prediction predicted_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser);
-  template <typename Get>
-  static Prediction along_line(const Get& get);
+  // Numbers of nodes with a value, or -1: sampled ones, predicted ones too, of the line through p.
+  [[nodiscard]] std::int32_t sampled_node(GridPoint p) const noexcept;
+  std::int32_t valued_node(GridPoint p);
+  Prediction predict_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser);
 
   Vec2 low_, high_, cell_;
   std::int32_t step_;

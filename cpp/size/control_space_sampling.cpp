@@ -26,7 +26,7 @@ constexpr double crowded = 1.6;
 constexpr double negligible_length = 0.03;
 // The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
 // mesh, than half an edge, than a quarter of one. Smaller cells serve nobody.
-constexpr double share_wide = 0.125, share_edge = 0.5, share_half = 1;
+constexpr double share_wide = 0.25, share_edge = 0.5, share_half = 1;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
 constexpr double border_relief = 0.25;
 
@@ -56,7 +56,7 @@ void ControlSpaceSampling::run() {
   const Survey s = survey(domain_, locator_, [this](std::span<const Vec2> uv) { return ask(uv); });
   choose_grid(s);
   for (std::size_t k = 0; k < s.vertices.size(); ++k) {
-    border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of(s.metrics[k]));
+    border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of_boxed(s.metrics[k]));
     vertex_sampled_[s.vertices[k]] = 1;
   }
   sample_roots();
@@ -98,6 +98,7 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
   border_.emplace(*lattice_);
   tree_.emplace(domain_, locator_, *lattice_);
   floor_ = s.floor;
+  box_ = s.high - s.low;
 }
 
 std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
@@ -111,14 +112,15 @@ std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   return metric;
 }
 
-// In units of the coarsest cells.
-Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept {
-  const Vec2 w = lattice_->cell();
+// In units of the coarsest cells, of a metric in those of the box.
+Metric2 ControlSpaceSampling::root_of_boxed(Metric2 m) const noexcept {
+  const Metric2 clamped = clamp_eigenvalues(m, floor_, std::numeric_limits<double>::max());
   const double columns = tree_->columns(), rows = tree_->rows();
-  const Metric2 in_box{m.a * w.x * w.x * columns * columns, m.b * w.x * w.y * columns * rows,
-                       m.c * w.y * w.y * rows * rows};
-  const Metric2 clamped = clamp_eigenvalues(in_box, floor_, std::numeric_limits<double>::max());
   return square_root({clamped.a / (columns * columns), clamped.b / (columns * rows), clamped.c / (rows * rows)});
+}
+
+Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept {
+  return root_of_boxed({m.a * box_.x * box_.x, m.b * box_.x * box_.y, m.c * box_.y * box_.y});
 }
 
 void ControlSpaceSampling::sample_roots() {

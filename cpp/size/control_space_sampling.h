@@ -45,6 +45,7 @@ class ControlSpaceSampling {
   void choose_grid(const Survey& s);
   [[nodiscard]] std::vector<Metric2> ask(std::span<const Vec2> uv);
   [[nodiscard]] Metric2 root_of(Metric2 metric) const noexcept;
+  [[nodiscard]] Metric2 root_of_boxed(Metric2 metric) const noexcept;
   void sample_roots();
   [[nodiscard]] Metric2 expected_at(std::int32_t node, std::int32_t size);
 
@@ -66,6 +67,7 @@ class ControlSpaceSampling {
   const MetricSampler& sampler_;
   ControlSpaceOptions options_;
   Monitor& monitor_;
+  Vec2 box_;
   double floor_ = 0;              // of eigenvalues of the metric in units of the box
   double vertices_ = 1;           // that the mesh will have
   double vertices_per_cell_ = 1;  // a cell that holds many more is split in any case

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
@@ -13,12 +14,15 @@ const double area_per_vertex = 0.5 * std::numbers::sqrt3;
 
 namespace {
 
-constexpr std::size_t most_border_points = 16;
+constexpr std::size_t most_border_points = 8;
 // Inner points along each side of the box; points along each side to find the share of the box.
 constexpr int inner_points = 3, share_points = 16;
 
 // A length of the whole box in any direction is at least this many edges, or this share of what is usual if that is
 // less: metrics are clamped where the parametrisation is degenerate (HDR sec. 4.5.4).
+// How far the cells may differ from squares of the metric where the field varies more in one direction.
+constexpr double most_stretch = 6, least_change = 1e-3;
+
 constexpr double least_box_length = 1e-2, least_share_of_usual = 1e-3;
 
 void find_box(const SampledDomain& domain, Survey& s) {
@@ -54,6 +58,29 @@ double floor_from(std::vector<double> shortest, double longest) {
   return length * length;
 }
 
+Metric2 in_box(Metric2 m, Vec2 w) { return {m.a * w.x * w.x, m.b * w.x * w.y, m.c * w.y * w.y}; }
+
+// Relative change between two metrics; the eigenvalues must not be too small.
+double change(Metric2 p, Metric2 q, double floor) {
+  const auto root = [floor](Metric2 m) {
+    return square_root(clamp_eigenvalues(m, floor, std::numeric_limits<double>::max()));
+  };
+  const Metric2 r = root(p), s = root(q), d = r + -1.0 * s;
+  return std::sqrt(d.a * d.a + 2 * d.b * d.b + d.c * d.c) / std::min(r.a + r.c, s.a + s.c);
+}
+
+// Change of the field along u over that along v, from metrics on the regular inner grid.
+double ratio_of_changes(std::span<const Metric2> m, double floor) {
+  constexpr int n = inner_points;
+  double u = least_change, v = least_change;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i + 1 < n; ++i) {
+      u += change(m[n * j + i], m[n * j + i + 1], floor);
+      v += change(m[n * i + j], m[n * (i + 1) + j], floor);
+    }
+  return u / v;
+}
+
 }  // namespace
 
 Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
@@ -75,18 +102,24 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
   const Vec2 w = s.high - s.low;
   std::vector<double> shortest;
   double longest = 0, density = 0, along_u = 0, along_v = 0;
-  for (const Metric2& m : s.metrics) {
-    const Eigen2 e = eigen({m.a * w.x * w.x, m.b * w.x * w.y, m.c * w.y * w.y});
+  for (Metric2& m : s.metrics) {
+    m = in_box(m, w);
+    const Eigen2 e = eigen(m);
     const double minor = std::max(e.minor, 0.0);
     shortest.push_back(std::sqrt(minor));
     longest = std::max(longest, std::sqrt(e.major));
     density += std::sqrt(e.major * minor);
-    along_u += std::sqrt(std::max(m.a, 0.0)) * w.x;
-    along_v += std::sqrt(std::max(m.c, 0.0)) * w.y;
+    along_u += std::sqrt(std::max(m.a, 0.0));
+    along_v += std::sqrt(std::max(m.c, 0.0));
   }
   s.floor = floor_from(std::move(shortest), longest);
   s.vertices_in_box = density / static_cast<double>(uv.size()) / area_per_vertex;
   if (along_u > 0 && along_v > 0) s.aspect = along_u / along_v;
+  if (inner.size() == inner_points * inner_points) {
+    // Cells as long as the field allows, but not too far from what exploration wants.
+    const double ratio = ratio_of_changes(std::span(s.metrics).subspan(s.vertices.size()), s.floor);
+    s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);
+  }
   const double points = share_points * share_points;
   s.share = (static_cast<double>(inner_grid(s, locator, share_points).size()) + 1) / (points + 1);
   s.metrics.resize(s.vertices.size());

@@ -15,10 +15,10 @@ struct Survey {
   Vec2 low, high;                ///< the domain's box
   double share = 1;              ///< of the box that belongs to the domain, about; never 0
   double vertices_in_box = 1;    ///< that a mesh of the whole box would have
-  double aspect = 1;             ///< metric width of the box over its metric height
+  double aspect = 1;             ///< wanted number of columns of cells over that of rows
   double floor = 0;              ///< smallest eigenvalue that a metric in units of the box may have
   std::vector<int> vertices;     ///< boundary vertices that were sampled
-  std::vector<Metric2> metrics;  ///< there, as the sampler gave them
+  std::vector<Metric2> metrics;  ///< there, in units of the box, as the sampler gave them
 };
 
 /// Area of the part of a unit mesh that belongs to a vertex, two equilateral triangles: sqrt(3) / 2.
