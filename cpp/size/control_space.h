@@ -21,9 +21,9 @@ using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Met
 struct ControlSpaceOptions {
   /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
   /// the mesh.
-  double tolerance = 0.02;
+  double tolerance = 0.01;
   /// Samples for each vertex of the mesh to come, on fields that are smooth: more only where the tolerance is violated.
-  double samples_per_vertex = 1.5;
+  double samples_per_vertex = 2;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
 };
