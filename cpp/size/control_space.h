@@ -23,7 +23,7 @@ struct ControlSpaceOptions {
   /// the mesh.
   double tolerance = 0.01;
   /// Samples for each vertex of the mesh to come, on fields that are smooth: more only where the tolerance is violated.
-  double samples_per_vertex = 2;
+  double samples_per_vertex = 1.5;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
 };
