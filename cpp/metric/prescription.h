@@ -1,0 +1,48 @@
+// What a host, a background mesh or an estimator says about the wanted size or metric at one place.
+#pragma once
+
+#include "metric/metric2.h"
+#include "metric/metric3.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// An answer, or none. Values are as given: whoever uses them checks that they are finite and positive definite, and
+/// clamps them.
+struct Prescription {
+  enum class Kind {
+    none,       ///< no answer here
+    size,       ///< an isotropic size in space
+    space,      ///< a metric of space
+    parameter,  ///< a metric of the parameter plane of the face at hand
+  };
+  Kind kind = Kind::none;
+  double size = 0;
+  Metric3 space;
+  Metric2 parameter;
+
+  static Prescription of_size(double h) noexcept {
+    return {.kind = Kind::size, .size = h, .space = {}, .parameter = {}};
+  }
+  static Prescription of_space(const Metric3& m) noexcept {
+    return {.kind = Kind::space, .size = 0, .space = m, .parameter = {}};
+  }
+  static Prescription of_parameter(Metric2 m) noexcept {
+    return {.kind = Kind::parameter, .size = 0, .space = {}, .parameter = m};
+  }
+};
+
+/// A field of wanted sizes or metrics that is not the host's own routines: a background mesh, an estimator's result.
+/// Called from the thread of the run only.
+class PrescriptionSource {
+ public:
+  virtual ~PrescriptionSource() = default;
+  /// Inside a face (its reference) at (u, v), whose image is `xyz`.
+  virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
+  /// On a curve (rank `ic` from 1 in that face) at t.
+  virtual Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) = 0;
+  /// At a point (its reference).
+  virtual Prescription at_point(int point, Vec3 xyz) = 0;
+};
+
+}  // namespace carreau
