@@ -1,36 +1,50 @@
 !> Four patches of the front of the Utah teapot, references 1, 4 (rim), 5 and 8 (body), with the lines u = 0.3 and u = 0.8
-!> imposed inside the rim (RT-0232 sec. 6.2, fig. 18 to 23). The sizes of figures 21 to 23 are chosen by the environment
-!> variable TEAPOT_SIZES: "patch" (a size for each patch) or "point" (a size at each end of a curve); otherwise no answer.
+!> imposed inside the rim, and the borders of the body patches moved to where the spout enters (RT-0232 sec. 6.2, fig. 18 to
+!> 23). The sizes of figures 21 to 23 are chosen by the environment variable TEAPOT_SIZES: "patch" (a size for each patch) or
+!> "point" (a size at each end of a curve); otherwise no answer.
 module cad_m
   use bezier_m
+  use spout_m
   implicit none
 
-  ! u1 v1 u2 v2 of a body patch: its four sides, counterclockwise
-  double precision, parameter :: body(4, 4) = reshape([ &
-    0.d0, 0.d0, 1.d0, 0.d0,  1.d0, 0.d0, 1.d0, 1.d0,  1.d0, 1.d0, 0.d0, 1.d0,  0.d0, 1.d0, 0.d0, 0.d0], [4, 4])
-  ! of a rim patch: the sides v = 0 and v = 1 are cut where the inner lines end
+  ! u1 v1 u2 v2 of a side of a rim patch: the sides v = 0 and v = 1 are cut where the inner lines end
   double precision, parameter :: rim(4, 10) = reshape([ &
     0.d0, 0.d0, 0.3d0, 0.d0,  0.3d0, 0.d0, 0.8d0, 0.d0,  0.8d0, 0.d0, 1.d0, 0.d0,  1.d0, 0.d0, 1.d0, 1.d0, &
     1.d0, 1.d0, 0.8d0, 1.d0,  0.8d0, 1.d0, 0.3d0, 1.d0,  0.3d0, 1.d0, 0.d0, 1.d0,  0.d0, 1.d0, 0.d0, 0.d0, &
     0.3d0, 0.d0, 0.3d0, 1.d0, 0.8d0, 0.d0, 0.8d0, 1.d0], [4, 10])
+  ! of the body patches 5 and 8; the second side of patch 5 and the third of patch 8 are cuts; found by cad_init
+  double precision :: left(4, 5), right(4, 5)
+  type(cut) :: left_cut, right_cut
   character(8) :: sizes = ' '
 
 contains
 
   subroutine cad_init
+    double precision :: p(2), q(2)
     call read_patches('teapot.bpt')
     call get_environment_variable('TEAPOT_SIZES', sizes)
+    left_cut = cut_body(5, 0.d0, 0.2d0, 17, 0.d0, 0.6d0)
+    p = left_cut%point(:, 0)
+    q = cut0(left_cut, 1.d0)
+    left = reshape([0.d0, 0.d0, p,  p, q,  q, 1.d0, 1.d0,  1.d0, 1.d0, 0.d0, 1.d0,  0.d0, 1.d0, 0.d0, 0.d0], [4, 5])
+    right_cut = cut_body(8, 1.d0, 0.8d0, 18, 1.d0, 0.4d0)
+    p = right_cut%point(:, 0)
+    q = cut0(right_cut, 1.d0)
+    right = reshape([0.d0, 0.d0, 1.d0, 0.d0,  1.d0, 0.d0, q,  q, p,  p, 0.d0, 1.d0,  0.d0, 1.d0, 0.d0, 0.d0], [4, 5])
   end subroutine cad_init
 
   !> u1 v1 u2 v2 of curve ic of patch refs
   function segment(refs, ic)
     integer :: refs, ic
     double precision :: segment(4)
-    if (refs <= 4) then
+    select case (refs)
+    case (5)
+      segment = left(:, ic)
+    case (8)
+      segment = right(:, ic)
+    case default
       segment = rim(:, ic)
-    else
-      segment = body(:, ic)
-    end if
+    end select
   end function segment
 
   subroutine surf0(refs, uv, S)
@@ -60,21 +74,39 @@ contains
   subroutine curv0(refs, ic, t, C)
     integer :: refs, ic
     double precision :: t, C(2), s(4)
-    s = segment(refs, ic)
-    C = (1 - t) * s(1:2) + t * s(3:4)
+    if (refs == 5 .and. ic == 2) then
+      C = cut0(left_cut, t)
+    else if (refs == 8 .and. ic == 3) then
+      C = cut0(right_cut, 1 - t)
+    else
+      s = segment(refs, ic)
+      C = (1 - t) * s(1:2) + t * s(3:4)
+    end if
   end subroutine curv0
 
   subroutine curv1(refs, ic, t, Ct)
     integer :: refs, ic
     double precision :: t, Ct(2), s(4)
-    s = segment(refs, ic)
-    Ct = s(3:4) - s(1:2)
+    if (refs == 5 .and. ic == 2) then
+      Ct = cut1(left_cut, t)
+    else if (refs == 8 .and. ic == 3) then
+      Ct = -cut1(right_cut, 1 - t)
+    else
+      s = segment(refs, ic)
+      Ct = s(3:4) - s(1:2)
+    end if
   end subroutine curv1
 
   subroutine curv2(refs, ic, t, Ctt)
     integer :: refs, ic
     double precision :: t, Ctt(2)
-    Ctt = 0.d0
+    if (refs == 5 .and. ic == 2) then
+      Ctt = cut2(left_cut, t)
+    else if (refs == 8 .and. ic == 3) then
+      Ctt = cut2(right_cut, 1 - t)
+    else
+      Ctt = 0
+    end if
   end subroutine curv2
 
   subroutine cad_hphys(refs, uv, h)
