@@ -116,7 +116,8 @@ class Pipeline {
     const PatchInput input{.face = static_cast<int>(f),
                            .ref = model_.faces[f].ref,
                            .domain = &domain,
-                           .curve_xyz = positions_on_curves(domain, curves_, topology_)};
+                           .curve_xyz = positions_on_curves(domain, curves_, topology_),
+                           .constant_size = rules_.constant()};
     const ControlSpace space = sample_face(input, cad_, rules_, options_, monitor_);
     result_.report.seconds_sampling += seconds_since(start);
     // Twice the expectation: an estimate must not refuse a mesh that would have fitted.

@@ -33,8 +33,9 @@ std::vector<Vec3> lift(int face, std::span<const Vec2> uv, Cad& cad, Monitor& mo
 }
 
 // The size that the control space prescribes at a vertex: true length over metric length, averaged over its edges.
-// Spends no callback; exact when the sampled first fundamental form is.
+// Spends no callback; exact when one size holds everywhere or the sampled first fundamental form is.
 std::vector<double> sizes_at_vertices(const PatchInput& input, const PatchMesh& mesh, const ControlSpace& space) {
+  if (input.constant_size) return std::vector<double>(mesh.xyz.size(), *input.constant_size);
   std::vector<double> in_space(mesh.xyz.size(), 0), in_metric(mesh.xyz.size(), 0);
   for (const auto& t : mesh.plane.triangles)
     for (int i = 0; i < 3; ++i) {

@@ -25,6 +25,8 @@ struct PatchInput {
   const FaceDomain* domain = nullptr;
   /// Position in space of each vertex of the domain that lies on a curve; imposed points are evaluated.
   std::vector<Vec3> curve_xyz;
+  /// Set when one size is prescribed everywhere (SizeRules::constant).
+  std::optional<double> constant_size = {};
 };
 
 /// Samples the metric of a face over its domain: J^T J / h^2 (RR-2928 eq. 27).

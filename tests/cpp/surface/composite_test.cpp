@@ -218,6 +218,15 @@ TEST(Cone, HasAtLeastThreeTrianglesAtItsApex) {
   }
 }
 
+TEST(VertexSizes, AreThePrescribedOneWhenItIsConstant) {
+  const MeshedCase bowl(testing::paraboloid(), 0.3), teapot(testing::teapot(), 0.4);
+  for (const double h : bowl.session->vertex_sizes()) EXPECT_EQ(h, 0.3);
+  for (const double h : teapot.session->vertex_sizes()) EXPECT_EQ(h, 0.4);
+  EXPECT_EQ(bowl.session->vertex_sizes().size(), bowl.session->mesh().vertices.size());
+  const MeshedCase clamped(testing::paraboloid(), 0.3, [](Parameters& p) { p.set("hphymin", 0.35); });
+  for (const double h : clamped.session->vertex_sizes()) EXPECT_EQ(h, 0.35);
+}
+
 TEST(Mesh, IsTheSameTwice) {
   const MeshedCase first(testing::teapot(), 0.15), second(testing::teapot(), 0.15);
   EXPECT_EQ(first.mesh.vertices, second.mesh.vertices);
