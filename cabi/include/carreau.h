@@ -348,8 +348,9 @@ CARREAU_API void carreau_stop(carreau_session* session);
 CARREAU_API carreau_status carreau_mesh_generate(carreau_session* session);
 
 /* Runs all actions of a blsurf.env up to `call exit` (RT-0232 sec. 3.3). `call inimesh` reads <pref>.pardom beside the
- * env file, unless a model was built by carreau_model_add_face and so on; `call export` writes beside it. Parameters
- * have their defaults before, after each action, and when the call returns.
+ * env file, unless the session has a model already, from carreau_model_add_face and so on or from
+ * carreau_model_read_pardom; `call export` writes beside it. Parameters have their defaults before, after each action,
+ * and when the call returns; they keep their values when the file cannot be read.
  * Errors: FILE (with the line), ARGUMENT (unknown names, wrong values, with the line), those of
  * carreau_mesh_generate. */
 CARREAU_API carreau_status carreau_run_env(carreau_session* session, const char* path);

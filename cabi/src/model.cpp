@@ -36,8 +36,8 @@ void put(std::int32_t* array, std::size_t index, std::int32_t value) {
 
 carreau_status carreau_model_clear(carreau_session* session) {
   return guarded(session, [&] {
-    session->draft = {};
-    session->draft_changed = true;
+    session->draft = {}, session->draft_changed = false;
+    session->session.clear_model();
   });
 }
 

@@ -1,6 +1,7 @@
 // The actions of blsurf.env (RT-0232 sec. 3.3, fig. 12).
 #include <array>
 #include <filesystem>
+#include <functional>
 
 #include "io/env.h"
 #include "session/session.h"
@@ -11,17 +12,30 @@ namespace {
 
 constexpr std::array<std::string_view, 3> actions{"inimesh", "export", "exit"};
 
+// Parameters have their defaults from here on and again at the end of the scope, which an exception may end.
+class DefaultsAround {
+ public:
+  explicit DefaultsAround(Parameters& parameters) : parameters_(parameters) { parameters_.reset_all(); }
+  ~DefaultsAround() { parameters_.reset_all(); }
+  DefaultsAround(const DefaultsAround&) = delete;
+  DefaultsAround& operator=(const DefaultsAround&) = delete;
+
+ private:
+  Parameters& parameters_;
+};
+
 class EnvRunner {
  public:
-  EnvRunner(Session& session, const std::string& path, bool model_from_host)
+  /// `load_pardom` is empty when the host has given a model.
+  EnvRunner(Session& session, const std::string& path, std::function<void(const std::string&)> load_pardom)
       : session_(session),
         path_(path),
         folder_(std::filesystem::path(path).parent_path()),
-        model_from_host_(model_from_host) {}
+        load_pardom_(std::move(load_pardom)) {}
 
   void run() {
     const std::vector<EnvPair> pairs = read_env(path_);
-    session_.parameters().reset_all();
+    const DefaultsAround around(session_.parameters());
     for (const EnvPair& pair : pairs) {
       if (pair.name != "call") {
         set(pair);
@@ -31,7 +45,6 @@ class EnvRunner {
       call(pair);
       session_.parameters().reset_all();
     }
-    session_.parameters().reset_all();
   }
 
  private:
@@ -51,7 +64,7 @@ class EnvRunner {
 
   void call(const EnvPair& pair) {
     if (pair.value == actions[0]) {
-      if (!model_from_host_) session_.load_pardom(beside_env(".pardom"));
+      if (load_pardom_) load_pardom_(beside_env(".pardom"));
       session_.make_mesh();
     } else if (pair.value == actions[1]) {
       if (!session_.has_mesh()) throw InvalidArgument(at(pair), "call export comes before any call inimesh");
@@ -65,11 +78,15 @@ class EnvRunner {
   Session& session_;
   std::string path_;
   std::filesystem::path folder_;
-  bool model_from_host_;
+  std::function<void(const std::string&)> load_pardom_;
 };
 
 }  // namespace
 
-void Session::run_env(const std::string& path) { EnvRunner(*this, path, has_model_from_host()).run(); }
+void Session::run_env(const std::string& path) {
+  std::function<void(const std::string&)> load;
+  if (!has_model_from_host()) load = [this](const std::string& pardom) { load_pardom_of_env(pardom); };
+  EnvRunner(*this, path, std::move(load)).run();
+}
 
 }  // namespace carreau

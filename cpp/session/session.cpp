@@ -21,6 +21,7 @@ struct Session::State {
   std::shared_ptr<Cad> cad;
   Model model;
   bool model_from_file = false;
+  bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
   Parameters parameters;
   CompositeResult result;
   Model meshed_model;  // what `result` is a mesh of
@@ -133,12 +134,12 @@ Session::~Session() = default;
 
 void Session::set_cad(std::shared_ptr<Cad> cad) { state_->cad = std::move(cad); }
 
-bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_file; }
+bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
 
 void Session::set_model(Model model) {
   state_->check_model(model);
   state_->model = std::move(model);
-  state_->model_from_file = false;
+  state_->model_from_file = state_->model_from_env = false;
 }
 
 void Session::load_pardom(const std::string& path) {
@@ -146,6 +147,13 @@ void Session::load_pardom(const std::string& path) {
   set_model(std::move(model));
   state_->model_from_file = true;
 }
+
+void Session::load_pardom_of_env(const std::string& path) {
+  load_pardom(path);
+  state_->model_from_env = true;
+}
+
+void Session::clear_model() noexcept { state_->model = {}; }
 
 const Model& Session::model() const noexcept { return state_->model; }
 Parameters& Session::parameters() noexcept { return state_->parameters; }

@@ -28,6 +28,7 @@ class Session {
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken.
   void set_model(Model model);
   void load_pardom(const std::string& path);
+  void clear_model() noexcept;  ///< the mesh made of it stays
   [[nodiscard]] const Model& model() const noexcept;
 
   Parameters& parameters() noexcept;
@@ -53,13 +54,15 @@ class Session {
   [[nodiscard]] const ModelSupports& supports() const;
 
   /// Runs all actions of a blsurf.env until `call exit` or the end of the file (RT-0232 sec. 3.3). `<pref>.pardom` is
-  /// read and `<pref>.mesh` written beside the env file; a model given by set_model() is used instead of the file.
-  /// Parameters have their defaults at the start, after each call and at the end. Throws FileError or InvalidArgument
-  /// with file and line.
+  /// read and `<pref>.mesh` written beside the env file; a model given by set_model() or load_pardom() is used instead
+  /// of that file. Parameters have their defaults at the start, after each call and at the end, also when this throws
+  /// (but not when the file cannot be read): FileError or InvalidArgument with file and line, and what make_mesh() and
+  /// write() throw.
   void run_env(const std::string& path);
 
  private:
   [[nodiscard]] bool has_model_from_host() const noexcept;
+  void load_pardom_of_env(const std::string& path);
 
   struct State;
   std::unique_ptr<State> state_;

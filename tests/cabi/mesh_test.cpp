@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -360,9 +361,59 @@ TEST_F(SessionTest, RunsABlsurfEnv) {
   auto place = sized<carreau_error_place>();
   EXPECT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
   EXPECT_EQ(place.line, 2);
+  double hphydef = 0;
+  ASSERT_EQ(carreau_reset_parameter(session, "hphydef"), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  EXPECT_EQ(carreau_run_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
+  EXPECT_LT(hphydef, 0.16);  // the default again (diag / 50), not what line 1 says
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.25), CARREAU_OK);
   EXPECT_EQ(carreau_run_env(session, "/nonexistent/blsurf.env"), CARREAU_ERR_FILE);
+  EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
+  EXPECT_EQ(hphydef, 0.25);  // nothing was run
   std::remove(env.c_str());
   std::remove(out.c_str());
+}
+
+// A model that the host has given, built or read, is the model of every `call inimesh`; else each reads its own.
+TEST_F(SessionTest, ABlsurfEnvReadsAPardomUnlessTheHostHasDone) {
+  const std::string folder = testing::TempDir() + "carreau_abi_pardom_";
+  const std::string env = folder + "blsurf.env", theirs = folder + "point.pardom", ours = folder + "plain.pardom";
+  const auto write = [](const std::string& path, const std::string& text) {
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    ASSERT_NE(file, nullptr);
+    std::fputs(text.c_str(), file);
+    std::fclose(file);
+  };
+  const std::string face = "1\n1 1 4\n1 1 1 2\n1 2 2 3\n1 3 3 4\n1 4 4 1\n";
+  write(theirs, face + "1\n77 0.3 0.2\n");  // an imposed point of reference 77
+  write(ours, face + "0\n");
+  write(env, "hphydef 0.5\npref carreau_abi_pardom_point\ncall inimesh\n");
+  const auto has_point = [&] {
+    const std::vector<std::int32_t> refs = data_of(mesh()).vertex_refs;
+    return std::count(refs.begin(), refs.end(), 77) == 1;
+  };
+  test_host host{};
+  const carreau_cad cad = paraboloid_cad(&host);
+  ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+  for (int run = 0; run < 2; ++run) {  // the second does not take the model of the first for the host's
+    ASSERT_EQ(carreau_run_env(session, env.c_str()), CARREAU_OK) << error();
+    EXPECT_TRUE(has_point());
+    write(theirs, face + (run == 0 ? "1\n77 0.4 0.2\n" : "0\n"));
+  }
+  ASSERT_EQ(carreau_run_env(session, env.c_str()), CARREAU_OK) << error();
+  EXPECT_FALSE(has_point());
+
+  write(theirs, face + "1\n77 0.3 0.2\n");
+  ASSERT_EQ(carreau_model_read_pardom(session, ours.c_str()), CARREAU_OK) << error();
+  for (int run = 0; run < 2; ++run) {
+    ASSERT_EQ(carreau_run_env(session, env.c_str()), CARREAU_OK) << error();
+    EXPECT_FALSE(has_point());
+  }
+  ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);
+  ASSERT_EQ(carreau_run_env(session, env.c_str()), CARREAU_OK) << error();
+  EXPECT_TRUE(has_point());
+  for (const std::string& path : {env, theirs, ours}) std::remove(path.c_str());
 }
 
 }  // namespace
