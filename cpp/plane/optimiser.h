@@ -10,7 +10,8 @@
 
 namespace carreau::plane {
 
-/// Never moves the first `fixed` vertices, never touches imposed edges, never turns a triangle over.
+/// Never moves or removes the first `fixed` vertices, never touches imposed edges, never turns a triangle over. Leaves
+/// removed triangles without vertices (-1) and removed vertices without a triangle.
 class Optimiser {
  public:
   Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
@@ -35,9 +36,16 @@ class Optimiser {
 
   // rescue.cpp
   void rescue_worst();
+  bool rescue(int t);
   bool rescue_by_swap(int t);
   bool rescue_by_move(int v);
-  [[nodiscard]] double worst_around(int v) const;
+  bool rescue_by_removal(int v, bool crowded);
+  [[nodiscard]] bool is_crowded(int t) const;
+  bool rescue_by_insertion(int t);
+  void collapse(int v, int k);
+  bool collect_star(int v);
+  double star_penalty(int v);
+  [[nodiscard]] double shape(int p, int q, int r) const;
 
   Triangulation& mesh_;
   int fixed_;
@@ -50,6 +58,8 @@ class Optimiser {
   std::vector<Proposal> proposals_;  // afterwards: the old places
   std::vector<HalfEdge> edges_;
   std::vector<std::int32_t> work_, next_;
+  std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise
+  std::int64_t stars_ = 0;                 // evaluated by the rescue
   std::vector<std::uint8_t> degree_, wanted_degree_;
 };
 

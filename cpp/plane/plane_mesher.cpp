@@ -1,5 +1,7 @@
 #include "plane/plane_mesher.h"
 
+#include <algorithm>
+
 #include "plane/boundary.h"
 #include "plane/filler.h"
 #include "plane/optimiser.h"
@@ -13,10 +15,22 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangu
   PlaneMesh mesh;
   mesh.vertices.reserve(triangulation.vertices.size());
   for (const Vec2 p : domain.vertices) mesh.vertices.push_back(p);
-  for (std::size_t v = domain.vertices.size(); v < triangulation.vertices.size(); ++v)
-    mesh.vertices.push_back(frame.outward(triangulation.vertices[v].point()));
+  std::vector<std::int32_t> shifted;  // numbers of the vertices from the first one that was removed
+  std::size_t first_removed = triangulation.vertices.size();
+  for (std::size_t v = domain.vertices.size(); v < triangulation.vertices.size(); ++v) {
+    const plane::Vertex& P = triangulation.vertices[v];
+    if (P.triangle < 0) first_removed = std::min(first_removed, v);
+    if (v >= first_removed) shifted.push_back(static_cast<std::int32_t>(mesh.vertices.size()));
+    if (P.triangle >= 0) mesh.vertices.push_back(frame.outward(P.point()));
+  }
   mesh.triangles.reserve(triangulation.triangles.size());
-  for (const plane::Triangle& t : triangulation.triangles) mesh.triangles.push_back({t.v[0], t.v[1], t.v[2]});
+  for (const plane::Triangle& t : triangulation.triangles) {
+    if (t.v[0] < 0) continue;
+    mesh.triangles.push_back({t.v[0], t.v[1], t.v[2]});
+    if (shifted.empty()) continue;
+    for (std::int32_t& v : mesh.triangles.back())
+      if (static_cast<std::size_t>(v) >= first_removed) v = shifted[static_cast<std::size_t>(v) - first_removed];
+  }
   return mesh;
 }
 

@@ -1,30 +1,72 @@
-// A few triangles stay bad where rows met: they are attacked one by one.
+// The last pass: bad triangles, left where rows met or where sizes jump, are attacked one by one, with moves, swaps and
+// removals of vertices that each make what they touch better.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "plane/optimiser.h"
+#include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
 
-constexpr double worst_quality = 0.6;  // triangles below are attacked
-constexpr int rescue_passes = 3;
-constexpr double gain = 1e-4;
+constexpr double bad_quality = 0.8;
+constexpr double suspect_quality = 0.85;  // in the mean metric of the vertices, which are at hand
+constexpr double refine_quality = 0.45;   // below, shape goes before size
+constexpr int rescue_passes = 6;
+constexpr double gain = 1e-3;
+// Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad
+// triangles.
+constexpr std::int64_t stars_a_triangle = 4, least_stars = 100'000;
+constexpr int triangles_between_checks = 1 << 16, stars_between_checks = 1 << 12;
+constexpr double short_edge_height = 0.9;       // of a vertex inserted over a short edge, in lengths of the edge
+constexpr double longest_after_removal2 = 2.0;  // squared length
+// Sizes that change much over a triangle leave edges that are too short: one of their vertices goes where no edge
+// becomes too long and no triangle bad.
+constexpr double crowded_length2 = 0.52, longest_crowded2 = 2.1, crowded_quality = 0.6;
+
+// What moves make small: bad triangles weigh much; one that is turned over outweighs everything.
+double penalty(double quality) noexcept {
+  return quality > 0 ? 1 / (quality * quality) : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
-double Optimiser::worst_around(int v) const {
-  double worst = 1;
+// Q2 (HDR eq. 1.6) in the metric at the centroid: where sizes or the parametrisation change much over a triangle, its
+// shape in space is that of the middle. 0 unless counterclockwise (exactly).
+double Optimiser::shape(int p, int q, int r) const {
+  const Vec2 P = mesh_.at(p), Q = mesh_.at(q), R = mesh_.at(r);
+  if (orientation(P, Q, R) <= 0) return 0;
+  const Metric2 m = field_.at((1.0 / 3) * (P + Q + R));
+  const Vec2 u = Q - P, v = R - P;
+  return 2 * std::numbers::sqrt3 * cross(u, v) * std::sqrt(std::max(determinant(m), 0.0)) /
+         (squared_length(m, u) + squared_length(m, v) + squared_length(m, u - v));
+}
+
+bool Optimiser::collect_star(int v) {
+  star_.clear();
+  ring_.clear();
   const int start = mesh_.vertices[v].triangle;
   int t = start;
   do {
     const Triangle& T = mesh_.triangles[t];
-    worst = std::min(worst, mesh_.quality(T.v[0], T.v[1], T.v[2]));
-    t = T.n[next3[mesh_.corner_of(t, v)]] >> 2;
+    const int k = mesh_.corner_of(t, v);
+    star_.push_back(t);
+    ring_.push_back(T.v[next3[k]]);
+    if (T.n[next3[k]] == no_edge) return false;
+    t = T.n[next3[k]] >> 2;
   } while (t != start);
-  return worst;
+  return true;
+}
+
+double Optimiser::star_penalty(int v) {
+  ++stars_;
+  double sum = 0;
+  for (std::size_t k = 0; k < ring_.size(); ++k)
+    sum += penalty(shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
+  return sum;
 }
 
 bool Optimiser::rescue_by_swap(int t) {
@@ -32,50 +74,200 @@ bool Optimiser::rescue_by_swap(int t) {
     if (!mesh_.can_swap(t, i)) continue;
     const Triangle &T = mesh_.triangles[t], &U = mesh_.triangles[T.n[i] >> 2];
     const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]], d = U.v[T.n[i] & 3];
-    const double before = std::min(mesh_.quality(c, a, b), mesh_.quality(d, b, a));
-    if (std::min(mesh_.quality(c, a, d), mesh_.quality(c, d, b)) <= before + gain) continue;
+    const double before = std::min(shape(c, a, b), shape(d, b, a));
+    if (std::min(shape(c, a, d), shape(c, d, b)) <= before + gain) continue;
+    next_.push_back(t);
+    next_.push_back(T.n[i] >> 2);
     mesh_.swap_edge(t, i);
     return true;
   }
   return false;
 }
 
-// The best of places on shrinking circles, in the metric.
+// To the best of places around, at shrinking distances in the metric.
 bool Optimiser::rescue_by_move(int v) {
+  if (!collect_star(v)) return false;
+  constexpr double root3 = 0.8660254037844386;
+  constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
   Vertex& P = mesh_.vertices[v];
-  double best = worst_around(v);
-  bool any = false;
-  for (double step = 0.3; step > 0.02; step *= 0.5)
-    for (int direction = 0; direction < 8; ++direction) {
+  const double before = star_penalty(v);
+  double best = before;
+  for (double step = 0.24; step > 0.02; step *= 0.5) {
+    const double p = std::sqrt(P.a), q = P.b / p, r = std::sqrt(std::max(P.c - q * q, 1e-12 * P.c));
+    const Vertex centre = P;
+    for (const Vec2 d : directions) {
       const Vertex kept = P;
-      const double angle = direction * std::numbers::pi / 4;
-      const double p = std::sqrt(P.a), q = P.b / p, r = std::sqrt(std::max(P.c - q * q, 1e-12 * P.c));
-      const double dy = step * std::sin(angle) / r, dx = (step * std::cos(angle) - q * dy) / p;
-      P.x += dx, P.y += dy;
+      const double dy = step * d.y / r, dx = (step * d.x - q * dy) / p;
+      P.x = centre.x + dx, P.y = centre.y + dy;
       P.set_metric(field_.at(P.point()));
-      const double now = worst_around(v);
-      if (now > best + gain) {
+      const double now = star_penalty(v);
+      if (now < best)
         best = now;
-        any = true;
-      } else {
+      else
         P = kept;
-      }
     }
-  return any;
+  }
+  if (!(best < before * (1 - gain))) return false;
+  next_.insert(next_.end(), star_.begin(), star_.end());
+  return true;
+}
+
+// Removes a vertex that moves freely by drawing it into one of its neighbours, when no edge becomes long and the worst
+// triangle better; where vertices are crowded it is enough that it does not become bad.
+bool Optimiser::rescue_by_removal(int v, bool crowded) {
+  if (!collect_star(v)) return false;
+  const auto n = static_cast<int>(ring_.size());
+  for (const std::int32_t t : star_)
+    if (mesh_.triangles[t].imposed != 0 && mesh_.is_imposed(t, next3[mesh_.corner_of(t, v)])) return false;
+  double worst = 1;
+  for (int k = 0; k < n; ++k) worst = std::min(worst, shape(v, ring_[k], ring_[(k + 1) % n]));
+  int into = -1;
+  double best = crowded ? std::max(std::min(worst, crowded_quality) - gain, 0.0) : worst + gain;
+  for (int k = 0; k < n; ++k) {
+    const int u = ring_[k];
+    double least = 1;
+    for (int j = 1; j + 1 < n && least > best; ++j) {
+      const int a = ring_[(k + j) % n], b = ring_[(k + j + 1) % n];
+      least = std::min(least, shape(u, a, b));
+      if (j > 1 && mesh_.squared_length(u, a) > (crowded ? longest_crowded2 : longest_after_removal2)) least = 0;
+    }
+    if (least > best) best = least, into = k;
+  }
+  if (into < 0) return false;
+  collapse(v, into);
+  return true;
+}
+
+// Draws v into its neighbour ring_[k]: the two triangles on that edge go.
+void Optimiser::collapse(int v, int k) {
+  const auto n = static_cast<int>(ring_.size());
+  const int u = ring_[k], last = star_[(k + n - 1) % n], first = star_[k];
+  const auto close = [&](int gone, int kept, bool kept_after) {
+    // The outer edge of the triangle that goes takes the place of the edge between it and the kept one.
+    const int outer = mesh_.corner_of(gone, v), corner = mesh_.corner_of(kept, v);
+    const int i = kept_after ? prev3[corner] : next3[corner];
+    const HalfEdge beyond = mesh_.triangles[gone].n[outer];
+    Triangle& K = mesh_.triangles[kept];
+    K.n[i] = beyond;
+    const auto copy_bit = [&](std::uint8_t& bits, std::uint8_t from) {
+      bits = static_cast<std::uint8_t>((bits & ~(1U << i)) | static_cast<unsigned>(from >> outer & 1) << i);
+    };
+    copy_bit(K.imposed, mesh_.triangles[gone].imposed);
+    copy_bit(K.degenerate, mesh_.triangles[gone].degenerate);
+    if (beyond != no_edge) mesh_.triangles[beyond >> 2].n[beyond & 3] = 4 * kept + i;
+  };
+  close(first, star_[(k + 1) % n], true);
+  close(last, star_[(k + n - 2) % n], false);
+  for (int j = 1; j + 1 < n; ++j) {
+    const int t = star_[(k + j) % n];
+    Triangle& T = mesh_.triangles[t];
+    T.v[mesh_.corner_of(t, v)] = u;
+    for (const std::int32_t w : T.v) mesh_.vertices[w].triangle = t;
+    next_.push_back(t);
+  }
+  mesh_.vertices[v].triangle = -1;
+  for (const int gone : {first, last}) mesh_.triangles[gone] = {};  // no vertices: removed
+}
+
+// A triangle on an edge much shorter than its sides: a new vertex over that edge, where triangles become better by it.
+// Where an imposed edge is short and sizes are large, shape asks for points that size does not.
+bool Optimiser::rescue_by_insertion(int t) {
+  const Triangle& T = mesh_.triangles[t];
+  const Vertex* V[3] = {&mesh_.vertices[T.v[0]], &mesh_.vertices[T.v[1]], &mesh_.vertices[T.v[2]]};
+  const Metric2 m = (1.0 / 3) * (V[0]->metric() + V[1]->metric() + V[2]->metric());
+  int i = 0;
+  double l2[3];
+  for (int k = 0; k < 3; ++k) l2[k] = squared_length(m, V[prev3[k]]->point() - V[next3[k]]->point());
+  for (int k = 1; k < 3; ++k)
+    if (l2[k] < l2[i]) i = k;
+  const Vec2 a = V[next3[i]]->point(), b = V[prev3[i]]->point(), e = b - a;
+  const double k = short_edge_height / std::sqrt(std::max(determinant(m), 1e-300));
+  const Vec2 p{0.5 * (a.x + b.x) - k * (m.b * e.x + m.c * e.y), 0.5 * (a.y + b.y) + k * (m.a * e.x + m.b * e.y)};
+  const int start = is_finite(p) ? mesh_.locate(p, t) : -1;
+  if (start < 0 || !mesh_.dig(p, field_.at(p), start, {})) return false;
+  ++stars_;
+  double before = 1, after = 1;
+  for (const std::int32_t c : mesh_.cavity()) {
+    const Triangle& C = mesh_.triangles[c];
+    if (C.done == Done::frozen) return false;
+    before = std::min(before, shape(C.v[0], C.v[1], C.v[2]));
+  }
+  const auto v = static_cast<std::int32_t>(mesh_.vertices.size());
+  mesh_.vertices.push_back({p.x, p.y});
+  mesh_.vertices.back().set_metric(field_.at(p));
+  for (const RimEdge& r : mesh_.rim())
+    after = std::min(after, shape(v, mesh_.rim_point(r.a).v, mesh_.rim_point(r.b).v));
+  if (after <= before + gain) {
+    mesh_.vertices.pop_back();
+    return false;
+  }
+  mesh_.fill(v);
+  for (const std::int32_t s : mesh_.star()) next_.push_back(s);
+  return true;
+}
+
+// An edge that is not imposed is much shorter than one.
+bool Optimiser::is_crowded(int t) const {
+  const Triangle& T = mesh_.triangles[t];
+  for (int i = 0; i < 3; ++i)
+    if (mesh_.squared_length(T.v[next3[i]], T.v[prev3[i]]) < crowded_length2 && !mesh_.is_imposed(t, i)) return true;
+  return false;
+}
+
+bool Optimiser::rescue(int t) {
+  if (is_crowded(t)) {
+    const Triangle& T = mesh_.triangles[t];
+    for (int i = 0; i < 3; ++i) {
+      if (mesh_.squared_length(T.v[next3[i]], T.v[prev3[i]]) >= crowded_length2 || mesh_.is_imposed(t, i)) continue;
+      for (const int v : {T.v[next3[i]], T.v[prev3[i]]})
+        if (v >= fixed_ && rescue_by_removal(v, true)) return true;
+    }
+    if (shape(T.v[0], T.v[1], T.v[2]) >= bad_quality) return false;
+  }
+  bool any = rescue_by_swap(t);
+  for (int i = 0; i < 3; ++i) {
+    const int v = mesh_.triangles[t].v[i];
+    if (v >= fixed_) any = rescue_by_move(v) || any;
+  }
+  const Triangle& T = mesh_.triangles[t];
+  if (shape(T.v[0], T.v[1], T.v[2]) >= bad_quality) return any;
+  for (int i = 0; i < 3; ++i) {
+    const int v = mesh_.triangles[t].v[i];
+    if (v >= fixed_ && rescue_by_removal(v, false)) return true;
+  }
+  if (shape(T.v[0], T.v[1], T.v[2]) >= refine_quality) return any;
+  return rescue_by_insertion(t) || any;
 }
 
 void Optimiser::rescue_worst() {
-  for (int pass = 0; pass < rescue_passes; ++pass) {
-    monitor_.checkpoint();
-    bool any = false;
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t) {
-      const Triangle& T = mesh_.triangles[t];
-      if (T.done == Done::frozen || mesh_.quality(T.v[0], T.v[1], T.v[2]) >= worst_quality) continue;
-      any = rescue_by_swap(t) || any;
-      for (const std::int32_t v : mesh_.triangles[t].v)
-        if (v >= fixed_) any = rescue_by_move(v) || any;
+  const auto total = static_cast<std::int32_t>(mesh_.triangles.size());
+  const auto is_bad = [&](std::int32_t t) {
+    const Triangle& T = mesh_.triangles[t];
+    if (T.v[0] < 0 || T.done == Done::frozen) return false;
+    return is_crowded(t) ||
+           (mesh_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality && shape(T.v[0], T.v[1], T.v[2]) < bad_quality);
+  };
+  work_.clear();
+  for (std::int32_t t = 0; t < total; ++t) {
+    if (t % triangles_between_checks == 0) monitor_.checkpoint();
+    if (is_bad(t)) work_.push_back(t);
+  }
+  const std::int64_t budget = std::max(least_stars, stars_a_triangle * total);
+  std::int64_t checked = 0;
+  stars_ = 0;
+  for (int pass = 0; pass < rescue_passes && !work_.empty(); ++pass) {
+    next_.clear();
+    for (const std::int32_t t : work_) {
+      if (stars_ > budget) return;
+      if (stars_ > checked) {
+        monitor_.checkpoint();
+        checked = stars_ + stars_between_checks;
+      }
+      if (is_bad(t)) rescue(t);
     }
-    if (!any) break;
+    std::sort(next_.begin(), next_.end());
+    next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
+    work_.swap(next_);
   }
 }
 

@@ -92,6 +92,8 @@ class Triangulation {
   /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.
   /// False: the point is refused by the rules, or lies on an imposed edge or a vertex.
   bool dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules);
+  /// The triangles dug out, until they are filled.
+  [[nodiscard]] std::span<const std::int32_t> cavity() const noexcept { return {cavity_.data(), cavity_size_}; }
   /// Fills the cavity with triangles around the vertex p; `star()` lists them, `rim()` their outer edges in the same
   /// order (edge 0, opposite to p).
   void fill(int p);

@@ -173,8 +173,7 @@ TEST(Teapot, FineMeshMeetsTheQualityAsked) {
   EXPECT_GE(run.quality.q2.min, 0.4);
 }
 
-// Not reached yet (mean 0.929, first percentile 0.51): see CHANGELOG, "Known shortfalls".
-TEST(Teapot, DISABLED_GeometricMeshMeetsTheQualityAsked) {
+TEST(Teapot, GeometricMeshMeetsTheQualityAsked) {
   const MeshedCase run(testing::teapot(), 0, [](Parameters& p) {
     p.set("hphy_flag", 0);
     p.set("hgeo_flag", 1);
