@@ -2,7 +2,9 @@
 """Checks a .mesh file against what is known of it; prints every broken claim and exits with 1.
 
 check_mesh.py FILE [--open N] [--euler N] [--triangles N PERCENT] [--area A PERCENT] [--vertex REF X Y Z] [--worst Q2]
-                   [--curves SHARED FREE] [--dimension D] [--not-orientable]
+                   [--curves SHARED FREE] [--on "F(x, y, z)"] [--around X Y Z N] [--dimension D] [--not-orientable]
+--curves: references of curves whose edges have two triangles, and one. --on: every vertex is a zero of F, to rounding.
+--around: the vertex there has at least N triangles.
 Independent of the library: reads the ASCII format itself.
 """
 import argparse
@@ -54,6 +56,8 @@ def main():
     ap.add_argument("--vertex", type=float, nargs=4)
     ap.add_argument("--worst", type=float)
     ap.add_argument("--curves", type=int, nargs=2)
+    ap.add_argument("--on")
+    ap.add_argument("--around", type=float, nargs=4)
     ap.add_argument("--dimension", type=int, default=3)
     ap.add_argument("--not-orientable", action="store_true")
     args = ap.parse_args()
@@ -104,6 +108,14 @@ def main():
         ref, *where = args.vertex
         claim(any(r == int(ref) and norm(sub(p, where)) == 0 for p, r in zip(points, refs)),
               f"no vertex at {where} has the reference {int(ref)}")
+    if args.on:
+        names = {"sqrt": math.sqrt, "hypot": math.hypot}
+        far = max(abs(eval(args.on, names, {"x": p[0], "y": p[1], "z": p[2]})) for p in points)
+        claim(far <= 1e-13, f"a vertex with {args.on} = {far}, not 0")
+    if args.around:
+        *where, n = args.around
+        most = max((sum(v in t for t in triangles) for v, p in enumerate(points) if norm(sub(p, where)) <= 1e-12), default=0)
+        claim(most >= n, f"{most} triangles meet at {where}, not {n:.0f} or more")
     if args.curves:
         by_ref = collections.defaultdict(set)
         for e in sections["Edges"]:
