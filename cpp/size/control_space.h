@@ -26,6 +26,9 @@ struct ControlSpaceOptions {
   double samples_per_vertex = 1.5;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
+  /// Points of the domain where the field is known to hide something: around them cells are split down to half an edge
+  /// of the mesh, whatever prediction says.
+  std::span<const Vec2> suspects = {};
 };
 
 /// The closed parameter domain in which sampling is allowed: discretised loops, any orientation.

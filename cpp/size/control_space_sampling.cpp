@@ -38,6 +38,9 @@ constexpr double spare_samples = 100;
 // The same where the tolerance is violated.
 constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 constexpr std::size_t least_of_max_samples = 1000;
+// Cells at suspects are split while they are wider than this, in edges of the mesh.
+constexpr double suspect_width = 0.5;
+constexpr int most_looks = 24;
 
 }  // namespace
 
@@ -63,10 +66,33 @@ void ControlSpaceSampling::run() {
   std::vector<std::int32_t> active;
   for (std::int32_t c = 0; c < tree_->size(); ++c)
     if ((*tree_)[c].relevant) active.push_back(c);
+  settle(std::move(active));
+  look_at_suspects();
+}
+
+// Tests leaves and splits what must be split, until nothing must.
+void ControlSpaceSampling::settle(std::vector<std::int32_t> active) {
   while (!active.empty()) {
     test(active);
     estimate_vertices();
     active = refine(affordable(std::move(active), 0));
+  }
+}
+
+void ControlSpaceSampling::look_at_suspects() {
+  for (int round = 0; round < most_looks && !options_.suspects.empty(); ++round) {
+    std::vector<std::int32_t> cells;
+    for (const Vec2 uv : options_.suspects) {
+      const Vec2 p = lattice_->position(uv);
+      const std::int32_t leaf = tree_->leaf_at({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y)});
+      if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
+      if (std::sqrt((*tree_)[leaf].vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    const double left = static_cast<double>(options_.max_samples) - static_cast<double>(samples_);
+    if (cells.empty() || left < worst_cost * static_cast<double>(cells.size())) return;
+    settle(refine(cells));
   }
 }
 

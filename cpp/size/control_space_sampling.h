@@ -49,6 +49,8 @@ class ControlSpaceSampling {
   void sample_roots();
   [[nodiscard]] Metric2 expected_at(std::int32_t node, std::int32_t size);
 
+  void settle(std::vector<std::int32_t> active);
+  void look_at_suspects();
   void test(std::span<const std::int32_t> cells);
   [[nodiscard]] int nodes_inside(const TreeCell& cell) const noexcept;
   [[nodiscard]] std::vector<NodeProbe> centres_of(std::span<const std::int32_t> cells);

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_mesher.h"
+#include "surface/verification.h"
 
 #if defined(__unix__)
 #include <unistd.h>
@@ -19,6 +21,8 @@ namespace {
 constexpr double bytes_per_triangle = 300;
 // Shares of the progress fraction.
 constexpr double curves_share = 0.1, patches_share = 0.85;
+// Times that a patch is meshed again because the lift disagrees.
+constexpr int most_corrections = 3;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -118,13 +122,29 @@ class Pipeline {
                            .domain = &domain,
                            .curve_xyz = positions_on_curves(domain, curves_, topology_),
                            .constant_size = rules_.constant()};
-    const ControlSpace space = sample_face(input, cad_, rules_, options_, monitor_);
+    ControlSpace space = sample_face(input, cad_, rules_, options_, {}, monitor_);
     result_.report.seconds_sampling += seconds_since(start);
     // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
     if (space.measure() > 2 * static_cast<double>(left_)) refuse(Where{.face = input.ref}, space.measure());
     CompositeOptions options = options_;
     options.max_triangles = left_;
-    patches_[f] = mesh_patch(input, space, cad_, options, result_.report, monitor_);
+    std::vector<Vec2> suspects;
+    for (int round = 0;; ++round) {
+      patches_[f] = mesh_patch(input, space, cad_, options, result_.report, monitor_);
+      start = std::chrono::steady_clock::now();
+      const std::vector<Vec2> places = verify_lift(input, space, rules_, *patches_[f], monitor_);
+      result_.report.seconds_lift += seconds_since(start);
+      if (places.empty() || round == most_corrections) break;
+      // What the vertices have found is sampled, and the patch meshed again if that was news.
+      suspects.insert(suspects.end(), places.begin(), places.end());
+      start = std::chrono::steady_clock::now();
+      ControlSpace finer = sample_face(input, cad_, rules_, options_, suspects, monitor_);
+      result_.report.seconds_sampling += seconds_since(start);
+      if (!differ_at(places, space, finer)) break;
+      if (finer.measure() > 2 * static_cast<double>(left_)) refuse(Where{.face = input.ref}, finer.measure());
+      space = std::move(finer);
+      ++result_.report.corrections;
+    }
     left_ -= static_cast<std::int64_t>(patches_[f]->plane.triangles.size());
   }
 

@@ -26,6 +26,8 @@ struct CompositeOptions {
 struct CompositeReport {
   CallCounts calls;
   double diag = 0;
+  int corrections =
+      0;  ///< patches meshed again because their lengths in space were not those that the sampling promised
   double seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
   double seconds_total = 0;
 };

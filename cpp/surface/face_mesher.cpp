@@ -32,30 +32,6 @@ std::vector<Vec3> lift(int face, std::span<const Vec2> uv, Cad& cad, Monitor& mo
   return xyz;
 }
 
-// The size that the control space prescribes at a vertex: true length over metric length, averaged over its edges.
-// Spends no callback; exact when one size holds everywhere or the sampled first fundamental form is.
-std::vector<double> sizes_at_vertices(const PatchInput& input, const PatchMesh& mesh, const ControlSpace& space) {
-  if (input.constant_size) return std::vector<double>(mesh.xyz.size(), *input.constant_size);
-  std::vector<double> in_space(mesh.xyz.size(), 0), in_metric(mesh.xyz.size(), 0);
-  for (const auto& t : mesh.plane.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const int a = t[i], b = t[(i + 1) % 3];
-      const Vec2 p = mesh.plane.vertices[a], q = mesh.plane.vertices[b];
-      const double l = norm(mesh.xyz[b] - mesh.xyz[a]);
-      const double m = length(space.at(0.5 * (p + q)), q - p);
-      in_space[a] += l;
-      in_space[b] += l;
-      in_metric[a] += m;
-      in_metric[b] += m;
-    }
-  std::vector<double> size(mesh.xyz.size(), 0);
-  for (std::size_t v = 0; v < size.size(); ++v) {
-    const bool known = v < input.domain->size.size() && input.domain->size[v] > 0;
-    size[v] = known ? input.domain->size[v] : in_metric[v] > 0 ? in_space[v] / in_metric[v] : 0;
-  }
-  return size;
-}
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -63,7 +39,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }  // namespace
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options,
-                         Monitor& monitor) {
+                         std::span<const Vec2> suspects, Monitor& monitor) {
   // Built only when the host leaves a question open.
   std::optional<InterfaceSizes> interfaces;
   const auto fallback = [&](Vec2 uv) {
@@ -81,7 +57,9 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, co
     rules.on_surface(input.face, uv, jets, fallback, h);
     for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h[i]);
   };
-  return ControlSpace::build(sampled_domain(input.domain->plane), sampler, {}, monitor);
+  ControlSpaceOptions space_options;
+  space_options.suspects = suspects;
+  return ControlSpace::build(sampled_domain(input.domain->plane), sampler, space_options, monitor);
 }
 
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,
@@ -99,7 +77,6 @@ PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& ca
   const std::vector<Vec3> rest = lift(input.ref, uv.subspan(on_curves), cad, monitor);
   mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
   improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
-  mesh.size = sizes_at_vertices(input, mesh, space);
   report.seconds_lift += seconds_since(start);
   return mesh;
 }

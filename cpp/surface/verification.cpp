@@ -1,0 +1,131 @@
+#include "surface/verification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "metric/metric2_algebra.h"
+
+namespace carreau {
+
+namespace {
+
+// True length over promised length. An arc of 150 degrees is 1.36 times its chord.
+constexpr double too_long = 1.3, too_short = 0.65;
+constexpr std::size_t most_places = 500;
+constexpr std::size_t triangles_between_checks = 1 << 16;
+// A change of the control space, in relative length, that is worth another mesh.
+constexpr double notable_change = 0.1;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+class LiftCheck {
+ public:
+  LiftCheck(const PatchInput& input, const ControlSpace& space, SizeRules& rules, PatchMesh& mesh, Monitor& monitor)
+      : input_(input), space_(space), rules_(rules), mesh_(mesh), monitor_(monitor) {}
+
+  std::vector<Vec2> run() {
+    if (input_.constant_size) {
+      mesh_.size.assign(mesh_.xyz.size(), *input_.constant_size);
+    } else {
+      compare_lengths();
+      ask_host();
+    }
+    find_places();
+    if (places_.size() > most_places) {
+      std::vector<Vec2> some;
+      for (std::size_t k = 0; k < most_places; ++k) some.push_back(places_[k * places_.size() / most_places]);
+      places_.swap(some);
+    }
+    return std::move(places_);
+  }
+
+ private:
+  /// Calls `use(a, b)` for each edge that is not on the border, once. Both sides of an internal edge count as one.
+  template <typename Use>
+  void for_inner_edges(const Use& use) {
+    std::size_t done = 0;
+    for (const auto& t : mesh_.plane.triangles) {
+      if (++done % triangles_between_checks == 0) monitor_.checkpoint();
+      for (int i = 0; i < 3; ++i)
+        if (t[i] < t[i == 2 ? 0 : i + 1]) use(t[i], t[i == 2 ? 0 : i + 1]);
+    }
+  }
+  [[nodiscard]] double promised(int a, int b) const {
+    const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
+    return length(space_.at(0.5 * (p + q)), q - p);
+  }
+  [[nodiscard]] double in_space(int a, int b) const { return norm(mesh_.xyz[b] - mesh_.xyz[a]); }
+
+  // The size that the control space prescribes at a vertex: length in space over metric length, averaged over its
+  // edges. Spends no callback; exact where the sampled first fundamental form is.
+  void compare_lengths() {
+    std::vector<double> of_space(mesh_.xyz.size(), 0), of_metric(mesh_.xyz.size(), 0);
+    for_inner_edges([&](int a, int b) {
+      const double l = in_space(a, b), m = promised(a, b);
+      of_space[a] += l, of_space[b] += l;
+      of_metric[a] += m, of_metric[b] += m;
+      promised_.push_back(static_cast<float>(m));
+    });
+    mesh_.size.resize(mesh_.xyz.size());
+    for (std::size_t v = 0; v < mesh_.size.size(); ++v) {
+      const bool known = v < input_.domain->size.size() && input_.domain->size[v] > 0;
+      mesh_.size[v] = known ? input_.domain->size[v] : of_metric[v] > 0 ? of_space[v] / of_metric[v] : 0;
+    }
+  }
+
+  // Where sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
+  void ask_host() {
+    if (rules_.uses_curvature()) return;
+    for (std::size_t v = input_.domain->size.size(); v < mesh_.xyz.size(); ++v) {
+      bool answered = true;
+      const auto no_answer = [&](Vec2) {
+        answered = false;
+        return mesh_.size[v];
+      };
+      double h = unknown;
+      rules_.on_surface(input_.face, {&mesh_.plane.vertices[v], 1}, {}, no_answer, {&h, 1});
+      if (answered) mesh_.size[v] = h;
+      if (v % 512 == 0) monitor_.checkpoint();
+    }
+  }
+
+  void find_places() {
+    const PlaneDomain& domain = input_.domain->plane;
+    std::vector<char> at_apex(mesh_.xyz.size(), 0);
+    for (const PlaneEdge& e : domain.edges)
+      if (e.kind == PlaneEdgeKind::degenerate) at_apex[e.a] = at_apex[e.b] = 1;
+    std::size_t rank = 0;
+    for_inner_edges([&](int a, int b) {
+      const double m = promised_.empty() ? promised(a, b) : static_cast<double>(promised_[rank++]);
+      // Between two imposed vertices the domain decides; at a degenerate side the metric is clamped.
+      if (static_cast<std::size_t>(b) < domain.vertices.size() || at_apex[a] != 0 || at_apex[b] != 0) return;
+      const double h = std::sqrt(mesh_.size[a] * mesh_.size[b]), l = in_space(a, b);
+      if (!(h > 0) || !(l > 0)) return;
+      if (l <= too_long * h * m && l >= too_short * h * m) return;
+      places_.push_back(0.5 * (mesh_.plane.vertices[a] + mesh_.plane.vertices[b]));
+    });
+  }
+
+  const PatchInput& input_;
+  const ControlSpace& space_;
+  SizeRules& rules_;
+  PatchMesh& mesh_;
+  Monitor& monitor_;
+  std::vector<float> promised_;  // by edge, where sizes vary
+  std::vector<Vec2> places_;
+};
+
+}  // namespace
+
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, SizeRules& rules, PatchMesh& mesh,
+                              Monitor& monitor) {
+  return LiftCheck(input, space, rules, mesh, monitor).run();
+}
+
+bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
+}
+
+}  // namespace carreau

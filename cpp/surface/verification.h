@@ -1,0 +1,23 @@
+// After the lift: do lengths in space agree with those that the control space promised?
+#pragma once
+
+#include <vector>
+
+#include "size/control_space.h"
+#include "size/size_rules.h"
+#include "surface/face_mesher.h"
+
+namespace carreau {
+
+/// Fills mesh.size and returns places in (u, v) where an edge's length in space over the prescribed size disagrees with
+/// its length in the control space: the sampling has missed something there. The prescribed size is the one size of the
+/// model, or what the host answers at the ends (asked once a vertex), or, where sizes come from curvature or from
+/// interpolation, what the control space says around. Chords shorter than their arcs are no disagreement. Empty on
+/// surfaces that the control space knows. At most 500 places.
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, SizeRules& rules, PatchMesh& mesh,
+                              Monitor& monitor);
+
+/// Whether two control spaces differ at one of these places by more than their tolerance explains.
+bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
+
+}  // namespace carreau
