@@ -1,0 +1,65 @@
+// Unit meshes in anisotropic fields: lengths and quality measured in the field itself.
+#include <gtest/gtest.h>
+
+#include "metric_cases.h"
+#include "plane/plane_mesher.h"
+#include "plane_checks.h"
+
+namespace carreau::testing {
+namespace {
+
+struct Asked {
+  const char* name;
+  MetricCase (*make)(double h, double ratio);
+  double h, ratio;
+};
+
+class AnisotropicField : public ::testing::TestWithParam<Asked> {};
+
+// A straight edge follows a curved layer when its sagitta is small beside the size across: ratio 100 on a circle of
+// radius 0.5 wants h = 1e-4 (edges of 0.01, sagitta 2.5e-5).
+TEST_P(AnisotropicField, GetsUnitEdgesAndGoodTriangles) {
+  const MetricCase c = GetParam().make(GetParam().h, GetParam().ratio);
+  Monitor monitor;
+  const PlaneMesh mesh = mesh_plane(c.domain, control_space(c), {}, monitor);
+  EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
+  const MetricQuality q = measure(c, mesh);
+  EXPECT_GE(q.fitting, 0.97) << to_string(q);
+  EXPECT_GE(q.mean, 0.93) << to_string(q);
+  EXPECT_GE(q.worst, 0.2) << to_string(q);
+  EXPECT_NEAR(q.mean_length, 1, 0.02) << to_string(q);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plane, AnisotropicField,
+    ::testing::Values(Asked{"line_2", layer_on_line, 0.01, 2}, Asked{"line_10", layer_on_line, 0.003, 10},
+                      Asked{"line_100", layer_on_line, 0.0006, 100}, Asked{"circle_2", layer_on_circle, 0.01, 2},
+                      Asked{"circle_10", layer_on_circle, 0.003, 10}, Asked{"circle_100", layer_on_circle, 0.0001, 100},
+                      Asked{"spiral_2", layer_on_spiral, 0.01, 2}, Asked{"spiral_10", layer_on_spiral, 0.003, 10},
+                      Asked{"spiral_100", layer_on_spiral, 0.0001, 100}, Asked{"sine_10", layer_on_sine, 0.006, 10}),
+    [](const auto& parameter) { return parameter.param.name; });
+
+// Nothing is promised about lengths: the field turns faster than straight edges can follow.
+TEST(AnisotropicField, ARatioOfAThousandGivesAValidMesh) {
+  for (const auto make : {layer_on_line, layer_on_circle, layer_on_spiral}) {
+    const MetricCase c = make(0.0001, 1000);
+    Monitor monitor;
+    const PlaneMesh mesh = mesh_plane(c.domain, control_space(c), {}, monitor);
+    EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{}) << c.name;
+  }
+}
+
+// Turning the coordinates turns the mesh: a constant tensor is an affine map of the isotropic case.
+TEST(AnisotropicField, AConstantTensorIsAsGoodAsNone) {
+  for (const double ratio : {1.0, 3.0, 10.0}) {
+    const MetricCase c = constant_stretch(0.004, ratio);
+    Monitor monitor;
+    const MetricQuality q = measure(c, mesh_plane(c.domain, control_space(c), {}, monitor));
+    EXPECT_GE(q.mean, 0.996) << to_string(q);
+    EXPECT_GE(q.p1, 0.94) << to_string(q);
+    EXPECT_GE(q.fitting, 0.999) << to_string(q);
+  }
+}
+
+}  // namespace
+}  // namespace carreau::testing
