@@ -1,0 +1,171 @@
+// Curves in variable metrics: the examples of RR-2818 sec. 6.2 (figures 24-27) and 6.3 (28-32).
+#include "curve/metric_curve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "curve/unit_discretisation.h"
+#include "support/error.h"
+
+namespace {
+
+using carreau::Metric2;
+using carreau::MetricLaw;
+using carreau::PlaneMetricCurve;
+using carreau::Vec2;
+
+constexpr MetricLaw laws[] = {MetricLaw::linear, MetricLaw::geometric, MetricLaw::sinusoidal};
+
+/// The triplet (theta, h1, h2) of RR-2818 sec. 4.3.1: size h1 along theta, h2 across.
+Metric2 triplet(double degrees, double h1, double h2) {
+  const double a = degrees * std::numbers::pi / 180, c = std::cos(a), s = std::sin(a);
+  const double p = 1 / (h1 * h1), q = 1 / (h2 * h2);
+  return {p * c * c + q * s * s, (p - q) * c * s, p * s * s + q * c * c};
+}
+
+/// Metric length of the curve between two abscissae, by many midpoints and chords: independent of trapezoids, of the
+/// gradation and of its tangents.
+template <typename Curve>
+double dense_length(const Curve& curve, double from, double to) {
+  const int n = 4000;
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    const double p = from + (to - from) * i / n, q = from + (to - from) * (i + 1) / n;
+    sum += length(curve.metric_at((p + q) / 2), curve.point_at(q) - curve.point_at(p));
+  }
+  return sum;
+}
+
+template <typename Curve>
+void expect_equal_edges(const Curve& curve, double lss) {
+  const std::vector<double> cuts = curve.split(lss);
+  const double l = dense_length(curve, 0, curve.usual_length());
+  const auto n = static_cast<double>(cuts.size() - 1);
+  EXPECT_NEAR(curve.gradation(lss).length(), l, 0.002 * l);
+  ASSERT_EQ(static_cast<int>(cuts.size()) - 1, carreau::unit_edge_count(l));
+  EXPECT_DOUBLE_EQ(cuts.front(), 0);
+  EXPECT_DOUBLE_EQ(cuts.back(), curve.usual_length());
+  for (std::size_t j = 0; j + 1 < cuts.size(); ++j)
+    EXPECT_NEAR(dense_length(curve, cuts[j], cuts[j + 1]), l / n, 0.02 * l / n) << "edge " << j;
+}
+
+/// RR-2818 sec. 6.2: its table of five triplets along a straight segment.
+PlaneMetricCurve figure24(MetricLaw law) {
+  return {{{0, 0}, {7.5, 0}},
+          {0, 2, 3, 6, 7.5},
+          {triplet(30, 0.70, 0.25), triplet(90, 1.10, 0.15), triplet(0, 0.30, 0.30), triplet(-60, 1.50, 0.40),
+           triplet(-45, 1.00, 0.35)},
+          law};
+}
+
+TEST(MetricCurve, Figures25To27HaveEqualEdges) {
+  for (const MetricLaw law : laws) {
+    SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(law));
+    for (const double lss : {0.5, 0.1}) expect_equal_edges(figure24(law), lss);
+  }
+}
+
+/// A curve of the plane that turns, closes and is sampled unevenly, like that of figures 28-32 (whose data the report
+/// does not give), with triplets at eight abscissae.
+PlaneMetricCurve closed_curve(MetricLaw law) {
+  std::vector<Vec2> points;
+  const int n = 400;
+  for (int i = 0; i <= n; ++i) {
+    const double t = 2 * std::numbers::pi * i / n + 0.4 * std::sin(2 * std::numbers::pi * i / n);
+    const double r = 2 + 0.6 * std::cos(3 * t);
+    points.push_back({1.5 * r * std::cos(t), r * std::sin(t)});
+  }
+  points.back() = points.front();
+  double total = 0;
+  for (int i = 0; i < n; ++i) total += norm(points[i + 1] - points[i]);
+  std::vector<double> s;
+  std::vector<Metric2> metrics;
+  const double angle[] = {0, 40, 75, -30, 10, 90, -60, 20, 0}, ratio[] = {1, 4, 6, 2, 1, 8, 3, 5, 1};
+  for (int i = 0; i <= 8; ++i) {
+    s.push_back(total * (i == 8 ? 1 : i / 8. + 0.02 * std::sin(2. * i)));
+    metrics.push_back(triplet(angle[i], 0.8, 0.8 / ratio[i]));
+  }
+  s.front() = 0;
+  return {points, s, metrics, law};
+}
+
+TEST(MetricCurve, Figures29To31HaveEqualEdgesOnACurve) {
+  for (const MetricLaw law : laws) {
+    SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(law));
+    for (const double lss : {0.5, 0.1}) expect_equal_edges(closed_curve(law), lss);
+  }
+}
+
+TEST(MetricCurve, GeometricLawFavoursTheSmallSizes) {
+  // RR-2818 sec. 6.1: of the laws, the geometric one makes more edges than the linear one.
+  EXPECT_GT(figure24(MetricLaw::geometric).gradation(0.1).length(),
+            figure24(MetricLaw::linear).gradation(0.1).length());
+}
+
+TEST(MetricCurve, AConstantMetricGivesTheChordsOfItsEllipse) {
+  const Metric2 m = triplet(25, 2, 0.5);
+  const PlaneMetricCurve curve({{0, 0}, {3, 1}, {4, 5}}, {0, std::sqrt(10.) + std::sqrt(17.)}, {m, m},
+                               MetricLaw::geometric);
+  EXPECT_NEAR(curve.gradation().length(), length(m, {3, 1}) + length(m, {1, 4}), 1e-12);
+}
+
+TEST(MetricCurve, IsInvariantUnderRotationAndScaling) {
+  const double c = std::cos(0.7), s = std::sin(0.7), k = 30;
+  const auto turn = [&](Vec2 p) { return Vec2{k * (c * p.x - s * p.y), k * (s * p.x + c * p.y)}; };
+  const std::vector<Vec2> points{{0, 0}, {2, 1}, {3, 3}, {2, 6}};
+  const double total = std::sqrt(5.) + std::sqrt(5.) + std::sqrt(10.);
+  const PlaneMetricCurve before(points, {0, 3, total}, {triplet(10, 1, 0.2), triplet(70, 0.4, 0.3), triplet(0, 1, 1)},
+                                MetricLaw::linear);
+  const double d = 0.7 * 180 / std::numbers::pi;
+  const PlaneMetricCurve after(
+      {turn(points[0]), turn(points[1]), turn(points[2]), turn(points[3])}, {0, 3 * k, total * k},
+      {triplet(10 + d, k, 0.2 * k), triplet(70 + d, 0.4 * k, 0.3 * k), triplet(0, k, k)}, MetricLaw::linear);
+  const auto p = before.split(), q = after.split();
+  ASSERT_EQ(p.size(), q.size());
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_NEAR(k * p[i], q[i], 1e-6 * total * k);
+}
+
+TEST(MetricCurve, TheSplitAsksForNothingThatTheLengthHasNotAskedFor) {
+  int calls = 0;
+  const std::vector<double> breaks{0, 1, 2};
+  const auto gradation = carreau::measure_curve(
+      [&](std::size_t, double s) {
+        ++calls;
+        return 10 + 9 * std::sin(5 * s);
+      },
+      breaks, 0.5);
+  const int asked = calls;
+  const auto cuts = carreau::split_equally(gradation, 17);
+  EXPECT_EQ(calls, asked);
+  // The ends of pieces have a value on each side; all other points one.
+  EXPECT_EQ(static_cast<std::size_t>(calls), gradation.s.size() + breaks.size() - 2);
+  for (std::size_t j = 0; j < cuts.size(); ++j)
+    EXPECT_NEAR(gradation.metric_abscissa(cuts[j]), gradation.length() * static_cast<double>(j) / 17, 1e-12);
+}
+
+TEST(MetricCurve, ALinearSpeedIsExact) {
+  const auto gradation =
+      carreau::measure_curve([](std::size_t, double s) { return 1 + 3 * s; }, std::vector<double>{0, 4}, 0.5);
+  EXPECT_NEAR(gradation.length(), 28, 1e-12);
+  const auto cuts = carreau::split_equally(gradation, 28);
+  for (int j = 0; j <= 28; ++j) EXPECT_NEAR(cuts[j], (std::sqrt(1 + 6. * j) - 1) / 3, 1e-12);
+}
+
+TEST(MetricCurve, RefusesWhatMeansNothing) {
+  using carreau::InvalidArgument;
+  const Metric2 m{};
+  const MetricLaw law = MetricLaw::linear;
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}}, {0, 1}, {m, m}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {0, 0}}, {0, 0}, {m, m}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 0.5}, {m, m}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 0.5, 0.5, 1}, {m, m, m, m}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1, 2, 1}}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, std::nan("")}}, {0, 1}, {m, m}, law), InvalidArgument);
+  EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1e30, 0, 1e30}}, law).split(), carreau::LimitError);
+}
+
+}  // namespace
