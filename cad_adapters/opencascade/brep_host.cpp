@@ -1,0 +1,226 @@
+#include "brep_host.h"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <cmath>
+#include <gp_Pnt.hxx>
+#include <gp_Pnt2d.hxx>
+#include <gp_Vec.hxx>
+#include <gp_Vec2d.hxx>
+#include <stdexcept>
+
+namespace carreau_occ {
+
+namespace {
+
+struct HostCurve {
+  Handle(Geom2d_Curve) curve;
+  Geom2dAdaptor_Curve adaptor;
+  double first = 0, last = 1;
+  int edge = 0;            // number of the edge
+  int end1 = 0, end2 = 0;  // numbers of the vertices at first and last
+  bool forward = true;     // the domain lies on the left of the curve, as OpenCASCADE counts (u, v)
+  bool internal = false;
+};
+
+struct HostFace {
+  BRepAdaptor_Surface surface;
+  bool swapped = false;  // u and v exchanged
+  std::vector<HostCurve> curves;
+};
+
+void store(const gp_Pnt& p, double* to) { to[0] = p.X(), to[1] = p.Y(), to[2] = p.Z(); }
+void store(const gp_Vec& v, double* to) { to[0] = v.X(), to[1] = v.Y(), to[2] = v.Z(); }
+
+}  // namespace
+
+struct BrepHost::State {
+  TopoDS_Shape shape;
+  TopTools_IndexedMapOfShape faces, edges, vertices;
+  std::vector<HostFace> host_faces;  // face number - 1
+  std::vector<int> uses;             // of each edge, by its number - 1
+  std::string failure;
+
+  void collect();
+  void collect_face(int number);
+
+  static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
+                               double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept;
+  static int32_t interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept;
+  static int32_t curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
+                       void* user) noexcept;
+  int32_t fail(int32_t face, const Standard_Failure& why) noexcept;
+};
+
+void BrepHost::State::collect() {
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  if (faces.IsEmpty()) throw std::runtime_error("the shape has no face");
+  uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
+  host_faces.resize(static_cast<std::size_t>(faces.Extent()));
+  for (int f = 1; f <= faces.Extent(); ++f) collect_face(f);
+}
+
+void BrepHost::State::collect_face(int number) {
+  const TopoDS_Face face = TopoDS::Face(faces(number));
+  HostFace& host = host_faces[static_cast<std::size_t>(number - 1)];
+  host.swapped = face.Orientation() == TopAbs_REVERSED;
+  // Wires are turned for the face taken forward.
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  host.surface.Initialize(forward, Standard_False);
+  for (TopExp_Explorer e(forward, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    if (edge.Orientation() == TopAbs_EXTERNAL) continue;
+    HostCurve curve;
+    curve.curve = BRep_Tool::CurveOnSurface(edge, forward, curve.first, curve.last);
+    if (curve.curve.IsNull())
+      throw std::runtime_error("face " + std::to_string(number) + ": an edge has no curve in its parameter plane");
+    curve.adaptor.Load(curve.curve);
+    curve.edge = edges.FindIndex(edge);
+    curve.end1 = vertices.FindIndex(TopExp::FirstVertex(edge, Standard_False));
+    curve.end2 = vertices.FindIndex(TopExp::LastVertex(edge, Standard_False));
+    curve.forward = edge.Orientation() == TopAbs_FORWARD;
+    curve.internal = edge.Orientation() == TopAbs_INTERNAL;
+    if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
+    if (BRep_Tool::Degenerated(edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
+    host.curves.push_back(std::move(curve));
+  }
+}
+
+int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
+  try {
+    failure =
+        "face " + std::to_string(face) + ": OpenCASCADE: " + why.DynamicType()->Name() + ": " + why.GetMessageString();
+  } catch (...) {  // no memory for a sentence
+  }
+  return 1;
+}
+
+int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
+                                       double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept {
+  auto& state = *static_cast<State*>(user);
+  try {
+    const HostFace& host = state.host_faces[static_cast<std::size_t>(face - 1)];
+    if (host.swapped) std::swap(Su, Sv), std::swap(Suu, Svv);
+    gp_Pnt p;
+    gp_Vec d1u, d1v, d2u, d2v, d2uv;
+    for (int64_t i = 0; i < n; ++i) {
+      const double u = uv[2 * i + (host.swapped ? 1 : 0)], v = uv[2 * i + (host.swapped ? 0 : 1)];
+      if (order >= 2) {
+        host.surface.D2(u, v, p, d1u, d1v, d2u, d2v, d2uv);
+        store(d2u, Suu + 3 * i), store(d2uv, Suv + 3 * i), store(d2v, Svv + 3 * i);
+      } else if (order == 1) {
+        host.surface.D1(u, v, p, d1u, d1v);
+      } else {
+        host.surface.D0(u, v, p);
+      }
+      store(p, S + 3 * i);
+      if (order >= 1) store(d1u, Su + 3 * i), store(d1v, Sv + 3 * i);
+    }
+    return 0;
+  } catch (const Standard_Failure& failure) {
+    return state.fail(face, failure);
+  }
+}
+
+int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept {
+  const HostCurve& curve = static_cast<State*>(user)
+                               ->host_faces[static_cast<std::size_t>(face - 1)]
+                               .curves[static_cast<std::size_t>(ic - 1)];
+  *a = curve.first, *b = curve.last;
+  return 0;
+}
+
+int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
+                               void* user) noexcept {
+  auto& state = *static_cast<State*>(user);
+  try {
+    const HostFace& host = state.host_faces[static_cast<std::size_t>(face - 1)];
+    const HostCurve& curve = host.curves[static_cast<std::size_t>(ic - 1)];
+    gp_Pnt2d p;
+    gp_Vec2d d1, d2;
+    if (order >= 2)
+      curve.adaptor.D2(t, p, d1, d2);
+    else if (order == 1)
+      curve.adaptor.D1(t, p, d1);
+    else
+      curve.adaptor.D0(t, p);
+    const int x = host.swapped ? 1 : 0, y = 1 - x;
+    C[x] = p.X(), C[y] = p.Y();
+    if (order >= 1) Ct[x] = d1.X(), Ct[y] = d1.Y();
+    if (order >= 2) Ctt[x] = d2.X(), Ctt[y] = d2.Y();
+    return 0;
+  } catch (const Standard_Failure& failure) {
+    return state.fail(face, failure);
+  }
+}
+
+BrepHost::BrepHost(const TopoDS_Shape& shape) : state_(std::make_unique<State>()) {
+  state_->shape = shape;
+  try {
+    state_->collect();
+  } catch (const Standard_Failure& failure) {
+    throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
+  }
+}
+
+BrepHost::~BrepHost() = default;
+
+carreau_status BrepHost::give_to(carreau_session* session) {
+  carreau_cad cad{};
+  cad.struct_size = sizeof cad;
+  cad.user = state_.get();
+  cad.surface_order = cad.curve_order = 2;
+  cad.surface_batch = State::surface_batch;
+  cad.curve_interval = State::interval;
+  cad.curve = State::curve;
+  carreau_status status = carreau_set_cad(session, &cad);
+  if (status == CARREAU_OK) status = carreau_model_clear(session);
+  for (std::size_t f = 0; f < state_->host_faces.size() && status == CARREAU_OK; ++f) {
+    const HostFace& face = state_->host_faces[f];
+    int32_t orientation = 0;
+    for (std::size_t c = 0; c < face.curves.size() && orientation == 0; ++c)
+      if (!face.curves[c].internal)
+        orientation = static_cast<int32_t>(c + 1) * (face.curves[c].forward != face.swapped ? 1 : -1);
+    const auto ref = static_cast<int32_t>(f + 1);
+    status = carreau_model_add_face(session, ref, orientation);
+    for (const HostCurve& curve : face.curves)
+      if (status == CARREAU_OK)
+        status = carreau_model_add_curve(session, ref, curve.internal ? CARREAU_INTERNAL : CARREAU_BOUNDARY, curve.edge,
+                                         curve.end1, curve.end2);
+  }
+  return status;
+}
+
+int BrepHost::face_count() const noexcept { return state_->faces.Extent(); }
+int BrepHost::edge_count() const noexcept { return state_->edges.Extent(); }
+int BrepHost::vertex_count() const noexcept { return state_->vertices.Extent(); }
+
+double BrepHost::diagonal() const {
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(state_->shape, box, Standard_False, Standard_False);
+  return std::sqrt(box.SquareExtent());
+}
+
+bool BrepHost::is_closed() const noexcept {
+  for (const int n : state_->uses)
+    if (n != 2) return false;
+  return true;
+}
+
+const std::string& BrepHost::failure() const noexcept { return state_->failure; }
+
+}  // namespace carreau_occ
