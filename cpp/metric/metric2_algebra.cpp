@@ -57,18 +57,6 @@ bool better_conditioned(Metric2 p, Metric2 q) noexcept {
   return p.a != q.a ? p.a < q.a : p.b <= q.b;
 }
 
-// Size between 1 (t = 0) and h (t = 1).
-double size_between(double h, double t, MetricLaw law) noexcept {
-  switch (law) {
-    case MetricLaw::geometric:
-      return std::pow(h, t);
-    case MetricLaw::sinusoidal:
-      return 0.5 * ((1 + h) + (1 - h) * std::cos(std::numbers::pi * t));
-    default:
-      return 1 + t * (h - 1);
-  }
-}
-
 }  // namespace
 
 double accurate_determinant(Metric2 m) noexcept {
@@ -125,6 +113,17 @@ LengthRatios length_ratios(Metric2 m, Metric2 reference) noexcept {
 double length_error(Metric2 m, Metric2 reference) noexcept {
   const LengthRatios r = length_ratios(m, reference);
   return std::max(r.largest - 1, 1 - r.smallest);
+}
+
+double size_between(double h, double t, MetricLaw law) noexcept {
+  switch (law) {
+    case MetricLaw::geometric:
+      return std::pow(h, t);
+    case MetricLaw::sinusoidal:
+      return 0.5 * ((1 + h) + (1 - h) * std::cos(std::numbers::pi * t));
+    default:
+      return 1 + t * (h - 1);
+  }
 }
 
 Metric2 interpolate(Metric2 p, Metric2 q, double t, MetricLaw law) noexcept {

@@ -41,6 +41,9 @@ double length_error(Metric2 m, Metric2 reference) noexcept;
 /// Laws for the sizes along the axes of the simultaneous reduction (RR-2818 sec. 4.3.2).
 enum class MetricLaw : int { linear = 0, geometric = 1, sinusoidal = 2 };
 
+/// Size at fraction t between 1 (t = 0) and h (t = 1).
+double size_between(double h, double t, MetricLaw law) noexcept;
+
 /// The metric at fraction t in [0, 1] between two positive definite ones (RR-2818 sec. 4.3.2): exact at both ends,
 /// positive definite between, and it turns and stretches with the coordinates. Symmetric: (p, q, t) is (q, p, 1 - t).
 Metric2 interpolate(Metric2 p, Metric2 q, double t, MetricLaw law) noexcept;
