@@ -1,0 +1,280 @@
+#include "size/gradation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+// The line from a source to a vertex passes near the vertex before it when they see it within this angle (cosine): the
+// six neighbours of a vertex of a good mesh leave at most 30 degrees.
+constexpr double seen_from_beside = 0.7;
+// Normals of places that are one smooth surface (cosine).
+constexpr double smooth_corner = 0.9;
+// Two fronts are one when their directions agree that well (cosine).
+constexpr double same_front = 0.7;
+constexpr std::size_t vertices_between_checks = 1 << 14;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// v, tangent where the normal is n, rolled to where it is m: the rotation about n x m, which at a crease is the
+/// curve's tangent. n . m > -1.
+Vec3 roll(Vec3 v, Vec3 n, Vec3 m) noexcept { return v - (dot(v, m) / (1 + dot(n, m))) * (n + m); }
+
+Vec3 resized(Vec3 v, double length) noexcept {
+  const double l = norm(v);
+  return l > 0 ? (length / l) * v : Vec3{};
+}
+
+/// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector: an edge away, the line
+/// is that vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
+/// through the inside of triangles as a plane wave.
+class Grading {
+ public:
+  Grading(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor)
+      : graph_(graph), slope_(slope), monitor_(monitor), front_(graph.xyz.size()) {
+    for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
+    collect_places();
+    collect_triangles();
+    collect_segments();
+  }
+
+  std::vector<GradedSize> run() {
+    for (std::size_t v = 0; v < front_.size(); ++v) {
+      front_[v].source = static_cast<int>(v);
+      front_[v].place = first_place_[v];
+      if (std::isfinite(front_[v].h)) queue_.emplace(front_[v].h, static_cast<int>(v));
+    }
+    std::size_t done = 0;
+    while (!queue_.empty()) {
+      const auto [h, v] = queue_.top();
+      queue_.pop();
+      if (front_[v].settled || h != front_[v].h) continue;
+      front_[v].settled = true;
+      leave(v);
+      if (++done % vertices_between_checks == 0) monitor_.checkpoint();
+    }
+    return result();
+  }
+
+ private:
+  /// What is known at a vertex: h = source_h + slope |line|.
+  struct Front {
+    double h = infinity, source_h = infinity;
+    Vec3 line;      // from the source, in the tangent plane of `place`
+    int place = 0;  // in GradationGraph::places; -1: a vertex without place
+    int source = 0;
+    bool settled = false;
+  };
+
+  void collect_places() {
+    const std::size_t n = graph_.xyz.size();
+    first_place_.assign(n, -1);
+    next_place_.assign(graph_.places.size(), -1);
+    for (std::size_t p = graph_.places.size(); p-- > 0;) {
+      const int v = graph_.places[p].vertex;
+      next_place_[p] = first_place_[v];
+      first_place_[v] = static_cast<int>(p);
+    }
+  }
+
+  void collect_triangles() {
+    start_.assign(graph_.places.size() + 1, 0);
+    inward_.assign(graph_.places.size(), Vec3{});
+    for (const auto& t : graph_.triangles)
+      for (int i = 0; i < 3; ++i) {
+        ++start_[t[i] + 1];
+        for (int k = 1; k < 3; ++k) {
+          const Vec3 e = position(t[(i + k) % 3]) - position(t[i]);
+          inward_[t[i]] = inward_[t[i]] + resized(e, 1);
+        }
+      }
+    for (std::size_t p = 0; p < graph_.places.size(); ++p) start_[p + 1] += start_[p];
+    others_.resize(3 * graph_.triangles.size());
+    std::vector<int> fill(start_.begin(), start_.end() - 1);
+    for (const auto& t : graph_.triangles)
+      for (int i = 0; i < 3; ++i) others_[fill[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
+  }
+
+  void collect_segments() {
+    segment_start_.assign(graph_.xyz.size() + 1, 0);
+    for (const auto& s : graph_.segments) ++segment_start_[s[0] + 1], ++segment_start_[s[1] + 1];
+    for (std::size_t v = 0; v < graph_.xyz.size(); ++v) segment_start_[v + 1] += segment_start_[v];
+    segment_end_.resize(2 * graph_.segments.size());
+    std::vector<int> fill(segment_start_.begin(), segment_start_.end() - 1);
+    for (const auto& s : graph_.segments) segment_end_[fill[s[0]]++] = s[1], segment_end_[fill[s[1]]++] = s[0];
+  }
+
+  [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
+  [[nodiscard]] Vec3 normal(int place) const noexcept { return graph_.places[place].normal; }
+  [[nodiscard]] Front& front_at(int place) noexcept { return front_[graph_.places[place].vertex]; }
+
+  /// The line of a vertex as another of its places sees it; false when the surface cannot be unfolded there.
+  bool carry(int v, int to, Vec3& line) const noexcept {
+    const Front& f = front_[v];
+    line = f.line;
+    if (f.place == to || dot(line, line) == 0) return true;
+    if (f.place < 0) return false;
+    const Vec3 n = normal(f.place), m = normal(to);
+    const int first = first_place_[v], second = next_place_[first];
+    const bool two = second >= 0 && next_place_[second] < 0;
+    if (!two) {
+      if (std::abs(dot(n, m)) < smooth_corner) return false;
+      line = roll(line, n, dot(n, m) < 0 ? -1 * m : m);
+      return true;
+    }
+    // Unfolded, the two sides lie on opposite sides of the curve.
+    const Vec3 from = inward_[f.place] - dot(inward_[f.place], n) * n, into = inward_[to];
+    for (const double side : {1., -1.}) {
+      const Vec3 k = side * m;
+      if (dot(n, k) < -0.999 || dot(roll(from, n, k), into) >= 0) continue;
+      line = roll(line, n, k);
+      return true;
+    }
+    return false;
+  }
+
+  void leave(int v) {
+    for (int p = first_place_[v]; p >= 0; p = next_place_[p]) {
+      Front from = front_[v];
+      from.place = p;
+      if (!carry(v, p, from.line)) from = restarted(v, p);
+      for (int k = start_[p]; k < start_[p + 1]; ++k) {
+        const auto [a, b] = others_[k];
+        along_edge(from, v, a);
+        along_edge(from, v, b);
+        through_triangle(from, b, a);
+        through_triangle(from, a, b);
+      }
+    }
+    for (int k = segment_start_[v]; k < segment_start_[v + 1]; ++k) {
+      const int to = segment_end_[k];
+      const double length = norm(graph_.xyz[to] - graph_.xyz[v]);
+      improve(to, {front_[v].h + slope_ * length, front_[v].h + slope_ * length, {}, first_place_[to], v, false});
+    }
+  }
+
+  [[nodiscard]] Front restarted(int v, int place) const noexcept {
+    return {front_[v].h, front_[v].h, {}, place, v, false};
+  }
+
+  void improve(int v, const Front& candidate) {
+    if (front_[v].settled || !(candidate.h < front_[v].h)) return;
+    front_[v] = candidate;
+    queue_.emplace(candidate.h, v);
+  }
+
+  /// The edge from `from` to place `to` in the tangent plane of `from`, as long as the arc above it.
+  [[nodiscard]] Vec3 unrolled_edge(int from, int to) const noexcept {
+    const Vec3 n = normal(from), e = position(to) - position(from);
+    const double length = norm(e);
+    if (!(length > 0)) return {};
+    // A circle that turns by t has the chord sin(t / 2) / (t / 2) times the arc.
+    const Vec3 m = dot(n, normal(to)) < 0 ? -1 * normal(to) : normal(to);
+    const double turn = std::min(1., std::abs(dot(m - n, e)) / length);
+    return resized(e - dot(n, e) * n, length * (1 + turn * turn / 24));
+  }
+
+  void along_edge(const Front& from, int v, int to) {
+    if (front_at(to).settled) return;
+    const Vec3 e = unrolled_edge(from.place, to);
+    const Vec3 line = from.line + e;
+    const double length = norm(line), edge = norm(e);
+    const bool seen = dot(line, e) >= seen_from_beside * length * edge;
+    Front candidate = seen ? Front{from.source_h + slope_ * length, from.source_h, line, to, from.source, false}
+                           : Front{front_[v].h + slope_ * edge, front_[v].h, e, to, v, false};
+    const Vec3 n = normal(from.place), m = dot(n, normal(to)) < 0 ? -1 * normal(to) : normal(to);
+    candidate.line = resized(roll(candidate.line, n, m), norm(candidate.line));
+    improve(graph_.places[to].vertex, candidate);
+  }
+
+  /// Plane wave through the edge between two settled vertices of a triangle (as in fast marching).
+  void through_triangle(const Front& from, int beside, int to) {
+    const Front& other = front_at(beside);
+    if (!other.settled || front_at(to).settled || other.source == from.source) return;
+    Vec3 line;
+    if (!carry(graph_.places[beside].vertex, beside, line)) return;
+    if (dot(from.line, line) < same_front * norm(from.line) * norm(line)) return;
+    const Vec3 a = position(from.place), ab = position(beside) - a, ac = position(to) - a;
+    const double width = norm(ab);
+    if (!(width > 0)) return;
+    const Vec3 x = (1 / width) * ab;
+    const double along = dot(ac, x);
+    const Vec3 up = ac - along * x;
+    const double height = norm(up);
+    const double climb = (other.h - front_at(from.place).h) / (slope_ * width);
+    if (!(height > 0) || std::abs(climb) >= 1) return;
+    const double steep = std::sqrt(1 - climb * climb);
+    const double crossing = along - climb * height / steep;
+    if (!(crossing > 0 && crossing < width)) return;
+    const double h = front_at(from.place).h + slope_ * (climb * along + steep * height);
+    const double length = std::lerp(norm(from.line), norm(line), crossing / width) + height / steep;
+    const Vec3 n = normal(to), direction = climb * x + (steep / height) * up;
+    improve(graph_.places[to].vertex, {h, h - slope_ * length, resized(direction - dot(n, direction) * n, length), to,
+                                       2 * crossing < width ? from.source : other.source, false});
+  }
+
+  [[nodiscard]] std::vector<GradedSize> result() const {
+    std::vector<GradedSize> sizes(front_.size());
+    for (std::size_t v = 0; v < front_.size(); ++v) {
+      sizes[v].h = front_[v].h;
+      Vec3 line;
+      if (first_place_[v] >= 0 && carry(static_cast<int>(v), first_place_[v], line))
+        sizes[v].slope = resized(line, slope_);
+    }
+    return sizes;
+  }
+
+  const GradationGraph& graph_;
+  double slope_;
+  Monitor& monitor_;
+  std::vector<Front> front_;
+  std::vector<int> first_place_, next_place_;  // of a vertex, of a place; -1: none
+  std::vector<int> start_;                     // by place, in others_
+  std::vector<std::pair<int, int>> others_;    // the other two places of each triangle
+  std::vector<Vec3> inward_;                   // by place: towards the middle of its triangles
+  std::vector<int> segment_start_, segment_end_;
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+void check(const GradationGraph& graph, const std::vector<double>& h, double slope) {
+  if (!(slope > 0) || !std::isfinite(slope))
+    throw InvalidArgument("the slope of a gradation must be positive; it is " + format_number(slope));
+  if (h.size() != graph.xyz.size())
+    throw InvalidArgument("a gradation has " + std::to_string(h.size()) + " sizes for " +
+                          std::to_string(graph.xyz.size()) + " vertices");
+  const auto outside = [](int i, std::size_t n) { return i < 0 || static_cast<std::size_t>(i) >= n; };
+  bool fits = true;
+  for (const auto& p : graph.places) fits = fits && !outside(p.vertex, graph.xyz.size());
+  for (const auto& t : graph.triangles)
+    for (const int p : t) fits = fits && !outside(p, graph.places.size());
+  for (const auto& s : graph.segments)
+    for (const int v : s) fits = fits && !outside(v, graph.xyz.size());
+  if (!fits) throw InvalidArgument("an index of a gradation's graph is out of range");
+  for (const double size : h)
+    if (!(size > 0)) throw InvalidArgument("a size of a gradation must be positive; it is " + format_number(size));
+}
+
+}  // namespace
+
+double slope_of_gradation(double beta) {
+  if (!(beta > 1) || !std::isfinite(beta))
+    throw InvalidArgument("a gradation must be greater than 1; it is " + format_number(beta));
+  return std::log(beta);
+}
+
+std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
+                                    Monitor& monitor) {
+  check(graph, h, slope);
+  return Grading(graph, h, slope, monitor).run();
+}
+
+}  // namespace carreau

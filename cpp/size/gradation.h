@@ -1,0 +1,45 @@
+// Gradation of an isotropic size field over a composite surface (Borouchaki, Hecht and Frey; HDR sec. 1.1.2).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "support/monitor.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Triangles of all faces, joined where faces share a vertex. A vertex has one place for each time that a face holds it
+/// (twice along a seam): tangent planes on both sides of a crease differ, and so do the two sides of a Klein bottle.
+struct GradationGraph {
+  struct Place {
+    int vertex = 0;  ///< index in `xyz`
+    Vec3 normal;     ///< unit normal of the face, either side
+  };
+  std::vector<Vec3> xyz;
+  std::vector<Place> places;
+  std::vector<std::array<int, 3>> triangles;  ///< three indices in `places`, any orientation
+  std::vector<std::array<int, 2>> segments;  ///< vertices joined by a curve, for curves without triangles; may be empty
+};
+
+/// What the grading says at a vertex.
+struct GradedSize {
+  double h = 0;
+  /// Derivative of h in space, in the tangent plane of the vertex's first place; zero where h is the vertex's own size.
+  Vec3 slope;
+};
+
+/// ln(beta), the largest derivative of h along a path on the surface, for a ratio beta between sizes one unit edge
+/// apart. With the linear law, the unit length between sizes p and q at distance d is d ln(q / p) / (q - p) (RR-2818
+/// sec. 5.2), so (q / p)^(1 / length) <= beta says exactly q - p <= ln(beta) d: this is the h-correction
+/// h(Q) = h(P) (1 + ln(beta) length_P(PQ)) of Borouchaki, Hecht and Frey.
+double slope_of_gradation(double beta);
+
+/// The largest field below `h` (one a vertex, +infinity: unknown) whose derivative along the surface is at most
+/// `slope`: h(x) = min over y of h(y) + slope * distance(x, y). Distances are those of straight lines on the unfolded
+/// triangles, within about 2 % on triangles that are not far from equilateral and turn by less than 30 degrees. Throws
+/// InvalidArgument unless slope > 0 and the arrays fit.
+std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
+                                    Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,298 @@
+// Cones of the gradation: plane, sphere, seam, crease, joined patches; bounds, order, bad input.
+#include "size/gradation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+#include "plane/plane_mesher.h"
+#include "support/error.h"
+
+namespace carreau {
+namespace {
+
+using std::numbers::pi;
+constexpr double unknown = std::numeric_limits<double>::infinity();
+using Map = std::function<Vec3(Vec2)>;
+
+// A polygon with `n` edges a side, meshed with unit edges of a field of sizes in the plane.
+PlaneMesh meshed(const std::vector<Vec2>& corners, const std::vector<int>& n, const std::function<double(Vec2)>& size) {
+  PlaneDomain domain;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (int k = 0; k < n[i]; ++k)
+      domain.vertices.push_back(lerp(corners[i], corners[(i + 1) % corners.size()], static_cast<double>(k) / n[i]));
+  const int m = static_cast<int>(domain.vertices.size());
+  SampledDomain sampled{domain.vertices, {}};
+  for (int i = 0; i < m; ++i) {
+    domain.edges.push_back({i, (i + 1) % m});
+    sampled.edges.emplace_back(i, (i + 1) % m);
+  }
+  Monitor monitor;
+  const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
+    for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric({1, 0, 0}, {0, 1, 0}, size(uv[i]));
+  };
+  return mesh_plane(domain, ControlSpace::build(sampled, sampler, {}, monitor), {}, monitor);
+}
+
+PlaneMesh rectangle(double a, double b, double h) {
+  const int m = std::max(1, static_cast<int>(std::lround(a / h))),
+            n = std::max(1, static_cast<int>(std::lround(b / h)));
+  return meshed({{0, 0}, {a, 0}, {a, b}, {0, b}}, {m, n, m, n}, [h](Vec2) { return h; });
+}
+
+// Adds a patch; vertices at one position in space are one.
+class Builder {
+ public:
+  void add(const PlaneMesh& mesh, const Map& map, double turned = 1) {
+    const int first = static_cast<int>(graph.places.size());
+    for (const Vec2 p : mesh.vertices) {
+      const Vec3 x = map(p);
+      const auto key = std::tuple{std::llround(x.x * 1e7), std::llround(x.y * 1e7), std::llround(x.z * 1e7)};
+      const auto [at, fresh] = vertex_at_.emplace(key, static_cast<int>(graph.xyz.size()));
+      if (fresh) graph.xyz.push_back(x);
+      constexpr double d = 1e-5;
+      const Vec3 su = map({p.x + d, p.y}) - map({p.x - d, p.y}), sv = map({p.x, p.y + d}) - map({p.x, p.y - d});
+      const Vec3 n = cross(su, sv);
+      graph.places.push_back({at->second, (turned / norm(n)) * n});
+    }
+    for (const auto& t : mesh.triangles) graph.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  [[nodiscard]] int nearest(Vec3 p) const {
+    return static_cast<int>(std::min_element(graph.xyz.begin(), graph.xyz.end(),
+                                             [&](Vec3 a, Vec3 b) { return norm(a - p) < norm(b - p); }) -
+                            graph.xyz.begin());
+  }
+  GradationGraph graph;
+
+ private:
+  std::map<std::tuple<long long, long long, long long>, int> vertex_at_;
+};
+
+// Largest relative error of the graded sizes of one source against h0 + slope * distance.
+double cone_error(const GradationGraph& graph, int source, double h0, double slope,
+                  const std::function<double(Vec3)>& distance) {
+  std::vector<double> h(graph.xyz.size(), unknown);
+  h[source] = h0;
+  Monitor monitor;
+  const auto graded = grade_sizes(graph, h, slope, monitor);
+  double worst = 0;
+  for (std::size_t v = 0; v < graded.size(); ++v) {
+    const double exact = h0 + slope * distance(graph.xyz[v]);
+    worst = std::max(worst, std::abs(graded[v].h / exact - 1));
+  }
+  return worst;
+}
+
+TEST(Gradation, LinearLawIsTheCorrectionOfBorouchakiHechtAndFrey) {
+  // (q / p)^(1 / l) with l the unit length between sizes p and q under the linear law.
+  for (const double beta : {1.1, 1.3, 2.}) {
+    const double p = 0.3, d = 0.7, q = p + slope_of_gradation(beta) * d;
+    const double l = d * std::log(q / p) / (q - p);
+    EXPECT_NEAR(std::pow(q / p, 1 / l), beta, 1e-12);
+  }
+}
+
+TEST(Gradation, ConeOnAPlane) {
+  const Map plane = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  for (const double h : {0.1, 0.03}) {
+    Builder b;
+    b.add(rectangle(1, 1, h), plane);
+    for (const Vec3 at : {Vec3{0, 0, 0}, Vec3{0.5, 0.5, 0}, Vec3{0.3, 1, 0}}) {
+      const int source = b.nearest(at);
+      const Vec3 s = b.graph.xyz[source];
+      EXPECT_LT(cone_error(b.graph, source, 1e-3, std::log(1.3), [&](Vec3 x) { return norm(x - s); }), 0.002);
+    }
+  }
+}
+
+TEST(Gradation, ConeOnATriangulationOfVaryingSize) {
+  Builder b;
+  b.add(meshed({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {20, 20, 20, 20},
+               [](Vec2 p) {
+                 return 0.01 + 0.1 * norm(p - Vec2{0.3, 0.4});
+               }),
+        [](Vec2 p) {
+          return Vec3{p.x, p.y, 0};
+        });
+  const int source = b.nearest({0.3, 0.4, 0});
+  const Vec3 s = b.graph.xyz[source];
+  EXPECT_LT(cone_error(b.graph, source, 0.01, std::log(2.), [&](Vec3 x) { return norm(x - s); }), 0.01);
+}
+
+TEST(Gradation, RidgeBetweenTwoSourcesAndPlaneWaveFromALine) {
+  Builder b;
+  b.add(rectangle(1, 1, 0.04), [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  Monitor monitor;
+  // A side of the square and its opposite corner.
+  std::vector<double> h(b.graph.xyz.size(), unknown);
+  for (std::size_t v = 0; v < h.size(); ++v)
+    if (b.graph.xyz[v].x == 0) h[v] = 0.02 + 0.1 * b.graph.xyz[v].y;
+  const int corner = b.nearest({1, 1, 0});
+  h[corner] = 0.03;
+  const double slope = std::log(1.3), climb = 0.1 / slope;
+  const auto graded = grade_sizes(b.graph, h, slope, monitor);
+  for (std::size_t v = 0; v < h.size(); ++v) {
+    const Vec3 x = b.graph.xyz[v];
+    // The plane wave of the side leaves it at the angle whose cosine along the side is 0.1 / slope.
+    const double foot = std::clamp(x.y - x.x * climb / std::sqrt(1 - climb * climb), 0., 1.);
+    const double from_side = 0.02 + 0.1 * foot + slope * norm(x - Vec3{0, foot, 0});
+    const double exact = std::min(from_side, 0.03 + slope * norm(x - Vec3{1, 1, 0}));
+    EXPECT_NEAR(graded[v].h / exact, 1, 0.02) << x.x << ' ' << x.y;
+  }
+}
+
+TEST(Gradation, ConeAcrossTheSeamOfACylinder) {
+  Builder b;
+  b.add(rectangle(2 * pi, 3, 0.15), [](Vec2 p) { return Vec3{std::cos(p.x), std::sin(p.x), p.y}; });
+  const int source = b.nearest({std::cos(0.4), std::sin(0.4), 1.2});
+  const Vec3 s = b.graph.xyz[source];
+  const double turn = std::atan2(s.y, s.x);
+  EXPECT_LT(
+      cone_error(b.graph, source, 0.01, std::log(1.3),
+                 [&](Vec3 x) { return std::hypot(std::remainder(std::atan2(x.y, x.x) - turn, 2 * pi), x.z - s.z); }),
+      0.02);
+}
+
+TEST(Gradation, ConeAcrossACreaseWhateverTheSidesOfTheFaces) {
+  // Unfolded, two squares at an angle of the crease x = 1 are the rectangle [0, 2] x [0, 1].
+  for (const double angle : {0.5, pi / 2, 2.5})
+    for (const double turned : {1., -1.}) {
+      Builder b;
+      const PlaneMesh square = rectangle(1, 1, 0.07);
+      b.add(square, [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+      b.add(
+          square,
+          [angle](Vec2 p) {
+            return Vec3{1 + p.x * std::cos(angle), p.y, p.x * std::sin(angle)};
+          },
+          turned);
+      const int source = b.nearest({0.6, 0.2, 0});
+      const Vec3 s = b.graph.xyz[source];
+      EXPECT_LT(cone_error(b.graph, source, 0.01, std::log(1.3),
+                           [&](Vec3 x) {
+                             const double beyond = std::hypot(x.x - 1, x.z);
+                             const bool second = x.z > 1e-9;
+                             return std::hypot((second ? 1 + beyond : x.x) - s.x, x.y - s.y);
+                           }),
+                0.02)
+          << angle << ' ' << turned;
+    }
+}
+
+TEST(Gradation, ConeOnASphereOfTwoPatches) {
+  // Hemispheres by stereographic projection, joined along the equator.
+  for (const double h : {0.15, 0.06}) {
+    std::vector<Vec2> disc;
+    const int n = static_cast<int>(2 * pi / h);
+    for (int k = 0; k < n; ++k) disc.push_back({std::cos(2 * pi * k / n), std::sin(2 * pi * k / n)});
+    const PlaneMesh mesh = meshed(disc, std::vector<int>(n, 1), [h](Vec2 p) { return h * (1 + dot(p, p)) / 2; });
+    Builder b;
+    for (const double side : {1., -1.})
+      b.add(mesh, [side](Vec2 p) {
+        const double k = 2 / (1 + dot(p, p));
+        return Vec3{k * p.x, k * p.y, side * (k - 1)};
+      });
+    for (const Vec3 at : {Vec3{0, 0, 1}, Vec3{0.8, 0, 0.6}, Vec3{0, 1, 0}}) {
+      const int source = b.nearest(at);
+      const Vec3 s = b.graph.xyz[source];
+      EXPECT_LT(cone_error(b.graph, source, 0.01, std::log(1.3),
+                           [&](Vec3 x) { return 2 * std::asin(std::min(1., norm(x - s) / 2)); }),
+                0.02)
+          << h << ' ' << at.x << ' ' << at.z;
+    }
+  }
+}
+
+TEST(Gradation, PathsGoAroundAHole) {
+  // A wall from (0, 0.5) to (0.8, 0.5): the way leads around its end.
+  Builder b;
+  b.add(meshed({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0.52}, {0.8, 0.52}, {0.8, 0.48}, {0, 0.48}},
+               {20, 20, 20, 10, 16, 1, 16, 10}, [](Vec2) { return 0.05; }),
+        [](Vec2 p) {
+          return Vec3{p.x, p.y, 0};
+        });
+  std::vector<double> h(b.graph.xyz.size(), unknown);
+  const int source = b.nearest({0, 0, 0}), target = b.nearest({0, 1, 0});
+  h[source] = 0.01;
+  Monitor monitor;
+  const auto graded = grade_sizes(b.graph, h, 1, monitor);
+  const double exact = 0.01 + std::hypot(0.8, 0.48) * 2 + 0.04;
+  EXPECT_NEAR(graded[target].h / exact, 1, 0.05);
+}
+
+TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
+  Builder b;
+  b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x, p.y, 0.3 * std::sin(4 * p.x) * p.y}; });
+  std::vector<double> h(b.graph.xyz.size());
+  std::uint64_t state = 12345;
+  for (double& x : h) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    x = 0.01 + 0.2 * static_cast<double>(state >> 40) / static_cast<double>(1 << 24);
+  }
+  Monitor monitor;
+  for (const double beta : {1.1, 1.3, 2.}) {
+    const double slope = slope_of_gradation(beta);
+    const auto graded = grade_sizes(b.graph, h, slope, monitor);
+    double steepest = 0;
+    for (std::size_t v = 0; v < h.size(); ++v) EXPECT_LE(graded[v].h, h[v]);
+    for (const auto& t : b.graph.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const int p = t[i], q = t[(i + 1) % 3];
+        steepest = std::max(steepest, std::abs(graded[p].h - graded[q].h) / norm(b.graph.xyz[p] - b.graph.xyz[q]));
+      }
+    EXPECT_LE(steepest, 1.01 * slope);
+    // Grading again changes nothing beyond the accuracy of distances.
+    std::vector<double> once(h.size());
+    for (std::size_t v = 0; v < h.size(); ++v) once[v] = graded[v].h;
+    const auto twice = grade_sizes(b.graph, once, slope, monitor);
+    for (std::size_t v = 0; v < h.size(); ++v) EXPECT_NEAR(twice[v].h / once[v], 1, 0.02);
+  }
+}
+
+TEST(Gradation, DoesNotDependOnTheOrderOfTriangles) {
+  Builder b;
+  b.add(rectangle(1, 1, 0.05), [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  std::vector<double> h(b.graph.xyz.size());
+  for (std::size_t v = 0; v < h.size(); ++v) h[v] = 0.01 + 0.5 * std::abs(std::sin(40. * static_cast<double>(v * v)));
+  Monitor monitor;
+  const auto before = grade_sizes(b.graph, h, 0.2, monitor);
+  GradationGraph other = b.graph;
+  std::reverse(other.triangles.begin(), other.triangles.end());
+  for (auto& t : other.triangles) std::rotate(t.begin(), t.begin() + 1, t.end());
+  const auto after = grade_sizes(other, h, 0.2, monitor);
+  for (std::size_t v = 0; v < h.size(); ++v) EXPECT_NEAR(after[v].h / before[v].h, 1, 1e-3);
+}
+
+TEST(Gradation, CurvesWithoutTrianglesCarrySizes) {
+  GradationGraph graph;
+  for (int i = 0; i <= 10; ++i) graph.xyz.push_back({0.1 * i, 0, 0});
+  for (int i = 0; i < 10; ++i) graph.segments.push_back({i, i + 1});
+  std::vector<double> h(11, 1);
+  h[3] = 0.05;
+  Monitor monitor;
+  const auto graded = grade_sizes(graph, h, 0.5, monitor);
+  for (int i = 0; i <= 10; ++i) EXPECT_NEAR(graded[i].h, 0.05 + 0.05 * std::abs(i - 3), 1e-12);
+}
+
+TEST(Gradation, RefusesWhatMakesNoSense) {
+  Monitor monitor;
+  EXPECT_THROW(slope_of_gradation(1), InvalidArgument);
+  EXPECT_THROW(slope_of_gradation(0.9), InvalidArgument);
+  EXPECT_THROW(slope_of_gradation(std::nan("")), InvalidArgument);
+  GradationGraph graph;
+  graph.xyz = {{0, 0, 0}};
+  EXPECT_THROW(grade_sizes(graph, {}, 0.2, monitor), InvalidArgument);
+  EXPECT_THROW(grade_sizes(graph, {-1}, 0.2, monitor), InvalidArgument);
+  EXPECT_THROW(grade_sizes(graph, {1}, 0, monitor), InvalidArgument);
+  graph.segments = {{0, 1}};
+  EXPECT_THROW(grade_sizes(graph, {1}, 0.2, monitor), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace carreau
