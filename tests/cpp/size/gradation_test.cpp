@@ -247,11 +247,15 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
         steepest = std::max(steepest, std::abs(graded[p].h - graded[q].h) / norm(b.graph.xyz[p] - b.graph.xyz[q]));
       }
     EXPECT_LE(steepest, 1.01 * slope);
-    // Grading again changes nothing beyond the accuracy of distances.
+    // Grading again changes nothing but ridges: the field that is linear in triangles is lower between two slopes than
+    // they are, by at most 1 - sqrt(3) / 2 = 0.134 of what it climbs along an equilateral edge.
     std::vector<double> once(h.size());
     for (std::size_t v = 0; v < h.size(); ++v) once[v] = graded[v].h;
     const auto twice = grade_sizes(b.graph, once, slope, monitor);
-    for (std::size_t v = 0; v < h.size(); ++v) EXPECT_NEAR(twice[v].h / once[v], 1, 0.02);
+    for (std::size_t v = 0; v < h.size(); ++v) {
+      EXPECT_LE(twice[v].h, once[v]);
+      EXPECT_GE(twice[v].h, once[v] - 0.2 * slope * 0.03);
+    }
   }
 }
 
