@@ -1,0 +1,55 @@
+// From a scalar field on a mesh to the sizes or metrics of a better mesh (HDR sec. 3.4.3).
+#pragma once
+
+#include <vector>
+
+#include "adapt/recovery.h"
+#include "metric/metric3.h"
+
+namespace carreau {
+
+/// What the error is estimated from (HDR sec. 3.4.3 a.1, a.2, a.3).
+enum class ErrorSource : int {
+  hessian = 0,      ///< interpolation error of the field: 2/9 M h^2 (eq. 3.3)
+  curvature = 1,    ///< angle between edges and tangent planes of the graph z = field (a.2)
+  deformation = 2,  ///< distance from the graph's tangent planes (a.3)
+};
+
+/// What is prescribed.
+enum class ErrorShape : int {
+  isotropic = 0,    ///< a size: circles in the mesh's plane
+  graph = 1,        ///< circles in the tangent planes of the graph, ellipses in the mesh's plane
+  anisotropic = 2,  ///< by both principal values: ellipses in the mesh's plane and on the graph
+};
+
+struct EstimatorOptions {
+  ErrorSource source = ErrorSource::hessian;
+  ErrorShape shape = ErrorShape::isotropic;
+  /// Hessian, deformation: largest error, in units of the field; with `relative`, over the field's absolute value.
+  /// Curvature: largest angle between an edge and the tangent plane, degrees, below 90.
+  double tolerance = 0.01;
+  bool relative = false;  ///< Hessian and deformation
+  /// Below this share of its largest absolute value, the field does not make a relative error larger.
+  double relative_floor = 0.1;
+  /// Bounds of sizes: in the mesh's plane for the Hessian, in the graph's tangent plane otherwise.
+  double hmin = 0, hmax = 0;
+  double ratio = 1000;  ///< largest ratio of the two sizes of a metric, at least 1
+};
+
+/// Sizes or metrics at the vertices of a mesh: the one that the shape asks for, the other is empty.
+struct VertexPrescriptions {
+  std::vector<double> sizes;
+  /// In the direction normal to the mesh the size is the smaller of the two in its plane.
+  std::vector<Metric3> metrics;
+  std::size_t unreliable = 0;  ///< vertices with too few neighbours for second derivatives; they have hmax
+};
+
+/// Prescribes at each vertex of field's mesh. Throws InvalidArgument unless 0 < hmin <= hmax, tolerance > 0 and
+/// ratio >= 1, and what check_field throws; for `curvature`, `deformation` and `graph` the mesh is in the plane z = 0.
+VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options);
+
+/// The same from derivatives that are already known (an exact Hessian, project_derivatives()).
+VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
+                             const EstimatorOptions& options);
+
+}  // namespace carreau

@@ -1,0 +1,226 @@
+#include "adapt/recovery.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "metric/metric2_algebra.h"
+#include "support/error.h"
+
+namespace carreau {
+namespace {
+
+constexpr std::size_t unknowns = 5;
+/// Smallest over largest diagonal entry of the triangular factor below which a fit is not determined.
+constexpr double least_pivot = 0.02;
+constexpr int most_rings = 3;
+
+using Row = std::array<double, unknowns + 1>;
+
+/// Least squares by Householder reflections; the last column is the right side. False when columns depend on each
+/// other. `rows` is overwritten.
+bool solve(std::vector<Row>& rows, std::array<double, unknowns>& x) {
+  const std::size_t n = rows.size();
+  if (n < unknowns) return false;
+  std::array<double, unknowns> diagonal{};
+  for (std::size_t k = 0; k < unknowns; ++k) {
+    double norm2 = 0;
+    for (std::size_t i = k; i < n; ++i) norm2 += rows[i][k] * rows[i][k];
+    if (!(norm2 > 0)) return false;
+    const double alpha = rows[k][k] > 0 ? -std::sqrt(norm2) : std::sqrt(norm2);
+    const double pivot = rows[k][k] - alpha, beta = -1 / (alpha * pivot);  // 2 / v^T v
+    rows[k][k] = pivot;
+    for (std::size_t j = k + 1; j <= unknowns; ++j) {
+      double sum = 0;
+      for (std::size_t i = k; i < n; ++i) sum += rows[i][k] * rows[i][j];
+      for (std::size_t i = k; i < n; ++i) rows[i][j] -= beta * sum * rows[i][k];
+    }
+    diagonal[k] = alpha;
+  }
+  double smallest = std::abs(diagonal[0]), largest = smallest;
+  for (const double d : diagonal) {
+    smallest = std::min(smallest, std::abs(d));
+    largest = std::max(largest, std::abs(d));
+  }
+  if (!(smallest > least_pivot * largest)) return false;
+  for (std::size_t k = unknowns; k-- > 0;) {
+    double sum = rows[k][unknowns];
+    for (std::size_t j = k + 1; j < unknowns; ++j) sum -= rows[k][j] * x[j];
+    x[k] = sum / diagonal[k];
+  }
+  return true;
+}
+
+TangentFrame frame_of(Vec3 normal) {
+  const double length = norm(normal);
+  if (!(length > 0)) return {};
+  TangentFrame f;
+  // Upwards, so that the frame of a mesh in the plane is (x, y) however its triangles turn.
+  f.normal = (normal.z < 0 ? -1 / length : 1 / length) * normal;
+  // The axis that is least along the normal; in the plane (x, y) this gives the coordinates themselves.
+  const Vec3 n = f.normal;
+  const bool y_last = std::abs(n.x) <= 0.9;
+  const Vec3 axis = y_last ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+  f.e1 = axis - dot(axis, n) * n;
+  f.e1 = (1 / norm(f.e1)) * f.e1;
+  f.e2 = cross(n, f.e1);
+  return f;
+}
+
+std::vector<TangentFrame> frames_of(const ScalarField& field) {
+  std::vector<Vec3> normals(field.vertices.size());
+  for (const auto& t : field.triangles) {
+    const Vec3 p = field.vertices[static_cast<std::size_t>(t[0])];
+    const Vec3 n =
+        cross(field.vertices[static_cast<std::size_t>(t[1])] - p, field.vertices[static_cast<std::size_t>(t[2])] - p);
+    for (const std::int32_t v : t) normals[static_cast<std::size_t>(v)] = normals[static_cast<std::size_t>(v)] + n;
+  }
+  std::vector<TangentFrame> frames;
+  frames.reserve(normals.size());
+  for (const Vec3 n : normals) frames.push_back(frame_of(n));
+  return frames;
+}
+
+/// Fits one vertex after the other; keeps its memory.
+class Fitter {
+ public:
+  explicit Fitter(const ScalarField& field)
+      : field_(field),
+        neighbours_(neighbours_of(field.vertices.size(), field.triangles)),
+        mark_(field.vertices.size(), -1) {}
+
+  LocalDerivatives fit(std::int32_t v, const TangentFrame& frame) {
+    LocalDerivatives result;
+    result.frame = frame;
+    around_.assign(1, v);
+    mark_[static_cast<std::size_t>(v)] = v;
+    std::size_t from = 0;
+    for (int ring = 1; ring <= most_rings; ++ring) {
+      const std::size_t to = around_.size();
+      for (; from < to; ++from)
+        for (const std::int32_t w : neighbours_.of(around_[from]))
+          if (mark_[static_cast<std::size_t>(w)] != v) {
+            mark_[static_cast<std::size_t>(w)] = v;
+            around_.push_back(w);
+          }
+      if (fit_around(v, result)) return result;
+      if (around_.size() == to) break;
+    }
+    result.reliable = false;
+    return result;
+  }
+
+ private:
+  /// Coordinates in which the neighbours lie evenly around the vertex, along their principal axes: stretched meshes are
+  /// fitted as well as others, and the fit turns with the mesh.
+  struct Whitening {
+    Vec2 first, second;  // coordinates are the products with these
+    [[nodiscard]] Vec2 of(Vec2 d) const noexcept { return {dot(first, d), dot(second, d)}; }
+    [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
+    [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
+      const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;
+      return {p.x * first.x + q.x * second.x, p.x * first.y + q.x * second.y, p.y * first.y + q.y * second.y};
+    }
+  };
+
+  [[nodiscard]] bool whitening(Whitening& w) const noexcept {
+    Metric2 covariance{0, 0, 0};
+    for (const Vec2 d : offset_) covariance = covariance + Metric2{d.x * d.x, d.x * d.y, d.y * d.y};
+    const Eigen2 e = eigen((2 / static_cast<double>(offset_.size())) * covariance);
+    if (!(e.minor > 1e-14 * e.major)) return false;
+    w = {(1 / std::sqrt(e.major)) * e.direction, (1 / std::sqrt(e.minor)) * Vec2{-e.direction.y, e.direction.x}};
+    return true;
+  }
+
+  bool fit_around(std::int32_t v, LocalDerivatives& result) {
+    const auto at = static_cast<std::size_t>(v);
+    offset_.clear();
+    for (std::size_t k = 1; k < around_.size(); ++k)
+      offset_.push_back(
+          result.frame.in_plane(field_.vertices[static_cast<std::size_t>(around_[k])] - field_.vertices[at]));
+    Whitening white{};
+    if (offset_.size() < unknowns || !whitening(white)) return false;
+    rows_.clear();
+    for (std::size_t k = 0; k < offset_.size(); ++k) {
+      const Vec2 d = white.of(offset_[k]);
+      const double weight = 1 / std::max(norm(d), 1e-3);
+      const double rise = field_.values[static_cast<std::size_t>(around_[k + 1])] - field_.values[at];
+      rows_.push_back({weight * d.x, weight * d.y, weight * d.x * d.x / 2, weight * d.x * d.y, weight * d.y * d.y / 2,
+                       weight * rise});
+    }
+    std::array<double, unknowns> x{};
+    if (!solve(rows_, x)) return false;
+    result.gradient = white.gradient(x[0], x[1]);
+    result.hessian = white.hessian(x[2], x[3], x[4]);
+    return true;
+  }
+
+  const ScalarField& field_;
+  Neighbours neighbours_;
+  std::vector<std::int32_t> mark_, around_;
+  std::vector<Vec2> offset_;
+  std::vector<Row> rows_;
+};
+
+/// Gradient in (x, y) of the linear interpolation of `values` in a triangle, times its doubled area.
+Vec2 gradient_times_area(const ScalarField& field, const std::array<std::int32_t, 3>& t, const auto& value_at,
+                         double& doubled_area) {
+  std::array<Vec2, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 q = field.vertices[static_cast<std::size_t>(t[i])];
+    p[i] = {q.x, q.y};
+  }
+  doubled_area = std::abs(cross(p[1] - p[0], p[2] - p[0]));
+  const double sign = cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
+  Vec2 sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec2 edge = p[(i + 2) % 3] - p[(i + 1) % 3];
+    sum = sum + sign * value_at(static_cast<std::size_t>(t[i])) * Vec2{-edge.y, edge.x};
+  }
+  return sum;
+}
+
+std::vector<Vec2> projected_gradients(const ScalarField& field, const auto& value_at) {
+  std::vector<Vec2> gradient(field.vertices.size());
+  std::vector<double> weight(field.vertices.size(), 0);
+  for (const auto& t : field.triangles) {
+    double area = 0;
+    const Vec2 g = gradient_times_area(field, t, value_at, area);
+    for (const std::int32_t v : t) {
+      gradient[static_cast<std::size_t>(v)] = gradient[static_cast<std::size_t>(v)] + g;
+      weight[static_cast<std::size_t>(v)] += area;
+    }
+  }
+  for (std::size_t v = 0; v < gradient.size(); ++v)
+    if (weight[v] > 0) gradient[v] = (1 / weight[v]) * gradient[v];
+  return gradient;
+}
+
+}  // namespace
+
+std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field) {
+  check_field(field);
+  const std::vector<TangentFrame> frames = frames_of(field);
+  Fitter fitter(field);
+  std::vector<LocalDerivatives> result;
+  result.reserve(frames.size());
+  for (std::size_t v = 0; v < frames.size(); ++v) result.push_back(fitter.fit(static_cast<std::int32_t>(v), frames[v]));
+  return result;
+}
+
+std::vector<LocalDerivatives> project_derivatives(const ScalarField& field) {
+  check_field(field);
+  for (const Vec3 p : field.vertices)
+    if (p.z != field.vertices.front().z) throw InvalidArgument("derivatives are projected on plane meshes only");
+  const std::vector<Vec2> g = projected_gradients(field, [&](std::size_t v) { return field.values[v]; });
+  const std::vector<Vec2> gx = projected_gradients(field, [&](std::size_t v) { return g[v].x; });
+  const std::vector<Vec2> gy = projected_gradients(field, [&](std::size_t v) { return g[v].y; });
+  std::vector<LocalDerivatives> result(g.size());
+  for (std::size_t v = 0; v < g.size(); ++v) {
+    result[v].gradient = g[v];
+    result[v].hessian = {gx[v].x, 0.5 * (gx[v].y + gy[v].x), gy[v].y};
+  }
+  return result;
+}
+
+}  // namespace carreau

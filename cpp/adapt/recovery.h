@@ -1,0 +1,38 @@
+// Derivatives of a field that is known at the vertices of a mesh.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "adapt/scalar_field.h"
+#include "metric/metric2.h"
+
+namespace carreau {
+
+/// Plane in which derivatives at a vertex are meant: e1, e2 and the normal (of either sense) are orthonormal.
+/// On meshes of the plane z = 0 they are the axes x, y, z.
+struct TangentFrame {
+  Vec3 e1{1, 0, 0}, e2{0, 1, 0}, normal{0, 0, 1};
+  [[nodiscard]] Vec2 in_plane(Vec3 d) const noexcept { return {dot(d, e1), dot(d, e2)}; }
+};
+
+/// Value, gradient and Hessian of the field at a vertex, in the coordinates of `frame`.
+struct LocalDerivatives {
+  TangentFrame frame;
+  Vec2 gradient;
+  Metric2 hessian{0, 0, 0};  ///< symmetric, of any sign
+  bool reliable = true;      ///< false: too few neighbours for a Hessian; it is zero
+};
+
+/// Quadratic polynomials through each vertex that fit its neighbours by least squares, the nearer the better; of two
+/// rings, or three, where one ring does not determine them (the boundary). Exact on quadratics. On smooth fields the
+/// error of the gradient is of order 2, that of the Hessian of order 1 (2 where neighbours lie symmetrically). The
+/// plane of a vertex is that of the mean of its triangles' normals weighted by area. Throws what check_field throws.
+std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field);
+
+/// The integral of each triangle's gradient, averaged over the triangles of a vertex by area, twice: the double L2
+/// projection with lumped masses. Smoother than the fit; of order 1 on meshes that are nearly regular, biased on the
+/// boundary. Plane meshes only (the frame is that of (x, y)).
+std::vector<LocalDerivatives> project_derivatives(const ScalarField& field);
+
+}  // namespace carreau
