@@ -50,15 +50,6 @@ fs::path behind_links(fs::path path) {
   return path;
 }
 
-/// Writes all and closes. Zero, or the errno of what failed.
-int write_and_close(File file, std::string_view content) {
-  errno = 0;
-  if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size()) return errno != 0 ? errno : EIO;
-  // A full disk is often reported only here.
-  if (std::fclose(file.release()) != 0) return errno != 0 ? errno : EIO;
-  return 0;
-}
-
 struct Temporary {
   fs::path path;
   File file;
@@ -105,29 +96,65 @@ std::string read_file(const std::string& path, std::size_t limit) {
   return content;
 }
 
-void write_file(const std::string& path, std::string_view content) {
+struct NewFile::State {
+  fs::path target, temporary;  // temporary is empty when the target is written directly
+  fs::file_status old;
+  File file;
+  std::uint64_t position = 0;  // of the next byte in `file`
+
+  [[noreturn]] void fail_writing(int code) const { fail(target, "write", reason(code != 0 ? code : EIO)); }
+};
+
+NewFile::NewFile(const std::string& path) : state_(std::make_unique<State>()) {
+  State& s = *state_;
   check_name(path, "write");
-  const fs::path target = behind_links(path);
+  s.target = behind_links(path);
   std::error_code error;
-  const fs::file_status old = fs::status(target, error);
-  if (old.type() == fs::file_type::directory) fail(target, "write", "it is a folder");
-  if (fs::exists(old) && old.type() != fs::file_type::regular) {
+  s.old = fs::status(s.target, error);
+  if (s.old.type() == fs::file_type::directory) fail(s.target, "write", "it is a folder");
+  if (fs::exists(s.old) && s.old.type() != fs::file_type::regular) {
     errno = 0;
-    File file(std::fopen(target.c_str(), "wb"));
-    if (!file) fail(target, "write", reason(errno));
-    if (const int code = write_and_close(std::move(file), content); code != 0) fail(target, "write", reason(code));
+    s.file.reset(std::fopen(s.target.c_str(), "wb"));
+    if (!s.file) fail(s.target, "write", reason(errno));
     return;
   }
-  Temporary temporary = create_beside(target);
-  const auto give_up = [&](const std::string& why) {
-    std::error_code ignored;
-    fs::remove(temporary.path, ignored);
-    fail(target, "write", why);
-  };
-  if (const int code = write_and_close(std::move(temporary.file), content); code != 0) give_up(reason(code));
-  if (fs::exists(old)) fs::permissions(temporary.path, old.permissions(), error);
-  fs::rename(temporary.path, target, error);
-  if (error) give_up(error.message());
+  Temporary temporary = create_beside(s.target);
+  s.temporary = std::move(temporary.path);
+  s.file = std::move(temporary.file);
+}
+
+NewFile::~NewFile() {
+  state_->file.reset();
+  std::error_code ignored;
+  if (!state_->temporary.empty()) fs::remove(state_->temporary, ignored);
+}
+
+void NewFile::write_at(std::uint64_t position, std::string_view bytes) {
+  State& s = *state_;
+  errno = 0;
+  if (position != s.position && std::fseek(s.file.get(), static_cast<long>(position), SEEK_SET) != 0)
+    s.fail_writing(errno);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), s.file.get()) != bytes.size()) s.fail_writing(errno);
+  s.position = position + bytes.size();
+}
+
+void NewFile::commit() {
+  State& s = *state_;
+  errno = 0;
+  // A full disk is often reported only here.
+  if (std::fclose(s.file.release()) != 0) s.fail_writing(errno);
+  if (s.temporary.empty()) return;
+  std::error_code error;
+  if (fs::exists(s.old)) fs::permissions(s.temporary, s.old.permissions(), error);
+  fs::rename(s.temporary, s.target, error);
+  if (error) fail(s.target, "write", error.message());
+  s.temporary.clear();
+}
+
+void write_file(const std::string& path, std::string_view content) {
+  NewFile file(path);
+  file.write_at(0, content);
+  file.commit();
 }
 
 }  // namespace carreau

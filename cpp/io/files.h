@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -16,5 +18,25 @@ std::string read_file(const std::string& path, std::size_t limit = std::size_t{1
 /// and the file it points to is replaced. What is not an ordinary file (/dev/stdout, a pipe) is written to directly.
 /// Throws FileError with the absolute path and the system's reason.
 void write_file(const std::string& path, std::string_view content);
+
+/// The same for content that is made piece by piece, in any order of positions. Nothing is seen at `path` before
+/// commit(); without it the temporary is removed. For one thread at a time.
+class NewFile {
+ public:
+  /// Throws FileError.
+  explicit NewFile(const std::string& path);
+  ~NewFile();
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  /// Throws FileError; commit() must not follow then.
+  void write_at(std::uint64_t position, std::string_view bytes);
+  /// Gives the file its name. Once. Throws FileError.
+  void commit();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace carreau
