@@ -104,7 +104,7 @@ class Refiner {
     auto& space = spaces_[f];
     if (!space) {
       const PatchInput input{.face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}};
-      space = sample_face(input, curve_model_.cad, rules_, options_, {}, monitor_);
+      space = sample_face(input, curve_model_.cad, rules_, {}, monitor_);
     }
     return *space;
   }

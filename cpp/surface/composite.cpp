@@ -63,6 +63,7 @@ class Pipeline {
     mesh_faces();
     monitor_.progress(Phase::assembly, 0, curves_share + patches_share);
     assemble(model_, topology_, domains_, curves_, patches_, result_);
+    keep_interfaces();
     result_.report.calls = cad_.counts();
     result_.report.seconds_total = seconds_since(start);
     return std::move(result_);
@@ -122,7 +123,7 @@ class Pipeline {
                            .domain = &domain,
                            .curve_xyz = positions_on_curves(domain, curves_, topology_),
                            .constant_size = rules_.constant()};
-    ControlSpace space = sample_face(input, cad_, rules_, options_, {}, monitor_);
+    ControlSpace space = sample_face(input, cad_, rules_, {}, monitor_);
     result_.report.seconds_sampling += seconds_since(start);
     // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
     if (space.measure() > 2 * static_cast<double>(left_)) refuse(Where{.face = input.ref}, space.measure());
@@ -138,7 +139,7 @@ class Pipeline {
       // What the vertices have found is sampled, and the patch meshed again if that was news.
       suspects.insert(suspects.end(), places.begin(), places.end());
       start = std::chrono::steady_clock::now();
-      ControlSpace finer = sample_face(input, cad_, rules_, options_, suspects, monitor_);
+      ControlSpace finer = sample_face(input, cad_, rules_, suspects, monitor_);
       result_.report.seconds_sampling += seconds_since(start);
       if (!differ_at(places, space, finer)) break;
       if (finer.measure() > 2 * static_cast<double>(left_)) refuse(Where{.face = input.ref}, finer.measure());
@@ -146,6 +147,13 @@ class Pipeline {
       ++result_.report.corrections;
     }
     left_ -= static_cast<std::int64_t>(patches_[f]->plane.triangles.size());
+  }
+
+  void keep_interfaces() {
+    result_.interfaces.resize(model_.faces.size());
+    for (std::size_t f = 0; f < result_.interfaces.size(); ++f)
+      if (domains_.domain[f])
+        result_.interfaces[f] = {std::move(domains_.domain[f]->plane), std::move(domains_.domain[f]->physical)};
   }
 
   void fail(std::size_t f, const std::string& why) {

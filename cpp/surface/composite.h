@@ -8,6 +8,7 @@
 #include "model/topology.h"
 #include "size/size_rules.h"
 #include "support/monitor.h"
+#include "surface/face_metric.h"
 
 namespace carreau {
 
@@ -34,7 +35,8 @@ struct CompositeReport {
 
 struct CompositeResult {
   SurfaceMesh mesh;
-  std::vector<double> vertex_size;  ///< prescribed size at each vertex
+  std::vector<double> vertex_size;         ///< prescribed size at each vertex
+  std::vector<FaceInterfaces> interfaces;  ///< by face; empty where the domain could not be made
   CompositeReport report;
 };
 

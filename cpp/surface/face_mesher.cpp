@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "surface/interface_sizes.h"
+#include "surface/face_metric.h"
 #include "surface/space_swaps.h"
 
 namespace carreau {
@@ -38,24 +38,14 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options,
-                         std::span<const Vec2> suspects, Monitor& monitor) {
-  // Built only when the host leaves a question open.
-  std::optional<InterfaceSizes> interfaces;
-  const auto fallback = [&](Vec2 uv) {
-    if (!interfaces)
-      interfaces.emplace(input.domain->plane, input.domain->physical, static_cast<SizeLaw>(options.size.hinterpol_flag),
-                         monitor);
-    return (*interfaces)(uv);
-  };
+ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
+                         Monitor& monitor) {
+  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor);
   std::vector<SurfaceJet> jets;
-  std::vector<double> h;
   const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     jets.resize(uv.size());
-    h.resize(uv.size());
-    cad.surface(input.ref, want_first | rules.surface_wants(), uv, jets);
-    rules.on_surface(input.face, uv, jets, fallback, h);
-    for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h[i]);
+    cad.surface(input.ref, prescribed.wants(), uv, jets);
+    prescribed.at(uv, jets, metric);
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;

@@ -31,8 +31,8 @@ struct PatchInput {
 };
 
 /// Samples the metric of a face over its domain: J^T J / h^2 (RR-2928 eq. 27). `suspects`: see ControlSpaceOptions.
-ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, const CompositeOptions& options,
-                         std::span<const Vec2> suspects, Monitor& monitor);
+ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
+                         Monitor& monitor);
 
 /// Plane mesh in the sampled metric, surf0 once for each vertex, then the worst triangles are mended in space.
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,

@@ -1,0 +1,44 @@
+// The metric that is prescribed inside a face.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "plane/plane_mesh.h"
+#include "size/size_rules.h"
+#include "surface/interface_sizes.h"
+
+namespace carreau {
+
+/// What a face's sizes are interpolated from where the host does not answer.
+struct FaceInterfaces {
+  PlaneDomain plane;
+  std::vector<double> physical;  ///< physical size at each vertex of the domain; 0 at imposed points
+};
+
+/// Keeps references to `rules`, `interfaces` and `monitor`. Used by one thread.
+class FaceMetric {
+ public:
+  /// `face` is an index in Model::faces.
+  FaceMetric(int face, SizeRules& rules, const PlaneDomain& plane, const std::vector<double>& physical,
+             Monitor& monitor)
+      : face_(face), rules_(rules), plane_(plane), physical_(physical), monitor_(monitor) {}
+
+  /// The Want bits that the jets of at() must hold.
+  [[nodiscard]] unsigned wants() const noexcept { return want_first | rules_.surface_wants(); }
+
+  /// J^T J / h^2 (RR-2928 eq. 27) at each point; asks the host.
+  void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
+
+ private:
+  int face_;
+  SizeRules& rules_;
+  const PlaneDomain& plane_;
+  const std::vector<double>& physical_;
+  Monitor& monitor_;
+  std::optional<InterfaceSizes> interfaces_;  // built only when the host leaves a question open
+  std::vector<double> h_;
+};
+
+}  // namespace carreau

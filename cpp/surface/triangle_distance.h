@@ -1,0 +1,28 @@
+// Distance from a point to a triangle of space.
+#pragma once
+
+#include <algorithm>
+
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Distance from p to the segment (a, b).
+inline double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) noexcept {
+  const Vec3 d = b - a;
+  const double squared = dot(d, d);
+  const double s = squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
+  return norm(p - (a + s * d));
+}
+
+/// Distance from p to the closed triangle (a, b, c); of a flat one, to its sides.
+inline double distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept {
+  const Vec3 normal = cross(b - a, c - a);
+  const bool inside = dot(cross(b - a, p - a), normal) >= 0 && dot(cross(c - b, p - b), normal) >= 0 &&
+                      dot(cross(a - c, p - c), normal) >= 0;
+  const double area = norm(normal);
+  if (inside && area > 0) return std::abs(dot(p - a, normal)) / area;
+  return std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
+}
+
+}  // namespace carreau
