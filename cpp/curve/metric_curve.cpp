@@ -12,11 +12,6 @@
 namespace carreau {
 namespace {
 
-bool positive_definite(Metric2 m) noexcept {
-  return std::isfinite(m.a) && std::isfinite(m.b) && std::isfinite(m.c) && m.a > 0 && m.c > 0 &&
-         accurate_determinant(m) > 0;
-}
-
 template <typename V>
 std::vector<double> cumulated_lengths(const std::vector<V>& points) {
   if (points.size() < 2) throw InvalidArgument("a curve needs two points at least");
@@ -59,7 +54,7 @@ MetricCurve<V, M>::MetricCurve(std::vector<V> points, std::vector<double> abscis
     if (i > 0 && !(s_[i] > s_[i - 1]))
       throw InvalidArgument("abscissae of metrics along a curve must ascend; number " + std::to_string(i) + " is " +
                             format_number(s_[i]));
-    if (!positive_definite(metrics_[i]))
+    if (!is_positive_definite(metrics_[i]))
       throw InvalidArgument("metric " + std::to_string(i) + " along a curve is not positive definite");
   }
 }
@@ -105,5 +100,6 @@ std::vector<double> MetricCurve<V, M>::split(double lss) const {
 }
 
 template class MetricCurve<Vec2, Metric2>;
+template class MetricCurve<Vec3, Metric3>;
 
 }  // namespace carreau

@@ -7,7 +7,7 @@
 #include "curve/metric_gradation.h"
 #include "metric/metric2.h"
 #include "metric/metric2_algebra.h"
-#include "metric/metric3.h"
+#include "metric/metric3_algebra.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -43,6 +43,8 @@ class MetricCurve {
 };
 
 using PlaneMetricCurve = MetricCurve<Vec2, Metric2>;
+using SpaceMetricCurve = MetricCurve<Vec3, Metric3>;
 extern template class MetricCurve<Vec2, Metric2>;
+extern template class MetricCurve<Vec3, Metric3>;
 
 }  // namespace carreau

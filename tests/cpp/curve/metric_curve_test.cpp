@@ -13,9 +13,12 @@
 namespace {
 
 using carreau::Metric2;
+using carreau::Metric3;
 using carreau::MetricLaw;
 using carreau::PlaneMetricCurve;
+using carreau::SpaceMetricCurve;
 using carreau::Vec2;
+using carreau::Vec3;
 
 constexpr MetricLaw laws[] = {MetricLaw::linear, MetricLaw::geometric, MetricLaw::sinusoidal};
 
@@ -99,6 +102,47 @@ TEST(MetricCurve, Figures29To31HaveEqualEdgesOnACurve) {
   }
 }
 
+/// A helix of slope 1/2 with sizes along fixed directions and a third one across them.
+SpaceMetricCurve helix(MetricLaw law) {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 600; ++i) {
+    const double t = 4 * std::numbers::pi * i / 600;
+    points.push_back({std::cos(t), std::sin(t), t / 2});
+  }
+  double total = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) total += norm(points[i] - points[i - 1]);
+  const Vec3 axes[] = {{1, 1, 0}, {0, 1, 2}, {3, 0, 1}, {0, 0, 1}};
+  const double sizes[][2] = {{0.5, 0.1}, {0.05, 0.4}, {0.2, 0.2}, {0.6, 0.15}};
+  std::vector<double> s;
+  std::vector<Metric3> metrics;
+  for (int i = 0; i < 4; ++i) {
+    s.push_back(total * i / 3.);
+    metrics.push_back(carreau::metric_of_sizes(axes[i], sizes[i][0], sizes[i][1]));
+  }
+  return {points, s, metrics, law};
+}
+
+TEST(MetricCurve, EdgesAreEqualInSpace) {
+  for (const MetricLaw law : laws) {
+    SCOPED_TRACE(testing::Message() << "law " << static_cast<int>(law));
+    for (const double lss : {0.5, 0.1}) expect_equal_edges(helix(law), lss);
+  }
+}
+
+TEST(MetricCurve, APlaneOfSpaceIsThePlane) {
+  // Any rotation will do: the metric across the plane never counts, however large.
+  const Vec3 e1 = (1 / 3.) * Vec3{1, 2, 2}, e2 = (1 / 3.) * Vec3{2, 1, -2}, n = cross(e1, e2);
+  const auto lift = [&](Metric2 m) { return carreau::TangentFrame{.e1 = e1, .e2 = e2}.in_space(m, 1e6); };
+  const Metric2 p = triplet(30, 0.7, 0.25), q = triplet(-50, 1.1, 0.15);
+  const double total = std::hypot(3., 4.);
+  for (const MetricLaw law : laws) {
+    const auto flat = PlaneMetricCurve({{0, 0}, {3, 4}}, {0, total}, {p, q}, law).split();
+    const auto lifted = SpaceMetricCurve({n, n + 3 * e1 + 4 * e2}, {0, total}, {lift(p), lift(q)}, law).split();
+    ASSERT_EQ(flat.size(), lifted.size());
+    for (std::size_t i = 0; i < flat.size(); ++i) EXPECT_NEAR(flat[i], lifted[i], 1e-9 * total);
+  }
+}
+
 TEST(MetricCurve, GeometricLawFavoursTheSmallSizes) {
   // RR-2818 sec. 6.1: of the laws, the geometric one makes more edges than the linear one.
   EXPECT_GT(figure24(MetricLaw::geometric).gradation(0.1).length(),
@@ -165,6 +209,7 @@ TEST(MetricCurve, RefusesWhatMeansNothing) {
   EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 0.5, 0.5, 1}, {m, m, m, m}, law), InvalidArgument);
   EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1, 2, 1}}, law), InvalidArgument);
   EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, std::nan("")}}, {0, 1}, {m, m}, law), InvalidArgument);
+  EXPECT_THROW(SpaceMetricCurve({{0, 0, 0}, {1, 0, 0}}, {0, 1}, {Metric3{}, {1, 0, 0, 1, 2, 1}}, law), InvalidArgument);
   EXPECT_THROW(PlaneMetricCurve({{0, 0}, {1, 0}}, {0, 1}, {m, {1e30, 0, 1e30}}, law).split(), carreau::LimitError);
 }
 
