@@ -91,6 +91,11 @@ struct ExrWriter::State {
       : path(name), parts(given.begin(), given.end()), options(how), file(name) {
     sink.file = &file;
   }
+  ~State() {
+    if (context != nullptr) exr_finish(&context);
+  }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
 
   void require(exr_result_t result) {
     if (result == EXR_ERR_SUCCESS) return;
@@ -120,7 +125,14 @@ struct ExrWriter::State {
     require(exr_add_part(context, part.name.c_str(), EXR_STORAGE_SCANLINE, &index));
     const exr_compression_t compression =
         options.compression == ExrCompression::piz ? EXR_COMPRESSION_PIZ : EXR_COMPRESSION_ZIP;
-    require(exr_initialize_required_attr_simple(context, index, part.width, part.height, compression));
+    // All parts of a file must have one display window: the smallest one around all of them.
+    exr_attr_box2i_t display{}, data{};
+    for (const ExrPart& each : parts)
+      display.max.x = std::max(display.max.x, each.width - 1), display.max.y = std::max(display.max.y, each.height - 1);
+    data.max.x = part.width - 1, data.max.y = part.height - 1;
+    const exr_attr_v2f_t centre{};
+    require(exr_initialize_required_attr(context, index, &display, &data, 1, &centre, 1, EXR_LINEORDER_INCREASING_Y,
+                                         compression));
     for (const ExrChannel& channel : part.channels)
       require(exr_add_channel(context, index, channel.name.c_str(), stored_type(channel.type),
                               channel.type == ExrType::half ? EXR_PERCEPTUALLY_LOGARITHMIC : EXR_PERCEPTUALLY_LINEAR, 1,
@@ -189,9 +201,7 @@ ExrWriter::ExrWriter(const std::string& path, std::span<const ExrPart> parts, co
   s.require(exr_write_header(s.context));
 }
 
-ExrWriter::~ExrWriter() {
-  if (state_ && state_->context != nullptr) exr_finish(&state_->context);
-}
+ExrWriter::~ExrWriter() = default;
 
 void ExrWriter::write_part(int part, const ExrPrepare& prepare) {
   State& s = *state_;

@@ -22,7 +22,7 @@ namespace carreau {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() / ("carreau io " + std::string(test->test_suite_name()) + "." +
                                                       test->name() + " " + std::to_string(std::random_device{}()));
     std::filesystem::create_directories(path_);
