@@ -34,12 +34,12 @@ double interpolate(const SizeSamples& samples, const std::vector<double>& values
 }
 
 Sample ask(const CurveModel& model, int curve, SizeRules& rules, double r) {
-  const CurveSizes sizes = rules.ask_on_curve(curve, parameters_at(model, curve, r));
+  const CurveSizes sizes = rules.ask_on_curve(curve, parameters_at(model, curve, r), r);
   Sample sample;
   sample.r = r;
-  sample.answered = sizes.answer.has_value();
-  sample.physical = sample.answered ? *sizes.answer : rules.interpolated_on_curve(curve, r);
-  sample.h = std::min(sample.physical, sizes.geometric);
+  sample.answered = sizes.answered;
+  sample.physical = sizes.physical;
+  sample.h = sizes.h;
   return sample;
 }
 

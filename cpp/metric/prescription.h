@@ -1,6 +1,8 @@
 // What a host, a background mesh or an estimator says about the wanted size or metric at one place.
 #pragma once
 
+#include <string>
+
 #include "metric/metric2.h"
 #include "metric/metric3.h"
 #include "support/vec.h"
@@ -32,11 +34,15 @@ struct Prescription {
   }
 };
 
-/// A field of wanted sizes or metrics that is not the host's own routines: a background mesh, an estimator's result.
-/// Called from the thread of the run only.
+/// A field of wanted sizes or metrics: a host's metric callbacks, a background mesh, an estimator's result. Called from
+/// the thread of the run only.
 class PrescriptionSource {
  public:
   virtual ~PrescriptionSource() = default;
+  /// How sentences call it when an answer cannot be used.
+  [[nodiscard]] virtual std::string name() const { return "the prescription of sizes"; }
+  /// False: `xyz` is never looked at, and need not be evaluated.
+  [[nodiscard]] virtual bool needs_position() const noexcept { return true; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
   /// On a curve (rank `ic` from 1 in that face) at t.

@@ -31,7 +31,8 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text. max_triangles is ours.
+// the figure is hphymin in the text. Ours: max_triangles and what governs metrics (anisotropy_max, eps_chord,
+// geo_guarantee, geo_metric, geo_rule, metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
     integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),
@@ -41,13 +42,22 @@ constexpr std::array kTable = {
     real_row("LSS", 1e-3, 10, 0.5, "longest sub-segment, in the metric, when the length of an edge is integrated"),
     real_row("angle_mesh", 0.01, 89, 8, "angle between the mesh and the tangents of surfaces and curves, degrees"),
     real_row("angle_smo", 0.001, 89, 1, "angle between the supports of curves and their tangents, degrees"),
+    real_row("anisotropy_max", 1, kInfinity, 1000,
+             "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("element", "p1", "p1", "type of the elements: triangles of three nodes"),
+    diag_row("eps_chord", kPositive, 1.0 / 5000,
+             "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),
     real_row("eps_collapse", 0, kInfinity, 0, "curves shorter than this are removed, model length (0: none)"),
     diag_row("eps_ends", 0, 1.0 / 500, "curves whose ends are nearer than this are reported, model length"),
     diag_row("eps_glue", 0, 1.0 / 500, "points nearer than this are one when references are sought, model length"),
     integer_row("flag", 0, 1, 0, "1: exported files hold the edges of the curves too"),
     text_row("format", "mesh", "mesh|meshb|vtu|stl", "format and suffix of exported files"),
     integer_row("frontal", 0, 1, 1, "placement of points: 1 frontal, 0 algebraic (on edges)"),
+    integer_row("geo_guarantee", 0, 1, 0,
+                "1: geometric sizes a little smaller, so that nearly every edge and triangle keeps geo_rule"),
+    integer_row("geo_metric", 0, 1, 0, "geometric sizes: 0 by the smallest radius, 1 by both principal radii"),
+    text_row("geo_rule", "angle", "angle|chord|both|radii",
+             "geometric sizes from: angle_mesh, eps_chord, the smaller of both, or the principal radii (RR-2928)"),
     integer_row("hgeo_flag", 0, 2, 0, "geometric size: 0 ignored, 1 from the curvature, 2 from cad_rads and cad_radc"),
     diag_row("hgeomax", kPositive, 1.0 / 5, "largest geometric size, model length"),
     diag_row("hgeomin", kPositive, 1.0 / 500, "smallest geometric size, model length"),
@@ -58,6 +68,8 @@ constexpr std::array kTable = {
     diag_row("hphymax", kPositive, 1.0 / 5, "largest physical size, model length"),
     diag_row("hphymin", kPositive, 1.0 / 500, "smallest physical size, model length"),
     integer_row("max_triangles", 0, INT_MAX, 0, "largest number of triangles of a mesh (0: by memory)"),
+    integer_row("metric_combination", 0, 1, 1,
+                "prescribed and geometric metrics: 0 the prescribed one is scaled and keeps its shape, 1 intersection"),
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),

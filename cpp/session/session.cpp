@@ -19,6 +19,7 @@ struct Session::State {
 
   Monitor& monitor;
   std::shared_ptr<Cad> cad;
+  std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   Model model;
   bool model_from_file = false;
   bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
@@ -27,6 +28,16 @@ struct Session::State {
   Model meshed_model;  // what `result` is a mesh of
   ModelSupports supports;
   bool has_mesh = false;
+
+  /// The host first.
+  [[nodiscard]] std::vector<PrescriptionSource*> sources() const {
+    std::vector<PrescriptionSource*> all;
+    for (PrescriptionSource* source : {metric_callbacks.get(), prescription_source.get()})
+      if (source != nullptr) all.push_back(source);
+    if (!all.empty() && parameters.integer("hphy_flag") == 0)
+      monitor.message(Level::warning, "hphy_flag = 0: the prescribed sizes and metrics are ignored");
+    return all;
+  }
 
   void check_model(const Model& candidate) const {
     const std::vector<std::string> defects = find_model_defects(candidate);
@@ -39,6 +50,12 @@ struct Session::State {
 };
 
 namespace {
+
+GeometricCriterion criterion_of(const std::string& rule) {
+  if (rule == "chord") return GeometricCriterion::chord;
+  if (rule == "both") return GeometricCriterion::both;
+  return rule == "radii" ? GeometricCriterion::radii : GeometricCriterion::angle;
+}
 
 CompositeOptions composite_options(const Parameters& parameters, double diag) {
   CompositeOptions options;
@@ -53,6 +70,12 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   size.hmean_flag = parameters.integer("hmean_flag");
   size.hinterpol_flag = parameters.integer("hinterpol_flag");
   size.angle_mesh = parameters.real("angle_mesh");
+  size.geo_rule = criterion_of(parameters.text("geo_rule"));
+  size.eps_chord = parameters.real("eps_chord", diag);
+  size.geo_guarantee = parameters.integer("geo_guarantee") != 0;
+  size.geo_anisotropic = parameters.integer("geo_metric") != 0;
+  size.anisotropy_max = parameters.real("anisotropy_max");
+  size.metric_combination = static_cast<MetricCombination>(parameters.integer("metric_combination"));
   options.angle_smo = std::min(parameters.real("angle_smo"), size.angle_mesh);  // RT-0232 sec. 3.3
   options.lss = parameters.real("LSS");
   options.eps_ends = parameters.real("eps_ends", diag);
@@ -134,6 +157,13 @@ Session::~Session() = default;
 
 void Session::set_cad(std::shared_ptr<Cad> cad) { state_->cad = std::move(cad); }
 
+void Session::set_metric_callbacks(std::shared_ptr<PrescriptionSource> source) {
+  state_->metric_callbacks = std::move(source);
+}
+void Session::set_prescription_source(std::shared_ptr<PrescriptionSource> source) {
+  state_->prescription_source = std::move(source);
+}
+
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
 
 void Session::set_model(Model model) {
@@ -191,7 +221,8 @@ void Session::make_mesh() {
   if (const double eps = s.parameters.real("eps_collapse"); eps > 0)
     model = collapse_tiny_curves(model, traces, eps, &remarks);
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
-  const CompositeOptions options = composite_options(s.parameters, supports.diag);
+  CompositeOptions options = composite_options(s.parameters, supports.diag);
+  options.size.sources = s.sources();
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, s.monitor);
   const Topology topology =

@@ -8,6 +8,7 @@
 #include "cad/cad.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
+#include "metric/prescription.h"
 #include "model/model.h"
 #include "session/parameters.h"
 #include "support/monitor.h"
@@ -25,6 +26,10 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   void set_cad(std::shared_ptr<Cad> cad);
+  /// Wanted sizes and metrics, unless hphy_flag = 0: the host's own callbacks, and another source that is asked after
+  /// them (a background mesh). What both answer at a place is intersected. nullptr: none, as at the start.
+  void set_metric_callbacks(std::shared_ptr<PrescriptionSource> source);
+  void set_prescription_source(std::shared_ptr<PrescriptionSource> source);
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken.
   void set_model(Model model);
   void load_pardom(const std::string& path);

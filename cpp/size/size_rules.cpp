@@ -51,6 +51,35 @@ std::optional<double> checked_radius(std::optional<double> answer, const char* r
 
 double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
 
+namespace {
+
+GeometricRule rule_of(const SizeParameters& p) noexcept {
+  GeometricRule rule{
+      .criterion = p.geo_rule, .anisotropic = p.geo_anisotropic, .angle_deg = p.angle_mesh, .eps0 = p.eps_chord};
+  if (p.geo_guarantee) {
+    rule.angle_factor = guaranteed_angle_factor;
+    rule.chord_factor = guaranteed_chord_factor;
+  }
+  return rule;
+}
+
+void check_geometric(const SizeParameters& p) {
+  check_bounds("hgeo", p.hgeomin, p.hgeomax);
+  if (!(p.angle_mesh > 0 && p.angle_mesh <= 90)) {
+    throw InvalidArgument("angle_mesh must lie between 0 and 90 degrees; it is " + format_number(p.angle_mesh));
+  }
+  const bool chord = p.geo_rule == GeometricCriterion::chord || p.geo_rule == GeometricCriterion::both;
+  if (chord && !(p.eps_chord > 0 && std::isfinite(p.eps_chord))) {
+    throw InvalidArgument("geo_rule '" + std::string(p.geo_rule == GeometricCriterion::both ? "both" : "chord") +
+                          "' needs a positive eps_chord; it is " + format_number(p.eps_chord));
+  }
+  if (!(p.anisotropy_max >= 1)) {
+    throw InvalidArgument("anisotropy_max must be at least 1; it is " + format_number(p.anisotropy_max));
+  }
+}
+
+}  // namespace
+
 double mean_size(int hmean_flag, std::span<const double> values) {
   if (values.empty()) throw InvalidArgument("the mean of no sizes was asked for");
   const double smallest = *std::min_element(values.begin(), values.end());
@@ -73,6 +102,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       topology_(topology),
       cad_(cad),
       parameters_(parameters),
+      rule_(rule_of(parameters)),
       physical_at_point_(topology.points.size()),
       geometric_at_point_(topology.points.size()) {
   check_flag("hphy_flag", parameters.hphy_flag, 0, 2);
@@ -88,19 +118,25 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       throw InvalidArgument("hphydef must be a finite number; it is " + format_number(parameters.hphydef));
     }
   }
-  if (parameters.hgeo_flag != 0) {
-    check_bounds("hgeo", parameters.hgeomin, parameters.hgeomax);
-    if (!(parameters.angle_mesh > 0 && parameters.angle_mesh <= 90)) {
-      throw InvalidArgument("angle_mesh must lie between 0 and 90 degrees; it is " +
-                            format_number(parameters.angle_mesh));
-    }
+  if (parameters.hgeo_flag != 0) check_geometric(parameters);
+  if (parameters.hgeo_flag == 0 && (parameters.geo_anisotropic || parameters.geo_rule != GeometricCriterion::angle)) {
+    throw InvalidArgument(
+        "hgeo_flag is 0, so that geometric sizes are ignored, but geo_metric or geo_rule asks for some: set hgeo_flag "
+        "to 1");
   }
 }
 
-unsigned SizeRules::surface_wants() const noexcept { return parameters_.hgeo_flag == 1 ? both_derivatives : 0; }
+unsigned SizeRules::surface_wants() const noexcept {
+  unsigned wants = parameters_.hgeo_flag == 1 ? both_derivatives : 0;
+  if (!uses_metrics()) return wants;
+  wants |= want_first;
+  if (uses_curvature()) wants |= want_second;  // where the host does not give its radius
+  if (needs_positions()) wants |= want_position;
+  return wants;
+}
 
 std::optional<double> SizeRules::constant() const noexcept {
-  if (parameters_.hphy_flag != 1 || parameters_.hgeo_flag != 0) return {};
+  if (parameters_.hphy_flag != 1 || parameters_.hgeo_flag != 0 || uses_metrics()) return {};
   return clamped_physical(parameters_.hphydef);
 }
 
@@ -109,7 +145,7 @@ double SizeRules::clamped_physical(double h) const noexcept {
 }
 
 double SizeRules::clamped_geometric(double radius) const noexcept {
-  return std::clamp(size_per_radius(parameters_.angle_mesh) * radius, parameters_.hgeomin, parameters_.hgeomax);
+  return std::clamp(geometric_size(rule_, radius), parameters_.hgeomin, parameters_.hgeomax);
 }
 
 Where SizeRules::where_of(const CurveUse& use, double t) const {
@@ -202,6 +238,7 @@ std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>
 
 double SizeRules::compute_physical_at_point(int point) {
   if (parameters_.hphy_flag == 0) return infinity;
+  if (uses_metrics()) return metric_physical_at_point(point);
   const double usual = clamped_physical(parameters_.hphydef);
   if (parameters_.hphy_flag == 1) return usual;
   const int ref = topology_.points[static_cast<std::size_t>(point)].ref;
@@ -239,24 +276,11 @@ double SizeRules::interpolated_on_curve(int curve, double r) {
 
 double SizeRules::physical_on_curve(int curve, std::span<const double> t, double r) {
   if (parameters_.hphy_flag == 0) return infinity;
+  if (uses_metrics()) return ask_on_curve(curve, t, r).physical;
   if (parameters_.hphy_flag == 1) return clamped_physical(parameters_.hphydef);
   if (const auto answer = ask_curve(curve, t)) return *answer;
   if (const auto answer = ask_surfaces_beside(curve, t)) return *answer;
   return interpolated_on_curve(curve, r);
-}
-
-CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t) {
-  CurveSizes sizes;
-  if (parameters_.hphy_flag == 2) {
-    sizes.answer = ask_curve(curve, t);
-    if (!sizes.answer) sizes.answer = ask_surfaces_beside(curve, t);
-  } else if (parameters_.hphy_flag == 1) {
-    sizes.answer = clamped_physical(parameters_.hphydef);
-  } else {
-    sizes.answer = infinity;
-  }
-  sizes.geometric = geometric_on_curve(curve, t);
-  return sizes;
 }
 
 // ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
@@ -297,22 +321,23 @@ std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, co
   return radius_in_face(use.face, uv_at(inside), nullptr);
 }
 
+/// `jet` becomes that of the first use, which defines the curve's shape, when it had to be evaluated.
+double SizeRules::radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet) {
+  const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
+  if (c.degenerate) return infinity;
+  if (const auto radius = host_radius_of_curve(curve, t)) return *radius;
+  const CurveUse& use = c.uses.front();
+  const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
+  const CurveJet plane = cad_.curve(ref, use.curve + 1, want_position | both_derivatives, t.front());
+  jet = surface_at(cad_, ref, both_derivatives, plane.c);
+  return carreau::curve_radius(*jet, plane);
+}
+
 double SizeRules::geometric_on_curve(int curve, std::span<const double> t) {
   if (parameters_.hgeo_flag == 0) return infinity;
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
-  double smallest = infinity;
-  std::optional<SurfaceJet> jet;  // of the first use, which defines the curve's shape
-  if (!c.degenerate) {
-    if (const auto radius = host_radius_of_curve(curve, t)) {
-      smallest = *radius;
-    } else {
-      const CurveUse& use = c.uses.front();
-      const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
-      const CurveJet plane = cad_.curve(ref, use.curve + 1, want_position | both_derivatives, t.front());
-      jet = surface_at(cad_, ref, both_derivatives, plane.c);
-      smallest = carreau::curve_radius(*jet, plane);
-    }
-  }
+  std::optional<SurfaceJet> jet;
+  double smallest = radius_of_curve(curve, t, jet);
   for (std::size_t u = 0; u < c.uses.size(); ++u) {
     const auto beside = radius_beside(c.uses[u], t[u], u == 0 && jet ? &*jet : nullptr);
     if (beside) smallest = std::min(smallest, *beside);
@@ -331,14 +356,26 @@ double SizeRules::compute_geometric_at_point(int point) {
 
 double SizeRules::at_point(int point) {
   auto& known = geometric_at_point_[static_cast<std::size_t>(point)];
-  if (!known) known = compute_geometric_at_point(point);
+  if (!known) known = uses_metrics() ? metric_size_at_point(point) : compute_geometric_at_point(point);
   return std::min(*known, physical_at_point(point));
 }
 
-double SizeRules::on_curve(int curve, std::span<const double> t, double r) {
-  const double physical = physical_on_curve(curve, t, r);
-  return std::min(physical, geometric_on_curve(curve, t));
+CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t, double r) {
+  if (uses_metrics()) return metric_sizes_on_curve(curve, t, r);
+  CurveSizes sizes{.answered = true, .physical = infinity};
+  if (parameters_.hphy_flag == 2) {
+    auto answer = ask_curve(curve, t);
+    if (!answer) answer = ask_surfaces_beside(curve, t);
+    sizes.answered = answer.has_value();
+    sizes.physical = answer ? *answer : interpolated_on_curve(curve, r);
+  } else if (parameters_.hphy_flag == 1) {
+    sizes.physical = clamped_physical(parameters_.hphydef);
+  }
+  sizes.h = std::min(sizes.physical, geometric_on_curve(curve, t));
+  return sizes;
 }
+
+double SizeRules::on_curve(int curve, std::span<const double> t, double r) { return ask_on_curve(curve, t, r).h; }
 
 void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                                      std::span<double> h) {

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "cad/cad.h"
+#include "metric/metric3_algebra.h"
+#include "metric/prescription.h"
 #include "model/topology.h"
+#include "size/geometric_metric.h"
 #include "size/size_law.h"
 #include "support/error.h"
 
@@ -22,6 +25,14 @@ struct SizeParameters {
   int hmean_flag = 0;      ///< -1 minimum, 0 and 2 arithmetic, 1 geometric
   int hinterpol_flag = 0;  ///< 0 linear, 1 geometric, 2 sinusoidal
   double angle_mesh = 8;   ///< degrees
+  GeometricCriterion geo_rule = GeometricCriterion::angle;
+  double eps_chord = 0;          ///< A0, model length; > 0 where geo_rule is chord or both
+  bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor, guaranteed_chord_factor
+  bool geo_anisotropic = false;  ///< sizes by both principal radii
+  double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
+  MetricCombination metric_combination = MetricCombination::intersection;
+  /// Asked in this order unless hphy_flag = 0; their answers all count. Not owned.
+  std::vector<PrescriptionSource*> sources = {};
 };
 
 /// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
@@ -38,29 +49,39 @@ std::optional<double> smallest_radius(const SurfaceJet& jet) noexcept;
 /// straight and where the curve does not move.
 double curve_radius(const SurfaceJet& surface, const CurveJet& curve) noexcept;
 
-/// What a curve's interior says at one point.
+/// What is asked for at one point inside a curve, along its tangent.
 struct CurveSizes {
-  /// Physical size that the host gives there, clamped; empty when neither the curve nor any surface beside it answers.
-  std::optional<double> answer;
-  double geometric = 0;  ///< clamped; +infinity when hgeo_flag = 0
+  bool answered = false;  ///< the curve or a surface beside it answers; else `physical` is interpolated from the ends
+  double physical = 0;    ///< clamped; +infinity when hphy_flag = 0
+  double h = 0;           ///< with the geometric size
 };
 
-/// Sizes of a model. Keeps references to its first three arguments. Caches what it asks at points.
+/// Sizes and metrics of a model. Keeps references to its first three arguments. Caches what it asks at points.
 /// A size that the host gives is clamped, whatever its sign (RT-0232 sec. 3.1.3 a); NaN and infinity are a
 /// CallbackError that names the routine, the entity and the value. A radius may have either sign; only NaN is an error.
+/// A metric must be positive definite; its sizes in the tangent plane are clamped.
+///
+/// Where metrics govern (uses_metrics()), sizes at points and on curves are those along the tangents of the curves, and
+/// faces ask metrics_on_surface() in place of on_surface(). What sources and size routines answer at one place is
+/// intersected, then combined with the geometric metric as metric_combination says. Where nobody answers the size is
+/// hphydef (hphy_flag = 1) or interpolated as the manual has it (hphy_flag = 2).
 class SizeRules {
  public:
-  /// Throws InvalidArgument when a flag is unknown, both sizes are ignored, bounds are not positive and ascending, or
-  /// angle_mesh lies outside ]0, 90].
+  /// Throws InvalidArgument when a flag is unknown, both sizes are ignored, bounds are not positive and ascending,
+  /// angle_mesh lies outside ]0, 90], eps_chord is needed and not positive, or anisotropy_max is below 1.
   SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
-  /// The Want bits that on_surface needs in its jets: first and second derivatives when hgeo_flag = 1, else none.
+  /// The Want bits that on_surface or metrics_on_surface needs in its jets.
   [[nodiscard]] unsigned surface_wants() const noexcept;
 
   /// The size, when it is the same everywhere and no host is ever asked (hphy_flag = 1, hgeo_flag = 0).
   [[nodiscard]] std::optional<double> constant() const noexcept;
 
   [[nodiscard]] bool uses_curvature() const noexcept { return parameters_.hgeo_flag != 0; }
+  /// Whether sizes may differ by direction or come from sources.
+  [[nodiscard]] bool uses_metrics() const noexcept {
+    return (uses_curvature() && parameters_.geo_anisotropic) || asks_sources();
+  }
   /// How sizes vary between two points where they are known (hinterpol_flag).
   [[nodiscard]] SizeLaw law() const noexcept { return static_cast<SizeLaw>(parameters_.hinterpol_flag); }
 
@@ -78,13 +99,17 @@ class SizeRules {
   void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   const std::function<double(Vec2)>& fallback, std::span<double> h);
 
+  /// The metric of the parameter plane inside a face; arguments as for on_surface.
+  void metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                          const std::function<double(Vec2)>& fallback, std::span<Metric2> metric);
+
   /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped. +infinity when
   /// hphy_flag = 0.
   double physical_at_point(int point);
   double physical_on_curve(int curve, std::span<const double> t, double r);
 
-  /// What is asked at a point of a curve, before interpolation between the ends: for those who sample a whole curve.
-  CurveSizes ask_on_curve(int curve, std::span<const double> t);
+  /// All of on_curve() and physical_on_curve(): for those who sample a whole curve.
+  CurveSizes ask_on_curve(int curve, std::span<const double> t, double r);
   /// The physical size between the ends of a curve when nobody answers (hinterpol_flag).
   double interpolated_on_curve(int curve, double r);
 
@@ -117,11 +142,34 @@ class SizeRules {
   void geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<double> h);
   std::vector<CurveEnd> ends_at(int point);
   std::vector<Corner> corners_of(const std::vector<CurveEnd>& ends);
+  double radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet);
+
+  // metric_rules.cpp
+  using Answers = std::vector<Prescription>;
+  struct CurvePlace;
+  struct AlongCurve;
+  [[nodiscard]] bool asks_sources() const noexcept {
+    return parameters_.hphy_flag != 0 && !parameters_.sources.empty();
+  }
+  [[nodiscard]] bool needs_positions() const noexcept;
+  Answers answers_on_surface(int face, Vec2 uv, Vec3 xyz);
+  Answers answers_on_curve(int curve, std::span<const double> t);
+  Answers answers_at_point(int point);
+  [[nodiscard]] Metric2 clamped_in_plane(Metric2 tangent) const noexcept;
+  [[nodiscard]] Metric2 physical_in_plane(const Answers& answers, const TangentFrame& frame) const;
+  [[nodiscard]] Metric2 degenerate_metric(const Answers& answers, const SurfaceJet& jet, double geometric) const;
+  std::optional<DirectedSizes> directed_sizes(int face, Vec2 uv, const SurfaceJet& jet);
+  CurvePlace place_on(const CurveUse& use, double t);
+  AlongCurve along_curve(int curve, std::span<const double> t, const Answers* given, double silent);
+  CurveSizes metric_sizes_on_curve(int curve, std::span<const double> t, double r);
+  double metric_physical_at_point(int point);
+  double metric_size_at_point(int point);
 
   const Model& model_;
   const Topology& topology_;
   Cad& cad_;
   SizeParameters parameters_;
+  GeometricRule rule_;
   std::vector<std::optional<double>> physical_at_point_, geometric_at_point_;
 };
 

@@ -122,7 +122,8 @@ class Pipeline {
                            .ref = model_.faces[f].ref,
                            .domain = &domain,
                            .curve_xyz = positions_on_curves(domain, curves_, topology_),
-                           .constant_size = rules_.constant()};
+                           .constant_size = rules_.constant(),
+                           .isotropic = !rules_.uses_metrics()};
     ControlSpace space = sample_face(input, cad_, rules_, {}, monitor_);
     result_.report.seconds_sampling += seconds_since(start);
     // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
@@ -133,7 +134,7 @@ class Pipeline {
     for (int round = 0;; ++round) {
       patches_[f] = mesh_patch(input, space, cad_, options, result_.report, monitor_);
       start = std::chrono::steady_clock::now();
-      const std::vector<Vec2> places = verify_lift(input, space, rules_, *patches_[f], monitor_);
+      const std::vector<Vec2> places = verify_lift(input, space, cad_, rules_, *patches_[f], monitor_);
       result_.report.seconds_lift += seconds_since(start);
       if (places.empty() || round == most_corrections) break;
       // What the vertices have found is sampled, and the patch meshed again if that was news.

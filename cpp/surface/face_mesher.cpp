@@ -66,7 +66,7 @@ PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& ca
   mesh.xyz = input.curve_xyz;
   const std::vector<Vec3> rest = lift(input.ref, uv.subspan(on_curves), cad, monitor);
   mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
-  improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
+  if (input.isotropic) improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
   report.seconds_lift += seconds_since(start);
   return mesh;
 }

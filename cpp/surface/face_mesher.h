@@ -28,13 +28,16 @@ struct PatchInput {
   std::vector<Vec3> curve_xyz;
   /// Set when one size is prescribed everywhere (SizeRules::constant).
   std::optional<double> constant_size = {};
+  /// Sizes do not differ by direction: triangles may be judged by their shape in space.
+  bool isotropic = true;
 };
 
-/// Samples the metric of a face over its domain: J^T J / h^2 (RR-2928 eq. 27). `suspects`: see ControlSpaceOptions.
+/// Samples the metric of a face (FaceMetric) over its domain. `suspects`: see ControlSpaceOptions.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor);
 
-/// Plane mesh in the sampled metric, surf0 once for each vertex, then the worst triangles are mended in space.
+/// Plane mesh in the sampled metric, surf0 once for each vertex, then the worst triangles are mended in space where
+/// sizes are isotropic.
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,
                      CompositeReport& report, Monitor& monitor);
 

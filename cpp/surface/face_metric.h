@@ -28,7 +28,7 @@ class FaceMetric {
   /// The Want bits that the jets of at() must hold.
   [[nodiscard]] unsigned wants() const noexcept { return want_first | rules_.surface_wants(); }
 
-  /// J^T J / h^2 (RR-2928 eq. 27) at each point; asks the host.
+  /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66); asks the host.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
 
  private:

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "metric/metric2_algebra.h"
+#include "surface/face_metric.h"
 
 namespace carreau {
 
@@ -21,10 +22,17 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class LiftCheck {
  public:
-  LiftCheck(const PatchInput& input, const ControlSpace& space, SizeRules& rules, PatchMesh& mesh, Monitor& monitor)
-      : input_(input), space_(space), rules_(rules), mesh_(mesh), monitor_(monitor) {}
+  LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules, PatchMesh& mesh,
+            Monitor& monitor)
+      : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor) {}
 
   std::vector<Vec2> run() {
+    if (rules_.uses_metrics()) {
+      compare_lengths();
+      compare_metrics();
+      thin_out();
+      return std::move(places_);
+    }
     if (input_.constant_size) {
       mesh_.size.assign(mesh_.xyz.size(), *input_.constant_size);
     } else {
@@ -32,15 +40,41 @@ class LiftCheck {
       ask_host();
     }
     find_places();
-    if (places_.size() > most_places) {
-      std::vector<Vec2> some;
-      for (std::size_t k = 0; k < most_places; ++k) some.push_back(places_[k * places_.size() / most_places]);
-      places_.swap(some);
-    }
+    thin_out();
     return std::move(places_);
   }
 
  private:
+  void thin_out() {
+    if (places_.size() <= most_places) return;
+    std::vector<Vec2> some;
+    for (std::size_t k = 0; k < most_places; ++k) some.push_back(places_[k * places_.size() / most_places]);
+    places_.swap(some);
+  }
+
+  void compare_metrics() {
+    constexpr std::size_t batch = 512;
+    FaceMetric prescribed(input_.face, rules_, input_.domain->plane, input_.domain->physical, monitor_);
+    std::vector<SurfaceJet> jets(batch);
+    std::vector<Metric2> metric(batch);
+    const std::span<const Vec2> uv = mesh_.plane.vertices;
+    for (std::size_t first = input_.domain->size.size(); first < uv.size(); first += batch) {
+      monitor_.checkpoint();
+      const std::size_t n = std::min(batch, uv.size() - first);
+      cad_.surface(input_.ref, prescribed.wants(), uv.subspan(first, n), std::span(jets).first(n));
+      prescribed.at(uv.subspan(first, n), std::span(jets).first(n), std::span(metric).first(n));
+      for (std::size_t k = 0; k < n; ++k) compare_at(first + k, jets[k], metric[k]);
+    }
+  }
+  void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
+    const double density = accurate_determinant(metric), area = norm(cross(jet.su, jet.sv));
+    if (!(density > 0) || !(area > 0)) return;
+    mesh_.size[v] = std::sqrt(area / std::sqrt(density));
+    const Vec2 p = mesh_.plane.vertices[v];
+    const LengthRatios ratios = length_ratios(metric, space_.at(p));
+    if (!(ratios.largest <= too_long) || !(ratios.smallest >= too_short)) places_.push_back(p);
+  }
+
   /// Calls `use(a, b)` for each edge that is not on the border, once. Both sides of an internal edge count as one.
   template <typename Use>
   void for_inner_edges(const Use& use) {
@@ -109,6 +143,7 @@ class LiftCheck {
 
   const PatchInput& input_;
   const ControlSpace& space_;
+  Cad& cad_;
   SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
@@ -118,9 +153,9 @@ class LiftCheck {
 
 }  // namespace
 
-std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, SizeRules& rules, PatchMesh& mesh,
-                              Monitor& monitor) {
-  return LiftCheck(input, space, rules, mesh, monitor).run();
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules,
+                              PatchMesh& mesh, Monitor& monitor) {
+  return LiftCheck(input, space, cad, rules, mesh, monitor).run();
 }
 
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {

@@ -14,8 +14,10 @@ namespace carreau {
 /// model, or what the host answers at the ends (asked once a vertex), or, where sizes come from curvature or from
 /// interpolation, what the control space says around. Chords shorter than their arcs are no disagreement. Empty on
 /// surfaces that the control space knows. At most 500 places.
-std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, SizeRules& rules, PatchMesh& mesh,
-                              Monitor& monitor);
+/// Where metrics govern, the prescribed metric is evaluated at each vertex inside and compared with the control
+/// space's; mesh.size is then the size in the mean, sqrt(h1 h2).
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules,
+                              PatchMesh& mesh, Monitor& monitor);
 
 /// Whether two control spaces differ at one of these places by more than their tolerance explains.
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
