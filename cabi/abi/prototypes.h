@@ -32,6 +32,17 @@ typedef struct c_cad_m {
     int (*cad_rads)();
     int (*cad_radc)();
 } c_cad_m;
+typedef struct c_curve {
+    long struct_size;
+    int dimension;
+    int law;
+    long point_count;
+    long metric_count;
+    void *points;
+    void *abscissae;
+    void *metrics;
+    double lss;
+} c_curve;
 typedef struct c_error_place {
     long struct_size;
     int face;
@@ -100,6 +111,7 @@ typedef struct c_report {
     double seconds_lift;
     double seconds_total;
 } c_report;
+int carreau_curve_split (void *session, const c_curve *curve, long capacity, double *abscissae, long *edges, double *length);
 int carreau_get_integer (void *session, const char *name, int *value);
 int carreau_get_real (void *session, const char *name, double *value);
 int carreau_get_text (void *session, const char *name, void *value);

@@ -8,7 +8,7 @@
 !> Callbacks are bind(c) procedures of a module, with the interfaces below. They must return: no `stop`.
 module carreau
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, c_funptr, c_int32_t, &
-    c_int64_t, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t
+    c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t
   use carreau_c
   implicit none
   private
@@ -36,6 +36,7 @@ module carreau
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
+  public :: carreau_curve_split
   public :: carreau_string
 
   integer(c_int32_t), parameter, public :: CARREAU_OK = 0, CARREAU_ERR_ARGUMENT = 1, CARREAU_ERR_MODEL = 2, &
@@ -862,4 +863,48 @@ contains
     status = c_mesh_defects(mesh%handle, merge(1_c_int32_t, 0_c_int32_t, closed), limit, count, c_sentences)
     text = carreau_string(c_sentences)
   end subroutine carreau_mesh_defects
+
+  ! ---- Curves in metrics ----
+
+  !> points(2 or 3, n) of a polyline; metrics(3 or 6, m), xx xy yy or xx xy xz yy yz zz, at abscissae(m); law 0, 1, 2;
+  !> lss 0: 0.5. cuts(number of edges + 1): abscissae of edges of equal length in the metric; length: that of the curve.
+  subroutine carreau_curve_split(session, points, abscissae, metrics, law, lss, cuts, length, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: points(:, :), abscissae(:), metrics(:, :)
+    integer(c_int32_t), intent(in) :: law
+    real(c_double), intent(in) :: lss
+    real(c_double), allocatable, intent(out) :: cuts(:)
+    real(c_double), intent(out) :: length
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), allocatable, target :: p(:), s(:), m(:)
+    real(c_double), allocatable :: found(:)
+    real(c_double) :: none(1)
+    integer(c_int64_t) :: edges
+    type(c_curve) :: c
+    length = 0
+    none = 0
+    edges = 0
+    if (size(metrics, 2) /= size(abscissae) .or. size(metrics, 1) /= merge(3, 6, size(points, 1) == 2)) then
+      status = CARREAU_ERR_ARGUMENT
+      return
+    end if
+    allocate (p(size(points)), s(size(abscissae)), m(size(metrics)))
+    p = reshape(points, [size(points)])
+    s = abscissae
+    m = reshape(metrics, [size(metrics)])
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%dimension = int(size(points, 1), c_int32_t)
+    c%law = law
+    c%point_count = size(points, 2)
+    c%metric_count = size(abscissae)
+    if (size(p) > 0) c%points = c_loc(p(1))
+    if (size(s) > 0) c%abscissae = c_loc(s(1))
+    if (size(m) > 0) c%metrics = c_loc(m(1))
+    c%lss = lss
+    status = c_curve_split(session%handle, c, 0_c_int64_t, none, edges, length)
+    if (status /= CARREAU_OK) return
+    allocate (found(edges + 1))
+    status = c_curve_split(session%handle, c, edges + 1, found, edges, length)
+    if (status == CARREAU_OK) cuts = found
+  end subroutine carreau_curve_split
 end module carreau

@@ -38,6 +38,14 @@ module carreau_c
     integer(c_int32_t) :: type = 0, diag_relative = 0
   end type c_parameter
 
+  type, bind(c) :: c_curve
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: dimension = 0, law = 0
+    integer(c_int64_t) :: point_count = 0, metric_count = 0
+    type(c_ptr) :: points = c_null_ptr, abscissae = c_null_ptr, metrics = c_null_ptr
+    real(c_double) :: lss = 0
+  end type c_curve
+
   type, bind(c) :: c_report
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: diag = 0
@@ -523,6 +531,19 @@ module carreau_c
       type(c_ptr), intent(inout) :: text
       integer(c_int32_t) :: status
     end function c_mesh_defects
+
+    function c_curve_split(session, curve, capacity, abscissae, edges, length) result(status) &
+        bind(c, name="carreau_curve_split")
+      import :: c_curve, c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_curve), intent(in) :: curve
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: abscissae(*)
+      integer(c_int64_t), intent(inout) :: edges
+      real(c_double), intent(inout) :: length
+      integer(c_int32_t) :: status
+    end function c_curve_split
 
     function c_strlen(text) result(length) bind(c, name="strlen")
       import :: c_ptr, c_size_t

@@ -456,6 +456,29 @@ CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_qual
 CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
                                                 const char** out_text);
 
+/* ---- Curves in metrics ---- */
+
+/* A polyline of the plane or of space, and metrics that are known at places of it. */
+typedef struct carreau_curve {
+  size_t struct_size;
+  int32_t dimension;       /* 2 or 3 */
+  int32_t law;             /* between metrics: 0 linear, 1 geometric, 2 sinusoidal in sizes (RR-2818 sec. 4.3.2) */
+  int64_t point_count;     /* 2 or more */
+  int64_t metric_count;    /* 2 or more */
+  const double* points;    /* point_count x dimension */
+  const double* abscissae; /* metric_count: usual lengths from the first point, ascending from 0 to that of the curve */
+  const double* metrics;   /* metric_count x 3 (xx xy yy) or x 6 (xx xy xz yy yz zz), positive definite */
+  double lss;              /* largest length of a trapezoid in the metric, as parameter LSS; 0: 0.5 */
+} carreau_curve;
+
+/* Cuts a curve into edges of equal length in the metric, as near to 1 as a whole number of edges allows (RR-2818 sec.
+ * 4). *out_edges = n; *out_length: that of the whole curve in the metric, so that each edge has out_length / n;
+ * out_abscissae: n + 1 usual lengths from the first point; not written when capacity is 0: ask for n first. Each may be
+ * NULL. The session only keeps the sentence of an error; its geometry and mesh are not touched.
+ * Errors: ARGUMENT (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
+CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
+                                               double* out_abscissae, int64_t* out_edges, double* out_length);
+
 #ifdef __cplusplus
 }
 #endif

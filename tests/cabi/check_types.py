@@ -14,7 +14,8 @@ PLAIN = {"carreau_status": "int", "int32_t": "int", "int64_t": "long", "size_t":
 
 
 def as_gfortran_prints(c_type, header, result=False):
-    """Type of C in the words of -fc-prototypes: a type(c_ptr) is void *, whatever it points to."""
+    """Type of C in the words of -fc-prototypes: a type(c_ptr) is void *, whatever it points to. `result`: of a function's
+    result or of a member of a struct."""
     c_type = c_type.replace("const ", "").replace(" ", "")
     if c_type in header.callbacks or c_type == "function":
         return "function"
@@ -22,6 +23,8 @@ def as_gfortran_prints(c_type, header, result=False):
         return "void"
     if c_type == "char*":
         return "void*" if result else "char*"
+    if result and c_type.endswith("*"):
+        return "void*"
     base = c_type.rstrip("*[]0123456789")
     tail = c_type[len(base):]
     if base in PLAIN:

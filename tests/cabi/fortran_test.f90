@@ -150,6 +150,7 @@ program fortran_test
   call test_versions_and_parameters
   call test_same_mesh_as_in_c
   call test_callbacks_by_value_and_files
+  call test_curve
   call test_errors
   if (failures > 0) stop 1
   print '(a)', 'fortran_test: all passed'
@@ -334,6 +335,29 @@ contains
     close (unit=10, status='delete')
     call carreau_session_free(session)
   end subroutine test_callbacks_by_value_and_files
+
+  subroutine test_curve
+    type(carreau_session) :: session
+    real(c_double), parameter :: h(5) = [1.5d0, 0.5d0, 2d0, 0.1d0, 0.7d0], s(5) = [0d0, 3d0, 4d0, 8d0, 10d0]
+    integer, parameter :: edges(0:2) = [17, 26, 21]
+    real(c_double) :: points(2, 2), metrics(3, 5), length
+    real(c_double), allocatable :: cuts(:)
+    integer(c_int32_t) :: status, law
+    points = reshape([0d0, 0d0, 6d0, 8d0], [2, 2])
+    metrics = 0
+    metrics(1, :) = 1 / h**2
+    metrics(3, :) = metrics(1, :)
+    call carreau_session_create(session, status)
+    do law = 0, 2 ! RR-2818 sec. 6.1
+      call carreau_curve_split(session, points, s, metrics, law, 0d0, cuts, length, status)
+      call expect_ok(status, session, 'curve_split')
+      call expect(size(cuts) == edges(law) + 1, 'the curve has the edges of RR-2818')
+      call expect(abs(cuts(size(cuts)) - 10) < 1d-12 .and. nint(length) == edges(law), 'the split ends where the curve does')
+    end do
+    call carreau_curve_split(session, points, s, metrics(:2, :), 0, 0d0, cuts, length, status)
+    call expect(status == CARREAU_ERR_ARGUMENT, 'metrics of two rows are refused')
+    call carreau_session_free(session)
+  end subroutine test_curve
 
   subroutine test_errors
     type(carreau_session) :: session
