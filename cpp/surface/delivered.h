@@ -14,6 +14,7 @@
 #include "metric/metric2.h"
 #include "size/size_law.h"
 #include "support/monitor.h"
+#include "surface/mesh_edges.h"
 
 namespace carreau {
 
@@ -26,15 +27,59 @@ struct PrescribedMetric {
       at;
 };
 
+/// What is measured. Values are part of the C ABI.
+enum class DeliveredKind : int {
+  /// Of an edge: length in the prescribed metric of the image of its segment of (u, v), by Gauss quadrature; 1 is as
+  /// prescribed.
+  length = 1,
+  /// Of an edge: the largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN where both
+  /// ends are singular.
+  edge_angle = 2,
+  /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along it at its two ends
+  /// (Borouchaki, Hecht, Frey: H-shock of an edge). NaN where an end is singular.
+  gradation = 3,
+  /// Of a vertex: longest over shortest of its edges, lengths in space; where the metric has directions, each divided
+  /// by the size along it over the mean size, so that they compare. NaN without triangles.
+  length_ratio = 4,
+  /// Of a triangle: shapes in space (HDR eq. 1.5, 1.6).
+  q1 = 5,
+  q2 = 6,
+  /// Of a triangle: Q2 in the prescribed metric, 4 sqrt(3) area / sum of squared lengths, all in the metric; at most 1.
+  metric_quality = 7,
+  /// Of a triangle: A0 (HDR eq. 4.1), largest distance to it, or to a neighbour of the same face when that is nearer,
+  /// from sample points of the surface that its triangle of (u, v) covers; model length.
+  deviation = 8,
+  /// Of a triangle: A1 (HDR sec. 4.3.4), largest angle between its normal and that of the surface at sample points and
+  /// at its vertices; degrees, 0 to 180.
+  angle = 9,
+};
+inline constexpr std::size_t delivered_kinds = 9;
+
+/// Of what one value is measured. Values are part of the C ABI.
+enum class DeliveredEntity : int { edge = 1, vertex = 2, triangle = 3 };
+
+/// A row of the table of kinds.
+struct DeliveredMeasure {
+  DeliveredKind kind;
+  DeliveredEntity entity;
+  const char* name;   ///< as in files: "metric_length"
+  const char* title;  ///< for a person, with the unit
+};
+/// All kinds, in the order of their values.
+std::span<const DeliveredMeasure> delivered_measures();
+
 struct DeliveredOptions {
   /// Points on each edge at which its length is integrated: exact up to degree 2 n - 1 in the speed.
   int gauss_points = 3;
   /// Prescriptions to be checked; infinity: none.
-  double edge_angle_limit = std::numeric_limits<double>::infinity();  ///< degrees
-  double deviation_limit = std::numeric_limits<double>::infinity();   ///< model length
-  /// Prescribed sizes at the vertices of the mesh. On edges of curves, whose sizes are another rule than those of the
-  /// faces beside them, the size is the interpolation of its ends' by `law`; empty: that of the first face with it.
-  std::span<const double> curve_size = {};
+  double edge_angle_limit = std::numeric_limits<double>::infinity();    ///< degrees
+  double gradation_limit = std::numeric_limits<double>::infinity();     ///< ratio
+  double length_ratio_limit = std::numeric_limits<double>::infinity();  ///< ratio
+  double deviation_limit = std::numeric_limits<double>::infinity();     ///< model length
+  /// [curve of SurfaceMesh::curves][its vertex]: prescribed sizes along curves, which are another rule than those of
+  /// the faces beside them; between two vertices they are interpolated by `law`. A curve without entries, and all when
+  /// there are none: what the first face with the edge prescribes.
+  std::span<const std::vector<double>> curve_size = {};
   SizeLaw law = SizeLaw::linear;
 };
 
@@ -45,7 +90,7 @@ struct Histogram {
   std::vector<std::int64_t> count;
 };
 
-/// Finite values of one kind; all zero when there are none.
+/// Values of one kind; all zero when there are none.
 struct Spread {
   std::int64_t count = 0;
   double mean = 0, min = 0, p1 = 0, p99 = 0, max = 0;  ///< p1, p99: percentiles
@@ -55,56 +100,35 @@ struct Spread {
 /// Spread of the values that are not NaN. `inner`: the bounds of the histogram between its infinite ones, ascending.
 Spread spread_of(std::span<const double> values, std::span<const double> inner);
 
-/// One entry an edge, each edge of the mesh in space once, in the order in which triangles name them.
-struct DeliveredEdges {
-  std::vector<std::array<std::int32_t, 2>> vertices;  ///< indices in SurfaceMesh::vertices, the smaller one first
-  std::vector<char> on_curve;
-  /// Length in the prescribed metric of the image of the segment in (u, v), by Gauss quadrature: 1 is as prescribed.
-  std::vector<double> length;
-  /// Angle between the edge and the tangent planes at its ends, the larger of them over all faces beside; degrees; NaN
-  /// where both ends are singular.
-  std::vector<double> angle;
-  /// max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along the edge at its two ends (Borouchaki,
-  /// Hecht, Frey: H-shock of an edge); NaN where an end is singular.
-  std::vector<double> gradation;
-};
-
-/// One entry a triangle, in the order of SurfaceMesh::faces and their triangles.
-struct DeliveredTriangles {
-  std::vector<double> q1, q2;  ///< shapes in space (HDR eq. 1.5, 1.6)
-  /// Q2 in the prescribed metric: 4 sqrt(3) area / sum of squared lengths, all in the metric; at most 1.
-  std::vector<double> metric_quality;
-  /// A0 (HDR eq. 4.1): largest distance from sample points of the surface above the triangle to the triangle (above its
-  /// edges: to the nearer one of the triangles beside); model length.
-  std::vector<double> deviation;
-  /// A1 (HDR sec. 4.3.2): largest angle between the normal of the triangle and that of the surface at sample points and
-  /// at the vertices; degrees, 0 to 180.
-  std::vector<double> angle;
+/// One kind. Edges are in the order of MeshEdges; triangles in that of SurfaceMesh::faces and their triangles.
+struct Delivery {
+  std::vector<double> values;
+  Spread spread;
+  double limit = std::numeric_limits<double>::infinity();  ///< asked; infinity: nothing was
+  std::int64_t beyond = 0;                                 ///< values above the limit, rounding apart
 };
 
 /// All measures; prescriptions that are not met are counted.
 struct Delivered {
-  DeliveredEdges edges;
-  DeliveredTriangles triangles;
-  Spread length, edge_angle, gradation, q1, q2, metric_quality, deviation, angle;
+  MeshEdges edges;
+  std::array<Delivery, delivered_kinds> of_kind;
   std::int64_t short_edges = 0, long_edges = 0;  ///< length below 1 / sqrt(2), above sqrt(2)
-  double edge_angle_limit = std::numeric_limits<double>::infinity();
-  double deviation_limit = std::numeric_limits<double>::infinity();
-  std::int64_t edges_over_angle = 0;          ///< angle above edge_angle_limit
-  std::int64_t triangles_over_deviation = 0;  ///< deviation above deviation_limit
-  std::int64_t folded_triangles = 0;          ///< angle above 90 degrees
-  CallCounts calls;                           ///< that the measure took
+  std::int64_t folded_triangles = 0;             ///< angle above 90 degrees
+  CallCounts calls;                              ///< that the measure took
   double seconds = 0;
+
+  [[nodiscard]] const Delivery& operator[](DeliveredKind kind) const { return of_kind[static_cast<int>(kind) - 1]; }
+  [[nodiscard]] Delivery& operator[](DeliveredKind kind) { return of_kind[static_cast<int>(kind) - 1]; }
 
   /// Share of the edges with a length in [1 / sqrt(2), sqrt(2)].
   [[nodiscard]] double share_in_range() const noexcept;
 };
 
-/// Fills the spreads from the lists.
+/// Fills the spreads and counts from the values and limits.
 void summarise(Delivered& delivered);
 
-/// Measures a mesh on the surface that `cad` gives. About 5 evaluations of surf1 a triangle at vertices and on edges, 7
-/// of surf0 and surf1 inside. Throws what callbacks throw, and Cancelled.
+/// Measures a mesh on the surface that `cad` gives. About 24 evaluations a vertex: 1 of surf1 there, 9 of surf0 and
+/// surf1 on edges, 14 inside triangles. Throws what callbacks throw, and Cancelled.
 Delivered measure_delivered(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
                             const DeliveredOptions& options, Monitor& monitor);
 

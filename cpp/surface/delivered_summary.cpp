@@ -10,6 +10,8 @@ namespace carreau {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// What exceeds a limit by less than this share of it meets it.
+constexpr double rounding = 1e-9;
 constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;
 
 // Powers of ten from below the smallest positive value, at most six of them, to above the largest.
@@ -60,6 +62,15 @@ std::string line_of(const char* name, const Spread& spread) {
   return text + classes;
 }
 
+/// "3 of 100 edges (3 %) have"
+std::string part_of(std::int64_t part, std::int64_t all, const char* entities) {
+  return std::to_string(part) + " of " + std::to_string(all) + " " + entities + " (" + percent(part, all) + ") have";
+}
+
+std::int64_t count_above(const std::vector<double>& values, double limit) {
+  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + rounding); });
+}
+
 }  // namespace
 
 Spread spread_of(std::span<const double> values, std::span<const double> inner) {
@@ -96,55 +107,90 @@ Spread spread_of(std::span<const double> values, std::span<const double> inner) 
   return spread;
 }
 
+std::span<const DeliveredMeasure> delivered_measures() {
+  using Kind = DeliveredKind;
+  using Entity = DeliveredEntity;
+  static constexpr std::array<DeliveredMeasure, delivered_kinds> table{{
+      {Kind::length, Entity::edge, "metric_length", "metric length of edges"},
+      {Kind::edge_angle, Entity::edge, "edge_angle", "angle of edges with tangent planes, degrees"},
+      {Kind::gradation, Entity::edge, "gradation", "gradation of sizes along edges"},
+      {Kind::length_ratio, Entity::vertex, "length_ratio", "longest over shortest edge of a vertex"},
+      {Kind::q1, Entity::triangle, "Q1", "shape Q1"},
+      {Kind::q2, Entity::triangle, "Q2", "shape Q2"},
+      {Kind::metric_quality, Entity::triangle, "metric_quality", "shape Q2 in the metric"},
+      {Kind::deviation, Entity::triangle, "A0", "deviation A0, model length"},
+      {Kind::angle, Entity::triangle, "A1", "deviation A1, degrees"},
+  }};
+  return table;
+}
+
 void summarise(Delivered& d) {
-  const std::vector<double> lengths{0.25, 0.5, short_limit, 0.9, 1.1, long_limit, 2, 4};
-  const std::vector<double> shares{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
-  const std::vector<double> angles{1, 2, 4, 8, 10, 16, 30, 60, 90};
-  const std::vector<double> ratios{1.1, 1.2, 1.3, 1.5, 2, 3, 5};
-  d.length = spread_of(d.edges.length, lengths);
-  d.edge_angle = spread_of(d.edges.angle, angles);
-  d.gradation = spread_of(d.edges.gradation, ratios);
-  d.q1 = spread_of(d.triangles.q1, shares);
-  d.q2 = spread_of(d.triangles.q2, shares);
-  d.metric_quality = spread_of(d.triangles.metric_quality, shares);
-  d.deviation = spread_of(d.triangles.deviation, decades(d.triangles.deviation));
-  d.angle = spread_of(d.triangles.angle, angles);
+  static constexpr std::array lengths{0.25, 0.5, short_limit, 0.9, 1.1, long_limit, 2.0, 4.0};
+  static constexpr std::array shares{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  static constexpr std::array angles{1.0, 2.0, 4.0, 8.0, 10.0, 16.0, 30.0, 60.0, 90.0};
+  static constexpr std::array ratios{1.1, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0};
+  for (const DeliveredMeasure& measure : delivered_measures()) {
+    Delivery& one = d[measure.kind];
+    std::span<const double> bounds = shares;
+    std::vector<double> powers;
+    switch (measure.kind) {
+      case DeliveredKind::length:
+        bounds = lengths;
+        break;
+      case DeliveredKind::edge_angle:
+      case DeliveredKind::angle:
+        bounds = angles;
+        break;
+      case DeliveredKind::gradation:
+      case DeliveredKind::length_ratio:
+        bounds = ratios;
+        break;
+      case DeliveredKind::deviation:
+        powers = decades(one.values);
+        bounds = powers;
+        break;
+      default:
+        break;
+    }
+    one.spread = spread_of(one.values, bounds);
+    one.beyond = count_above(one.values, one.limit);
+  }
+  const std::vector<double>& length = d[DeliveredKind::length].values;
+  d.long_edges = count_above(length, long_limit);
+  d.short_edges =
+      std::count_if(length.begin(), length.end(), [](double l) { return l < short_limit / (1 + rounding); });
+  d.folded_triangles = count_above(d[DeliveredKind::angle].values, 90);
 }
 
 double Delivered::share_in_range() const noexcept {
-  return length.count == 0
-             ? 0
-             : 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(edges.length.size());
+  const Delivery& length = (*this)[DeliveredKind::length];
+  if (length.values.empty()) return 0;
+  return 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(length.values.size());
 }
 
 DeliveredText describe(const Delivered& d) {
   DeliveredText text;
-  text.summary = {line_of("metric length of edges", d.length),
-                  line_of("gradation along edges", d.gradation),
-                  line_of("angle of edges with tangent planes, degrees", d.edge_angle),
-                  line_of("Q1", d.q1),
-                  line_of("Q2", d.q2),
-                  line_of("quality in the metric", d.metric_quality),
-                  line_of("deviation A0, model length", d.deviation),
-                  line_of("deviation A1, degrees", d.angle)};
-  const auto edges = static_cast<std::int64_t>(d.edges.length.size());
-  const auto triangles = static_cast<std::int64_t>(d.triangles.q1.size());
+  for (const DeliveredMeasure& measure : delivered_measures())
+    text.summary.push_back(line_of(measure.title, d[measure.kind].spread));
+  const auto edges = static_cast<std::int64_t>(d.edges.vertices.size());
   if (const std::int64_t n = d.short_edges + d.long_edges; n > 0)
-    text.not_met.push_back(std::to_string(n) + " of " + std::to_string(edges) + " edges (" + percent(n, edges) +
-                           ") have metric lengths outside [0.7071, 1.414]: " + std::to_string(d.short_edges) +
-                           " are shorter, " + std::to_string(d.long_edges) + " longer");
-  if (d.edges_over_angle > 0)
-    text.not_met.push_back(std::to_string(d.edges_over_angle) + " of " + std::to_string(edges) + " edges (" +
-                           percent(d.edges_over_angle, edges) + ") make more than " + short_text(d.edge_angle_limit) +
-                           " degrees with a tangent plane at their ends; the worst " + short_text(d.edge_angle.max));
-  if (d.triangles_over_deviation > 0)
-    text.not_met.push_back(std::to_string(d.triangles_over_deviation) + " of " + std::to_string(triangles) +
-                           " triangles (" + percent(d.triangles_over_deviation, triangles) + ") are farther than " +
-                           short_text(d.deviation_limit) + " from the surface; the worst " +
-                           short_text(d.deviation.max));
+    text.not_met.push_back(part_of(n, edges, "edges") + " metric lengths outside [0.7071, 1.414]: " +
+                           std::to_string(d.short_edges) + " are shorter, " + std::to_string(d.long_edges) + " longer");
+  const auto check = [&](DeliveredKind kind, const char* entities, const char* rule) {
+    const Delivery& one = d[kind];
+    if (one.beyond > 0)
+      text.not_met.push_back(part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
+                             " more than the " + short_text(one.limit) + " asked; the worst has " +
+                             short_text(one.spread.max));
+  };
+  check(DeliveredKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
+  check(DeliveredKind::gradation, "edges", "a gradation of sizes of");
+  check(DeliveredKind::length_ratio, "vertices", "a ratio of the lengths of their edges of");
+  check(DeliveredKind::deviation, "triangles", "a distance from the surface of");
   if (d.folded_triangles > 0)
-    text.not_met.push_back(std::to_string(d.folded_triangles) +
-                           " triangles are turned by more than 90 degrees against the surface");
+    text.not_met.push_back(
+        part_of(d.folded_triangles, static_cast<std::int64_t>(d.edges.of_triangle.size()), "triangles") +
+        " a normal turned by more than 90 degrees against that of the surface");
   return text;
 }
 
