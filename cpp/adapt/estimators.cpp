@@ -145,7 +145,7 @@ class Estimate {
 };
 
 /// The metric of space that is `m` in the plane of the frame.
-Metric3 in_space(Metric2 m, const TangentFrame& f) noexcept {
+Metric3 in_space(Metric2 m, const VertexFrame& f) noexcept {
   const double across = eigen(m).major;
   const auto entry = [&](double x1, double y1, double z1, double x2, double y2, double z2) {
     return m.a * x1 * x2 + m.b * (x1 * y2 + y1 * x2) + m.c * y1 * y2 + across * z1 * z2;

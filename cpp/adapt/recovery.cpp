@@ -51,10 +51,10 @@ bool solve(std::vector<Row>& rows, std::array<double, unknowns>& x) {
   return true;
 }
 
-TangentFrame frame_of(Vec3 normal) {
+VertexFrame frame_of(Vec3 normal) {
   const double length = norm(normal);
   if (!(length > 0)) return {};
-  TangentFrame f;
+  VertexFrame f;
   // Upwards, so that the frame of a mesh in the plane is (x, y) however its triangles turn.
   f.normal = (normal.z < 0 ? -1 / length : 1 / length) * normal;
   // The axis that is least along the normal; in the plane (x, y) this gives the coordinates themselves.
@@ -67,7 +67,7 @@ TangentFrame frame_of(Vec3 normal) {
   return f;
 }
 
-std::vector<TangentFrame> frames_of(const ScalarField& field) {
+std::vector<VertexFrame> frames_of(const ScalarField& field) {
   std::vector<Vec3> normals(field.vertices.size());
   for (const auto& t : field.triangles) {
     const Vec3 p = field.vertices[static_cast<std::size_t>(t[0])];
@@ -75,7 +75,7 @@ std::vector<TangentFrame> frames_of(const ScalarField& field) {
         cross(field.vertices[static_cast<std::size_t>(t[1])] - p, field.vertices[static_cast<std::size_t>(t[2])] - p);
     for (const std::int32_t v : t) normals[static_cast<std::size_t>(v)] = normals[static_cast<std::size_t>(v)] + n;
   }
-  std::vector<TangentFrame> frames;
+  std::vector<VertexFrame> frames;
   frames.reserve(normals.size());
   for (const Vec3 n : normals) frames.push_back(frame_of(n));
   return frames;
@@ -89,7 +89,7 @@ class Fitter {
         neighbours_(neighbours_of(field.vertices.size(), field.triangles)),
         mark_(field.vertices.size(), -1) {}
 
-  LocalDerivatives fit(std::int32_t v, const TangentFrame& frame) {
+  LocalDerivatives fit(std::int32_t v, const VertexFrame& frame) {
     LocalDerivatives result;
     result.frame = frame;
     around_.assign(1, v);
@@ -200,7 +200,7 @@ std::vector<Vec2> projected_gradients(const ScalarField& field, const auto& valu
 
 std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field) {
   check_field(field);
-  const std::vector<TangentFrame> frames = frames_of(field);
+  const std::vector<VertexFrame> frames = frames_of(field);
   Fitter fitter(field);
   std::vector<LocalDerivatives> result;
   result.reserve(frames.size());

@@ -11,14 +11,14 @@ namespace carreau {
 
 /// Plane in which derivatives at a vertex are meant: e1, e2 and the normal (of either sense) are orthonormal.
 /// On meshes of the plane z = 0 they are the axes x, y, z.
-struct TangentFrame {
+struct VertexFrame {
   Vec3 e1{1, 0, 0}, e2{0, 1, 0}, normal{0, 0, 1};
   [[nodiscard]] Vec2 in_plane(Vec3 d) const noexcept { return {dot(d, e1), dot(d, e2)}; }
 };
 
 /// Value, gradient and Hessian of the field at a vertex, in the coordinates of `frame`.
 struct LocalDerivatives {
-  TangentFrame frame;
+  VertexFrame frame;
   Vec2 gradient;
   Metric2 hessian{0, 0, 0};  ///< symmetric, of any sign
   bool reliable = true;      ///< false: too few neighbours for a Hessian; it is zero

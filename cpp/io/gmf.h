@@ -13,7 +13,14 @@
 
 namespace carreau {
 
-enum class GmfCode : std::int32_t { dimension = 3, vertices = 4, edges = 5, triangles = 6, end = 54 };
+enum class GmfCode : std::int32_t {
+  dimension = 3,
+  vertices = 4,
+  edges = 5,
+  triangles = 6,
+  end = 54,
+  sol_at_vertices = 62
+};
 
 struct GmfSizes {
   std::size_t real, index, position, count;

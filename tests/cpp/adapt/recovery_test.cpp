@@ -95,7 +95,7 @@ TEST(Recovery, TurnsWithTheMesh) {
     const Eigen2 p = eigen(before[v].hessian), q = eigen(after[v].hessian);
     EXPECT_NEAR(p.major, q.major, 1e-8);
     EXPECT_NEAR(p.minor, q.minor, 1e-8);
-    const TangentFrame& f = after[v].frame;
+    const VertexFrame& f = after[v].frame;
     const Vec3 gradient = after[v].gradient.x * f.e1 + after[v].gradient.y * f.e2;
     const Vec3 expected = turn({before[v].gradient.x, before[v].gradient.y, 0}) - turn({0, 0, 0});
     EXPECT_LT(norm(gradient - expected), 1e-9);

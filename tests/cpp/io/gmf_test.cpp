@@ -8,26 +8,6 @@
 namespace carreau {
 namespace {
 
-/// Numbers in a chosen byte order, whatever the machine's.
-class Bytes {
- public:
-  explicit Bytes(bool big_endian = false) : big_(big_endian) {}
-  Bytes& i32(std::int64_t value) { return put(static_cast<std::uint64_t>(value), 4); }
-  Bytes& i64(std::int64_t value) { return put(static_cast<std::uint64_t>(value), 8); }
-  Bytes& f32(float value) { return put(std::bit_cast<std::uint32_t>(value), 4); }
-  Bytes& f64(double value) { return put(std::bit_cast<std::uint64_t>(value), 8); }
-  [[nodiscard]] const std::string& text() const { return text_; }
-  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(text_.size()); }
-
- private:
-  Bytes& put(std::uint64_t value, int size) {
-    for (int k = 0; k < size; ++k) text_ += static_cast<char>(value >> 8 * (big_ ? size - 1 - k : k));
-    return *this;
-  }
-  bool big_;
-  std::string text_;
-};
-
 /// Three vertices, one triangle of reference 9 and a section that surface meshes do without, in any version.
 std::string triangle_file(int version, bool big_endian) {
   Bytes b(big_endian);

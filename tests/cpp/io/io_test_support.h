@@ -77,6 +77,26 @@ std::string sentence_of(Action&& action) {
   return "";
 }
 
+/// Numbers in a chosen byte order, whatever the machine's.
+class Bytes {
+ public:
+  explicit Bytes(bool big_endian = false) : big_(big_endian) {}
+  Bytes& i32(std::int64_t value) { return put(static_cast<std::uint64_t>(value), 4); }
+  Bytes& i64(std::int64_t value) { return put(static_cast<std::uint64_t>(value), 8); }
+  Bytes& f32(float value) { return put(std::bit_cast<std::uint32_t>(value), 4); }
+  Bytes& f64(double value) { return put(std::bit_cast<std::uint64_t>(value), 8); }
+  [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] std::int64_t size() const { return static_cast<std::int64_t>(text_.size()); }
+
+ private:
+  Bytes& put(std::uint64_t value, int size) {
+    for (int k = 0; k < size; ++k) text_ += static_cast<char>(value >> 8 * (big_ ? size - 1 - k : k));
+    return *this;
+  }
+  bool big_;
+  std::string text_;
+};
+
 /// A finite double of any magnitude, sign and length of mantissa; often a short number.
 inline double random_double(std::mt19937_64& random) {
   if (random() % 4 == 0) return static_cast<double>(static_cast<int>(random() % 2001) - 1000) / 8;

@@ -1,0 +1,166 @@
+#include "mesh/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace carreau {
+
+namespace {
+
+constexpr std::int32_t leaf_size = 4;
+
+double& coordinate(Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+/// Fraction of the way from a to b at which the segment is nearest to p.
+double fraction_on_segment(Vec3 p, Vec3 a, Vec3 b) noexcept {
+  const Vec3 d = b - a;
+  const double squared = dot(d, d);
+  return squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
+}
+
+/// Weights of the point of a triangle that is nearest to p.
+std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner) noexcept {
+  const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  const double area2 = dot(normal, normal);
+  if (area2 > 0) {
+    std::array<double, 3> w;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 from = corner[(i + 1) % 3], to = corner[(i + 2) % 3];
+      w[i] = dot(cross(to - from, p - from), normal) / area2;
+    }
+    if (w[0] >= 0 && w[1] >= 0 && w[2] >= 0) {
+      const double sum = w[0] + w[1] + w[2];
+      return {w[0] / sum, w[1] / sum, w[2] / sum};
+    }
+  }
+  std::array<double, 3> best{1, 0, 0};
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 from = corner[i], to = corner[(i + 1) % 3];
+    const double t = fraction_on_segment(p, from, to);
+    const Vec3 away = p - lerp(from, to, t);
+    if (dot(away, away) >= least) continue;
+    least = dot(away, away);
+    best = {0, 0, 0};
+    best[i] = 1 - t;
+    best[(i + 1) % 3] = t;
+  }
+  return best;
+}
+
+}  // namespace
+
+struct TriangleTree::Builder {
+  TriangleTree& tree;
+  std::vector<Vec3> centre;
+
+  void enclose(Box& box) const {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    box.low = {far, far, far};
+    box.high = {-far, -far, -far};
+    for (std::int32_t k = box.first; k < box.first + box.count; ++k)
+      for (const Vec3& p : tree.corners_[static_cast<std::size_t>(tree.order_[static_cast<std::size_t>(k)])])
+        for (int axis = 0; axis < 3; ++axis) {
+          coordinate(box.low, axis) = std::min(coordinate(box.low, axis), coordinate(p, axis));
+          coordinate(box.high, axis) = std::max(coordinate(box.high, axis), coordinate(p, axis));
+        }
+  }
+
+  /// Halves a leaf at the median of the centres along the longest side of its box.
+  void split(std::size_t b) {
+    const Box box = tree.boxes_[b];
+    const Vec3 size = box.high - box.low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto begin = tree.order_.begin() + box.first;
+    const std::int32_t half = box.count / 2;
+    std::nth_element(begin, begin + half, begin + box.count, [&](std::int32_t s, std::int32_t t) {
+      const double x = coordinate(centre[static_cast<std::size_t>(s)], axis);
+      const double y = coordinate(centre[static_cast<std::size_t>(t)], axis);
+      return x != y ? x < y : s < t;
+    });
+    Box left, right;
+    left.first = box.first, left.count = half;
+    right.first = box.first + half, right.count = box.count - half;
+    enclose(left);
+    enclose(right);
+    tree.boxes_[b].first = static_cast<std::int32_t>(tree.boxes_.size());
+    tree.boxes_[b].count = 0;
+    tree.boxes_.push_back(left);
+    tree.boxes_.push_back(right);
+  }
+};
+
+TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles) {
+  if (triangles.empty()) return;
+  Builder builder{*this, {}};
+  for (const auto& t : triangles) {
+    corners_.push_back({vertices[static_cast<std::size_t>(t[0])], vertices[static_cast<std::size_t>(t[1])],
+                        vertices[static_cast<std::size_t>(t[2])]});
+    const auto& c = corners_.back();
+    builder.centre.push_back((1.0 / 3) * (c[0] + c[1] + c[2]));
+  }
+  order_.resize(corners_.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  Box root;
+  root.count = static_cast<std::int32_t>(order_.size());
+  builder.enclose(root);
+  boxes_.push_back(root);
+  for (std::size_t b = 0; b < boxes_.size(); ++b)
+    if (boxes_[b].count > leaf_size) builder.split(b);
+}
+
+double TriangleTree::squared_distance(const Box& box, Vec3 p) noexcept {
+  const auto beyond = [](double low, double x, double high) { return std::max({low - x, x - high, 0.0}); };
+  const double x = beyond(box.low.x, p.x, box.high.x), y = beyond(box.low.y, p.y, box.high.y),
+               z = beyond(box.low.z, p.z, box.high.z);
+  return x * x + y * y + z * z;
+}
+
+/// `distance` of best is squared here.
+void TriangleTree::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept {
+  const auto& c = corners_[static_cast<std::size_t>(triangle)];
+  const std::array<double, 3> w = nearest_weights(p, c);
+  const Vec3 point = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
+  const double squared = dot(point - p, point - p);
+  if (squared > best.distance || (squared == best.distance && triangle >= best.triangle)) return;
+  best = {triangle, w, point, squared};
+}
+
+NearestOnMesh TriangleTree::nearest(Vec3 p, std::int32_t guess) const noexcept {
+  NearestOnMesh best;
+  look_at(guess >= 0 && static_cast<std::size_t>(guess) < corners_.size() ? guess : 0, p, best);
+  // The depth is the logarithm of the number of triangles: 64 pairs are more than memory can hold.
+  struct Todo {
+    std::int32_t box;
+    double squared;
+  };
+  std::array<Todo, 128> todo;
+  std::size_t size = 0;
+  todo[size++] = {0, squared_distance(boxes_[0], p)};
+  while (size > 0) {
+    const Todo next = todo[--size];
+    if (next.squared > best.distance) continue;
+    const Box& box = boxes_[static_cast<std::size_t>(next.box)];
+    if (box.count > 0) {
+      for (std::int32_t k = 0; k < box.count; ++k) look_at(order_[static_cast<std::size_t>(box.first + k)], p, best);
+      continue;
+    }
+    Todo near{box.first, squared_distance(boxes_[static_cast<std::size_t>(box.first)], p)};
+    Todo far{box.first + 1, squared_distance(boxes_[static_cast<std::size_t>(box.first) + 1], p)};
+    if (far.squared < near.squared) std::swap(near, far);
+    todo[size++] = far;
+    todo[size++] = near;
+  }
+  best.distance = std::sqrt(best.distance);
+  return best;
+}
+
+double TriangleTree::longest_edge(std::int32_t triangle) const noexcept {
+  const auto& c = corners_[static_cast<std::size_t>(triangle)];
+  return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
+}
+
+}  // namespace carreau

@@ -1,0 +1,106 @@
+// Background meshes: sizes or metrics at the vertices of a mesh, anywhere by interpolation (issue "metric fields" sec.
+// 2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mesh/surface_mesh.h"
+#include "mesh/triangle_tree.h"
+#include "metric/metric2_algebra.h"
+#include "metric/metric3.h"
+#include "metric/prescription.h"
+
+namespace carreau {
+
+/// What is prescribed at each vertex: one of the three lists is filled.
+struct VertexValues {
+  std::vector<double> sizes;       ///< in space, > 0
+  std::vector<Metric3> space;      ///< metrics of space
+  std::vector<Metric2> parameter;  ///< metrics of the parameter plane; plane meshes only
+
+  [[nodiscard]] std::size_t size() const noexcept { return sizes.size() + space.size() + parameter.size(); }
+};
+
+/// A triangle mesh with a value at each vertex.
+struct BackgroundMesh {
+  int dimension = 3;           ///< 3: a surface in space; 2: in parameter planes, z = 0
+  std::vector<Vec3> vertices;  ///< finite
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  /// Plane meshes: the reference of the face in whose parameter plane each triangle lies; empty, or 0: any face that
+  /// no other triangle names.
+  std::vector<std::int32_t> faces;
+  VertexValues values;
+};
+
+/// How often a background mesh was asked, and where it did not cover.
+struct BackgroundReport {
+  std::int64_t asked = 0;
+  std::int64_t outside = 0;  ///< farther from the mesh than 1/8 of the longest edge of the nearest triangle
+  double farthest = 0;       ///< distance of the farthest point outside; model length, or parameter length
+  friend bool operator==(const BackgroundReport&, const BackgroundReport&) = default;
+};
+
+/// The field of a background mesh. A place is looked up in logarithmic time: in space at the nearest point of the
+/// surface, in a parameter plane in the triangle that holds (u, v). Outside, the nearest point's value holds, and the
+/// point is counted. Inside a triangle values follow the law along two segments: from the first vertex towards the
+/// second, then towards the third; on edges that is the law of the edge from either side. Answers are as given: not
+/// clamped. For one thread.
+class BackgroundField final : public PrescriptionSource {
+ public:
+  /// Throws InvalidArgument, with the vertex or triangle counted from 0, unless there is a triangle, indices lie in
+  /// range, lists fit, coordinates are finite, sizes positive and metrics positive definite.
+  explicit BackgroundField(const BackgroundMesh& mesh);
+  /// On a mesh of a session: each face is looked up in its own parameter plane, and values are those of the mesh's
+  /// vertices in space. The surface is looked up in space for points only. Throws the same.
+  BackgroundField(const SurfaceMesh& mesh, VertexValues values);
+
+  /// For sizes and metrics between vertices; linear at first.
+  void set_law(MetricLaw law) noexcept { law_ = law; }
+
+  [[nodiscard]] std::string name() const override { return "the background mesh"; }
+  [[nodiscard]] bool needs_position() const noexcept override { return needs_position_; }
+  Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override;
+  Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override;
+  /// A plane mesh does not answer.
+  Prescription at_point(int point, Vec3 xyz) override;
+
+  /// Since the object was made or clear_report() was called.
+  [[nodiscard]] const BackgroundReport& report() const noexcept { return report_; }
+  void clear_report() noexcept { report_ = {}; }
+
+  /// Places in the parameter plane of a face where the field changes by more than `ratio` from one vertex to the next;
+  /// empty for a mesh in space.
+  [[nodiscard]] std::vector<Vec2> steep_places(int face, double ratio) const;
+
+ private:
+  /// Triangles of one parameter plane, or of space.
+  struct Piece {
+    TriangleTree tree;
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::int32_t, 3>> triangles;  // of vertices
+    std::vector<std::int32_t> value;                     // of each vertex: index in values_
+    std::int32_t last = 0;                               // triangle that was found last
+  };
+
+  void check_values(std::size_t vertices) const;
+  void add_piece(int face, Piece piece);
+  [[nodiscard]] Piece* piece_of(int face) noexcept;
+  Prescription look_up(Piece& piece, Vec3 p);
+  [[nodiscard]] Prescription value_at(const Piece& piece, const NearestOnMesh& where) const;
+  [[nodiscard]] double change(std::int32_t a, std::int32_t b) const;
+
+  VertexValues values_;
+  std::map<int, Piece> planes_;  // by reference of the face; 0: any other
+  std::optional<Piece> space_;
+  bool needs_position_ = true;
+  MetricLaw law_ = MetricLaw::linear;
+  BackgroundReport report_;
+};
+
+}  // namespace carreau
