@@ -320,7 +320,8 @@ enum {
   CARREAU_PHASE_CURVES = 2,
   CARREAU_PHASE_PATCHES = 3,
   CARREAU_PHASE_ASSEMBLY = 4,
-  CARREAU_PHASE_WRITING = 5
+  CARREAU_PHASE_WRITING = 5,
+  CARREAU_PHASE_GRADATION = 7 /* before curves and patches, when the parameter gradation is not 0 */
 };
 
 /* One sentence without a newline; text lives until the callback returns. */

@@ -16,12 +16,16 @@ enum class EndSizes {
   of_point,  ///< the size of the end point replaces the curve's at r = 0 and r = 1
 };
 
+struct SizeSamples;
+
 struct CurveOptions {
   EndSizes ends = EndSizes::of_curve;
   /// Length of a sub-segment, unit edges (LSS, RT-0232 sec. 3.3): the smaller, the closer the samples of sizes.
   double lss = 0.5;
   /// Distance between two uses' images of a vertex, over its size, above which parameters are refined.
   double carry_tolerance = 1e-3;
+  /// Sizes that are known already: nothing is sampled, and sizes at the ends are these. Null: sample_sizes().
+  const SizeSamples* known = nullptr;
 };
 
 /// Sizes at fractions r of a curve's length: r.front() = 0, r.back() = 1, ascending.

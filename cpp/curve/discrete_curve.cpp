@@ -111,7 +111,7 @@ void place_in_space(DiscreteCurve& d, const CurveModel& model) {
   for (std::size_t k = 0; k < inner; ++k) d.xyz[k + 1] = jets[k].s;
 }
 
-void fill_sizes(DiscreteCurve& d, const Curve& curve, SizeRules& rules) {
+void fill_sizes(DiscreteCurve& d, const Curve& curve, SizeRules& rules, bool ask_points) {
   d.size.resize(d.r.size());
   d.physical.resize(d.r.size());
   for (std::size_t k = 0; k < d.r.size(); ++k) {
@@ -119,10 +119,11 @@ void fill_sizes(DiscreteCurve& d, const Curve& curve, SizeRules& rules) {
     d.physical[k] = d.sizes.physical_at(d.r[k]);
   }
   if (rules.constant()) return;
-  d.size.front() = rules.at_point(curve.end1);
-  d.size.back() = rules.at_point(curve.end2);
   d.physical.front() = rules.physical_at_point(curve.end1);
   d.physical.back() = rules.physical_at_point(curve.end2);
+  if (!ask_points) return;
+  d.size.front() = rules.at_point(curve.end1);
+  d.size.back() = rules.at_point(curve.end2);
 }
 
 std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double length) {
@@ -143,9 +144,9 @@ DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& ru
   DiscreteCurve d;
   d.curve = curve;
   d.indivisible = c.degenerate || !(length > 0);
-  d.sizes = sample_sizes(model, curve, rules, options);
+  d.sizes = options.known != nullptr ? *options.known : sample_sizes(model, curve, rules, options);
   d.r = d.indivisible ? std::vector<double>{0, 1} : fractions(d, c, length);
-  fill_sizes(d, c, rules);
+  fill_sizes(d, c, rules, options.known == nullptr);
   d.xyz.resize(d.r.size());
   d.xyz.front() = corner(model, c.end1);
   d.xyz.back() = corner(model, c.end2);

@@ -58,6 +58,8 @@ constexpr std::array kTable = {
     integer_row("geo_metric", 0, 1, 0, "geometric sizes: 0 by the smallest radius, 1 by both principal radii"),
     text_row("geo_rule", "angle", "angle|chord|both|radii",
              "geometric sizes from: angle_mesh, eps_chord, the smaller of both, or the principal radii (RR-2928)"),
+    real_row("gradation", 0, kInfinity, 0,
+             "largest ratio of sizes one unit edge apart, greater than 1 (0: no gradation)"),
     integer_row("hgeo_flag", 0, 2, 0, "geometric size: 0 ignored, 1 from the curvature, 2 from cad_rads and cad_radc"),
     diag_row("hgeomax", kPositive, 1.0 / 5, "largest geometric size, model length"),
     diag_row("hgeomin", kPositive, 1.0 / 500, "smallest geometric size, model length"),
@@ -116,6 +118,8 @@ void check_range(const ParameterInfo& info, double value) {
                           " is not");
   };
   if (!std::isfinite(value)) fail("a finite number");
+  if (std::string_view(info.name) == "gradation" && value != 0 && !(value > 1))
+    fail("greater than 1, or 0 (no gradation)");
   if (value >= info.minimum && value <= info.maximum) return;
   if (info.minimum == kPositive) fail("greater than 0");
   if (info.maximum == kInfinity) fail("at least " + format_number(info.minimum));

@@ -78,6 +78,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   size.metric_combination = static_cast<MetricCombination>(parameters.integer("metric_combination"));
   options.angle_smo = std::min(parameters.real("angle_smo"), size.angle_mesh);  // RT-0232 sec. 3.3
   options.lss = parameters.real("LSS");
+  options.gradation = parameters.real("gradation");
   options.eps_ends = parameters.real("eps_ends", diag);
   options.check_close_edges = parameters.integer("CheckCloseEdges");
   options.check_adjacent_edges = parameters.integer("CheckAdjacentEdges");

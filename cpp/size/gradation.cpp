@@ -46,7 +46,7 @@ class Grading {
     collect_segments();
   }
 
-  std::vector<GradedSize> run() {
+  void run() {
     for (std::size_t v = 0; v < front_.size(); ++v) {
       front_[v].source = static_cast<int>(v);
       front_[v].place = first_place_[v];
@@ -61,7 +61,33 @@ class Grading {
       leave(v);
       if (++done % vertices_between_checks == 0) monitor_.checkpoint();
     }
-    return result();
+  }
+
+  [[nodiscard]] std::vector<GradedSize> sizes() const {
+    std::vector<GradedSize> sizes(front_.size());
+    for (std::size_t v = 0; v < front_.size(); ++v) {
+      sizes[v].h = front_[v].h;
+      Vec3 line;
+      if (first_place_[v] >= 0 && carry(static_cast<int>(v), first_place_[v], line))
+        sizes[v].slope = resized(line, slope_);
+    }
+    return sizes;
+  }
+
+  [[nodiscard]] GradationFronts fronts() const {
+    GradationFronts result;
+    result.h.reserve(front_.size());
+    for (const Front& f : front_) result.h.push_back(f.h);
+    result.front.resize(graph_.places.size());
+    for (std::size_t p = 0; p < graph_.places.size(); ++p) {
+      const int v = graph_.places[p].vertex;
+      Vec3 line;
+      if (carry(v, static_cast<int>(p), line))
+        result.front[p] = {front_[v].source_h, line};
+      else
+        result.front[p] = {front_[v].h, {}};
+    }
+    return result;
   }
 
  private:
@@ -221,17 +247,6 @@ class Grading {
                                        2 * crossing < width ? from.source : other.source, false});
   }
 
-  [[nodiscard]] std::vector<GradedSize> result() const {
-    std::vector<GradedSize> sizes(front_.size());
-    for (std::size_t v = 0; v < front_.size(); ++v) {
-      sizes[v].h = front_[v].h;
-      Vec3 line;
-      if (first_place_[v] >= 0 && carry(static_cast<int>(v), first_place_[v], line))
-        sizes[v].slope = resized(line, slope_);
-    }
-    return sizes;
-  }
-
   const GradationGraph& graph_;
   double slope_;
   Monitor& monitor_;
@@ -274,7 +289,17 @@ double slope_of_gradation(double beta) {
 std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
                                     Monitor& monitor) {
   check(graph, h, slope);
-  return Grading(graph, h, slope, monitor).run();
+  Grading grading(graph, h, slope, monitor);
+  grading.run();
+  return grading.sizes();
+}
+
+GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h, double slope,
+                             Monitor& monitor) {
+  check(graph, h, slope);
+  Grading grading(graph, h, slope, monitor);
+  grading.run();
+  return grading.fronts();
 }
 
 }  // namespace carreau

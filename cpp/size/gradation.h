@@ -29,6 +29,18 @@ struct GradedSize {
   Vec3 slope;
 };
 
+/// How a size comes to a place: h = source_h + slope |line|.
+struct GradationFront {
+  double source_h = 0;
+  Vec3 line;  ///< from the source, in the tangent plane of the place; zero where the size is the vertex's own
+};
+
+/// All that the grading knows.
+struct GradationFronts {
+  std::vector<double> h;              ///< of vertices; +infinity where no size arrives
+  std::vector<GradationFront> front;  ///< of places
+};
+
 /// ln(beta), the largest derivative of h along a path on the surface, for a ratio beta between sizes one unit edge
 /// apart. With the linear law, the unit length between sizes p and q at distance d is d ln(q / p) / (q - p) (RR-2818
 /// sec. 5.2), so (q / p)^(1 / length) <= beta says exactly q - p <= ln(beta) d: this is the h-correction
@@ -41,5 +53,9 @@ double slope_of_gradation(double beta);
 /// InvalidArgument unless slope > 0 and the arrays fit.
 std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
                                     Monitor& monitor);
+
+/// The same, with the line that brings the size to each place: between vertices the size is the smallest of
+/// source_h + slope |line + step| over the places around (GradedField).
+GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor);
 
 }  // namespace carreau

@@ -9,7 +9,16 @@
 namespace carreau {
 
 /// What a run is doing. Values are part of the C ABI: never renumber.
-enum class Phase : int { idle = 0, model = 1, curves = 2, patches = 3, assembly = 4, writing = 5, measure = 6 };
+enum class Phase : int {
+  idle = 0,
+  model = 1,
+  curves = 2,
+  patches = 3,
+  assembly = 4,
+  writing = 5,
+  measure = 6,
+  gradation = 7
+};
 
 /// Importance of a message; a message is delivered when its level <= the verbosity of the run
 /// (`verb`, 0..100, RT-0232 sec. 3.3). Values are part of the C ABI.

@@ -19,13 +19,14 @@ using Splits = std::map<int, std::set<int>>;
 
 class Refiner {
  public:
-  Refiner(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
+  Refiner(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
           std::vector<DiscreteCurve>& curves, Monitor& monitor)
       : curve_model_(model),
         model_(model.model),
         topology_(model.topology),
         rules_(rules),
         options_(options),
+        limits_(limits),
         curves_(curves),
         monitor_(monitor) {
     const std::size_t n = model_.faces.size();
@@ -103,7 +104,8 @@ class Refiner {
   const ControlSpace& space_of(int f) {
     auto& space = spaces_[f];
     if (!space) {
-      const PatchInput input{.face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}};
+      const PatchInput input{
+          .face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}, .limits = limits_};
       space = sample_face(input, curve_model_.cad, rules_, {}, monitor_);
     }
     return *space;
@@ -139,6 +141,7 @@ class Refiner {
   const Topology& topology_;
   SizeRules& rules_;
   const CompositeOptions& options_;
+  SizeLimits limits_;
   std::vector<DiscreteCurve>& curves_;
   Monitor& monitor_;
   RefinedDomains result_;
@@ -150,8 +153,8 @@ class Refiner {
 }  // namespace
 
 RefinedDomains refine_domains(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
-                              std::vector<DiscreteCurve>& curves, Monitor& monitor) {
-  return Refiner(model, rules, options, curves, monitor).run();
+                              const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor) {
+  return Refiner(model, rules, options, limits, curves, monitor).run();
 }
 
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves) {

@@ -20,9 +20,9 @@ struct RefinedDomains {
 
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
 /// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
-/// CheckAdjacentEdges, CheckWellDefined).
+/// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in.
 RefinedDomains refine_domains(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
-                              std::vector<DiscreteCurve>& curves, Monitor& monitor);
+                              const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor);
 
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);

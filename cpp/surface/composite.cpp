@@ -7,6 +7,7 @@
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_mesher.h"
+#include "surface/size_grading.h"
 #include "surface/verification.h"
 
 #if defined(__unix__)
@@ -21,6 +22,8 @@ namespace {
 constexpr double bytes_per_triangle = 300;
 // Shares of the progress fraction.
 constexpr double curves_share = 0.1, patches_share = 0.85;
+// Share of the whole that the gradation takes before these, when there is one.
+constexpr double gradation_share = 0.3;
 // Times that a patch is meshed again because the lift disagrees.
 constexpr int most_corrections = 3;
 
@@ -59,9 +62,10 @@ class Pipeline {
     result_.report.diag = supports_.diag;
     result_.mesh.faces.resize(model_.faces.size());
     for (std::size_t f = 0; f < model_.faces.size(); ++f) result_.mesh.faces[f].ref = model_.faces[f].ref;
+    grade();
     discretise();
     mesh_faces();
-    monitor_.progress(Phase::assembly, 0, curves_share + patches_share);
+    tell(Phase::assembly, 0, curves_share + patches_share);
     assemble(model_, topology_, domains_, curves_, patches_, result_);
     keep_interfaces();
     result_.report.calls = cad_.counts();
@@ -70,19 +74,37 @@ class Pipeline {
   }
 
  private:
+  void tell(Phase phase, int entity, double share) { monitor_.progress(phase, entity, begin_ + (1 - begin_) * share); }
+
+  // One size everywhere obeys any gradation.
+  void grade() {
+    if (options_.gradation == 0 || rules_.constant() || rules_.uses_metrics()) return;
+    const auto start = std::chrono::steady_clock::now();
+    monitor_.progress(Phase::gradation, 0, 0);
+    graded_ = grade_model(curve_model_, rules_, options_, supports_.diag, monitor_);
+    begin_ = gradation_share;
+    result_.graded = graded_.field;
+    result_.report.gradation_rounds = graded_.rounds;
+    result_.report.gradation_triangles = graded_.triangles;
+    result_.report.seconds_gradation = seconds_since(start);
+  }
+  [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded_.field.get()}; }
+
   void discretise() {
     const auto start = std::chrono::steady_clock::now();
     std::int64_t edges = 0;
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       monitor_.checkpoint();
-      monitor_.progress(Phase::curves, topology_.curves[c].ref,
-                        curves_share * static_cast<double>(c) / static_cast<double>(topology_.curves.size()));
-      curves_.push_back(discretise_curve(curve_model_, static_cast<int>(c), rules_, {.lss = options_.lss}));
+      tell(Phase::curves, topology_.curves[c].ref,
+           curves_share * static_cast<double>(c) / static_cast<double>(topology_.curves.size()));
+      const SizeSamples* known = graded_.curves.empty() ? nullptr : &graded_.curves[c];
+      curves_.push_back(
+          discretise_curve(curve_model_, static_cast<int>(c), rules_, {.lss = options_.lss, .known = known}));
       edges += curves_.back().segments();
       if (edges > options_.max_triangles) refuse(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges));
     }
     separate_coincident_curves(curve_model_, curves_);
-    domains_ = refine_domains(curve_model_, rules_, options_, curves_, monitor_);
+    domains_ = refine_domains(curve_model_, rules_, options_, limits(), curves_, monitor_);
     result_.report.seconds_curves = seconds_since(start);
   }
 
@@ -98,9 +120,8 @@ class Pipeline {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       const int ref = model_.faces[f].ref;
       monitor_.checkpoint();
-      monitor_.progress(
-          Phase::patches, ref,
-          curves_share + patches_share * static_cast<double>(f) / static_cast<double>(model_.faces.size()));
+      tell(Phase::patches, ref,
+           curves_share + patches_share * static_cast<double>(f) / static_cast<double>(model_.faces.size()));
       if (!domains_.domain[f]) {
         fail(f, domains_.failure[f]);
         continue;
@@ -123,7 +144,8 @@ class Pipeline {
                            .domain = &domain,
                            .curve_xyz = positions_on_curves(domain, curves_, topology_),
                            .constant_size = rules_.constant(),
-                           .isotropic = !rules_.uses_metrics()};
+                           .isotropic = !rules_.uses_metrics(),
+                           .limits = limits()};
     ControlSpace space = sample_face(input, cad_, rules_, {}, monitor_);
     result_.report.seconds_sampling += seconds_since(start);
     // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
@@ -172,6 +194,8 @@ class Pipeline {
   SizeRules rules_;
   CurveModel curve_model_;
   std::int64_t left_ = 0;  // triangles still allowed
+  GradedModel graded_;
+  double begin_ = 0;  // share of the run that was over before the curves
   std::vector<DiscreteCurve> curves_;
   RefinedDomains domains_;
   std::vector<std::optional<PatchMesh>> patches_;

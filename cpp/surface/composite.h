@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "curve/support.h"
 #include "mesh/surface_mesh.h"
 #include "model/topology.h"
+#include "size/graded_field.h"
 #include "size/size_rules.h"
 #include "support/monitor.h"
 #include "surface/face_metric.h"
@@ -19,6 +21,8 @@ struct CompositeOptions {
   double eps_ends = 0;  ///< model length; shorter curves are reported
   int check_close_edges = 0, check_adjacent_edges = 0, check_well_defined = 0;  ///< iterations
   double coef_rectangle = 0.25;
+  /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
+  double gradation = 0;
   bool frontal = true;
   std::int64_t max_triangles = 0;  ///< 0: by memory
 };
@@ -29,14 +33,17 @@ struct CompositeReport {
   double diag = 0;
   int corrections =
       0;  ///< patches meshed again because their lengths in space were not those that the sampling promised
-  double seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
+  int gradation_rounds = 0;             ///< graphs that the gradation has made
+  std::size_t gradation_triangles = 0;  ///< of the last one
+  double seconds_gradation = 0, seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
   double seconds_total = 0;
 };
 
 struct CompositeResult {
   SurfaceMesh mesh;
-  std::vector<double> vertex_size;         ///< prescribed size at each vertex
-  std::vector<FaceInterfaces> interfaces;  ///< by face; empty where the domain could not be made
+  std::vector<double> vertex_size;            ///< prescribed size at each vertex
+  std::vector<FaceInterfaces> interfaces;     ///< by face; empty where the domain could not be made
+  std::shared_ptr<const GradedField> graded;  ///< bounds the sizes inside faces; null without gradation
   CompositeReport report;
 };
 

@@ -40,7 +40,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor) {
-  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor);
+  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
   std::vector<SurfaceJet> jets;
   const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     jets.resize(uv.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plane/plane_mesher.h"
+#include "size/graded_field.h"
 #include "size/size_rules.h"
 #include "surface/composite.h"
 #include "surface/domain_builder.h"
@@ -30,9 +31,11 @@ struct PatchInput {
   std::optional<double> constant_size = {};
   /// Sizes do not differ by direction: triangles may be judged by their shape in space.
   bool isotropic = true;
+  /// What becomes of the prescribed sizes.
+  SizeLimits limits = {};
 };
 
-/// Samples the metric of a face (FaceMetric) over its domain. `suspects`: see ControlSpaceOptions.
+/// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor);
 

@@ -1,5 +1,8 @@
 #include "surface/face_metric.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace carreau {
 
 void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric) {
@@ -11,6 +14,23 @@ void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, 
   h_.resize(uv.size());
   rules_.on_surface(face_, uv, jets, fallback, h_);
   for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h_[i]);
+  if (!limits_.idle()) apply_limits(limits_, face_, uv, jets, metric);
+}
+
+double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept {
+  const double first = dot(jet.su, jet.su) + dot(jet.sv, jet.sv), second = metric.a + metric.c;
+  return first > 0 && second > 0 ? std::sqrt(first / second) : 0;
+}
+
+void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                  std::span<Metric2> metric) noexcept {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double h = isotropic_size(jets[i], metric[i]);
+    if (!(h > 0)) continue;
+    const double graded = limits.field == nullptr ? h : std::min(h, limits.field->at(face, uv[i], jets[i].s));
+    const double k = h / std::min(limits.factor * graded, limits.largest);
+    if (k != 1) metric[i] = (k * k) * metric[i];
+  }
 }
 
 }  // namespace carreau

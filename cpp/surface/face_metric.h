@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plane/plane_mesh.h"
+#include "size/graded_field.h"
 #include "size/size_rules.h"
 #include "surface/interface_sizes.h"
 
@@ -22,13 +23,16 @@ class FaceMetric {
  public:
   /// `face` is an index in Model::faces.
   FaceMetric(int face, SizeRules& rules, const PlaneDomain& plane, const std::vector<double>& physical,
-             Monitor& monitor)
-      : face_(face), rules_(rules), plane_(plane), physical_(physical), monitor_(monitor) {}
+             Monitor& monitor, const SizeLimits& limits = {})
+      : face_(face), rules_(rules), plane_(plane), physical_(physical), monitor_(monitor), limits_(limits) {}
 
   /// The Want bits that the jets of at() must hold.
-  [[nodiscard]] unsigned wants() const noexcept { return want_first | rules_.surface_wants(); }
+  [[nodiscard]] unsigned wants() const noexcept {
+    return want_first | rules_.surface_wants() | (limits_.field != nullptr ? want_position : 0U);
+  }
 
-  /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66); asks the host.
+  /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks
+  /// the host.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
 
  private:
@@ -37,8 +41,16 @@ class FaceMetric {
   const PlaneDomain& plane_;
   const std::vector<double>& physical_;
   Monitor& monitor_;
+  SizeLimits limits_;
   std::optional<InterfaceSizes> interfaces_;  // built only when the host leaves a question open
   std::vector<double> h_;
 };
+
+/// The size h of an isotropic metric J^T J / h^2; 0 where both derivatives vanish.
+double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;
+
+/// Bounds isotropic metrics of a face in place. The jets hold first derivatives, and positions where there is a field.
+void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                  std::span<Metric2> metric) noexcept;
 
 }  // namespace carreau

@@ -111,6 +111,7 @@ class LiftCheck {
   // Where sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
   void ask_host() {
     if (rules_.uses_curvature()) return;
+    const GradedField* field = input_.limits.field;
     for (std::size_t v = input_.domain->size.size(); v < mesh_.xyz.size(); ++v) {
       bool answered = true;
       const auto no_answer = [&](Vec2) {
@@ -119,7 +120,9 @@ class LiftCheck {
       };
       double h = unknown;
       rules_.on_surface(input_.face, {&mesh_.plane.vertices[v], 1}, {}, no_answer, {&h, 1});
-      if (answered) mesh_.size[v] = h;
+      if (answered)
+        mesh_.size[v] =
+            field == nullptr ? h : std::min(h, field->at(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v]));
       if (v % 512 == 0) monitor_.checkpoint();
     }
   }
