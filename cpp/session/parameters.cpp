@@ -75,6 +75,7 @@ constexpr std::array kTable = {
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
+    integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),
     integer_row("verb", 0, 100, 10, "verbosity, per cent"),
 };
 static_assert(std::is_sorted(kTable.begin(), kTable.end(), [](const ParameterInfo& p, const ParameterInfo& q) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "cad/checked_cad.h"
 #include "io/files.h"
@@ -86,6 +87,8 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.coef_rectangle = parameters.real("CoefRectangle");
   options.frontal = parameters.integer("frontal") != 0;
   options.max_triangles = parameters.integer("max_triangles");
+  options.threads = parameters.integer("threads");
+  if (options.threads == 0) options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   return options;
 }
 

@@ -1,14 +1,16 @@
 #include "surface/composite.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
-#include "surface/face_mesher.h"
+#include "surface/face_job.h"
 #include "surface/size_grading.h"
-#include "surface/verification.h"
 
 #if defined(__unix__)
 #include <unistd.h>
@@ -24,8 +26,6 @@ constexpr double bytes_per_triangle = 300;
 constexpr double curves_share = 0.1, patches_share = 0.85;
 // Share of the whole that the gradation takes before these, when there is one.
 constexpr double gradation_share = 0.3;
-// Times that a patch is meshed again because the lift disagrees.
-constexpr int most_corrections = 3;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -101,75 +101,87 @@ class Pipeline {
       curves_.push_back(
           discretise_curve(curve_model_, static_cast<int>(c), rules_, {.lss = options_.lss, .known = known}));
       edges += curves_.back().segments();
-      if (edges > options_.max_triangles) refuse(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges));
+      if (edges > options_.max_triangles)
+        refuse_triangles(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges), options_.max_triangles);
     }
     separate_coincident_curves(curve_model_, curves_);
     domains_ = refine_domains(curve_model_, rules_, options_, limits(), curves_, monitor_);
     result_.report.seconds_curves = seconds_since(start);
   }
 
-  [[noreturn]] void refuse(const Where& where, double expected) const {
-    throw LimitError(
-        where, "the mesh would have about " + format_count(expected) + " triangles or more, beyond the limit of " +
-                   format_count(static_cast<double>(options_.max_triangles)) + " (parameter max_triangles)");
+  /// Jobs of the faces whose domains could be made.
+  void make_jobs() {
+    const bool reentrant = options_.threads > 1 && cad_.reentrant() && options_.size.sources.empty();
+    if (reentrant) rules_of_job_.reserve(model_.faces.size());
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+      if (!domains_.domain[f]) continue;
+      const FaceDomain& domain = *domains_.domain[f];
+      // Sizes are cached where they are asked: each thread needs its own.
+      if (reentrant) rules_of_job_.push_back(rules_);
+      jobs_.push_back(std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
+                                                           .ref = model_.faces[f].ref,
+                                                           .domain = &domain,
+                                                           .curve_xyz = positions_on_curves(domain, curves_, topology_),
+                                                           .constant_size = rules_.constant(),
+                                                           .isotropic = !rules_.uses_metrics(),
+                                                           .limits = limits()},
+                                                cad_, reentrant ? rules_of_job_.back() : rules_, options_, reentrant));
+      job(jobs_.size() - 1).limit_triangles(options_.max_triangles);
+      face_of_job_.push_back(f);
+    }
   }
-  static std::string format_count(double n) { return std::to_string(static_cast<std::int64_t>(n < 9e18 ? n : 9e18)); }
+  FaceJob& job(std::size_t i) { return static_cast<FaceJob&>(*jobs_[i]); }
+
+  /// Longest first, judged by boundaries: the triangles of a square are as the square of its edges.
+  std::vector<std::size_t> order_of_jobs() const {
+    std::vector<std::size_t> order(jobs_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
+      return domains_.domain[face_of_job_[a]]->plane.edges.size() >
+             domains_.domain[face_of_job_[b]]->plane.edges.size();
+    });
+    return order;
+  }
 
   void mesh_faces() {
     patches_.resize(model_.faces.size());
-    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-      const int ref = model_.faces[f].ref;
-      monitor_.checkpoint();
-      tell(Phase::patches, ref,
-           curves_share + patches_share * static_cast<double>(f) / static_cast<double>(model_.faces.size()));
-      if (!domains_.domain[f]) {
-        fail(f, domains_.failure[f]);
-        continue;
-      }
-      try {
-        mesh_face(f);
-      } catch (const DomainError& error) {
-        const std::string prefix = Where{.face = ref}.prefix();
-        const std::string what = error.what();
-        fail(f, what.starts_with("face ") ? what : prefix + what);
-      }
-    }
+    for (std::size_t f = 0; f < model_.faces.size(); ++f)
+      if (!domains_.domain[f]) fail(f, domains_.failure[f]);
+    make_jobs();
+    tell_progress(0);
+    run_stepped(
+        jobs_,
+        {.threads = options_.threads, .order = order_of_jobs(), .on_finished = [this](std::size_t i) { accept(i); }},
+        monitor_);
+    jobs_.clear();
   }
 
-  void mesh_face(std::size_t f) {
-    auto start = std::chrono::steady_clock::now();
-    const FaceDomain& domain = *domains_.domain[f];
-    const PatchInput input{.face = static_cast<int>(f),
-                           .ref = model_.faces[f].ref,
-                           .domain = &domain,
-                           .curve_xyz = positions_on_curves(domain, curves_, topology_),
-                           .constant_size = rules_.constant(),
-                           .isotropic = !rules_.uses_metrics(),
-                           .limits = limits()};
-    ControlSpace space = sample_face(input, cad_, rules_, {}, monitor_);
-    result_.report.seconds_sampling += seconds_since(start);
-    // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
-    if (space.measure() > 2 * static_cast<double>(left_)) refuse(Where{.face = input.ref}, space.measure());
-    CompositeOptions options = options_;
-    options.max_triangles = left_;
-    std::vector<Vec2> suspects;
-    for (int round = 0;; ++round) {
-      patches_[f] = mesh_patch(input, space, cad_, options, result_.report, monitor_);
-      start = std::chrono::steady_clock::now();
-      const std::vector<Vec2> places = verify_lift(input, space, cad_, rules_, *patches_[f], monitor_);
-      result_.report.seconds_lift += seconds_since(start);
-      if (places.empty() || round == most_corrections) break;
-      // What the vertices have found is sampled, and the patch meshed again if that was news.
-      suspects.insert(suspects.end(), places.begin(), places.end());
-      start = std::chrono::steady_clock::now();
-      ControlSpace finer = sample_face(input, cad_, rules_, suspects, monitor_);
-      result_.report.seconds_sampling += seconds_since(start);
-      if (!differ_at(places, space, finer)) break;
-      if (finer.measure() > 2 * static_cast<double>(left_)) refuse(Where{.face = input.ref}, finer.measure());
-      space = std::move(finer);
-      ++result_.report.corrections;
+  void tell_progress(std::size_t next_job) {
+    if (next_job == jobs_.size()) return;
+    monitor_.progress(Phase::patches, model_.faces[face_of_job_[next_job]].ref,
+                      curves_share + patches_share * static_cast<double>(next_job) / static_cast<double>(jobs_.size()));
+  }
+
+  void accept(std::size_t i) {
+    const std::size_t f = face_of_job_[i];
+    const CompositeReport& did = job(i).report();
+    result_.report.seconds_sampling += did.seconds_sampling;
+    result_.report.seconds_plane += did.seconds_plane;
+    result_.report.seconds_lift += did.seconds_lift;
+    result_.report.corrections += did.corrections;
+    if (job(i).failure().empty()) {
+      patches_[f] = job(i).take();
+      left_ -= static_cast<std::int64_t>(patches_[f]->plane.triangles.size());
+      if (left_ < 0)
+        refuse_triangles(Where{.face = model_.faces[f].ref}, static_cast<double>(options_.max_triangles - left_),
+                         options_.max_triangles);
+    } else {
+      fail(f, job(i).failure());
     }
-    left_ -= static_cast<std::int64_t>(patches_[f]->plane.triangles.size());
+    // One after the other, what is left is known before the next one starts.
+    if (options_.threads == 1 && i + 1 < jobs_.size()) job(i + 1).limit_triangles(left_);
+    jobs_[i].reset();
+    tell_progress(i + 1);
   }
 
   void keep_interfaces() {
@@ -198,6 +210,9 @@ class Pipeline {
   double begin_ = 0;  // share of the run that was over before the curves
   std::vector<DiscreteCurve> curves_;
   RefinedDomains domains_;
+  std::vector<SizeRules> rules_of_job_;
+  std::vector<std::unique_ptr<SteppedTask>> jobs_;
+  std::vector<std::size_t> face_of_job_;
   std::vector<std::optional<PatchMesh>> patches_;
   CompositeResult result_;
 };

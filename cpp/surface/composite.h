@@ -25,6 +25,9 @@ struct CompositeOptions {
   double gradation = 0;
   bool frontal = true;
   std::int64_t max_triangles = 0;  ///< 0: by memory
+  /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
+  /// from the caller's thread only.
+  int threads = 1;
 };
 
 /// What a run did, besides the mesh.
@@ -35,7 +38,8 @@ struct CompositeReport {
       0;  ///< patches meshed again because their lengths in space were not those that the sampling promised
   int gradation_rounds = 0;             ///< graphs that the gradation has made
   std::size_t gradation_triangles = 0;  ///< of the last one
-  double seconds_gradation = 0, seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
+  double seconds_gradation = 0, seconds_curves = 0;
+  double seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;  ///< sums over all threads
   double seconds_total = 0;
 };
 

@@ -1,7 +1,5 @@
 #include "surface/face_mesher.h"
 
-#include <chrono>
-
 #include "surface/face_metric.h"
 #include "surface/space_swaps.h"
 
@@ -32,10 +30,6 @@ std::vector<Vec3> lift(int face, std::span<const Vec2> uv, Cad& cad, Monitor& mo
   return xyz;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
@@ -52,23 +46,19 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, st
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, space_options, monitor);
 }
 
-PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,
-                     CompositeReport& report, Monitor& monitor) {
+PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const PlaneMesherOptions& options,
+                     Monitor& monitor) {
   PatchMesh mesh;
-  auto start = std::chrono::steady_clock::now();
-  const PlaneMesherOptions plane_options{.frontal = options.frontal, .max_triangles = options.max_triangles};
-  mesh.plane = mesh_plane(input.domain->plane, space, plane_options, monitor);
-  report.seconds_plane += seconds_since(start);
+  mesh.plane = mesh_plane(input.domain->plane, space, options, monitor);
+  return mesh;
+}
 
-  start = std::chrono::steady_clock::now();
+void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
   const std::span<const Vec2> uv = mesh.plane.vertices;
-  const std::size_t on_curves = input.curve_xyz.size();
   mesh.xyz = input.curve_xyz;
-  const std::vector<Vec3> rest = lift(input.ref, uv.subspan(on_curves), cad, monitor);
+  const std::vector<Vec3> rest = lift(input.ref, uv.subspan(input.curve_xyz.size()), cad, monitor);
   mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
   if (input.isotropic) improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
-  report.seconds_lift += seconds_since(start);
-  return mesh;
 }
 
 }  // namespace carreau

@@ -39,9 +39,11 @@ struct PatchInput {
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor);
 
-/// Plane mesh in the sampled metric, surf0 once for each vertex, then the worst triangles are mended in space where
-/// sizes are isotropic.
-PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, Cad& cad, const CompositeOptions& options,
-                     CompositeReport& report, Monitor& monitor);
+/// Plane mesh in the sampled metric; asks no host.
+PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const PlaneMesherOptions& options,
+                     Monitor& monitor);
+
+/// surf0 once for each vertex, then the worst triangles are mended in space where sizes are isotropic.
+void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau

@@ -1,0 +1,236 @@
+#include "support/stepped_tasks.h"
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace carreau {
+namespace {
+
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+/// Keeps the messages of a task until its turn has come; stops the task when the run stops, or when one before it has
+/// failed.
+class TaskMonitor final : public Monitor {
+ public:
+  TaskMonitor(std::size_t rank, Monitor& of_run, const std::atomic<std::size_t>& first_failed)
+      : rank_(rank), of_run_(of_run), first_failed_(first_failed) {}
+
+  void message(Level level, std::string_view text) override { messages_.emplace_back(level, text); }
+  void checkpoint() override {
+    of_run_.checkpoint();
+    if (rank_ > first_failed_.load(std::memory_order_relaxed)) throw Cancelled("a task before this one has failed");
+  }
+  void deliver() {
+    for (const auto& [level, text] : messages_) of_run_.message(level, text);
+    messages_.clear();
+  }
+
+ private:
+  std::size_t rank_;
+  Monitor& of_run_;
+  const std::atomic<std::size_t>& first_failed_;
+  std::vector<std::pair<Level, std::string>> messages_;
+};
+
+void run_alone(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor) {
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    while (!tasks[i]->finished()) {
+      monitor.checkpoint();
+      tasks[i]->step(monitor);
+    }
+    if (run.on_finished) run.on_finished(i);
+  }
+}
+
+/// The calling thread runs bound steps first, so that others never wait for it longer than one step; without any it
+/// works like the others.
+class ThreadedRun {
+ public:
+  ThreadedRun(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, int threads, Monitor& monitor)
+      : tasks_(tasks),
+        run_(run),
+        threads_(threads),
+        monitor_(monitor),
+        errors_(tasks.size()),
+        done_(tasks.size(), 0),
+        arena_(threads - 1, 0) {
+    for (std::size_t i = 0; i < tasks.size(); ++i)
+      monitors_.push_back(std::make_unique<TaskMonitor>(i, monitor, first_failed_));
+    if (run.order.empty()) {
+      waiting_.resize(tasks.size());
+      std::iota(waiting_.begin(), waiting_.end(), std::size_t{0});
+    } else {
+      waiting_.assign(run.order.begin(), run.order.end());
+    }
+  }
+  ThreadedRun(const ThreadedRun&) = delete;
+  ThreadedRun& operator=(const ThreadedRun&) = delete;
+  ~ThreadedRun() {
+    first_failed_ = 0;  // what is still at work ends at its next checkpoint
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return helpers_ == 0; });
+  }
+
+  void run() {
+    while (delivered_ < tasks_.size()) {
+      monitor_.checkpoint();
+      deliver();
+      if (delivered_ == tasks_.size()) break;
+      start_some();
+      const std::size_t task = take_any();
+      if (task != none) {
+        work_on(task);
+        continue;
+      }
+      std::unique_lock lock(mutex_);
+      // The time is for checkpoints: a stop can be asked without notice.
+      changed_.wait_for(lock, std::chrono::milliseconds(20),
+                        [this] { return !bound_.empty() || !free_.empty() || done_[delivered_] != 0; });
+    }
+  }
+
+ private:
+  /// Tasks that wait for a thread, as many as keep all at work: those not started cost no memory.
+  void start_some() {
+    const std::size_t most = 2 * static_cast<std::size_t>(threads_);
+    std::size_t ready = 0;
+    {
+      const std::scoped_lock lock(mutex_);
+      ready = free_.size() + bound_.size();
+    }
+    for (; ready < most && !waiting_.empty(); ++ready) {
+      const std::size_t task = waiting_.front();
+      waiting_.pop_front();
+      put(task);
+    }
+  }
+
+  /// Where the next step of a task waits.
+  void put(std::size_t task) {
+    const bool bound = tasks_[task]->bound();
+    {
+      const std::scoped_lock lock(mutex_);
+      (bound ? bound_ : free_).push_back(task);
+      if (!bound) ++helpers_;
+    }
+    changed_.notify_all();
+    if (bound) return;
+    try {
+      arena_.enqueue([this] { help(); });
+    } catch (...) {  // no memory for a helper: the calling thread takes the task
+      const std::scoped_lock lock(mutex_);
+      --helpers_;
+    }
+  }
+
+  /// One is sent for each task that becomes free; it finds none when the calling thread was faster.
+  void help() {
+    std::size_t task = none;
+    {
+      const std::scoped_lock lock(mutex_);
+      task = pop(free_);
+    }
+    if (task != none) work_on(task);
+    // Under the lock: the run may be gone as soon as the last helper is known to be.
+    const std::scoped_lock lock(mutex_);
+    --helpers_;
+    changed_.notify_all();
+  }
+
+  static std::size_t pop(std::deque<std::size_t>& queue) {
+    if (queue.empty()) return none;
+    const std::size_t task = queue.front();
+    queue.pop_front();
+    return task;
+  }
+
+  /// For the calling thread.
+  std::size_t take_any() {
+    const std::scoped_lock lock(mutex_);
+    const std::size_t task = pop(bound_);
+    return task != none ? task : pop(free_);
+  }
+
+  void work_on(std::size_t task) {
+    try {
+      monitors_[task]->checkpoint();
+      tasks_[task]->step(*monitors_[task]);
+      if (!tasks_[task]->finished()) {
+        put(task);
+        return;
+      }
+    } catch (...) {
+      fail(task, std::current_exception());
+      return;
+    }
+    const std::scoped_lock lock(mutex_);
+    done_[task] = 1;
+    changed_.notify_all();
+  }
+
+  void fail(std::size_t task, std::exception_ptr error) {
+    const std::scoped_lock lock(mutex_);
+    errors_[task] = std::move(error);
+    done_[task] = 1;
+    first_failed_ = std::min(first_failed_.load(), task);
+    changed_.notify_all();
+  }
+
+  /// Tells of the tasks that are finished, in order.
+  void deliver() {
+    while (delivered_ < tasks_.size()) {
+      {
+        const std::scoped_lock lock(mutex_);
+        if (done_[delivered_] == 0) return;
+      }
+      monitors_[delivered_]->deliver();
+      if (errors_[delivered_]) std::rethrow_exception(errors_[delivered_]);
+      if (run_.on_finished) run_.on_finished(delivered_);
+      ++delivered_;
+    }
+  }
+
+  std::span<const std::unique_ptr<SteppedTask>> tasks_;
+  const SteppedRun& run_;
+  int threads_;
+  Monitor& monitor_;
+  std::vector<std::unique_ptr<TaskMonitor>> monitors_;
+  std::atomic<std::size_t> first_failed_{none};
+  std::deque<std::size_t> waiting_;  // not started; of the calling thread
+  std::size_t delivered_ = 0;        // of the calling thread
+
+  std::mutex mutex_;  // of what follows
+  std::condition_variable changed_;
+  std::deque<std::size_t> bound_, free_;
+  std::vector<std::exception_ptr> errors_;
+  std::vector<char> done_;
+  int helpers_ = 0;  // sent and not yet back
+  tbb::task_arena arena_;
+};
+
+}  // namespace
+
+void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor) {
+  // Asked for more than it has, oneTBB would print a warning.
+  const std::size_t most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const int threads =
+      static_cast<int>(std::min({static_cast<std::size_t>(std::max(run.threads, 1)), most, tasks.size()}));
+  if (threads <= 1) {
+    run_alone(tasks, run, monitor);
+  } else {
+    ThreadedRun(tasks, run, threads, monitor).run();
+  }
+}
+
+}  // namespace carreau

@@ -1,0 +1,98 @@
+#include "surface/face_job.h"
+
+#include <chrono>
+
+#include "surface/verification.h"
+
+namespace carreau {
+namespace {
+
+// Times that a patch is meshed again because the lift disagrees.
+constexpr int most_corrections = 3;
+
+/// Adds the time of its life.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string format_count(double n) { return std::to_string(static_cast<std::int64_t>(n < 9e18 ? n : 9e18)); }
+
+}  // namespace
+
+void refuse_triangles(const Where& where, double expected, std::int64_t most) {
+  throw LimitError(where, "the mesh would have about " + format_count(expected) +
+                              " triangles or more, beyond the limit of " + format_count(static_cast<double>(most)) +
+                              " (parameter max_triangles)");
+}
+
+void FaceJob::step(Monitor& monitor) {
+  try {
+    switch (next_) {
+      case Step::sample:
+        sample(monitor);
+        break;
+      case Step::mesh:
+        mesh(monitor);
+        break;
+      case Step::lift:
+        lift(monitor);
+        break;
+      case Step::none:
+        break;
+    }
+  } catch (const DomainError& error) {  // other faces go on
+    const std::string what = error.what();
+    failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
+    next_ = Step::none;
+  }
+  if (next_ == Step::none) space_.reset();
+}
+
+void FaceJob::sample(Monitor& monitor) {
+  const Stopwatch watch(report_.seconds_sampling);
+  space_ = sample_face(input_, cad_, rules_, {}, monitor);
+  refuse_beyond_limit(space_->measure());
+  next_ = Step::mesh;
+}
+
+void FaceJob::mesh(Monitor& monitor) {
+  const Stopwatch watch(report_.seconds_plane);
+  mesh_ = mesh_patch(input_, *space_, {.frontal = options_.frontal, .max_triangles = most_triangles_}, monitor);
+  next_ = Step::lift;
+}
+
+void FaceJob::lift(Monitor& monitor) {
+  std::vector<Vec2> places;
+  {
+    const Stopwatch watch(report_.seconds_lift);
+    lift_patch(input_, cad_, *mesh_, monitor);
+    places = verify_lift(input_, *space_, cad_, rules_, *mesh_, monitor);
+  }
+  next_ = Step::none;
+  if (places.empty() || corrections_ == most_corrections) return;
+  // What the vertices have found is sampled, and the patch meshed again if that was news.
+  const Stopwatch watch(report_.seconds_sampling);
+  suspects_.insert(suspects_.end(), places.begin(), places.end());
+  ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor);
+  if (!differ_at(places, *space_, finer)) return;
+  refuse_beyond_limit(finer.measure());
+  space_ = std::move(finer);
+  report_.corrections = ++corrections_;
+  next_ = Step::mesh;
+}
+
+void FaceJob::refuse_beyond_limit(double expected) const {
+  // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
+  if (expected > 2 * static_cast<double>(most_triangles_))
+    refuse_triangles(Where{.face = input_.ref}, expected, options_.max_triangles);
+}
+
+}  // namespace carreau

@@ -1,0 +1,60 @@
+// One face on its way through sampling, plane mesh and lift.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "size/control_space.h"
+#include "support/stepped_tasks.h"
+#include "surface/face_mesher.h"
+
+namespace carreau {
+
+/// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
+class FaceJob final : public SteppedTask {
+ public:
+  /// Keeps references to `cad` and `options`. Where the host is re-entrant `rules` must be the job's own.
+  /// `max_triangles` may change until the job starts.
+  FaceJob(PatchInput input, Cad& cad, SizeRules& rules, const CompositeOptions& options, bool reentrant)
+      : input_(std::move(input)), cad_(cad), rules_(rules), options_(options), reentrant_(reentrant) {}
+
+  [[nodiscard]] bool finished() const override { return next_ == Step::none; }
+  [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
+  void step(Monitor& monitor) override;
+
+  void limit_triangles(std::int64_t most) { most_triangles_ = most; }
+  /// Why the domain could not be meshed; empty when it was.
+  [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+  /// Times and corrections.
+  [[nodiscard]] const CompositeReport& report() const noexcept { return report_; }
+  /// After a finish without failure. Once.
+  PatchMesh take() { return std::move(*mesh_); }
+
+ private:
+  enum class Step { sample, mesh, lift, none };
+
+  void sample(Monitor& monitor);
+  void mesh(Monitor& monitor);
+  void lift(Monitor& monitor);
+  void refuse_beyond_limit(double expected) const;
+
+  PatchInput input_;
+  Cad& cad_;
+  SizeRules& rules_;
+  const CompositeOptions& options_;
+  bool reentrant_;
+  std::int64_t most_triangles_ = 0;
+  Step next_ = Step::sample;
+  int corrections_ = 0;
+  std::vector<Vec2> suspects_;
+  std::optional<ControlSpace> space_;
+  std::optional<PatchMesh> mesh_;
+  std::string failure_;
+  CompositeReport report_;
+};
+
+/// The sentence of a mesh beyond CompositeOptions::max_triangles.
+[[noreturn]] void refuse_triangles(const Where& where, double expected, std::int64_t most);
+
+}  // namespace carreau

@@ -1,0 +1,153 @@
+#include "support/stepped_tasks.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace {
+
+using carreau::Level;
+using carreau::Monitor;
+using carreau::SteppedTask;
+
+/// Counts up `steps` steps; every second one, the first among them, is bound. Adds to its own result only.
+class Counter final : public SteppedTask {
+ public:
+  Counter(int steps, int fails_at, bool always_free = false)
+      : steps_(steps), fails_at_(fails_at), always_free_(always_free) {}
+  [[nodiscard]] bool finished() const override { return done == steps_; }
+  [[nodiscard]] bool bound() const override { return !always_free_ && done % 2 == 0; }
+  void step(Monitor& monitor) override {
+    if (bound() && std::this_thread::get_id() != caller) wrong_thread = true;
+    if (std::this_thread::get_id() != caller) elsewhere = true;
+    for (int i = 0; i < 2000; ++i) {
+      sum = sum * 6364136223846793005U + 1442695040888963407U;
+      if (i % 100 == 0) monitor.checkpoint();
+    }
+    if (done == fails_at_) throw std::runtime_error("step " + std::to_string(done));
+    monitor.message(Level::detail, std::to_string(steps_) + "." + std::to_string(done));
+    ++done;
+  }
+
+  const std::thread::id caller = std::this_thread::get_id();
+  int done = 0;
+  bool wrong_thread = false, elsewhere = false;
+  std::uint64_t sum = 1;
+
+ private:
+  int steps_, fails_at_;
+  bool always_free_;
+};
+
+class Recorder final : public Monitor {
+ public:
+  void message(Level, std::string_view text) override { texts.emplace_back(text); }
+  std::vector<std::string> texts;
+};
+
+struct Trial {
+  std::vector<std::unique_ptr<SteppedTask>> tasks;
+  std::vector<std::size_t> finished;
+  Recorder monitor;
+  std::string error;
+
+  explicit Trial(int n, const std::vector<int>& failing = {}, bool always_free = false) {
+    for (int i = 0; i < n; ++i) {
+      const bool fails = std::find(failing.begin(), failing.end(), i) != failing.end();
+      tasks.push_back(std::make_unique<Counter>(3 + i % 7, fails ? 2 : -1, always_free));
+    }
+  }
+
+  void go(int threads, std::vector<std::size_t> order = {}) {
+    const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+    try {
+      carreau::run_stepped(
+          tasks,
+          {.threads = threads, .order = std::move(order), .on_finished = [&](std::size_t i) { finished.push_back(i); }},
+          monitor);
+    } catch (const std::exception& e) {
+      error = e.what();
+    }
+  }
+  Counter& counter(std::size_t i) { return static_cast<Counter&>(*tasks[i]); }
+};
+
+TEST(SteppedTasks, AreTheSameInAnyNumberOfThreads) {
+  Trial alone(60);
+  alone.go(1);
+  ASSERT_EQ(alone.error, "");
+  ASSERT_EQ(alone.finished.size(), 60U);
+  for (const int threads : {2, 3, 8}) {
+    Trial run(60);
+    std::vector<std::size_t> order;
+    for (std::size_t i = 60; i-- > 0;) order.push_back(i);
+    run.go(threads, order);
+    EXPECT_EQ(run.error, "");
+    EXPECT_EQ(run.finished, alone.finished);
+    EXPECT_EQ(run.monitor.texts, alone.monitor.texts);
+    for (std::size_t i = 0; i < 60; ++i) {
+      EXPECT_EQ(run.counter(i).sum, alone.counter(i).sum);
+      EXPECT_FALSE(run.counter(i).wrong_thread) << "task " << i;
+    }
+  }
+}
+
+TEST(SteppedTasks, FreeStepsRunElsewhereToo) {
+  Trial run(400, {}, true);
+  run.go(4);
+  bool elsewhere = false;
+  for (std::size_t i = 0; i < run.tasks.size(); ++i) elsewhere |= run.counter(i).elsewhere;
+  EXPECT_TRUE(elsewhere);
+}
+
+TEST(SteppedTasks, TheFirstFailureIsTheSameInAnyNumberOfThreads) {
+  for (const int threads : {1, 2, 8})
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      Trial run(40, {11, 12, 30});
+      run.go(
+          threads, threads == 1 ? std::vector<std::size_t>{} : [] {
+            std::vector<std::size_t> order;
+            for (std::size_t i = 40; i-- > 0;) order.push_back(i);
+            return order;
+          }());
+      EXPECT_EQ(run.error, "step 2");
+      ASSERT_EQ(run.finished.size(), 11U);
+      for (std::size_t i = 0; i < 11; ++i) EXPECT_EQ(run.finished[i], i);
+    }
+}
+
+TEST(SteppedTasks, AStopIsObeyed) {
+  class Endless final : public SteppedTask {
+   public:
+    [[nodiscard]] bool finished() const override { return false; }
+    [[nodiscard]] bool bound() const override { return false; }
+    void step(Monitor& monitor) override {
+      for (;;) monitor.checkpoint();
+    }
+  };
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  for (const int threads : {1, 4}) {
+    std::vector<std::unique_ptr<SteppedTask>> tasks;
+    for (int i = 0; i < 6; ++i) tasks.push_back(std::make_unique<Endless>());
+    Monitor monitor;
+    std::thread other([&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      monitor.request_stop();
+    });
+    EXPECT_THROW(carreau::run_stepped(tasks, {.threads = threads}, monitor), carreau::Cancelled);
+    other.join();
+  }
+}
+
+TEST(SteppedTasks, NoneAreNothing) {
+  Monitor monitor;
+  EXPECT_NO_THROW(carreau::run_stepped({}, {.threads = 4}, monitor));
+}
+
+}  // namespace
