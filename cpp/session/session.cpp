@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <thread>
 
 #include "cad/checked_cad.h"
@@ -11,6 +12,7 @@
 #include "io/pardom.h"
 #include "session/derivatives.h"
 #include "session/export.h"
+#include "session/field_files.h"
 #include "support/format.h"
 
 namespace carreau {
@@ -28,7 +30,10 @@ struct Session::State {
   CompositeResult result;
   Model meshed_model;  // what `result` is a mesh of
   ModelSupports supports;
+  Topology topology;
   bool has_mesh = false;
+  Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
+  bool last_failed = false;                        // the last make_mesh() has thrown
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources() const {
@@ -203,6 +208,8 @@ const ModelSupports& Session::supports() const { return (void)mesh(), state_->su
 
 void Session::make_mesh() {
   State& s = *state_;
+  s.tried_parameters = s.parameters;
+  s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
   CheckedCad cad(*s.cad);
@@ -229,7 +236,7 @@ void Session::make_mesh() {
   options.size.sources = s.sources();
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, s.monitor);
-  const Topology topology =
+  Topology topology =
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, s.monitor);
@@ -241,10 +248,42 @@ void Session::make_mesh() {
   }
   s.result = std::move(result);
   s.supports = std::move(supports);
+  s.topology = std::move(topology);
   s.meshed_model = std::move(model);
+  s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;
+  s.last_failed = false;
   describe_result(s.result, s.monitor);
   s.monitor.progress(Phase::idle, 0, 1);
+}
+
+std::vector<std::string> Session::write_fields(const std::string& path, const FieldOptions& options) {
+  State& s = *state_;
+  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
+  CheckedCad cad(*s.cad);
+  if (s.has_mesh && !s.last_failed && !options.raw) {
+    const double diag = s.result.report.diag;
+    set_parameter_boxes(s.meshed_model, s.supports, cad);
+    FieldRun run{s.meshed_model, s.topology, &s.supports, &s.result, {}, s.meshed_parameters, diag};
+    run.size = composite_options(s.meshed_parameters, diag).size;
+    run.size.sources = s.sources();
+    return carreau::write_fields(run, path, options, cad, s.monitor);
+  }
+  if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
+  std::optional<ModelSupports> supports;
+  try {
+    supports = build_supports(s.model, cad, parameters.real("angle_smo"), s.monitor);
+    set_parameter_boxes(s.model, *supports, cad);
+  } catch (const CallbackError& error) {
+    s.monitor.message(Level::warning, error.what());
+  }
+  const Topology none;
+  FieldRun run{s.model, none, supports ? &*supports : nullptr, nullptr, {}, parameters, 0};
+  run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
+  run.size = composite_options(parameters, run.diag).size;
+  run.size.sources = s.sources();
+  return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 
 FlatMesh Session::exported() const {

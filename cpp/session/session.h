@@ -4,12 +4,14 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cad/cad.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 #include "metric/prescription.h"
 #include "model/model.h"
+#include "session/fields.h"
 #include "session/parameters.h"
 #include "support/monitor.h"
 #include "surface/composite.h"
@@ -54,6 +56,13 @@ class Session {
   [[nodiscard]] FlatMesh exported() const;
   /// Writes exported() to a file; format by suffix.
   void write(const std::string& path) const;
+
+  /// What governed each face's mesh, sampled and written as images (session/fields.h): returns the names of the files.
+  /// Of the mesh; of the model alone as it is now, without triangles, when options.raw says so, when there is no mesh,
+  /// and when the last make_mesh() has thrown (then with the parameters of that call): what its host answers, pixel by
+  /// pixel, shows why. Asks the geometry from the caller's thread. Throws InvalidArgument, FileError, Cancelled; the
+  /// mesh stays.
+  std::vector<std::string> write_fields(const std::string& path, const FieldOptions& options);
 
   /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).
   [[nodiscard]] const ModelSupports& supports() const;

@@ -61,6 +61,7 @@ class Pipeline {
     const auto start = std::chrono::steady_clock::now();
     result_.report.diag = supports_.diag;
     result_.mesh.faces.resize(model_.faces.size());
+    result_.spaces.resize(model_.faces.size());
     for (std::size_t f = 0; f < model_.faces.size(); ++f) result_.mesh.faces[f].ref = model_.faces[f].ref;
     grade();
     discretise();
@@ -169,6 +170,7 @@ class Pipeline {
     result_.report.seconds_plane += did.seconds_plane;
     result_.report.seconds_lift += did.seconds_lift;
     result_.report.corrections += did.corrections;
+    result_.spaces[f] = job(i).take_space();
     if (job(i).failure().empty()) {
       patches_[f] = job(i).take();
       left_ -= static_cast<std::int64_t>(patches_[f]->plane.triangles.size());

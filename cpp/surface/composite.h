@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "curve/support.h"
 #include "mesh/surface_mesh.h"
 #include "model/topology.h"
+#include "size/control_space.h"
 #include "size/graded_field.h"
 #include "size/size_rules.h"
 #include "support/monitor.h"
@@ -45,9 +47,10 @@ struct CompositeReport {
 
 struct CompositeResult {
   SurfaceMesh mesh;
-  std::vector<double> vertex_size;            ///< prescribed size at each vertex
-  std::vector<FaceInterfaces> interfaces;     ///< by face; empty where the domain could not be made
-  std::shared_ptr<const GradedField> graded;  ///< bounds the sizes inside faces; null without gradation
+  std::vector<double> vertex_size;                  ///< prescribed size at each vertex
+  std::vector<FaceInterfaces> interfaces;           ///< by face; empty where the domain could not be made
+  std::vector<std::optional<ControlSpace>> spaces;  ///< by face: what the mesher used; empty: it was not sampled
+  std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
   CompositeReport report;
 };
 

@@ -53,7 +53,6 @@ void FaceJob::step(Monitor& monitor) {
     failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
     next_ = Step::none;
   }
-  if (next_ == Step::none) space_.reset();
 }
 
 void FaceJob::sample(Monitor& monitor) {

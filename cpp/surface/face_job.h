@@ -30,6 +30,8 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] const CompositeReport& report() const noexcept { return report_; }
   /// After a finish without failure. Once.
   PatchMesh take() { return std::move(*mesh_); }
+  /// What was meshed in; empty when it could not be sampled. After a finish, once.
+  std::optional<ControlSpace> take_space() { return std::move(space_); }
 
  private:
   enum class Step { sample, mesh, lift, none };
