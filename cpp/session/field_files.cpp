@@ -28,9 +28,9 @@ const char* word_of(FaceStatus status) {
   }
 }
 
-// Those that say what is written to files and where, not what a mesh is.
-bool concerns_files(std::string_view parameter) {
-  constexpr std::array names{"element", "flag", "format", "option", "pref", "refs", "verb"};
+// Those that do not change a mesh.
+bool leaves_mesh(std::string_view parameter) {
+  constexpr std::array names{"element", "flag", "format", "option", "pref", "refs", "threads", "verb"};
   return std::find(names.begin(), names.end(), parameter) != names.end();
 }
 
@@ -147,7 +147,7 @@ class FieldWriter {
     if (source.shape.gap > 0) add("domain.gap", source.shape.gap);
     if (run_.diag > 0) add("diag", run_.diag);
     for (const ParameterInfo& info : parameter_table()) {
-      if (concerns_files(info.name)) continue;
+      if (leaves_mesh(info.name)) continue;
       const std::string name = std::string("parameter.") + info.name;
       if (info.type == ParameterType::integer)
         add(name, std::int32_t{run_.parameters.integer(info.name)});
