@@ -61,6 +61,13 @@ typedef struct c_face {
     long triangles;
     void *why;
 } c_face;
+typedef struct c_metric_callbacks {
+    long struct_size;
+    void *user;
+    int (*surface_metric)();
+    int (*curve_metric)();
+    int (*point_metric)();
+} c_metric_callbacks;
 typedef struct c_parameter {
     long struct_size;
     void *name;
@@ -160,6 +167,7 @@ int carreau_set_cad (void *session, const c_cad *callbacks);
 int carreau_set_cad_m (void *session, const c_cad_m *routines);
 int carreau_set_integer (void *session, const char *name, int value);
 int carreau_set_message_callback (void *session, int (*callback)(), void *user);
+int carreau_set_metric_callbacks (void *session, const c_metric_callbacks *callbacks);
 int carreau_set_progress_callback (void *session, int (*callback)(), void *user);
 int carreau_set_real (void *session, const char *name, double value);
 int carreau_set_text (void *session, const char *name, const char *value);

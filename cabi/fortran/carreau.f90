@@ -19,10 +19,11 @@ module carreau
   public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
   public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
   public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn
+  public :: carreau_surface_metric_fn, carreau_curve_metric_fn, carreau_point_metric_fn
   public :: carreau_message_fn, carreau_progress_fn
   public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
-  public :: carreau_set_cad_m, carreau_set_cad
+  public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
@@ -45,6 +46,8 @@ module carreau
     CARREAU_ERR_BUSY = 11, CARREAU_ERR_INTERNAL = 99
   integer(c_int32_t), parameter, public :: CARREAU_NO_ANSWER = -1
   real(c_double), parameter, public :: CARREAU_HVIDE = -1.e38_c_double
+  integer(c_int32_t), parameter, public :: CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, &
+    CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3
   integer(c_int32_t), parameter, public :: CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2
   integer(c_int32_t), parameter, public :: CARREAU_INTEGER = 1, CARREAU_REAL = 2, CARREAU_TEXT = 3
   integer(c_int32_t), parameter, public :: CARREAU_LEVEL_ERROR = 0, CARREAU_LEVEL_WARNING = 1, &
@@ -243,6 +246,38 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_point_value_fn
 
+    function carreau_surface_metric_fn(face, u, v, kind, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face
+      real(c_double), value :: u, v
+      integer(c_int32_t), intent(inout) :: kind
+      real(c_double), intent(inout) :: value(6)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_surface_metric_fn
+
+    function carreau_curve_metric_fn(face, ic, t, kind, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face, ic
+      real(c_double), value :: t
+      integer(c_int32_t), intent(inout) :: kind
+      real(c_double), intent(inout) :: value(6)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_curve_metric_fn
+
+    function carreau_point_metric_fn(point, kind, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: point
+      integer(c_int32_t), intent(inout) :: kind
+      real(c_double), intent(inout) :: value(6)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_point_metric_fn
+
     !> carreau_string(text) is the sentence.
     subroutine carreau_message_fn(level, text, user) bind(c)
       import :: c_int32_t, c_ptr
@@ -411,6 +446,23 @@ contains
     if (present(curve_radius)) callbacks%curve_radius = c_funloc(curve_radius)
     status = c_set_cad(session%handle, callbacks)
   end subroutine carreau_set_cad
+
+  !> Those that are left out do not answer. Of either kind of geometry.
+  subroutine carreau_set_metric_callbacks(session, status, user, surface_metric, curve_metric, point_metric)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr), intent(in), optional :: user
+    procedure(carreau_surface_metric_fn), optional :: surface_metric
+    procedure(carreau_curve_metric_fn), optional :: curve_metric
+    procedure(carreau_point_metric_fn), optional :: point_metric
+    type(c_metric_callbacks) :: callbacks
+    callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
+    if (present(user)) callbacks%user = user
+    if (present(surface_metric)) callbacks%surface_metric = c_funloc(surface_metric)
+    if (present(curve_metric)) callbacks%curve_metric = c_funloc(curve_metric)
+    if (present(point_metric)) callbacks%point_metric = c_funloc(point_metric)
+    status = c_set_metric_callbacks(session%handle, callbacks)
+  end subroutine carreau_set_metric_callbacks
 
   ! ---- Model ----
 

@@ -31,6 +31,12 @@ module carreau_c
     type(c_funptr) :: surface_radius = c_null_funptr, curve_radius = c_null_funptr
   end type c_cad
 
+  type, bind(c) :: c_metric_callbacks
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: user = c_null_ptr
+    type(c_funptr) :: surface_metric = c_null_funptr, curve_metric = c_null_funptr, point_metric = c_null_funptr
+  end type c_metric_callbacks
+
   type, bind(c) :: c_parameter
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: name = c_null_ptr, help = c_null_ptr, default_text = c_null_ptr, choices = c_null_ptr
@@ -141,6 +147,14 @@ module carreau_c
       type(c_cad), intent(in) :: callbacks
       integer(c_int32_t) :: status
     end function c_set_cad
+
+    function c_set_metric_callbacks(session, callbacks) result(status) bind(c, name="carreau_set_metric_callbacks")
+      import :: c_int32_t, c_metric_callbacks, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_metric_callbacks), intent(in) :: callbacks
+      integer(c_int32_t) :: status
+    end function c_set_metric_callbacks
 
     function c_model_clear(session) result(status) bind(c, name="carreau_model_clear")
       import :: c_int32_t, c_ptr

@@ -214,6 +214,43 @@ typedef struct carreau_cad {
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
+/* ---- Wanted sizes and metrics ---- */
+
+/* What a metric callback answers, by *kind (before the call it is NONE, and every value NaN):
+ *   NONE      nothing; so does the status CARREAU_NO_ANSWER
+ *   SIZE      value[0]: the same size in all directions, a model length
+ *   SPACE     value[0..5]: xx, xy, xz, yy, yz, zz of a positive definite tensor M, in 1 / model length^2; a vector d
+ * has the length sqrt(d^T M d), and edges are to have length 1. Sizes along the axes of M are 1 / sqrt(eigenvalue)
+ *   TANGENT   value[0..4]: h1, h2 > 0, model lengths, and x, y, z of a direction of any length but zero: size h1 along
+ *             it and h2 across it. It should be tangent to the surface
+ * What is not finite or not positive definite ends the run with CARREAU_ERR_CALLBACK and a sentence with the place. */
+enum { CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3 };
+
+/* At (u, v) in a face, at t on its curve number ic, at a point (its reference). value: room for 6. */
+typedef int32_t (*carreau_surface_metric_fn)(int32_t face, double u, double v, int32_t* kind, double* value,
+                                             void* user);
+typedef int32_t (*carreau_curve_metric_fn)(int32_t face, int32_t ic, double t, int32_t* kind, double* value,
+                                           void* user);
+typedef int32_t (*carreau_point_metric_fn)(int32_t point, int32_t* kind, double* value, void* user);
+
+typedef struct carreau_metric_callbacks {
+  size_t struct_size;
+  void* user;                               /* handed to every callback; never looked at */
+  carreau_surface_metric_fn surface_metric; /* all may be NULL: does not answer */
+  carreau_curve_metric_fn curve_metric;
+  carreau_point_metric_fn point_metric;
+} carreau_metric_callbacks;
+
+/* Registers callbacks beside the geometry, of either kind; all NULL: none, as in a new session. The struct is copied.
+ * They are asked unless hphy_flag is 0. Sizes along the axes of a metric, in the tangent plane, are clamped to
+ * [hphymin, hphymax]. Where a size routine of the geometry answers too (hphy_flag 2), both are kept: the largest
+ * ellipse inside both unit balls. The result is combined with geometric sizes as the parameter metric_combination says.
+ * On a curve the size is that along its tangent; a curve or point that has no answer of its own takes those of the
+ * surfaces beside, by hmean_flag. Inside a face, a place without answer takes hphydef (hphy_flag 1) or the size
+ * interpolated from the curves around (hphy_flag 2). Errors: ARGUMENT (struct_size). */
+CARREAU_API carreau_status carreau_set_metric_callbacks(carreau_session* session,
+                                                        const carreau_metric_callbacks* callbacks);
+
 /* ---- Model: faces, curves and points (RT-0232 sec. 3.2) ---- */
 
 /* Kinds of curves (typc): on the boundary of a domain, or inside it. */

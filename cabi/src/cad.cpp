@@ -2,23 +2,37 @@
 
 #include "arguments.h"
 #include "cad/host_cad.h"
+#include "cad/host_metrics.h"
 #include "guard.h"
 
 using carreau::CadMTable;
 using carreau::CurveJet;
 using carreau::HostCad;
+using carreau::HostMetricKind;
+using carreau::HostMetrics;
+using carreau::HostMetricTable;
 using carreau::HostTable;
 using carreau::Interval;
 using carreau::Monitor;
+using carreau::Prescription;
 using carreau::SurfaceJet;
 using carreau::Vec2;
+using carreau::Vec3;
 using namespace carreau::abi;
 
 static_assert(std::is_same_v<int, std::int32_t>, "a default integer of Fortran is an int32_t and an int");
 static_assert(carreau::no_answer == CARREAU_HVIDE);
 static_assert(carreau::no_answer_status == CARREAU_NO_ANSWER);
+static_assert(static_cast<int>(HostMetricKind::none) == CARREAU_METRIC_NONE &&
+              static_cast<int>(HostMetricKind::size) == CARREAU_METRIC_SIZE &&
+              static_cast<int>(HostMetricKind::space) == CARREAU_METRIC_SPACE &&
+              static_cast<int>(HostMetricKind::tangent) == CARREAU_METRIC_TANGENT);
 
 namespace {
+
+void obey(const Monitor& monitor) {
+  if (monitor.stop_requested()) throw carreau::Cancelled("stopped by the host");
+}
 
 CadMTable table_of(const carreau_cad_m& routines) {
   return {.surf0 = routines.surf0,
@@ -63,7 +77,7 @@ class StoppableCad final : public HostCad {
     const std::size_t together = batched_ ? uv.size() : 1;
     for (std::size_t from = 0; from < uv.size(); from += together) {
       HostCad::surface(face, want, uv.subspan(from, together), out.subspan(from, together));
-      obey();
+      obey(monitor_);
     }
   }
   Interval curve_interval(int face, int ic) override { return obeyed(HostCad::curve_interval(face, ic)); }
@@ -81,16 +95,39 @@ class StoppableCad final : public HostCad {
   }
 
  private:
-  void obey() const {
-    if (monitor_.stop_requested()) throw carreau::Cancelled("stopped by the host");
-  }
   template <typename Value>
   Value obeyed(Value value) const {
-    obey();
+    obey(monitor_);
     return value;
   }
 
   bool batched_;
+  const Monitor& monitor_;
+};
+
+class StoppableMetrics final : public HostMetrics {
+ public:
+  StoppableMetrics(const carreau_metric_callbacks& callbacks, const Monitor& monitor)
+      : HostMetrics(HostMetricTable{.user = callbacks.user,
+                                    .surface_metric = callbacks.surface_metric,
+                                    .curve_metric = callbacks.curve_metric,
+                                    .point_metric = callbacks.point_metric}),
+        monitor_(monitor) {}
+
+  Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override {
+    return obeyed(HostMetrics::on_surface(face, uv, xyz));
+  }
+  Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override {
+    return obeyed(HostMetrics::on_curve(face, ic, t, uv, xyz));
+  }
+  Prescription at_point(int point, Vec3 xyz) override { return obeyed(HostMetrics::at_point(point, xyz)); }
+
+ private:
+  Prescription obeyed(const Prescription& answer) const {
+    obey(monitor_);
+    return answer;
+  }
+
   const Monitor& monitor_;
 };
 
@@ -111,5 +148,13 @@ carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* call
     const carreau_cad known = read_struct(callbacks, "carreau_cad");
     session->session.set_cad(std::make_shared<StoppableCad>(known, session->monitor));
     session->has_cad = true;
+  });
+}
+
+carreau_status carreau_set_metric_callbacks(carreau_session* session, const carreau_metric_callbacks* callbacks) {
+  return guarded(session, [&] {
+    const carreau_metric_callbacks known = read_struct(callbacks, "carreau_metric_callbacks");
+    const bool any = known.surface_metric != nullptr || known.curve_metric != nullptr || known.point_metric != nullptr;
+    session->session.set_metric_callbacks(any ? std::make_shared<StoppableMetrics>(known, session->monitor) : nullptr);
   });
 }

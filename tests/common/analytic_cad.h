@@ -115,6 +115,30 @@ inline AnalyticCad hemisphere() {
   return cad;
 }
 
+/// Half of the ellipsoid of half axes (a, b, c), by the same projection.
+inline AnalyticCad half_ellipsoid(double a, double b, double c) {
+  constexpr double pi = std::numbers::pi;
+  const auto jet = [=](Vec2 p) {
+    SurfaceJet j = stereographic_jet(p);
+    for (Vec3* v : {&j.s, &j.su, &j.sv, &j.suu, &j.suv, &j.svv}) *v = {a * v->x, b * v->y, c * v->z};
+    return j;
+  };
+  AnalyticCad cad;
+  cad.faces[1] = {jet, {arc({0, 0}, 1, 0, pi), arc({0, 0}, 1, pi, 2 * pi)}};
+  return cad;
+}
+
+/// A quarter of a cylinder, as a fillet; u is the angle, v the height.
+inline AnalyticCad fillet(double radius, double length) {
+  const auto jet = [=](Vec2 p) {
+    const double c = radius * std::cos(p.x), s = radius * std::sin(p.x);
+    return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+  };
+  AnalyticCad cad;
+  cad.faces[1] = {jet, rectangle({0, 0}, {std::numbers::pi / 2, length})};
+  return cad;
+}
+
 /// Torus of radii big (to the centre of the tube) and small; u along the big circle, v along the small one.
 inline SurfaceJet torus_jet(Vec2 p, double big, double small) {
   const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y), w = big + small * cv;
