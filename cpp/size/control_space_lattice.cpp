@@ -5,30 +5,15 @@
 
 namespace carreau::detail {
 
-std::uint64_t GridIndex::key(GridPoint p) noexcept {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(p.j)) << 32 | static_cast<std::uint32_t>(p.i)) + 1;
-}
-
-std::size_t GridIndex::slot_of(std::uint64_t key) const noexcept {
-  const std::size_t mask = slots_.size() - 1;
-  std::uint64_t mixed = key * 0x9E3779B97F4A7C15u;
-  mixed ^= mixed >> 29;
-  std::size_t slot = static_cast<std::size_t>(mixed * 0xBF58476D1CE4E5B9u >> 24) & mask;
-  while (slots_[slot].key != 0 && slots_[slot].key != key) slot = (slot + 1) & mask;
-  return slot;
-}
-
-std::int32_t GridIndex::find(GridPoint p) const noexcept { return slots_[slot_of(key(p))].number; }
-
-std::pair<std::int32_t, bool> GridIndex::insert(GridPoint p) {
+std::pair<std::int32_t, bool> BlockIndex::insert(const Position& p) {
   if (2 * static_cast<std::size_t>(size_) >= slots_.size()) grow();
-  Slot& slot = slots_[slot_of(key(p))];
-  if (slot.key != 0) return {slot.number, false};
-  slot = {key(p), size_};
+  Slot& slot = slots_[slot_of(p.key)];
+  if (slot.key != 0) return {slot.block, false};
+  slot = {p.key, size_};
   return {size_++, true};
 }
 
-void GridIndex::grow() {
+void BlockIndex::grow() {
   std::vector<Slot> old(4 * slots_.size());
   old.swap(slots_);
   for (const Slot& s : old)
@@ -62,10 +47,17 @@ Vec2 Lattice::parameters(GridPoint p) const noexcept {
 }
 
 std::int32_t Lattice::node(GridPoint p, Place place) {
-  const auto [number, added] = index_.insert(p);
+  const BlockIndex::Position at = BlockIndex::position(p);
+  const auto [block, added] = index_.insert(at);
   if (added) {
-    nodes_.push_back({.point = p});
-    nodes_.back().inside = place == Place::inside || (place == Place::unknown && domain_.contains(parameters(p)));
+    const std::int32_t mask = ~(4 << at.spacing) + 1;
+    blocks_.push_back({{p.i & mask, p.j & mask}, at.spacing});
+    nodes_.resize(nodes_.size() + 16);
+  }
+  const std::int32_t number = 16 * block + at.rank;
+  if (!nodes_[number].exists) {
+    nodes_[number].exists = true;
+    nodes_[number].inside = place == Place::inside || (place == Place::unknown && domain_.contains(parameters(p)));
   }
   return number;
 }
@@ -77,7 +69,7 @@ void Lattice::set_sample(std::int32_t node, Metric2 root) noexcept {
 
 std::int32_t Lattice::sampled_node(GridPoint p) const noexcept {
   if (!contains(p)) return -1;
-  const std::int32_t n = index_.find(p);
+  const std::int32_t n = find(p);
   return n >= 0 && nodes_[n].sampled ? n : -1;
 }
 
@@ -88,7 +80,7 @@ const Metric2* Lattice::sample(GridPoint p) const noexcept {
 
 std::int32_t Lattice::valued_node(GridPoint p) {
   if (!contains(p)) return -1;
-  std::int32_t n = index_.find(p);
+  std::int32_t n = find(p);
   if (n < 0) n = node(p);
   if (nodes_[n].sampled) return n;
   return nodes_[n].inside && predict(n).order >= 2 ? n : -1;
@@ -125,7 +117,7 @@ Prediction Lattice::predict_along(GridPoint p, std::int32_t spacing, bool horizo
 
 Prediction Lattice::predict(std::int32_t node) {
   if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
-  const GridPoint p = nodes_[node].point;
+  const GridPoint p = point(node);
   const std::int32_t bits = p.i | p.j, spacing = bits & -bits;
   Prediction result;
   if (spacing != 0 && spacing < step_) {

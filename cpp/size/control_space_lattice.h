@@ -1,7 +1,10 @@
 // The nodes of a control space under construction. Private to the builder.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "metric/metric2.h"
@@ -17,21 +20,39 @@ struct GridPoint {
 /// What is known about a node before it exists.
 enum class Place { unknown, inside, outside };
 
-/// From pairs of integers to consecutive numbers.
-class GridIndex {
+/// From points to consecutive numbers of blocks: squares of 4 x 4 points of the same spacing, which is the largest
+/// power of two that divides both of a point's indices. Who asks for one will ask for those beside it.
+class BlockIndex {
  public:
+  struct Position {
+    std::uint64_t key;
+    int spacing, rank;  ///< logarithm of the spacing; place in the block, row by row
+  };
+  static Position position(GridPoint p) noexcept {
+    const auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
+    const int spacing = std::countr_zero(i | j | 1U << 30);
+    const std::uint64_t key = (static_cast<std::uint64_t>(j >> spacing >> 2) << 29 | i >> spacing >> 2) << 5 |
+                              static_cast<std::uint64_t>(spacing);
+    return {key + 1, spacing, static_cast<int>((j >> spacing & 3) << 2 | (i >> spacing & 3))};
+  }
   /// -1 when absent.
-  [[nodiscard]] std::int32_t find(GridPoint p) const noexcept;
-  /// The number of p, and whether it is new (then it is the next one).
-  std::pair<std::int32_t, bool> insert(GridPoint p);
+  [[nodiscard]] std::int32_t find(const Position& p) const noexcept { return slots_[slot_of(p.key)].block; }
+  /// The number of the block, and whether it is new (then it is the next one).
+  std::pair<std::int32_t, bool> insert(const Position& p);
 
  private:
   struct Slot {
     std::uint64_t key = 0;  // 0: free
-    std::int32_t number = -1;
+    std::int32_t block = -1;
   };
-  static std::uint64_t key(GridPoint p) noexcept;
-  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const noexcept;
+  [[nodiscard]] std::size_t slot_of(std::uint64_t key) const noexcept {
+    const std::size_t mask = slots_.size() - 1;
+    std::uint64_t mixed = key * 0x9E3779B97F4A7C15u;
+    mixed ^= mixed >> 29;
+    std::size_t slot = static_cast<std::size_t>(mixed * 0xBF58476D1CE4E5B9u >> 24) & mask;
+    while (slots_[slot].key != 0 && slots_[slot].key != key) slot = (slot + 1) & mask;
+    return slot;
+  }
   void grow();
   std::vector<Slot> slots_ = std::vector<Slot>(1024);
   std::int32_t size_ = 0;
@@ -70,14 +91,18 @@ class Lattice {
     return p.i >= 0 && p.j >= 0 && p.i <= end_.i && p.j <= end_.j;
   }
 
-  /// The number of a node, created when new: numbers count from 0 in the order of creation.
+  /// The number of a node, created when new.
   std::int32_t node(GridPoint p, Place place = Place::unknown);
-  [[nodiscard]] GridPoint point(std::int32_t node) const noexcept { return nodes_[node].point; }
+  [[nodiscard]] GridPoint point(std::int32_t node) const noexcept {
+    const Block& b = blocks_[node >> 4];
+    return {b.corner.i + ((node & 3) << b.spacing), b.corner.j + ((node >> 2 & 3) << b.spacing)};
+  }
+  /// Numbers of nodes are below this one; not every number belongs to a node.
   [[nodiscard]] std::int32_t size() const noexcept { return static_cast<std::int32_t>(nodes_.size()); }
   [[nodiscard]] bool inside(std::int32_t node) const noexcept { return nodes_[node].inside; }
   [[nodiscard]] bool sampled(std::int32_t node) const noexcept { return nodes_[node].sampled; }
   void set_sample(std::int32_t node, Metric2 root) noexcept;
-  [[nodiscard]] Metric2 value(std::int32_t node) const noexcept { return nodes_[node].root; }
+  [[nodiscard]] const Metric2& value(std::int32_t node) const noexcept { return nodes_[node].root; }
 
   /// Null when p was not sampled.
   [[nodiscard]] const Metric2* sample(GridPoint p) const noexcept;
@@ -87,12 +112,21 @@ class Lattice {
 
  private:
   struct Node {
-    GridPoint point;
     Metric2 root{};  // a sample, or the prediction of pass `pass`
     std::int32_t pass = -1;
     std::int8_t order = 0;
-    bool inside = false, sampled = false;
+    bool exists = false, inside = false, sampled = false;
   };
+  struct Block {
+    GridPoint corner;
+    int spacing = 0;
+  };
+  // Of the nodes of a block the first is 16 times the block's number.
+  [[nodiscard]] std::int32_t find(GridPoint p) const noexcept {
+    const BlockIndex::Position at = BlockIndex::position(p);
+    const std::int32_t block = index_.find(at);
+    return block >= 0 && nodes_[16 * block + at.rank].exists ? 16 * block + at.rank : -1;
+  }
   // Numbers of nodes with a value, or -1: sampled ones, predicted ones too, of the line through p.
   [[nodiscard]] std::int32_t sampled_node(GridPoint p) const noexcept;
   std::int32_t valued_node(GridPoint p);
@@ -102,7 +136,8 @@ class Lattice {
   std::int32_t step_;
   GridPoint end_;
   const PolygonLocator& domain_;
-  GridIndex index_;
+  BlockIndex index_;
+  std::vector<Block> blocks_;
   std::vector<Node> nodes_;
   std::int32_t pass_ = 0;
 };

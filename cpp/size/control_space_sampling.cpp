@@ -26,9 +26,13 @@ constexpr double crowded = 1.6;
 constexpr double negligible_length = 0.03;
 // The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
 // mesh, than half an edge, than a quarter of one. Smaller cells serve nobody.
-constexpr double share_wide = 0.25, share_edge = 0.5, share_half = 1;
+constexpr double share_wide = 0.25, share_edge = 1, share_half = 2;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
 constexpr double border_relief = 0.25;
+
+// Errors of cells fall from a cell to its parts by at most and at least so much; where less than this share of the
+// error allowed is expected, a sample need not confirm it.
+constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5, trusted = 0.25;
 
 // Samples that splitting a cell costs: usually, and at most (4 middles, 4 centres, 8 boundary vertices); those of
 // testing it.
@@ -176,6 +180,35 @@ Metric2 ControlSpaceSampling::expected_at(std::int32_t node, std::int32_t size) 
   return border_->fit({static_cast<double>(p.i), static_cast<double>(p.j)}, size);
 }
 
+// A centre from the twelve nearest corners of a grid of cells, exact for cubics. False where some are not known.
+bool ControlSpaceSampling::predict_centre(const TreeCell& cell, Metric2& root) const {
+  Metric2 inner{0, 0, 0}, outer{0, 0, 0};
+  for (const int k : corners_of_cell) {
+    if (!lattice_->sampled(cell.node[k])) return false;
+    inner = inner + lattice_->value(cell.node[k]);
+  }
+  for (int side = 0; side < 4; ++side) {
+    if (cell.beside[side] < 0) return false;
+    const TreeCell& next = (*tree_)[cell.beside[side]];
+    for (int end = 0; end < 2; ++end) {
+      const Metric2* corner = nullptr;
+      if (next.size == cell.size) {
+        const std::int32_t n = next.node[ends_of_sides[side][end]];
+        if (lattice_->sampled(n)) corner = &lattice_->value(n);
+      } else {
+        const GridPoint at = cell.point(ends_of_sides[side][end]);
+        const std::int32_t d = side % 2 == 0 ? -cell.size : cell.size;
+        corner = lattice_->sample(side < 2 ? GridPoint{at.i, at.j + d} : GridPoint{at.i + d, at.j});
+      }
+      if (corner == nullptr) return false;
+      outer = outer + *corner;
+    }
+  }
+  root = 0.3125 * inner + -0.03125 * outer;
+  const auto value = [&](int k) { return lattice_->value(cell.node[corners_of_cell[k]]); };
+  return plausible(root, 0.5 * (value(0) + value(3)), 0.5 * (value(1) + value(2)));
+}
+
 // Of the corners and the centre.
 int ControlSpaceSampling::nodes_inside(const TreeCell& cell) const noexcept {
   if (cell.edges_begin == cell.edges_end) return cell.relevant ? 5 : 0;
@@ -189,7 +222,9 @@ std::vector<ControlSpaceSampling::NodeProbe> ControlSpaceSampling::centres_of(st
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
     const std::int32_t n = cell.centre();
-    if (lattice_->inside(n)) probes.push_back({n, c, expected_at(n, cell.size)});
+    if (!lattice_->inside(n)) continue;
+    probes.push_back({.node = n, .cell = c});
+    if (!predict_centre(cell, probes.back().expected)) probes.back().expected = expected_at(n, cell.size);
   }
   return probes;
 }
@@ -226,7 +261,9 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   for (const NodeProbe& p : centres) uv.push_back(lattice_->parameters(lattice_->point(p.node)));
   for (const BorderPoint& p : points) uv.push_back(domain_.vertices[p.vertex]);
   const std::vector<Metric2> metric = ask(uv);
+  std::vector<double> before;
   for (const std::int32_t c : cells) {
+    before.push_back((*tree_)[c].error);
     (*tree_)[c].error = 0;
     (*tree_)[c].tested = true;
   }
@@ -245,6 +282,19 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
     cell.error = std::max(cell.error, error_between(centres[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    TreeCell& cell = (*tree_)[cells[k]];
+    cell.decay = slowest_decay;
+    if (before[k] > 0) cell.decay = std::clamp(2 * cell.error / before[k], fastest_decay, slowest_decay);
+  }
+}
+
+// Whether samples amid its sides will do for a cell to be split: errors fall from a cell to its parts by a factor,
+// sixteen where the field is smooth, two at a kink, that its own error and that of the cell before tell. Cells split
+// for their crowd are explored, those at the border extrapolated.
+bool ControlSpaceSampling::can_be_filled(const TreeCell& cell) const noexcept {
+  return !cell.filled && cell.edges_begin == cell.edges_end && cell.vertices <= crowded * vertices_per_cell_ &&
+         cell.decay * cell.error <= trusted * allowed_error(0.25 * cell.vertices);
 }
 
 void ControlSpaceSampling::estimate_vertices() {
@@ -274,8 +324,8 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
   return length_error(lifted(root), lifted(truth));
 }
 
-double ControlSpaceSampling::allowed_error(const TreeCell& cell) const noexcept {
-  const double width = std::sqrt(cell.vertices * area_per_vertex);
+double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
+  const double width = std::sqrt(vertices * area_per_vertex);
   if (width > 1) return share_wide * options_.tolerance;
   if (width > 0.5) return share_edge * options_.tolerance;
   if (width > 0.25) return share_half * options_.tolerance;
@@ -291,7 +341,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
     if (!tree_->can_split(c)) continue;
-    const double allowed = allowed_error(cell);
+    const double allowed = allowed_error(cell.vertices);
     if (cell.vertices > crowded * vertices_per_cell_)
       crowd.push_back(c);
     else if (cell.error > std::max(allowed, options_.tolerance))
@@ -320,11 +370,17 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   return crowd;
 }
 
-// Splits cells, and neighbours that turn out to be as bad; returns the new leaves that have points of the domain.
+// Fills or splits cells, and neighbours that turn out to be as bad; returns the new leaves that have points of the
+// domain.
 std::vector<std::int32_t> ControlSpaceSampling::refine(std::span<const std::int32_t> cells) {
   std::vector<std::int32_t> now(cells.begin(), cells.end()), fresh;
   while (!now.empty()) {
     for (const std::int32_t c : now) {
+      if (can_be_filled((*tree_)[c])) {
+        (*tree_)[c].filled = true;
+        (*tree_)[c].error *= (*tree_)[c].decay;
+        continue;
+      }
       tree_->split(c);
       for (std::int32_t k = (*tree_)[c].child; k < (*tree_)[c].child + 4; ++k)
         if ((*tree_)[k].relevant) fresh.push_back(k);
@@ -341,7 +397,8 @@ std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const s
   for (const std::int32_t c : cells)
     for (const int k : middles_of_sides) {
       const std::int32_t n = (*tree_)[c].node[k];
-      if (lattice_->inside(n) && !lattice_->sampled(n)) probes.push_back({n, c});
+      if (!lattice_->inside(n) || lattice_->sampled(n)) continue;
+      probes.push_back({.node = n, .cell = c, .side = k == 1 ? 0 : k == 7 ? 1 : k == 3 ? 2 : 3});
     }
   std::stable_sort(probes.begin(), probes.end(),
                    [](const NodeProbe& p, const NodeProbe& q) { return p.node < q.node; });
@@ -358,14 +415,19 @@ std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const s
   for (std::size_t k = 0; k < probes.size(); ++k) {
     const Metric2 truth = root_of(metric[k]);
     lattice_->set_sample(probes[k].node, truth);
-    const GridPoint p = lattice_->point(probes[k].node);
-    for (const GridPoint q : {p, GridPoint{p.i - 1, p.j}, GridPoint{p.i, p.j - 1}}) {
-      const std::int32_t leaf = tree_->leaf_at(q);
-      // Leaves just made will be tested by their own centres.
-      if (leaf < 0 || !(*tree_)[leaf].relevant || !(*tree_)[leaf].tested) continue;
-      const double error = error_between(probes[k].expected, truth, (*tree_)[leaf]);
-      if (error <= allowed_error((*tree_)[leaf])) continue;
-      (*tree_)[leaf].error = std::max((*tree_)[leaf].error, error);
+    // The leaves on both sides; those just made will be tested by their own centres.
+    const auto [node, own, side, expected] = probes[k];
+    const std::int32_t beyond = (*tree_)[own].beside[side];
+    const GridPoint p = lattice_->point(node);
+    const GridPoint q{side == 2 ? p.i - 1 : p.i, side == 0 ? p.j - 1 : p.j};
+    for (const std::int32_t leaf : {own, beyond >= 0 ? tree_->leaf_below(beyond, q) : own}) {
+      TreeCell& cell = (*tree_)[leaf];
+      if (cell.child >= 0 || !cell.relevant || !cell.tested) continue;
+      const double error = error_between(expected, truth, cell);
+      if (cell.filled ? cell.decay * error <= allowed_error(0.25 * cell.vertices)
+                      : error <= allowed_error(cell.vertices))
+        continue;
+      cell.error = std::max(cell.error, error);
       beside.push_back(leaf);
     }
   }

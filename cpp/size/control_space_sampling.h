@@ -36,9 +36,10 @@ class ControlSpaceSampling {
     std::int32_t cell;
     Metric2 expected{};
   };
-  /// A node about to be sampled: inside cell `cell`, or amid one of its sides.
+  /// A node about to be sampled: the centre of cell `cell`, or amid its side `side`.
   struct NodeProbe {
     std::int32_t node, cell;
+    int side = 0;
     Metric2 expected{};
   };
 
@@ -52,13 +53,15 @@ class ControlSpaceSampling {
   void settle(std::vector<std::int32_t> active);
   void look_at_suspects();
   void test(std::span<const std::int32_t> cells);
+  [[nodiscard]] bool predict_centre(const TreeCell& cell, Metric2& root) const;
   [[nodiscard]] int nodes_inside(const TreeCell& cell) const noexcept;
   [[nodiscard]] std::vector<NodeProbe> centres_of(std::span<const std::int32_t> cells);
   [[nodiscard]] std::vector<BorderPoint> border_points_of(std::span<const std::int32_t> cells);
   void estimate_vertices();
 
-  [[nodiscard]] double allowed_error(const TreeCell& cell) const noexcept;
+  [[nodiscard]] double allowed_error(double vertices) const noexcept;
   [[nodiscard]] double error_between(Metric2 root, Metric2 truth, const TreeCell& cell) const noexcept;
+  [[nodiscard]] bool can_be_filled(const TreeCell& cell) const noexcept;
   [[nodiscard]] double vertices_of(const TreeCell& cell, Metric2 root) const noexcept;
   [[nodiscard]] std::vector<std::int32_t> affordable(std::vector<std::int32_t> cells, std::size_t untested) const;
   std::vector<std::int32_t> refine(std::span<const std::int32_t> cells);

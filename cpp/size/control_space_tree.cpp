@@ -38,7 +38,11 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
   for (int j = 0; j < rows_; ++j)
     for (int i = 0; i < columns_; ++i) {
       TreeCell cell{.i = i * lattice.step(), .j = j * lattice.step(), .size = lattice.step()};
-      complete(cell, candidates[static_cast<std::size_t>(j * columns_ + i)], Place::unknown);
+      const Place place = complete(cell, candidates[static_cast<std::size_t>(j * columns_ + i)], Place::unknown);
+      for (int k = 0; k < 9; ++k) cell.node[k] = lattice_.node(cell.point(k), place);
+      const std::int32_t number = j * columns_ + i;
+      cell.beside = {j > 0 ? number - columns_ : -1, j + 1 < rows_ ? number + columns_ : -1, i > 0 ? number - 1 : -1,
+                     i + 1 < columns_ ? number + 1 : -1};
       cells_.push_back(cell);
     }
 }
@@ -55,7 +59,8 @@ bool Tree::meets(const TreeCell& cell, std::int32_t edge) const noexcept {
          std::abs(cross(d, middle)) <= half * (x + y) * (1 + widening);
 }
 
-void Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole) {
+// Finds the cell's edges and whether it is relevant; returns what that says of its nodes.
+Place Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole) {
   cell.edges_begin = static_cast<std::int32_t>(edges_.size());
   for (const std::int32_t e : candidates)
     if (meets(cell, e)) edges_.push_back(e);
@@ -66,8 +71,7 @@ void Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, Pl
   else
     cell.relevant = whole == Place::inside;
   // A closed cell that no edge meets is on one side.
-  const Place place = cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
-  for (int k = 0; k < 9; ++k) cell.node[k] = lattice_.node(cell.point(k), place);
+  return cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
 }
 
 void Tree::split(std::int32_t number) {
@@ -76,18 +80,72 @@ void Tree::split(std::int32_t number) {
   const std::vector<std::int32_t> candidates(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
   cells_[number].child = size();
   const Place whole = !candidates.empty() ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
+  // The 5 x 5 nodes of the parts, nine of which are those of the cell.
+  std::array<std::int32_t, 25> node;
+  node.fill(-1);
+  for (int k = 0; k < 9; ++k) node[10 * (k / 3) + 2 * (k % 3)] = cell.node[k];
   for (int k = 0; k < 4; ++k) {
     TreeCell child{.i = cell.i + (k % 2) * half, .j = cell.j + (k / 2) * half, .size = half};
-    child.error = cell.error;
+    child.error = cell.error, child.decay = cell.decay;
     child.vertices = cell.vertices / 4;
-    complete(child, candidates, whole);
+    const Place place = complete(child, candidates, whole);
+    for (int n = 0; n < 9; ++n) {
+      std::int32_t& known = node[5 * (2 * (k / 2) + n / 3) + 2 * (k % 2) + n % 3];
+      if (known < 0) known = lattice_.node(child.point(n), place);
+      child.node[n] = known;
+    }
     cells_.push_back(child);
+  }
+  join_parts(number);
+}
+
+// The parts of a cell and those beyond its sides get to know each other.
+void Tree::join_parts(std::int32_t number) {
+  const TreeCell cell = cells_[number];
+  for (int k = 0; k < 4; ++k)
+    for (int side = 0; side < 4; ++side) {
+      const int axis = side < 2 ? 2 : 1;  // of the bit of k that tells on which side the part lies
+      const bool outer = ((k & axis) != 0) == (side % 2 == 1);
+      std::int32_t& beside = cells_[cell.child + k].beside[side];
+      if (!outer) {
+        beside = cell.child + (k ^ axis);
+        continue;
+      }
+      beside = cell.beside[side];
+      if (beside >= 0 && cells_[beside].size == cell.size && cells_[beside].child >= 0)
+        beside = cells_[beside].child + (k ^ axis);
+    }
+  for (int side = 0; side < 4; ++side) point_to_parts(number, side);
+}
+
+// All that is smaller than the cell beyond one of its sides.
+void Tree::point_to_parts(std::int32_t number, int side) {
+  const TreeCell cell = cells_[number];
+  const std::int32_t beyond = cell.beside[side];
+  if (beyond < 0 || cells_[beyond].size != cell.size || cells_[beyond].child < 0) return;
+  const int axis = side < 2 ? 2 : 1, facing = side ^ 1;
+  std::vector<std::int32_t> todo;
+  const auto add_parts = [&](std::int32_t c) {
+    for (int k = 0; k < 4; ++k)
+      if (((k & axis) != 0) == (facing % 2 == 1)) todo.push_back(cells_[c].child + k);
+  };
+  add_parts(beyond);
+  while (!todo.empty()) {
+    TreeCell& d = cells_[todo.back()];
+    const std::int32_t c = todo.back();
+    todo.pop_back();
+    const bool upper_half = side < 2 ? d.i >= cell.i + cell.size / 2 : d.j >= cell.j + cell.size / 2;
+    d.beside[facing] = cell.child + (side % 2 == 1 ? axis : 0) + (upper_half ? 3 - axis : 0);
+    if (d.child >= 0) add_parts(c);
   }
 }
 
 std::int32_t Tree::leaf_at(GridPoint p) const noexcept {
   if (p.i < 0 || p.j < 0 || p.i >= lattice_.end().i || p.j >= lattice_.end().j) return -1;
-  std::int32_t cell = (p.j / lattice_.step()) * columns_ + p.i / lattice_.step();
+  return leaf_below((p.j / lattice_.step()) * columns_ + p.i / lattice_.step(), p);
+}
+
+std::int32_t Tree::leaf_below(std::int32_t cell, GridPoint p) const noexcept {
   while (cells_[cell].child >= 0) {
     const TreeCell& c = cells_[cell];
     cell = c.child + (p.i >= c.i + c.size / 2 ? 1 : 0) + (p.j >= c.j + c.size / 2 ? 2 : 0);

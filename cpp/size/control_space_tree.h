@@ -18,10 +18,14 @@ struct TreeCell {
   std::int32_t edges_begin = 0, edges_end = 0;  ///< range of boundary edges that meet the closed cell
   bool relevant = false;                        ///< has points of the domain
   bool tested = false;                          ///< its centre was sampled, or cannot be
+  bool filled = false;                          ///< the middles of its sides were sampled for its own sake
   double error = 0;                             ///< of prediction against sample, relative, in length
+  double decay = 1;                             ///< of errors from this cell to its parts, about
   double vertices = 0;                          ///< that a mesh would have in the whole cell
   /// In the lattice, row by row: corners, middles of sides, centre.
   std::array<std::int32_t, 9> node{};
+  /// Beyond the lower, upper, left, right side: the smallest cell that is not smaller than this one; -1 none.
+  std::array<std::int32_t, 4> beside{-1, -1, -1, -1};
 
   [[nodiscard]] GridPoint point(int k) const noexcept { return {i + (k % 3) * (size / 2), j + (k / 3) * (size / 2)}; }
   [[nodiscard]] std::int32_t centre() const noexcept { return node[4]; }
@@ -48,12 +52,16 @@ class Tree {
   void split(std::int32_t cell);
   /// The leaf that holds the unit cell [i, i + 1] x [j, j + 1] of the finest grid; -1 outside of the box.
   [[nodiscard]] std::int32_t leaf_at(GridPoint p) const noexcept;
+  /// The same where the leaf is `cell` or a part of it.
+  [[nodiscard]] std::int32_t leaf_below(std::int32_t cell, GridPoint p) const noexcept;
   /// Boundary vertices in the closed cell, increasing indices in SampledDomain::vertices.
   void vertices_in(const TreeCell& cell, std::vector<int>& found) const;
 
  private:
   /// `whole`: where all of the cell lies, when that is known.
-  void complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole);
+  [[nodiscard]] Place complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole);
+  void join_parts(std::int32_t number);
+  void point_to_parts(std::int32_t number, int side);
   [[nodiscard]] bool meets(const TreeCell& cell, std::int32_t edge) const noexcept;
 
   const SampledDomain& domain_;

@@ -59,14 +59,13 @@ void ControlSpaceWriter::balance() {
   for (std::int32_t c = 0; c < tree_.size(); ++c)
     if (tree_[c].child < 0) todo.push_back(c);
   while (!todo.empty()) {
-    const TreeCell cell = tree_[todo.back()];
+    const std::int32_t c = todo.back();
     todo.pop_back();
-    if (cell.child >= 0) continue;
-    const std::int32_t half = cell.size / 2;
-    for (const GridPoint p : {GridPoint{cell.i - 1, cell.j + half}, GridPoint{cell.i + cell.size, cell.j + half},
-                              GridPoint{cell.i + half, cell.j - 1}, GridPoint{cell.i + half, cell.j + cell.size}}) {
-      for (std::int32_t leaf = tree_.leaf_at(p); leaf >= 0 && tree_[leaf].size > 2 * cell.size;
-           leaf = tree_.leaf_at(p)) {
+    if (tree_[c].child >= 0) continue;
+    for (int side = 0; side < 4; ++side) {
+      // What is larger than a cell and beside it is a leaf.
+      for (std::int32_t leaf = tree_[c].beside[side]; leaf >= 0 && tree_[leaf].size > 2 * tree_[c].size;
+           leaf = tree_[c].beside[side]) {
         tree_.split(leaf);
         for (int k = 0; k < 4; ++k) todo.push_back(tree_[leaf].child + k);
       }
@@ -141,13 +140,8 @@ void ControlSpaceWriter::fill_outside() {
 
 // The larger leaf on the other side of a side, or -1.
 std::int32_t ControlSpaceWriter::coarser_beside(const TreeCell& cell, int side) const {
-  const std::int32_t half = cell.size / 2;
-  const GridPoint outside = side == 0   ? GridPoint{cell.i + half, cell.j - 1}
-                            : side == 1 ? GridPoint{cell.i + half, cell.j + cell.size}
-                            : side == 2 ? GridPoint{cell.i - 1, cell.j + half}
-                                        : GridPoint{cell.i + cell.size, cell.j + half};
-  const std::int32_t leaf = tree_.leaf_at(outside);
-  return leaf >= 0 && tree_[leaf].size > cell.size ? leaf : -1;
+  const std::int32_t beside = cell.beside[side];
+  return beside >= 0 && tree_[beside].size > cell.size ? beside : -1;
 }
 
 // Along each side, from coarse to fine, the middle Bernstein coefficient of the quadratic becomes definite.
