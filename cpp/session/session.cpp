@@ -152,6 +152,12 @@ void describe_result(const CompositeResult& result, Monitor& monitor) {
                                       short_text(q.q2.p1) + ", worst " + short_text(q.q2.min) + "; angles " +
                                       short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
   const CompositeReport& r = result.report;
+  if (r.gradation_rounds > 0)
+    monitor.message(Level::summary,
+                    "gradation: sizes graded on " + whole(static_cast<std::int64_t>(r.gradation_triangles)) +
+                        " triangles" +
+                        (r.gradation_rounds > 1 ? ", made " + whole(r.gradation_rounds) + " times" : "") + "; " +
+                        short_text(r.seconds_gradation) + " s");
   monitor.message(Level::summary, "diag " + short_text(r.diag) + "; " + whole(r.calls.surface()) +
                                       " evaluations of surfaces; " + short_text(r.seconds_total) + " s (curves " +
                                       short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +

@@ -46,10 +46,18 @@ class Grading {
     collect_segments();
   }
 
+  void add(const GradationSource& s, int id) {
+    Front& f = front_[graph_.places[s.place].vertex];
+    const double h = s.front.source_h + slope_ * norm(s.front.line);
+    if (h < f.h) f = {h, s.front.source_h, s.front.line, s.place, id, false};
+  }
+
   void run() {
     for (std::size_t v = 0; v < front_.size(); ++v) {
-      front_[v].source = static_cast<int>(v);
-      front_[v].place = first_place_[v];
+      if (dot(front_[v].line, front_[v].line) == 0) {
+        front_[v].source = static_cast<int>(v);
+        front_[v].place = first_place_[v];
+      }
       if (std::isfinite(front_[v].h)) queue_.emplace(front_[v].h, static_cast<int>(v));
     }
     std::size_t done = 0;
@@ -294,10 +302,16 @@ std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vect
   return grading.sizes();
 }
 
-GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h, double slope,
-                             Monitor& monitor) {
+GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h,
+                             const std::vector<GradationSource>& sources, double slope, Monitor& monitor) {
   check(graph, h, slope);
   Grading grading(graph, h, slope, monitor);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].place < 0 || static_cast<std::size_t>(sources[i].place) >= graph.places.size())
+      throw InvalidArgument("an index of a gradation's source is out of range");
+    // Numbers beyond those of vertices.
+    grading.add(sources[i], static_cast<int>(graph.xyz.size() + i));
+  }
   grading.run();
   return grading.fronts();
 }

@@ -54,8 +54,16 @@ double slope_of_gradation(double beta);
 std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
                                     Monitor& monitor);
 
+/// A size known beside a place: h = source_h + slope |line| there.
+struct GradationSource {
+  int place = 0;  ///< index in GradationGraph::places
+  GradationFront front;
+};
+
 /// The same, with the line that brings the size to each place: between vertices the size is the smallest of
-/// source_h + slope |line + step| over the places around (GradedField).
-GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor);
+/// source_h + slope |line + step| over the places around (GradedField). `sources`: sizes known elsewhere than at
+/// vertices, seen from the places around.
+GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h,
+                             const std::vector<GradationSource>& sources, double slope, Monitor& monitor);
 
 }  // namespace carreau

@@ -23,31 +23,33 @@ struct GradedFace {
   /// By triangle: bit i is set when the side from corner i to the next one lies on a curve, along which sizes between
   /// the corners are interpolated.
   std::vector<std::uint8_t> on_curve;
+  /// By triangle: the prescribed sizes inside are what its corners promise, and count; elsewhere the corners alone
+  /// do, because sizes that jump between samples obey no gradation.
+  std::vector<std::uint8_t> smooth;
+  std::vector<Vec2> tips;  ///< vertices whose size is smaller than all around allow: points that control spaces miss
+  TriangleTree tree;
 };
 
-/// The largest size allowed at a place by the graded sizes around it: h(x) = min over sources y of h(y) + slope |x - y|
-/// (HDR sec. 1.1.2; Borouchaki, Hecht, Frey). The sources are those of the fronts at the corners of the triangle around
-/// x, and those parts of curves between corners; it is not bounded by sizes prescribed at x itself. Safe from several
-/// threads.
+/// From `origin`, where the unit normal is given, to a point nearby: in the tangent plane and as long as the arc.
+Vec3 step_on_surface(Vec3 normal, Vec3 chord) noexcept;
+
+/// Sizes h(x) = min over sources y of h(y) + slope |x - y| (HDR sec. 1.1.2; Borouchaki, Hecht, Frey). The sources are
+/// those of the fronts at the corners of the triangle around x, and the parts of curves between corners. Safe from
+/// several threads.
 class GradedField {
  public:
   /// By face (index in Model::faces); a face without triangles bounds nothing.
-  GradedField(double slope, std::vector<GradedFace> faces, Monitor& monitor);
+  GradedField(double slope, std::vector<GradedFace> faces);
 
   [[nodiscard]] double slope() const noexcept { return slope_; }
-  /// At (u, v) in a face, whose image is `xyz`; +infinity where the field says nothing. Logarithmic in the number of
-  /// triangles. Outside the triangles, the nearest one.
-  [[nodiscard]] double at(int face, Vec2 uv, Vec3 xyz) const noexcept;
+  [[nodiscard]] const std::vector<Vec2>& tips(int face) const { return faces_.at(static_cast<std::size_t>(face)).tips; }
+  /// At (u, v) in a face, whose image is `xyz` and where the size `prescribed` is wanted (+infinity: anything).
+  /// Logarithmic in the number of triangles. Outside the triangles, the nearest one.
+  [[nodiscard]] double size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept;
 
  private:
-  struct Corner;
-  struct Face {
-    GradedFace data;
-    TriangleTree tree;
-  };
-
   double slope_;
-  std::vector<Face> faces_;
+  std::vector<GradedFace> faces_;
 };
 
 /// What is made of a prescribed size before a mesh is: bounded by a graded field, multiplied, bounded by a constant.

@@ -159,8 +159,8 @@ class Pipeline {
 
   void tell_progress(std::size_t next_job) {
     if (next_job == jobs_.size()) return;
-    monitor_.progress(Phase::patches, model_.faces[face_of_job_[next_job]].ref,
-                      curves_share + patches_share * static_cast<double>(next_job) / static_cast<double>(jobs_.size()));
+    tell(Phase::patches, model_.faces[face_of_job_[next_job]].ref,
+         curves_share + patches_share * static_cast<double>(next_job) / static_cast<double>(jobs_.size()));
   }
 
   void accept(std::size_t i) {

@@ -57,7 +57,8 @@ void FaceJob::step(Monitor& monitor) {
 
 void FaceJob::sample(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
-  space_ = sample_face(input_, cad_, rules_, {}, monitor);
+  if (input_.limits.field != nullptr) suspects_ = input_.limits.field->tips(input_.face);
+  space_ = sample_face(input_, cad_, rules_, suspects_, monitor);
   refuse_beyond_limit(space_->measure());
   next_ = Step::mesh;
 }

@@ -7,13 +7,6 @@ namespace carreau {
 
 namespace {
 
-SampledDomain sampled_domain(const PlaneDomain& domain) {
-  SampledDomain sampled{domain.vertices, {}};
-  for (const PlaneEdge& edge : domain.edges)
-    if (edge.kind != PlaneEdgeKind::internal) sampled.edges.emplace_back(edge.a, edge.b);
-  return sampled;
-}
-
 // Points to evaluate at a time: large enough for hosts that like batches, small enough to stop soon.
 constexpr std::size_t batch = 512;
 
@@ -32,6 +25,13 @@ std::vector<Vec3> lift(int face, std::span<const Vec2> uv, Cad& cad, Monitor& mo
 
 }  // namespace
 
+SampledDomain sampled_domain(const PlaneDomain& domain) {
+  SampledDomain sampled{domain.vertices, {}};
+  for (const PlaneEdge& edge : domain.edges)
+    if (edge.kind != PlaneEdgeKind::internal) sampled.edges.emplace_back(edge.a, edge.b);
+  return sampled;
+}
+
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor) {
   FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
@@ -43,6 +43,7 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, st
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;
+  space_options.tolerance = input.tolerance;
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, space_options, monitor);
 }
 

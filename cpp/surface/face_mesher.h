@@ -33,7 +33,12 @@ struct PatchInput {
   bool isotropic = true;
   /// What becomes of the prescribed sizes.
   SizeLimits limits = {};
+  /// Largest relative error of lengths in the control space.
+  double tolerance = ControlSpaceOptions{}.tolerance;
 };
+
+/// The boundary of a domain.
+SampledDomain sampled_domain(const PlaneDomain& domain);
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,

@@ -16,8 +16,13 @@ namespace {
 // Sizes of the graph over the prescribed ones; its longest edges where these are large, as a share of diag.
 constexpr double graph_factor = 2, graph_share = 1. / 20;
 // The graph is too coarse where an edge is longer than this, in unit edges of the graded sizes.
-constexpr double too_long = 3.3;
+constexpr double too_long = 3.2;
 constexpr int most_rounds = 5;
+// Prescribed sizes are smooth where they are what linear interpolation in the graph promises, up to this share.
+constexpr double roughness = 0.01;
+constexpr std::size_t most_tips = 50;
+// Of its control spaces: sizes and positions are asked at its vertices again.
+constexpr double graph_tolerance = 0.1;
 // Samples of a curve's sizes on each of its edges in the graph.
 constexpr int samples_per_edge = 4;
 constexpr std::size_t batch = 512;
@@ -27,6 +32,15 @@ Vec3 unit(Vec3 v) noexcept {
   const double l = norm(v);
   return l > 0 ? (1 / l) * v : Vec3{};
 }
+
+/// What the host has said at a place of a face.
+struct Sample {
+  Vec2 uv;
+  Vec3 xyz;
+  double h = 0;
+  std::int32_t triangle = 0;
+  std::array<double, 3> promised{};  // weights of its corners
+};
 
 /// One graph: curves, domains and plane meshes of all faces.
 class Round {
@@ -49,6 +63,7 @@ class Round {
     number_vertices(raw);
     faces_.resize(model_.model.faces.size());
     place_of_.resize(faces_.size());
+    samples_.resize(faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       monitor_.checkpoint();
       if (!domains_.domain[f]) continue;
@@ -87,9 +102,24 @@ class Round {
         h_.push_back(raw[c].size_at(curves_[c].r[i]));
       }
       nodes.push_back(curve.end2);
+      if (!curve.degenerate) lower_by_samples(c, raw[c], nodes);
       if (!curve.degenerate)
         for (std::size_t i = 1; i < nodes.size(); ++i) graph_.segments.push_back({nodes[i - 1], nodes[i]});
       node_of_.push_back(std::move(nodes));
+    }
+  }
+
+  // Sizes known between the vertices of a curve bound those at its vertices.
+  void lower_by_samples(std::size_t c, const SizeSamples& raw, const std::vector<int>& nodes) {
+    const DiscreteCurve& d = curves_[c];
+    const double length = model_.length(static_cast<int>(c)), slope = slope_of_gradation(options_.gradation);
+    for (std::size_t i = 0; i < raw.r.size(); ++i) {
+      const auto above = std::upper_bound(d.r.begin() + 1, d.r.end() - 1, raw.r[i]);
+      const auto k = static_cast<std::size_t>(above - d.r.begin()) - 1;
+      for (const std::size_t n : {k, k + 1}) {
+        double& h = h_[nodes[n]];
+        h = std::min(h, raw.h[i] + slope * length * std::abs(raw.r[i] - d.r[n]));
+      }
     }
   }
 
@@ -99,8 +129,9 @@ class Round {
                      .ref = model_.model.faces[f].ref,
                      .domain = &domain,
                      .curve_xyz = positions_on_curves(domain, curves_, model_.topology),
-                     .limits = limits};
-    const ControlSpace space = sample_face(input, model_.cad, rules_, {}, monitor_);
+                     .limits = limits,
+                     .tolerance = graph_tolerance};
+    const ControlSpace space = sample(input);
     PlaneMesh mesh = mesh_plane(domain.plane, space,
                                 {.frontal = options_.frontal, .max_triangles = options_.max_triangles}, monitor_);
     GradedFace& face = faces_[f];
@@ -125,6 +156,62 @@ class Round {
     evaluate(input, face, first);
     mend_normals(face, first);
     add_triangles(domain, face, first);
+    face.tree = TriangleTree(face.uv, face.triangles, monitor_);
+    locate_samples(f);
+  }
+
+  // Samples are sources for the corners of the triangles around them.
+  void locate_samples(std::size_t f) {
+    const GradedFace& face = faces_[f];
+    for (Sample& s : samples_[f]) {
+      const TrianglePlace place = face.tree.find(s.uv);
+      s.triangle = place.triangle;
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t v = face.triangles[s.triangle][i];
+        s.promised[i] = place.weight[i];
+        const Vec3 way = step_on_surface(face.normal[v], s.xyz - face.xyz[v]);
+        sources_.push_back({static_cast<int>(place_of_[f]) + v, {s.h, -1 * way}});
+      }
+    }
+  }
+
+  // Where some size is another vertex's, or some sample not what the corners of its triangle make of it, the
+  // prescribed sizes do not obey the gradation.
+  void find_rough(GradedFace& face, const std::vector<Sample>& samples) const {
+    for (std::size_t t = 0; t < face.triangles.size(); ++t)
+      for (const std::int32_t v : face.triangles[t])
+        if (dot(face.front[v].line, face.front[v].line) > 0) face.smooth[t] = 0;
+    for (const Sample& s : samples) {
+      double linear = 0;
+      for (int i = 0; i < 3; ++i) linear += s.promised[i] * face.h[face.triangles[s.triangle][i]];
+      if (std::abs(linear - s.h) > roughness * s.h) face.smooth[s.triangle] = 0;
+    }
+    // Nor do they beside: samples are few.
+    std::vector<char> beside(face.uv.size(), 0);
+    for (std::size_t t = 0; t < face.triangles.size(); ++t)
+      if (face.smooth[t] == 0)
+        for (const std::int32_t v : face.triangles[t]) beside[v] = 1;
+    for (std::size_t t = 0; t < face.triangles.size(); ++t)
+      for (const std::int32_t v : face.triangles[t])
+        if (beside[v] != 0) face.smooth[t] = 0;
+  }
+
+  // The graph's own control space; what the host says meanwhile is kept.
+  ControlSpace sample(const PatchInput& input) {
+    FaceMetric prescribed(input.face, rules_, input.domain->plane, input.domain->physical, monitor_);
+    std::vector<Sample>& samples = samples_[input.face];
+    std::vector<SurfaceJet> jets;
+    const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
+      jets.resize(uv.size());
+      model_.cad.surface(input.ref, want_position | prescribed.wants(), uv, jets);
+      prescribed.at(uv, jets, metric);
+      for (std::size_t i = 0; i < uv.size(); ++i)
+        if (const double h = isotropic_size(jets[i], metric[i]); h > 0) samples.push_back({uv[i], jets[i].s, h});
+      apply_limits(input.limits, input.face, uv, jets, metric);
+    };
+    ControlSpaceOptions options;
+    options.tolerance = input.tolerance;
+    return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor_);
   }
 
   // Positions, normals and prescribed sizes; on curves those of the face count beside those of the curve, so that
@@ -182,28 +269,46 @@ class Round {
             std::binary_search(imposed.begin(), imposed.end(), std::array<int, 2>{std::min(a, b), std::max(a, b)}))
           sides = static_cast<std::uint8_t>(sides | 1 << i);
       }
+      face.smooth.push_back(1);
       face.on_curve.push_back(sides);
       if (!flat) graph_.triangles.push_back({place(t[0]), place(t[1]), place(t[2])});
     }
   }
 
+  // A vertex that is the source of all its neighbours.
+  static void find_tips(GradedFace& face) {
+    std::vector<char> tip(face.uv.size(), 1);
+    for (const auto& t : face.triangles)
+      for (int i = 0; i < 3; ++i)
+        for (int k = 1; k < 3; ++k) {
+          const std::int32_t v = t[i], w = t[(i + k) % 3];
+          const GradationFront& f = face.front[w];
+          if (dot(f.line, f.line) == 0 || f.source_h != face.h[v]) tip[v] = 0;
+        }
+    for (std::size_t v = 0; v < tip.size() && face.tips.size() < most_tips; ++v)
+      if (tip[v] != 0) face.tips.push_back(face.uv[v]);
+  }
+
   GradedModel grade(const std::vector<SizeSamples>& raw) {
     const double slope = slope_of_gradation(options_.gradation);
-    GradationFronts fronts = grade_fronts(graph_, h_, slope, monitor_);
+    const GradationFronts fronts = grade_fronts(graph_, h_, sources_, slope, monitor_);
     for (const auto& t : graph_.triangles)
       for (int i = 0; i < 3 && !coarse_; ++i) {
         const int a = graph_.places[t[i]].vertex, b = graph_.places[t[(i + 1) % 3]].vertex;
         coarse_ = normalised_length(SizeLaw::linear, fronts.h[a], fronts.h[b], norm(graph_.xyz[a] - graph_.xyz[b])) >
                   too_long;
       }
-    for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (std::size_t v = 0; v < faces_[f].uv.size(); ++v) {
         faces_[f].front.push_back(fronts.front[place_of_[f] + v]);
         faces_[f].h.push_back(fronts.h[graph_.places[place_of_[f] + v].vertex]);
       }
+      find_rough(faces_[f], samples_[f]);
+      find_tips(faces_[f]);
+    }
     GradedModel result;
     result.triangles = graph_.triangles.size();
-    result.field = std::make_shared<GradedField>(slope, std::move(faces_), monitor_);
+    result.field = std::make_shared<GradedField>(slope, std::move(faces_));
     for (std::size_t c = 0; c < raw.size(); ++c) result.curves.push_back(bounded(c, raw[c], fronts.h, *result.field));
     return result;
   }
@@ -214,34 +319,40 @@ class Round {
     const DiscreteCurve& d = curves_[c];
     const Curve& curve = model_.topology.curves[c];
     SizeSamples result;
-    const auto add = [&](double r, double bound) {
+    const auto add = [&](double r, double size) {
       result.r.push_back(r);
-      result.h.push_back(std::min(raw.size_at(r), bound));
+      result.h.push_back(size);
       result.physical.push_back(raw.physical_at(r));
     };
     for (std::size_t k = 0; k + 1 < d.r.size(); ++k) {
       const double left = h[node_of_[c][k]], right = h[node_of_[c][k + 1]];
       add(d.r[k], left);
       if (d.indivisible) continue;
-      std::vector<double> at;
-      for (int i = 1; i < samples_per_edge; ++i)
-        at.push_back(std::lerp(d.r[k], d.r[k + 1], static_cast<double>(i) / samples_per_edge));
-      for (const double r : raw.r)
-        if (r > d.r[k] && r < d.r[k + 1]) at.push_back(r);
-      std::sort(at.begin(), at.end());
-      at.erase(std::unique(at.begin(), at.end(), [](double p, double q) { return q - p < 1e-9; }), at.end());
-      for (const double r : at) {
+      for (const double r : between(d.r[k], d.r[k + 1], raw.r)) {
         const double w = (r - d.r[k]) / (d.r[k + 1] - d.r[k]);
-        if (!(w > 1e-6 && w < 1 - 1e-6)) continue;
-        double bound = std::lerp(left, right, w);
+        double size = std::lerp(left, right, w);
         const Vec3 xyz = lerp(d.xyz[k], d.xyz[k + 1], w);
         for (std::size_t u = 0; u < curve.uses.size(); ++u)
-          bound = std::min(bound, field.at(curve.uses[u].face, lerp(d.uv_of_use[u][k], d.uv_of_use[u][k + 1], w), xyz));
-        add(r, bound);
+          size = std::min(
+              size, field.size(curve.uses[u].face, lerp(d.uv_of_use[u][k], d.uv_of_use[u][k + 1], w), xyz, infinity));
+        add(r, size);
       }
     }
     add(d.r.back(), h[node_of_[c].back()]);
     return result;
+  }
+
+  // Where the sizes of a curve are sampled inside an edge of the graph: at equal distances and where they are known.
+  static std::vector<double> between(double from, double to, const std::vector<double>& known) {
+    std::vector<double> at;
+    for (int i = 1; i < samples_per_edge; ++i)
+      at.push_back(std::lerp(from, to, static_cast<double>(i) / samples_per_edge));
+    const double least = 1e-6 * (to - from);
+    for (const double r : known)
+      if (r > from + least && r < to - least) at.push_back(r);
+    std::sort(at.begin(), at.end());
+    at.erase(std::unique(at.begin(), at.end(), [least](double p, double q) { return q - p < least; }), at.end());
+    return at;
   }
 
   const CurveModel& model_;
@@ -256,6 +367,8 @@ class Round {
   std::vector<std::vector<int>> node_of_;  // [curve][node]: vertex of the graph
   std::vector<GradedFace> faces_;
   std::vector<std::size_t> place_of_;  // first place of a face
+  std::vector<std::vector<Sample>> samples_;
+  std::vector<GradationSource> sources_;
   bool coarse_ = false;
 };
 

@@ -121,8 +121,7 @@ class LiftCheck {
       double h = unknown;
       rules_.on_surface(input_.face, {&mesh_.plane.vertices[v], 1}, {}, no_answer, {&h, 1});
       if (answered)
-        mesh_.size[v] =
-            field == nullptr ? h : std::min(h, field->at(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v]));
+        mesh_.size[v] = field == nullptr ? h : field->size(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v], h);
       if (v % 512 == 0) monitor_.checkpoint();
     }
   }

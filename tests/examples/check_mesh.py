@@ -2,7 +2,7 @@
 """Checks a .mesh file against what is known of it; prints every broken claim and exits with 1.
 
 check_mesh.py FILE [--open N] [--euler N] [--triangles N PERCENT] [--area A PERCENT] [--vertex REF X Y Z] [--worst Q2]
-                   [--curves SHARED FREE] [--on "F(x, y, z)"] [--around X Y Z N] [--dimension D] [--not-orientable]
+                   [--mean Q2] [--curves SHARED FREE] [--on "F(x, y, z)"] [--around X Y Z N] [--dimension D] [--not-orientable]
 --curves: references of curves whose edges have two triangles, and one. --on: every vertex is a zero of F, to rounding.
 --around: the vertex there has at least N triangles.
 Independent of the library: reads the ASCII format itself.
@@ -55,6 +55,7 @@ def main():
     ap.add_argument("--area", type=float, nargs=2)
     ap.add_argument("--vertex", type=float, nargs=4)
     ap.add_argument("--worst", type=float)
+    ap.add_argument("--mean", type=float)
     ap.add_argument("--curves", type=int, nargs=2)
     ap.add_argument("--on")
     ap.add_argument("--around", type=float, nargs=4)
@@ -74,13 +75,14 @@ def main():
     triangles = [[int(x) - 1 for x in t[:3]] for t in sections["Triangles"]]
     faces = [int(t[3]) for t in sections["Triangles"]]
     sides = collections.defaultdict(list)
-    area, worst = 0.0, 1.0
+    area, worst, mean = 0.0, 1.0, 0.0
     for t, face in zip(triangles, faces):
         a, b, c = (points[v] for v in t)
         twice = norm(cross(sub(b, a), sub(c, a)))
         squares = sum(norm(sub(p, q)) ** 2 for p, q in ((a, b), (b, c), (c, a)))
         area += twice / 2
-        worst = min(worst, 2 * math.sqrt(3) * twice / squares if squares else 0)
+        quality = 2 * math.sqrt(3) * twice / squares if squares else 0
+        worst, mean = min(worst, quality), mean + quality / len(triangles)
         for p, q in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0])):
             sides[min(p, q), max(p, q)].append((face, p < q))
     claim(len({v for t in triangles for v in t}) == len(points), "a vertex belongs to no triangle")
@@ -104,6 +106,8 @@ def main():
         claim(abs(area - a) <= percent / 100 * a, f"area {area}, not within {percent} % of {a}")
     if args.worst is not None:
         claim(worst >= args.worst, f"worst Q2 {worst}, below {args.worst}")
+    if args.mean is not None:
+        claim(mean >= args.mean, f"mean Q2 {mean}, below {args.mean}")
     if args.vertex:
         ref, *where = args.vertex
         claim(any(r == int(ref) and norm(sub(p, where)) == 0 for p, r in zip(points, refs)),

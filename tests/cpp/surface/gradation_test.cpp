@@ -7,12 +7,15 @@
 #include <numbers>
 
 #include "common/analytic_cad.h"
+#include "metric/field_length.h"
 #include "session/session.h"
+#include "surface/face_mesher.h"
 
 namespace carreau {
 namespace {
 
 using testing::AnalyticCad;
+constexpr double pi = std::numbers::pi;
 
 struct GradedRun {
   std::shared_ptr<AnalyticCad> cad;
@@ -33,6 +36,7 @@ struct GradedRun {
     if (more) more(p);
     session->make_mesh();
     EXPECT_EQ(find_defects(session->mesh()), std::vector<std::string>{});
+    for (const FaceMesh& face : session->mesh().faces) EXPECT_EQ(face.status, FaceStatus::meshed) << face.why;
     quality = summarise_quality(session->exported());
   }
 };
@@ -113,6 +117,190 @@ TEST(GradedModel, AFieldThatObeysIsLeftAsItIs) {
         },
         beta == 0 ? 2 : beta, 0.001);
     EXPECT_EQ(run.session->report().gradation_rounds, beta == 0 ? 0 : 1);
+  }
+}
+
+// Distances along the surface from the point with reference 1, whose size is 0.01; 1 elsewhere.
+struct Source {
+  const char* name;
+  AnalyticCad (*make)();
+  double (*distance)(Vec3);
+};
+
+AnalyticCad sphere() {
+  AnalyticCad cad;
+  cad.faces[1] = {
+      [](Vec2 p) {
+        const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+        return SurfaceJet{{cv * cu, cv * su, sv}, {-cv * su, cv * cu, 0}, {-sv * cu, -sv * su, cv}, {}, {}, {}};
+      },
+      testing::rectangle({0, -pi / 2}, {2 * pi, pi / 2})};
+  return cad;
+}
+
+AnalyticCad cylinder() {
+  AnalyticCad cad;
+  cad.faces[1] = {[](Vec2 p) {
+                    return SurfaceJet{
+                        {std::cos(p.x), std::sin(p.x), p.y}, {-std::sin(p.x), std::cos(p.x), 0}, {0, 0, 1}, {}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {2 * pi, 3})};
+  return cad;
+}
+
+// Two unit squares at a right angle along x = 1, the second with its own idea of u and v.
+AnalyticCad fold() {
+  AnalyticCad cad = square(1);
+  cad.faces[2] = {[](Vec2 p) {
+                    return SurfaceJet{{1, p.x, 2 * p.y}, {0, 1, 0}, {0, 0, 2}, {}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {1, 0.5})};
+  return cad;
+}
+
+AnalyticCad two_squares() {
+  AnalyticCad cad = square(1);
+  cad.faces[2] = {[](Vec2 p) {
+                    return SurfaceJet{{1 + p.y, p.x, 0}, {0, 1, 0}, {1, 0, 0}, {}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {1, 1})};
+  return cad;
+}
+
+class PointSource : public ::testing::TestWithParam<Source> {};
+
+TEST_P(PointSource, SizesGrowWithTheDistanceAlongTheSurface) {
+  for (const double beta : {1.1, 1.3, 2.}) {
+    AnalyticCad cad = GetParam().make();
+    cad.size_at_point = [](int p) { return p == 1 ? 0.01 : 1.; };
+    cad.size_on_surface = [](int, Vec2) { return 1.; };
+    const GradedRun run(std::move(cad), beta);
+    const auto exact = [&](Vec3 x) { return std::min(1., 0.01 + std::log(beta) * GetParam().distance(x)); };
+    expect_graded(run, exact, beta, 0.02);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Surfaces, PointSource,
+    ::testing::Values(Source{"sphere", sphere, [](Vec3 x) { return std::acos(std::clamp(-x.z, -1., 1.)); }},
+                      Source{"cylinder", cylinder, [](Vec3 x) { return std::hypot(std::atan2(x.y, x.x), x.z); }},
+                      Source{"fold", fold, [](Vec3 x) { return std::hypot(x.x + x.z, x.y); }},
+                      Source{"two_squares", two_squares, [](Vec3 x) { return std::hypot(x.x, x.y); }}),
+    [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(GradedModel, SizesOfPatchesThatJumpAreJoined) {
+  for (const double beta : {1.1, 1.3, 2.}) {
+    AnalyticCad cad = two_squares();
+    cad.size_on_surface = [](int face, Vec2) { return face == 1 ? 0.02 : 1.; };
+    const GradedRun run(std::move(cad), beta);
+    expect_graded(
+        run, [&](Vec3 x) { return 0.02 + std::log(beta) * std::max(0., x.x - 1); }, beta, 0.02);
+  }
+}
+
+TEST(GradedModel, ASmallCurveIsLeftGently) {
+  for (const double beta : {1.1, 1.3, 2.}) {
+    AnalyticCad cad = square(1);
+    cad.size_on_surface = [](int, Vec2) { return 1.; };
+    cad.size_on_curve = [](int, int ic, double) { return ic == 1 ? 0.01 : 1.; };
+    const GradedRun run(std::move(cad), beta);
+    expect_graded(
+        run, [&](Vec3 x) { return 0.01 + std::log(beta) * x.y; }, beta, 0.02);
+  }
+}
+
+// The largest gradation of the mesh's edges in the control spaces that they were made from.
+double steepest_in_control_spaces(AnalyticCad& cad, CompositeOptions options, double* share_over) {
+  Monitor monitor;
+  ModelSupports supports = build_supports(testing::unglued(cad), cad, 1, monitor);
+  const Model model = glue(testing::unglued(cad), traces_of(supports), supports.diag / 500);
+  const Topology topology = build_topology(model, traces_of(supports), supports.diag / 100);
+  if (options.size.hgeomax == 0) options.size.hgeomax = supports.diag / 5, options.size.hgeomin = supports.diag / 500;
+  const CompositeResult result = mesh_composite(model, topology, supports, cad, options, monitor);
+  EXPECT_EQ(find_defects(result.mesh), std::vector<std::string>{});
+  double steepest = 1;
+  std::size_t over = 0, count = 0;
+  for (std::size_t f = 0; f < result.mesh.faces.size(); ++f) {
+    const FaceMesh& face = result.mesh.faces[f];
+    const ControlSpace& space = *result.spaces[f];
+    std::vector<double> h;
+    for (const Vec2 uv : face.uv) h.push_back(isotropic_size(surface_at(cad, face.ref, want_first, uv), space.at(uv)));
+    for (const auto& t : face.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const int a = t[i], b = t[(i + 1) % 3];
+        if (!(h[a] > 0) || !(h[b] > 0)) continue;
+        const double l = field_length([&](Vec2 p) { return space.at(p); }, face.uv[a], face.uv[b], 0.1);
+        const double g = std::pow(std::max(h[a] / h[b], h[b] / h[a]), 1 / l);
+        steepest = std::max(steepest, g);
+        over += g > 1.02 * options.gradation ? 1 : 0;
+        ++count;
+      }
+  }
+  *share_over = static_cast<double>(over) / static_cast<double>(count);
+  if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
+    std::printf("%g: %zu triangles, gradation %.4f, %zu of %zu over 1.02\n", options.gradation,
+                result.mesh.triangle_count(), steepest, over, count);
+  return steepest;
+}
+
+CompositeOptions host_sizes(double beta) {
+  CompositeOptions options;
+  options.gradation = beta;
+  options.size = {.hphy_flag = 2, .hphydef = 1, .hphymin = 1e-3, .hphymax = 10};
+  return options;
+}
+
+CompositeOptions curvature(double beta) {
+  CompositeOptions options;
+  options.gradation = beta;
+  options.size = {.hphy_flag = 0, .hgeo_flag = 1, .hphydef = 1, .hphymin = 1e-3, .hphymax = 10};
+  return options;
+}
+
+// A band with sharp sides through a face: no sample knows where they are.
+AnalyticCad band() {
+  AnalyticCad cad = square(1);
+  cad.size_on_surface = [](int, Vec2 p) { return std::abs(p.x - 0.3 - 0.3 * p.y * p.y) < 0.05 ? 0.01 : 1; };
+  return cad;
+}
+
+AnalyticCad with_point(AnalyticCad cad) {
+  cad.size_at_point = [](int p) { return p == 1 ? 0.01 : 1.; };
+  cad.size_on_surface = [](int face, Vec2) { return face == 1 ? 1. : 0.1; };
+  return cad;
+}
+
+TEST(GradedModel, ControlSpacesObeyTheGradation) {
+  for (const double beta : {1.1, 1.3, 2.})
+    for (const auto make : {two_squares, cylinder, fold}) {
+      AnalyticCad cad = with_point(make());
+      double over = 0;
+      EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
+    }
+}
+
+TEST(GradedModel, NearlyEveryEdgeObeysWherePrescribedSizesAreRough) {
+  for (const double beta : {1.1, 1.3, 2.}) {
+    double over = 0;
+    AnalyticCad cad = band();
+    steepest_in_control_spaces(cad, host_sizes(beta), &over);
+    EXPECT_LE(over, 0.004) << beta;
+    cad = testing::teapot();
+    steepest_in_control_spaces(cad, curvature(beta), &over);
+    EXPECT_LE(over, 0.002) << beta;
+  }
+}
+
+// A known shortfall: sizes that jump by a hundred, and poles, where the metric of the control space is clamped.
+TEST(GradedModel, DISABLED_EveryEdgeObeys) {
+  for (const double beta : {1.1, 1.3, 2.}) {
+    double over = 0;
+    AnalyticCad cad = band();
+    EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
+    cad = with_point(sphere());
+    EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
+    cad = testing::teapot();
+    EXPECT_LE(steepest_in_control_spaces(cad, curvature(beta), &over), 1.02 * beta);
   }
 }
 
