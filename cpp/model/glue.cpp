@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "model/near_points.h"
@@ -26,10 +27,12 @@ struct Entry {
 
 class Gluer {
  public:
-  Gluer(const Model& model, const CurveTraces& traces, double eps, std::vector<std::string>* remarks)
+  Gluer(const Model& model, const CurveTraces& traces, double eps, std::vector<std::string>* remarks,
+        GlueReport* report)
       : model_(model),
         eps_(eps),
         remarks_(remarks),
+        report_(report),
         entries_(entries_of(model, traces)),
         points_(2 * entries_.size()),
         curves_(entries_.size()) {}
@@ -42,6 +45,7 @@ class Gluer {
     }
     merge_near_points(ends, eps_, points_);
     for (std::size_t k = 0; k < entries_.size(); ++k) merge_curve(k);
+    if (report_ != nullptr) list_open_curves();
     return numbered();
   }
 
@@ -71,23 +75,36 @@ class Gluer {
                     " or bridged by other points, and become one point");
     auto& same_ends = by_ends_[std::minmax(p, q)];
     for (const std::size_t other : same_ends)
-      if (are_one(entry, entries_[other])) {
+      if (const std::optional<double> gap_between = gap_if_one(entry, entries_[other])) {
         curves_.merge(other, k);
+        const Entry& o = entries_[other];
+        if (report_ != nullptr) report_->pairs.push_back({{o.face, o.curve}, {entry.face, entry.curve}, *gap_between});
         break;
       }
     same_ends.push_back(k);
   }
 
-  [[nodiscard]] bool are_one(const Entry& a, const Entry& b) const {
+  [[nodiscard]] bool is_boundary(const Entry& e) const {
+    return model_.faces[e.face].curves[e.curve].type == CurveType::boundary;
+  }
+
+  /// The distance of two curves that are one.
+  [[nodiscard]] std::optional<double> gap_if_one(const Entry& a, const Entry& b) const {
     double tolerance = eps_;
     if (a.face == b.face) {
-      const auto is_boundary = [&](const Entry& e) {
-        return model_.faces[e.face].curves[e.curve].type == CurveType::boundary;
-      };
-      if (!is_boundary(a) || !is_boundary(b)) return false;  // a seam is made of two sides
+      if (!is_boundary(a) || !is_boundary(b)) return {};  // a seam is made of two sides
       tolerance = std::min(eps_, inside_share * eps_ + trace_deviation(a.trace) + trace_deviation(b.trace));
     }
-    return hausdorff_distance(a.trace, b.trace, tolerance) < tolerance;
+    const double gap = hausdorff_distance(a.trace, b.trace, tolerance);
+    return gap < tolerance ? std::optional(gap) : std::nullopt;
+  }
+
+  void list_open_curves() {
+    std::vector<int> uses(entries_.size(), 0);
+    for (std::size_t k = 0; k < entries_.size(); ++k) ++uses[curves_.find(k)];
+    for (std::size_t k = 0; k < entries_.size(); ++k)
+      if (uses[curves_.find(k)] == 1 && is_boundary(entries_[k]) && !(trace_extent(entries_[k].trace) < eps_))
+        report_->open.push_back({entries_[k].face, entries_[k].curve});
   }
 
   // The numbering of HDR fig. 4.18: curve k (from 1) has the ends 2 k - 1 and 2 k; sets take their smallest number.
@@ -111,6 +128,7 @@ class Gluer {
   const Model& model_;
   double eps_;
   std::vector<std::string>* remarks_;
+  GlueReport* report_;
   std::vector<Entry> entries_;
   UnionFind points_, curves_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends_;
@@ -122,11 +140,12 @@ bool needs_gluing(const Model& model) {
   return !model.faces.empty() && !model.faces.front().curves.empty() && model.faces.front().curves.front().ref == 0;
 }
 
-Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks) {
+Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks,
+           GlueReport* report) {
   if (!(eps_glue > 0) || !std::isfinite(eps_glue))
     throw InvalidArgument("eps_glue must be positive to find references; it is " + format_number(eps_glue));
   check_traces(model, traces);
-  return Gluer(model, traces, eps_glue, remarks).run();
+  return Gluer(model, traces, eps_glue, remarks, report).run();
 }
 
 }  // namespace carreau

@@ -18,6 +18,8 @@ struct FacePoint {
 enum class CurveType : int { boundary = 1, internal = 2 };
 
 /// A curve as one face sees it; its rank `ic` (from 1) is its index in Face::curves + 1.
+/// Gluing cuts curves where curves of other faces end (HDR sec. 4.5.1): the first part of a curve keeps its rank, the
+/// others follow behind all curves of the face.
 struct FaceCurve {
   CurveType type = CurveType::boundary;
   int ref = 0;             ///< refc: the same for curves that are one in space
@@ -26,6 +28,10 @@ struct FaceCurve {
   /// Treated as one point of space although it has a small extent (eps_collapse, RT-0232 sec. 3.3). The curve keeps its
   /// rank: hosts address curves by it.
   bool collapsed = false;
+  /// Rank of the host's curve of which this is the part from t = part_a to t = part_b; 0: the host's curve of the same
+  /// rank, whole.
+  int part_of = 0;
+  double part_a = 0, part_b = 0;
 };
 
 struct Face {
@@ -37,6 +43,12 @@ struct Face {
   std::vector<FacePoint> points;
   int line = 0;
 };
+
+/// The rank by which the host knows a curve (index in Face::curves).
+inline int host_rank(const Face& face, std::size_t curve) {
+  const int part_of = face.curves[curve].part_of;
+  return part_of != 0 ? part_of : static_cast<int>(curve) + 1;
+}
 
 struct Model {
   std::vector<Face> faces;

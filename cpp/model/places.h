@@ -8,10 +8,10 @@
 
 namespace carreau {
 
-/// Face, rank and reference of a curve; file and line when the model was read from a file. Indices from 0.
+/// Face, rank (the host's) and reference of a curve; file and line when the model was read from a file. Indices from 0.
 inline Where place_of(const Model& model, std::size_t face, std::size_t curve) {
   const FaceCurve& c = model.faces[face].curves[curve];
-  Where where{.face = model.faces[face].ref, .curve_index = static_cast<int>(curve) + 1, .curve = c.ref};
+  Where where{.face = model.faces[face].ref, .curve_index = host_rank(model.faces[face], curve), .curve = c.ref};
   if (c.line > 0) where.file = model.source, where.line = c.line;
   return where;
 }

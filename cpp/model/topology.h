@@ -53,6 +53,20 @@ using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
 /// True when references are to be found by gluing: the very first curve has reference 0.
 bool needs_gluing(const Model& model);
 
+/// What gluing has found. Indices of faces and of curves in them.
+struct GlueReport {
+  struct Place {
+    std::size_t face = 0, curve = 0;
+  };
+  /// Two curves that became one, and their two-sided Hausdorff distance.
+  struct Pair {
+    Place a, b;
+    double gap = 0;
+  };
+  std::vector<Pair> pairs;
+  std::vector<Place> open;  ///< boundary curves that no other one shares and that are not points
+};
+
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
 /// distance is below eps_glue. Two sides of one face become a seam when they agree a thousand times better (HDR's two
@@ -60,8 +74,10 @@ bool needs_gluing(const Model& model);
 /// own; its ends become one. Internal points keep their references. Ends are numbered 2k - 1 and 2k for the k-th curve
 /// of the model, curves k; what is merged takes the smallest number (the numbering of RT-0232 sec. 6.1, HDR fig. 4.18).
 /// `remarks` (may be null) receives a sentence for each curve whose ends are merged although they differ by more than
-/// rounding. Throws InvalidArgument when eps_glue is not positive or traces are missing.
-Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr);
+/// rounding; `report` (may be null) what was found. Curves that overlap in part only are one when they have been cut
+/// first (model/splits.h). Throws InvalidArgument when eps_glue is not positive or traces are missing.
+Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr,
+           GlueReport* report = nullptr);
 
 /// Marks curves shorter than eps_collapse (model length) as collapsed, in all faces, and gives their two ends one
 /// reference, the smallest (RT-0232 sec. 3.3). The first curve of a reference decides. Internal curves are kept, and so

@@ -13,6 +13,7 @@
 #include "session/derivatives.h"
 #include "session/export.h"
 #include "session/field_files.h"
+#include "session/gluing.h"
 #include "support/format.h"
 
 namespace carreau {
@@ -118,8 +119,9 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
       const CurveSupport& support = supports.of_face[f][c];
       const double gap = norm(support.xyz.back() - support.xyz.front());
       if (gap >= eps_ends) continue;
-      const Where where{
-          .face = model.faces[f].ref, .curve_index = static_cast<int>(c) + 1, .curve = model.faces[f].curves[c].ref};
+      const Where where{.face = model.faces[f].ref,
+                        .curve_index = host_rank(model.faces[f], c),
+                        .curve = model.faces[f].curves[c].ref};
       // Closed curves and degenerate sides have one reference at both ends and are legal.
       const FaceCurve& curve = model.faces[f].curves[c];
       monitor.message(
@@ -128,6 +130,20 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
               " apart, less than eps_ends = " + format_number(eps_ends) +
               (support.length() < eps_ends ? "; the whole curve is that small" : "; the curve is closed or nearly so"));
     }
+}
+
+// x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
+void write_glued(const Model& model, std::vector<std::string>& remarks) {
+  const bool has_parts = std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
+    return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& c) { return c.part_of != 0; });
+  });
+  if (has_parts) {
+    remarks.push_back(model.source +
+                      ".new is not written: curves were cut where others end, which its layout cannot "
+                      "say; keep the file without references");
+  } else {
+    write_file(model.source + ".new", pardom_text(model));
+  }
 }
 
 // The few lines that a person wants after a run.
@@ -218,23 +234,25 @@ void Session::make_mesh() {
   s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
-  CheckedCad cad(*s.cad);
+  CheckedCad whole_cad(*s.cad);
   s.monitor.progress(Phase::model, 0, 0);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
-  ModelSupports supports = build_supports(s.model, cad, angle_smo, s.monitor);
+  PartCad known_cad(whole_cad, parts_of(s.model));
+  ModelSupports supports = build_supports(s.model, known_cad, angle_smo, s.monitor);
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
-  set_parameter_boxes(s.model, supports, cad);
-  const CurveTraces traces = traces_of(supports);
+  set_parameter_boxes(s.model, supports, whole_cad);
   Model model = s.model;
   std::vector<std::string> remarks;
   if (needs_gluing(model)) {
     const double eps_glue = s.parameters.real("eps_glue", supports.diag);
-    model = glue(model, traces, eps_glue, &remarks);
+    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .angle_smo = angle_smo}, remarks, s.monitor);
     s.check_model(model);
-    if (s.model_from_file) write_file(model.source + ".new", pardom_text(model));
+    if (s.model_from_file) write_glued(model, remarks);
     s.model = model;
   }
+  PartCad cad(whole_cad, parts_of(model));
+  const CurveTraces traces = traces_of(supports);
   if (const double eps = s.parameters.real("eps_collapse"); eps > 0)
     model = collapse_tiny_curves(model, traces, eps, &remarks);
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
@@ -266,8 +284,10 @@ void Session::make_mesh() {
 std::vector<std::string> Session::write_fields(const std::string& path, const FieldOptions& options) {
   State& s = *state_;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
-  CheckedCad cad(*s.cad);
-  if (s.has_mesh && !s.last_failed && !options.raw) {
+  CheckedCad whole_cad(*s.cad);
+  const bool of_mesh = s.has_mesh && !s.last_failed && !options.raw;
+  PartCad cad(whole_cad, parts_of(of_mesh ? s.meshed_model : s.model));
+  if (of_mesh) {
     const double diag = s.result.report.diag;
     set_parameter_boxes(s.meshed_model, s.supports, cad);
     FieldRun run{s.meshed_model, s.topology, &s.supports, &s.result, {}, s.meshed_parameters, diag};

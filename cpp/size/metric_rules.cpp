@@ -114,7 +114,9 @@ SizeRules::Answers SizeRules::answers_on_curve(int curve, std::span<const double
         const Where where = where_of(uses[u], t[u]);
         const Vec2 uv = cad_.curve(where.face, where.curve_index, want_position, t[u]).c;
         const SurfaceJet jet = surface_at(cad_, where.face, want_position | want_first, uv);
-        Prescription p = source->on_curve(where.face, where.curve_index, t[u], uv, jet.s);
+        const int ic =
+            host_rank(model_.faces[static_cast<std::size_t>(uses[u].face)], static_cast<std::size_t>(uses[u].curve));
+        Prescription p = source->on_curve(where.face, ic, t[u], uv, jet.s);
         check(p, *source, where);
         if (p.kind == Prescription::Kind::none) continue;
         if (p.kind == Prescription::Kind::parameter) {

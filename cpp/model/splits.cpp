@@ -1,0 +1,150 @@
+#include "model/splits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "model/near_points.h"
+#include "model/places.h"
+#include "model/traces.h"
+#include "support/format.h"
+
+namespace carreau {
+namespace {
+
+struct Box {
+  Vec3 low, high;
+
+  [[nodiscard]] bool holds(Vec3 p, double margin) const noexcept {
+    return p.x >= low.x - margin && p.x <= high.x + margin && p.y >= low.y - margin && p.y <= high.y + margin &&
+           p.z >= low.z - margin && p.z <= high.z + margin;
+  }
+};
+
+Box box_of(std::span<const Vec3> trace) {
+  Box box{trace.front(), trace.front()};
+  for (const Vec3& p : trace) {
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+  }
+  return box;
+}
+
+struct Foot {
+  double arc = 0, distance = std::numeric_limits<double>::infinity();
+};
+
+Foot foot_on(std::span<const Vec3> trace, Vec3 p) {
+  Foot foot;
+  double before = 0;
+  for (std::size_t i = 1; i < trace.size(); ++i) {
+    const Vec3 d = trace[i] - trace[i - 1];
+    const double length = norm(d);
+    const double w = length > 0 ? std::clamp(dot(p - trace[i - 1], d) / (length * length), 0., 1.) : 0;
+    const double distance = norm(p - (trace[i - 1] + w * d));
+    if (distance < foot.distance) foot = {before + w * length, distance};
+    before += length;
+  }
+  return foot;
+}
+
+struct Entry {
+  std::size_t face, curve;
+  std::span<const Vec3> trace;
+};
+
+class Splitter {
+ public:
+  Splitter(const Model& model, const CurveTraces& traces, double eps) : eps_(eps), points_(0) {
+    std::vector<Vec3> ends;
+    for (std::size_t f = 0; f < model.faces.size(); ++f)
+      for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) {
+        entries_.push_back({f, c, traces[f][c]});
+        ends.push_back(traces[f][c].front());
+        ends.push_back(traces[f][c].back());
+      }
+    points_ = UnionFind(ends.size());
+    merge_near_points(ends, eps, points_);
+  }
+
+  std::vector<CurveSplit> run() {
+    std::vector<CurveSplit> splits;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      if (trace_extent(entries_[k].trace) < eps_) continue;  // a point
+      const std::vector<CurveSplit> of_curve = splits_of(k);
+      splits.insert(splits.end(), of_curve.begin(), of_curve.end());
+    }
+    return splits;
+  }
+
+ private:
+  /// The nearest end of each set of ends that lies inside curve k.
+  std::vector<CurveSplit> splits_of(std::size_t k) {
+    const Entry& entry = entries_[k];
+    const Box box = box_of(entry.trace);
+    const double length = trace_length(entry.trace);
+    std::map<std::size_t, CurveSplit> by_set;
+    for (std::size_t i = 0; i < 2 * entries_.size(); ++i) {
+      const Entry& other = entries_[i / 2];
+      const Vec3 end = i % 2 == 0 ? other.trace.front() : other.trace.back();
+      if (other.face == entry.face || !box.holds(end, eps_)) continue;
+      const std::size_t set = points_.find(i);
+      if (set == points_.find(2 * k) || set == points_.find(2 * k + 1)) continue;
+      const Foot foot = foot_on(entry.trace, end);
+      if (foot.distance > eps_ || foot.arc <= eps_ || foot.arc >= length - eps_) continue;
+      const auto [place, is_new] =
+          by_set.try_emplace(set, CurveSplit{entry.face, entry.curve, foot.arc, end, foot.distance});
+      if (!is_new && foot.distance < place->second.gap)
+        place->second = {entry.face, entry.curve, foot.arc, end, foot.distance};
+    }
+    std::vector<CurveSplit> splits;
+    for (const auto& [set, split] : by_set) splits.push_back(split);
+    std::sort(splits.begin(), splits.end(), [](const CurveSplit& a, const CurveSplit& b) { return a.arc < b.arc; });
+    // Two sets that are nearer to each other along the curve than eps would be one point of it.
+    const auto too_near = [this](const CurveSplit& a, const CurveSplit& b) { return b.arc - a.arc <= eps_; };
+    splits.erase(std::unique(splits.begin(), splits.end(), too_near), splits.end());
+    return splits;
+  }
+
+  double eps_;
+  std::vector<Entry> entries_;
+  UnionFind points_;  // ends 2 k and 2 k + 1 of entry k
+};
+
+}  // namespace
+
+std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& traces, double eps) {
+  if (!(eps > 0) || !std::isfinite(eps))
+    throw InvalidArgument("eps_glue must be positive to find references; it is " + format_number(eps));
+  check_traces(model, traces);
+  return Splitter(model, traces, eps).run();
+}
+
+Model cut_curves(const Model& model, std::span<const CurveCut> cuts) {
+  Model result = model;
+  for (const CurveCut& cut : cuts) {
+    std::vector<FaceCurve>& curves = result.faces[cut.face].curves;
+    const int whole = host_rank(result.faces[cut.face], cut.curve);
+    std::vector<double> ends = cut.t;
+    ends.insert(ends.begin(), cut.a);
+    ends.push_back(cut.b);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      if (!(ends[i] < ends[i + 1]))
+        throw InvalidArgument(place_of(model, cut.face, cut.curve),
+                              "the parameters at which the curve is cut must ascend inside its interval");
+      FaceCurve part = model.faces[cut.face].curves[cut.curve];
+      part.part_of = whole;
+      part.part_a = ends[i];
+      part.part_b = ends[i + 1];
+      if (i == 0) {
+        curves[cut.curve] = part;
+      } else {
+        curves.push_back(part);
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace carreau

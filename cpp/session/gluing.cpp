@@ -1,0 +1,103 @@
+#include "session/gluing.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "model/places.h"
+#include "model/splits.h"
+#include "support/format.h"
+
+namespace carreau {
+namespace {
+
+// A cut makes new ends, which can lie on further curves.
+constexpr int most_rounds = 4;
+
+/// Cuts curves once where ends of others lie on them; false when there was nothing to cut.
+bool cut_once(Model& model, ModelSupports& supports, Cad& host, const Gluing& options, Monitor& monitor) {
+  std::map<std::pair<std::size_t, std::size_t>, CurveCut> cuts;
+  PartCad cad(host, parts_of(model));
+  for (const CurveSplit& split : find_splits(model, traces_of(supports), options.eps)) {
+    monitor.checkpoint();
+    const CurveSupport& support = supports.of_face[split.face][split.curve];
+    const double a = support.t.front(), b = support.t.back();
+    const int face = model.faces[split.face].ref, ic = static_cast<int>(split.curve) + 1;
+    const double guess = support.t_at_arc(split.arc);
+    const double t = refine_t(cad, face, ic, support, guess, a, b, split.end).t;
+    auto& cut = cuts.try_emplace({split.face, split.curve}, CurveCut{split.face, split.curve, a, b, {}}).first->second;
+    const double last = cut.t.empty() ? a : cut.t.back();
+    if (t > last && t < b) cut.t.push_back(t);
+  }
+  std::vector<CurveCut> useful;
+  for (const auto& [place, cut] : cuts)
+    if (!cut.t.empty()) useful.push_back(cut);
+  if (useful.empty()) return false;
+
+  std::vector<std::size_t> whole;  // curves of each face that were there before
+  for (const Face& face : model.faces) whole.push_back(face.curves.size());
+  model = cut_curves(model, useful);
+  PartCad cut_cad(host, parts_of(model));
+  const auto build = [&](std::size_t f, std::size_t c) {
+    monitor.checkpoint();
+    return build_support(cut_cad, model.faces[f].ref, static_cast<int>(c) + 1, {.angle_deg = options.angle_smo});
+  };
+  for (const CurveCut& cut : useful) supports.of_face[cut.face][cut.curve] = build(cut.face, cut.curve);
+  for (std::size_t f = 0; f < model.faces.size(); ++f)
+    for (std::size_t c = whole[f]; c < model.faces[f].curves.size(); ++c) supports.of_face[f].push_back(build(f, c));
+  return true;
+}
+
+std::string name_of(const Model& model, const GlueReport::Place& place) {
+  return "face " + std::to_string(model.faces[place.face].ref) + " curve " +
+         std::to_string(host_rank(model.faces[place.face], place.curve));
+}
+
+std::string count_of(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+void tell(const Model& model, const GlueReport& report, std::size_t parts, Monitor& monitor) {
+  const GlueReport::Pair* widest = nullptr;
+  for (const GlueReport::Pair& pair : report.pairs) {
+    if (widest == nullptr || pair.gap > widest->gap) widest = &pair;
+    monitor.message(Level::detail, name_of(model, pair.a) + " and " + name_of(model, pair.b) + " are one, within " +
+                                       format_number(pair.gap));
+  }
+  for (const GlueReport::Place& place : report.open)
+    monitor.message(Level::detail, name_of(model, place) + " is open: no other curve lies on it");
+  std::string sentence = count_of(report.pairs.size(), "pair of curves is", "pairs of curves are") + " one";
+  if (widest != nullptr) sentence += " within " + format_number(widest->gap);
+  if (parts > 0) sentence += "; " + count_of(parts, "cut was made", "cuts were made") + " where curves of others end";
+  sentence += "; " + count_of(report.open.size(), "curve is", "curves are") + " open";
+  monitor.message(Level::summary, sentence);
+}
+
+}  // namespace
+
+PartCad::Parts parts_of(const Model& model) {
+  PartCad::Parts parts;
+  for (const Face& face : model.faces)
+    for (std::size_t c = 0; c < face.curves.size(); ++c)
+      if (const FaceCurve& curve = face.curves[c]; curve.part_of != 0)
+        parts[{face.ref, static_cast<int>(c) + 1}] = {curve.part_of, curve.part_a, curve.part_b};
+  return parts;
+}
+
+Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
+                      std::vector<std::string>& remarks, Monitor& monitor) {
+  Model cut = model;
+  const auto count_curves = [](const Model& m) {
+    std::size_t n = 0;
+    for (const Face& face : m.faces) n += face.curves.size();
+    return n;
+  };
+  for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
+  }
+  GlueReport report;
+  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report);
+  tell(glued, report, count_curves(cut) - count_curves(model), monitor);
+  return glued;
+}
+
+}  // namespace carreau
