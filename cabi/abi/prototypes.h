@@ -1,4 +1,46 @@
 /* What gfortran -fc-prototypes prints of cabi/fortran/carreau_c.f90; see tests/cabi/check_types.py. */
+typedef struct c_adaptation {
+    long struct_size;
+    void *estimator;
+    int (*field)();
+    void *user;
+    int iterations;
+    int differences;
+    double convergence;
+} c_adaptation;
+typedef struct c_adaptation_report {
+    long struct_size;
+    int iterations;
+    int converged;
+    long vertices;
+    long triangles;
+    long triangles_before;
+    double error_max;
+    double error_rms;
+    double error_max_before;
+    double error_rms_before;
+    double size_min;
+    double stretch_max;
+    long outside;
+} c_adaptation_report;
+typedef struct c_background {
+    long struct_size;
+    int dimension;
+    int reserved;
+    long vertex_count;
+    long triangle_count;
+    void *vertices;
+    void *triangles;
+    void *faces;
+    void *sizes;
+    void *metrics;
+} c_background;
+typedef struct c_background_report {
+    long struct_size;
+    long asked;
+    long outside;
+    double farthest;
+} c_background_report;
 typedef struct c_cad {
     long struct_size;
     void *user;
@@ -54,6 +96,18 @@ typedef struct c_error_place {
     double uv[2];
     double t;
 } c_error_place;
+typedef struct c_estimator {
+    long struct_size;
+    int source;
+    int shape;
+    int relative;
+    int reserved;
+    double tolerance;
+    double relative_floor;
+    double hmin;
+    double hmax;
+    double ratio;
+} c_estimator;
 typedef struct c_face {
     long struct_size;
     int ref;
@@ -118,7 +172,10 @@ typedef struct c_report {
     double seconds_lift;
     double seconds_total;
 } c_report;
+int carreau_adapt (void *session, const c_adaptation *adaptation, c_adaptation_report *report);
+int carreau_clear_background (void *session);
 int carreau_curve_split (void *session, const c_curve *curve, long capacity, double *abscissae, long *edges, double *length);
+int carreau_estimate (void *session, const c_estimator *estimator, long n, const double *values, double *sizes, double *metrics);
 int carreau_get_integer (void *session, const char *name, int *value);
 int carreau_get_real (void *session, const char *name, double *value);
 int carreau_get_text (void *session, const char *name, void *value);
@@ -159,10 +216,13 @@ int carreau_parameter_info (int index, c_parameter *parameter);
 int carreau_reset_parameter (void *session, const char *name);
 int carreau_reset_parameters (void *session);
 int carreau_run_env (void *session, const char *path);
+int carreau_session_background (void *session, c_background_report *report);
 int carreau_session_create (void *session);
 void carreau_session_free (void *session);
 int carreau_session_mesh (void *session, void *mesh);
 int carreau_session_report (void *session, c_report *report);
+int carreau_set_background (void *session, const c_background *background);
+int carreau_set_background_mesh (void *session, const char *mesh_path, const char *sol_path);
 int carreau_set_cad (void *session, const c_cad *callbacks);
 int carreau_set_cad_m (void *session, const c_cad_m *routines);
 int carreau_set_integer (void *session, const char *name, int value);
@@ -171,10 +231,13 @@ int carreau_set_metric_callbacks (void *session, const c_metric_callbacks *callb
 int carreau_set_progress_callback (void *session, int (*callback)(), void *user);
 int carreau_set_real (void *session, const char *name, double value);
 int carreau_set_text (void *session, const char *name, const char *value);
+int carreau_set_vertex_metrics (void *session, long n, const double *metrics);
+int carreau_set_vertex_sizes (void *session, long n, const double *sizes);
 int carreau_set_word (void *session, const char *name, const char *word);
 void *carreau_status_meaning (int status);
 void *carreau_status_name (int status);
 void carreau_stop (void *session);
 long strlen (void *text);
+int carreau_transfer (void *session, int components, long n, const double *values, long capacity, double *transferred, long *outside);
 void *carreau_version ();
 int carreau_version_number ();

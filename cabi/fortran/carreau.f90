@@ -38,6 +38,10 @@ module carreau
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
   public :: carreau_curve_split
+  public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
+  public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
+  public :: carreau_clear_background, carreau_session_background
+  public :: carreau_estimate, carreau_transfer, carreau_adapt
   public :: carreau_string
 
   integer(c_int32_t), parameter, public :: CARREAU_OK = 0, CARREAU_ERR_ARGUMENT = 1, CARREAU_ERR_MODEL = 2, &
@@ -56,6 +60,9 @@ module carreau
     CARREAU_PHASE_PATCHES = 3, CARREAU_PHASE_ASSEMBLY = 4, CARREAU_PHASE_WRITING = 5, CARREAU_PHASE_GRADATION = 7
   integer(c_int32_t), parameter, public :: CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, &
     CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3
+
+  integer(c_int32_t), parameter, public :: CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2
+  integer(c_int32_t), parameter, public :: CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2
 
   !> Geometry, model, parameters and the mesh made of them.
   type :: carreau_session
@@ -87,6 +94,27 @@ module carreau
     integer(c_int64_t) :: curv0_calls = 0, curv1_calls = 0, curv2_calls = 0, size_calls = 0
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type carreau_report
+
+  type :: carreau_background_report
+    integer(c_int64_t) :: asked = 0, outside = 0
+    real(c_double) :: farthest = 0
+  end type carreau_background_report
+
+  !> Zeros stand for the defaults in carreau.h.
+  type :: carreau_estimator
+    integer(c_int32_t) :: source = CARREAU_HESSIAN, shape = CARREAU_ISOTROPIC
+    logical :: relative = .false.
+    real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
+  end type carreau_estimator
+
+  type :: carreau_adaptation_report
+    integer(c_int32_t) :: iterations = 0
+    logical :: converged = .false.
+    integer(c_int64_t) :: vertices = 0, triangles = 0, triangles_before = 0
+    real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0
+    real(c_double) :: size_min = 0, stretch_max = 0
+    integer(c_int64_t) :: outside = 0
+  end type carreau_adaptation_report
 
   type :: carreau_face
     integer(c_int32_t) :: ref = 0, status = 0
@@ -277,6 +305,17 @@ module carreau
       type(c_ptr), value :: user
       integer(c_int32_t) :: status
     end function carreau_point_metric_fn
+
+    !> The field at n points of space.
+    function carreau_field_fn(n, xyz, values, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: xyz(3, n)
+      real(c_double), intent(out) :: values(n)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_field_fn
 
     !> carreau_string(text) is the sentence.
     subroutine carreau_message_fn(level, text, user) bind(c)
@@ -959,4 +998,177 @@ contains
     status = c_curve_split(session%handle, c, edges + 1, found, edges, length)
     if (status == CARREAU_OK) cuts = found
   end subroutine carreau_curve_split
+
+  ! ---- Background meshes ----
+
+  subroutine carreau_set_background_mesh(session, mesh_path, sol_path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: mesh_path, sol_path
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_background_mesh(session%handle, c_text(mesh_path), c_text(sol_path))
+  end subroutine carreau_set_background_mesh
+
+  !> vertices(2 or 3, n), triangles(3, m); faces(m): references, in two dimensions only; either sizes(n) or metrics:
+  !> (6, n) xx xy xz yy yz zz, or in two dimensions (3, n) uu uv vv.
+  subroutine carreau_set_background(session, vertices, triangles, status, faces, sizes, metrics)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: vertices(:, :)
+    integer(c_int32_t), intent(in) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: faces(:)
+    real(c_double), intent(in), optional :: sizes(:), metrics(:, :)
+    real(c_double), allocatable, target :: p(:), h(:), m(:)
+    integer(c_int32_t), allocatable, target :: t(:), f(:)
+    type(c_background) :: c
+    status = CARREAU_ERR_ARGUMENT
+    if (size(triangles, 1) /= 3) return
+    if (present(faces)) then
+      if (size(faces) /= size(triangles, 2)) return
+    end if
+    if (present(sizes)) then
+      if (size(sizes) /= size(vertices, 2)) return
+    end if
+    if (present(metrics)) then
+      if (size(metrics, 2) /= size(vertices, 2) .or. size(metrics, 1) /= merge(3, 6, size(vertices, 1) == 2)) return
+    end if
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%dimension = int(size(vertices, 1), c_int32_t)
+    c%vertex_count = size(vertices, 2)
+    c%triangle_count = size(triangles, 2)
+    allocate (p(size(vertices) + 1), t(size(triangles) + 1)) ! never empty: an address is wanted
+    p(:size(vertices)) = reshape(vertices, [size(vertices)])
+    t(:size(triangles)) = reshape(triangles, [size(triangles)]) - 1
+    c%vertices = c_loc(p(1))
+    c%triangles = c_loc(t(1))
+    if (present(faces)) then
+      allocate (f(size(faces) + 1))
+      f(:size(faces)) = faces
+      c%faces = c_loc(f(1))
+    end if
+    if (present(sizes)) then
+      allocate (h(size(sizes) + 1))
+      h(:size(sizes)) = sizes
+      c%sizes = c_loc(h(1))
+    end if
+    if (present(metrics)) then
+      allocate (m(size(metrics) + 1))
+      m(:size(metrics)) = reshape(metrics, [size(metrics)])
+      c%metrics = c_loc(m(1))
+    end if
+    status = c_set_background(session%handle, c)
+  end subroutine carreau_set_background
+
+  subroutine carreau_set_vertex_sizes(session, sizes, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: sizes(:)
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_vertex_sizes(session%handle, size(sizes, kind=c_int64_t), sizes)
+  end subroutine carreau_set_vertex_sizes
+
+  !> metrics(6, n): xx xy xz yy yz zz
+  subroutine carreau_set_vertex_metrics(session, metrics, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: metrics(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(metrics, 1) /= 6) return
+    status = c_set_vertex_metrics(session%handle, size(metrics, 2, c_int64_t), reshape(metrics, [size(metrics)]))
+  end subroutine carreau_set_vertex_metrics
+
+  subroutine carreau_clear_background(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_clear_background(session%handle)
+  end subroutine carreau_clear_background
+
+  subroutine carreau_session_background(session, report, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_background_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    type(c_background_report) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_session_background(session%handle, c)
+    if (status == CARREAU_OK) report = carreau_background_report(c%asked, c%outside, c%farthest)
+  end subroutine carreau_session_background
+
+  ! ---- Adaptation ----
+
+  pure function c_estimator_of(estimator) result(c)
+    type(carreau_estimator), intent(in) :: estimator
+    type(c_estimator) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%source = estimator%source
+    c%shape = estimator%shape
+    c%relative = merge(1_c_int32_t, 0_c_int32_t, estimator%relative)
+    c%tolerance = estimator%tolerance
+    c%relative_floor = estimator%relative_floor
+    c%hmin = estimator%hmin
+    c%hmax = estimator%hmax
+    c%ratio = estimator%ratio
+  end function c_estimator_of
+
+  !> values(n) at the vertices of the session's mesh; sizes(n) and metrics(6, n) xx xy xz yy yz zz.
+  subroutine carreau_estimate(session, estimator, values, sizes, metrics, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_estimator), intent(in) :: estimator
+    real(c_double), intent(in) :: values(:)
+    real(c_double), allocatable, intent(out) :: sizes(:), metrics(:, :)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), allocatable :: h(:), m(:, :)
+    allocate (h(size(values)), m(6, size(values)))
+    status = c_estimate(session%handle, c_estimator_of(estimator), size(values, kind=c_int64_t), values, h, m)
+    if (status /= CARREAU_OK) return
+    sizes = h
+    metrics = m
+  end subroutine carreau_estimate
+
+  !> values(components, n) at the vertices of the mesh before, transferred(components, n) at those of the mesh now.
+  subroutine carreau_transfer(session, values, transferred, outside, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: values(:, :)
+    real(c_double), allocatable, intent(out) :: transferred(:, :)
+    integer(c_int64_t), intent(out) :: outside
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), allocatable :: found(:, :)
+    type(carreau_mesh) :: mesh
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    outside = 0
+    call carreau_session_mesh(session, mesh, status)
+    if (status /= CARREAU_OK) return
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (found(size(values, 1), vertices))
+    status = c_transfer(session%handle, int(size(values, 1), c_int32_t), size(values, 2, c_int64_t), &
+      reshape(values, [size(values)]), vertices, found, outside)
+    if (status == CARREAU_OK) transferred = found
+  end subroutine carreau_transfer
+
+  !> differences: derivatives of the field itself; iterations: 5; convergence: 0, makes all of them.
+  subroutine carreau_adapt(session, estimator, field, report, status, user, iterations, differences, convergence)
+    type(carreau_session), intent(in) :: session
+    type(carreau_estimator), intent(in) :: estimator
+    procedure(carreau_field_fn) :: field
+    type(carreau_adaptation_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr), intent(in), optional :: user
+    integer(c_int32_t), intent(in), optional :: iterations
+    logical, intent(in), optional :: differences
+    real(c_double), intent(in), optional :: convergence
+    type(c_estimator), target :: e
+    type(c_adaptation) :: a
+    type(c_adaptation_report) :: c
+    e = c_estimator_of(estimator)
+    a%struct_size = size(transfer(a, [c_null_char]))
+    a%estimator = c_loc(e)
+    a%field = c_funloc(field)
+    if (present(user)) a%user = user
+    if (present(iterations)) a%iterations = iterations
+    if (present(differences)) a%differences = merge(1_c_int32_t, 0_c_int32_t, differences)
+    if (present(convergence)) a%convergence = convergence
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_adapt(session%handle, a, c)
+    if (status /= CARREAU_OK .and. status /= CARREAU_ERR_PARTIAL) return
+    report = carreau_adaptation_report(c%iterations, c%converged /= 0, c%vertices, c%triangles, c%triangles_before, &
+      c%error_max, c%error_rms, c%error_max_before, c%error_rms_before, c%size_min, c%stretch_max, c%outside)
+  end subroutine carreau_adapt
 end module carreau

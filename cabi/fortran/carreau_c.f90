@@ -52,6 +52,44 @@ module carreau_c
     real(c_double) :: lss = 0
   end type c_curve
 
+  type, bind(c) :: c_background
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: dimension = 0, reserved = 0
+    integer(c_int64_t) :: vertex_count = 0, triangle_count = 0
+    type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, faces = c_null_ptr
+    type(c_ptr) :: sizes = c_null_ptr, metrics = c_null_ptr
+  end type c_background
+
+  type, bind(c) :: c_background_report
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: asked = 0, outside = 0
+    real(c_double) :: farthest = 0
+  end type c_background_report
+
+  type, bind(c) :: c_estimator
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: source = 0, shape = 0, relative = 0, reserved = 0
+    real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
+  end type c_estimator
+
+  type, bind(c) :: c_adaptation
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: estimator = c_null_ptr
+    type(c_funptr) :: field = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: iterations = 0, differences = 0
+    real(c_double) :: convergence = 0
+  end type c_adaptation
+
+  type, bind(c) :: c_adaptation_report
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: iterations = 0, converged = 0
+    integer(c_int64_t) :: vertices = 0, triangles = 0, triangles_before = 0
+    real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0
+    real(c_double) :: size_min = 0, stretch_max = 0
+    integer(c_int64_t) :: outside = 0
+  end type c_adaptation_report
+
   type, bind(c) :: c_report
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: diag = 0
@@ -558,6 +596,89 @@ module carreau_c
       real(c_double), intent(inout) :: length
       integer(c_int32_t) :: status
     end function c_curve_split
+
+    function c_set_background_mesh(session, mesh_path, sol_path) result(status) &
+        bind(c, name="carreau_set_background_mesh")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: mesh_path(*), sol_path(*)
+      integer(c_int32_t) :: status
+    end function c_set_background_mesh
+
+    function c_set_background(session, background) result(status) bind(c, name="carreau_set_background")
+      import :: c_background, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_background), intent(in) :: background
+      integer(c_int32_t) :: status
+    end function c_set_background
+
+    function c_set_vertex_sizes(session, n, sizes) result(status) bind(c, name="carreau_set_vertex_sizes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: sizes(*)
+      integer(c_int32_t) :: status
+    end function c_set_vertex_sizes
+
+    function c_set_vertex_metrics(session, n, metrics) result(status) bind(c, name="carreau_set_vertex_metrics")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: metrics(*)
+      integer(c_int32_t) :: status
+    end function c_set_vertex_metrics
+
+    function c_clear_background(session) result(status) bind(c, name="carreau_clear_background")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_clear_background
+
+    function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
+      import :: c_background_report, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_background_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_session_background
+
+    function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
+      import :: c_double, c_estimator, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_estimator), intent(in) :: estimator
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: values(*)
+      real(c_double), intent(inout) :: sizes(*), metrics(*)
+      integer(c_int32_t) :: status
+    end function c_estimate
+
+    function c_transfer(session, components, n, values, capacity, transferred, outside) result(status) &
+        bind(c, name="carreau_transfer")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: components
+      integer(c_int64_t), value :: n, capacity
+      real(c_double), intent(in) :: values(*)
+      real(c_double), intent(inout) :: transferred(*)
+      integer(c_int64_t), intent(inout) :: outside
+      integer(c_int32_t) :: status
+    end function c_transfer
+
+    function c_adapt(session, adaptation, report) result(status) bind(c, name="carreau_adapt")
+      import :: c_adaptation, c_adaptation_report, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_adaptation), intent(in) :: adaptation
+      type(c_adaptation_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_adapt
 
     function c_strlen(text) result(length) bind(c, name="strlen")
       import :: c_ptr, c_size_t

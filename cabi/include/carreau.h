@@ -407,6 +407,123 @@ typedef struct carreau_report {
 /* Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report);
 
+/* ---- Background meshes: wanted sizes at the vertices of a mesh ---- */
+
+/* The next meshes take their sizes from a background mesh, unless hphy_flag = 0. It is looked up at the nearest point
+ * of a surface in space, or in the triangle that holds (u, v) in a parameter plane; outside of it the nearest value
+ * holds, and the point is counted. Between vertices sizes, or the sizes along common directions of metrics, vary by
+ * hinterpol_flag. Sizes are clamped to [hphymin, hphymax], whose defaults (diag / 500, diag / 5) may be too narrow.
+ * Where callbacks answer too, the smaller size, or the intersection, holds. Each of the four calls replaces what the
+ * others have set, and copies it. On error the old background mesh stays. Errors: ARGUMENT (sizes not positive, metrics
+ * not positive definite, numbers not finite, no triangle, numbers of vertices that do not fit), FILE, SEQUENCE. */
+
+/* From files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each vertex.
+ * Dimension 3: a surface in space. Dimension 2: parameter planes of the faces that the references of the triangles
+ * name; 0: of any other face. Metrics are then those of the parameter plane. The parameters background_mesh and
+ * background_sol name files, too, and come before what these calls set. */
+CARREAU_API carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path,
+                                                       const char* sol_path);
+
+typedef struct carreau_background {
+  size_t struct_size;
+  int32_t dimension; /* 3: a surface in space; 2: in parameter planes */
+  int32_t reserved;
+  int64_t vertex_count, triangle_count;
+  const double* vertices;   /* vertex_count x dimension */
+  const int32_t* triangles; /* triangle_count x 3 */
+  const int32_t* faces;     /* triangle_count, dimension 2: reference of the face; 0, or NULL: any other face */
+  const double* sizes;      /* vertex_count, model lengths; or NULL */
+  const double* metrics;    /* vertex_count x 6 (xx xy xz yy yz zz), dimension 2: x 3 (uu uv vv); or NULL */
+} carreau_background;
+CARREAU_API carreau_status carreau_set_background(carreau_session* session, const carreau_background* background);
+
+/* On the session's own mesh: n sizes, or n metrics (n x 6), at its n vertices. Each face is looked up in its own
+ * parameter plane. */
+CARREAU_API carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double* sizes);
+CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double* metrics);
+
+/* None, as in a new session. */
+CARREAU_API carreau_status carreau_clear_background(carreau_session* session);
+
+/* How the last mesh has used its background mesh; all zero when there was none. */
+typedef struct carreau_background_report {
+  size_t struct_size;
+  int64_t asked;   /* points looked up */
+  int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest triangle */
+  double farthest; /* distance of the farthest one; model length, or parameter length */
+} carreau_background_report;
+/* Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
+
+/* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
+
+/* What the error is estimated from: interpolation error by second derivatives; angles between edges and the tangent
+ * planes of the graph of the field; distance from the graph's tangent planes. */
+enum { CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2 };
+/* What is prescribed: a size; circles in the tangent planes of the graph; sizes by both principal values. */
+enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
+
+typedef struct carreau_estimator {
+  size_t struct_size;
+  int32_t source, shape; /* as above; GRAPH not with HESSIAN, and GRAPH, CURVATURE, DEFORMATION in the plane z = 0 */
+  int32_t relative;      /* 1: the tolerance is a share of the field's absolute value */
+  int32_t reserved;
+  double tolerance;      /* error in units of the field, or share; CURVATURE: degrees. 0: 0.01 */
+  double relative_floor; /* below this share of its largest absolute value the field counts as that share. 0: 0.1 */
+  double hmin, hmax;     /* bounds of the sizes, CURVATURE and DEFORMATION: in the tangent plane of the graph.
+                            0: hphymin, hphymax */
+  double ratio;          /* largest ratio of the two sizes of a metric. 0: 1000 */
+} carreau_estimator;
+
+/* Sizes or metrics at the n vertices of the session's mesh, from the values of a field there; give them back to
+ * carreau_set_vertex_sizes or carreau_set_vertex_metrics. ISOTROPIC: out_sizes (n) or out_metrics (n x 6) may be NULL;
+ * otherwise out_metrics is needed, and out_sizes is the smallest size of each. Errors: ARGUMENT, SEQUENCE. */
+CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
+                                            const double* values, double* out_sizes, double* out_metrics);
+
+/* Interpolates a field with `components` values a vertex (n x components) from the n vertices of the mesh that the
+ * session had before to those of its mesh now (out_values: rows of components, room for `capacity` rows). *out_outside,
+ * which may be NULL: vertices beside the old mesh, which have the nearest value. Errors: ARGUMENT, SEQUENCE (fewer than
+ * two meshes made). */
+CARREAU_API carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n,
+                                            const double* values, int64_t capacity, double* out_values,
+                                            int64_t* out_outside);
+
+/* The field at n points of space: xyz is n x 3. Returns 0, or any other value to report a failure. */
+typedef int32_t (*carreau_field_fn)(int64_t n, const double* xyz, double* values, void* user);
+
+typedef struct carreau_adaptation {
+  size_t struct_size;
+  const carreau_estimator* estimator;
+  carreau_field_fn field;
+  void* user;          /* handed to field */
+  int32_t iterations;  /* at most; 0: 5 */
+  int32_t differences; /* 1: derivatives of the field itself, by differences (plane z = 0 only); 0: from values at the
+                          vertices alone, as carreau_estimate does */
+  double convergence;  /* ends when the number of triangles changes by a smaller share; 0: makes all iterations */
+} carreau_adaptation;
+
+/* What a loop did. Errors of the field: its distance from its linear interpolation on the mesh. */
+typedef struct carreau_adaptation_report {
+  size_t struct_size;
+  int32_t iterations; /* meshes made, without the one that it started with */
+  int32_t converged;  /* 1: ended by `convergence` */
+  int64_t vertices, triangles;
+  int64_t triangles_before;
+  double error_max, error_rms;               /* on the last mesh */
+  double error_max_before, error_rms_before; /* on the mesh that it started with */
+  double size_min;                           /* smallest size that was prescribed for the last mesh */
+  double stretch_max;                        /* largest ratio of two sizes of one metric */
+  int64_t outside;                           /* points outside of the last background mesh */
+} carreau_adaptation_report;
+
+/* Mesh, estimate, a new field of sizes on the mesh, mesh again. Starts with the session's mesh, or makes one by the
+ * parameters; with iterations = 1, call it again for each mesh to be looked at. The session has the last mesh in the
+ * end, and no background mesh. hphymin and hphymax, unless they are set, are those of the estimator. out_report may be
+ * NULL. Errors: those of carreau_mesh_generate; on an error the session has the last mesh that was made. */
+CARREAU_API carreau_status carreau_adapt(carreau_session* session, const carreau_adaptation* adaptation,
+                                         carreau_adaptation_report* out_report);
+
 /* ---- Meshes ---- */
 
 /* The mesh of a session. The handle belongs to the session and always shows its latest mesh; it lives until

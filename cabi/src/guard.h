@@ -100,4 +100,7 @@ carreau_status guarded(Handle* handle, Body&& body) noexcept {
   return status_of(body, [&slot](const char* sentence, const Where& where) { slot.keep(sentence, where); });
 }
 
+/// A mesh that lacks faces is there, but the caller must know: throws CARREAU_ERR_PARTIAL then.
+void report_failed_faces(const Session& session);
+
 }  // namespace carreau::abi

@@ -9,10 +9,7 @@ using carreau::FaceMesh;
 using carreau::FaceStatus;
 using namespace carreau::abi;
 
-namespace {
-
-/// A mesh that lacks faces is there, but the caller must know.
-void report_failed_faces(const carreau::Session& session) {
+void carreau::abi::report_failed_faces(const carreau::Session& session) {
   const FaceMesh* first = nullptr;
   std::size_t failed = 0;
   for (const FaceMesh& face : session.mesh().faces) {
@@ -25,6 +22,8 @@ void report_failed_faces(const carreau::Session& session) {
                                              " faces could not be meshed; the first is " + std::to_string(first->ref) +
                                              ": " + first->why);
 }
+
+namespace {
 
 void require_geometry(const carreau_session& handle) {
   if (!handle.has_cad)

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "metric/metric2.h"
+#include "metric/metric2_algebra.h"
 #include "metric/metric3.h"
 #include "support/vec.h"
 
@@ -43,6 +44,14 @@ class PrescriptionSource {
   [[nodiscard]] virtual std::string name() const { return "the prescription of sizes"; }
   /// False: `xyz` is never looked at, and need not be evaluated.
   [[nodiscard]] virtual bool needs_position() const noexcept { return true; }
+  /// Called before a run; `law`: how values vary between places where they are known (hinterpol_flag).
+  virtual void begin_run(MetricLaw /*law*/) {}
+  /// Sentences about the run that is over, for whoever reads messages.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
+  /// Relative error of lengths that its values are worth: sampling need not be finer. Below 0.01: as if 0.01.
+  [[nodiscard]] virtual double accuracy() const noexcept { return 0; }
+  /// Places of a face's parameter plane near which the field varies more than its surroundings tell.
+  [[nodiscard]] virtual std::vector<Vec2> steep_places(int /*face*/) const { return {}; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
   /// On a curve (rank `ic` from 1 in that face) at t.

@@ -62,9 +62,17 @@ class EnvRunner {
     return (folder_ / (session_.parameters().text("pref") + suffix)).string();
   }
 
+  /// Names of files that do not start at the root are looked for beside the env file.
+  void find_beside_env(std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      if (const std::string file = session_.parameters().text(name); !file.empty())
+        session_.parameters().set(name, (folder_ / file).string());
+  }
+
   void call(const EnvPair& pair) {
     if (pair.value == actions[0]) {
       if (load_pardom_) load_pardom_(beside_env(".pardom"));
+      find_beside_env({"background_mesh", "background_sol"});
       session_.make_mesh();
     } else if (pair.value == actions[1]) {
       if (!session_.has_mesh()) throw InvalidArgument(at(pair), "call export comes before any call inimesh");

@@ -44,6 +44,8 @@ constexpr std::array kTable = {
     real_row("angle_smo", 0.001, 89, 1, "angle between the supports of curves and their tangents, degrees"),
     real_row("anisotropy_max", 1, kInfinity, 1000,
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
+    text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
+    text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
     text_row("element", "p1", "p1", "type of the elements: triangles of three nodes"),
     diag_row("eps_chord", kPositive, 1.0 / 5000,
              "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),

@@ -10,6 +10,7 @@
 #include "io/files.h"
 #include "io/mesh_files.h"
 #include "io/pardom.h"
+#include "session/adaptation.h"
 #include "session/derivatives.h"
 #include "session/export.h"
 #include "session/field_files.h"
@@ -24,6 +25,11 @@ struct Session::State {
   Monitor& monitor;
   std::shared_ptr<Cad> cad;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
+  std::shared_ptr<BackgroundField> background;
+  std::shared_ptr<BackgroundField> tried_background, meshed_background;  // of files, or what was set
+  BackgroundReport background_report;
+  SurfaceMesh previous;
+  bool has_previous = false;
   Model model;
   bool model_from_file = false;
   bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
@@ -37,9 +43,10 @@ struct Session::State {
   bool last_failed = false;                        // the last make_mesh() has thrown
 
   /// The host first.
-  [[nodiscard]] std::vector<PrescriptionSource*> sources() const {
+  [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const {
     std::vector<PrescriptionSource*> all;
-    for (PrescriptionSource* source : {metric_callbacks.get(), prescription_source.get()})
+    for (PrescriptionSource* source :
+         {metric_callbacks.get(), prescription_source.get(), static_cast<PrescriptionSource*>(of_this_run)})
       if (source != nullptr) all.push_back(source);
     if (!all.empty() && parameters.integer("hphy_flag") == 0)
       monitor.message(Level::warning, "hphy_flag = 0: the prescribed sizes and metrics are ignored");
@@ -110,6 +117,16 @@ void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad&
       }
     if (low.x < high.x && low.y < high.y) cad.set_parameter_box(model.faces[f].ref, low, high);
   }
+}
+
+// Files named by parameters come before what the host has set.
+std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
+                                                   const std::shared_ptr<BackgroundField>& set) {
+  const std::string mesh = parameters.text("background_mesh"), sol = parameters.text("background_sol");
+  if (mesh.empty() != sol.empty())
+    throw InvalidArgument(std::string("background_mesh and background_sol name two files of one field, but only ") +
+                          (mesh.empty() ? "background_sol" : "background_mesh") + " is set");
+  return mesh.empty() ? set : read_background(mesh, sol);
 }
 
 // A message for each curve whose ends are nearer than eps_ends, which is sometimes an error (RT-0232 sec. 3.3).
@@ -195,6 +212,11 @@ void Session::set_prescription_source(std::shared_ptr<PrescriptionSource> source
   state_->prescription_source = std::move(source);
 }
 
+void Session::set_background(std::shared_ptr<BackgroundField> background) {
+  state_->background = std::move(background);
+}
+const BackgroundReport& Session::background_report() const noexcept { return state_->background_report; }
+
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
 
 void Session::set_model(Model model) {
@@ -223,6 +245,11 @@ bool Session::has_mesh() const noexcept { return state_->has_mesh; }
 const SurfaceMesh& Session::mesh() const {
   if (!state_->has_mesh) throw InvalidArgument("there is no mesh yet: make one first");
   return state_->result.mesh;
+}
+bool Session::has_previous_mesh() const noexcept { return state_->has_previous; }
+const SurfaceMesh& Session::previous_mesh() const {
+  if (!state_->has_previous) throw InvalidArgument("there is no mesh before this one: make a second one first");
+  return state_->previous;
 }
 const std::vector<double>& Session::vertex_sizes() const { return (void)mesh(), state_->result.vertex_size; }
 const CompositeReport& Session::report() const { return (void)mesh(), state_->result.report; }
@@ -257,7 +284,11 @@ void Session::make_mesh() {
     model = collapse_tiny_curves(model, traces, eps, &remarks);
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
   CompositeOptions options = composite_options(s.parameters, supports.diag);
-  options.size.sources = s.sources();
+  const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, s.background);
+  s.tried_background = background;
+  options.size.sources = s.sources(background.get());
+  for (PrescriptionSource* source : options.size.sources)
+    source->begin_run(static_cast<MetricLaw>(options.size.hinterpol_flag));
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, s.monitor);
   Topology topology =
@@ -270,11 +301,17 @@ void Session::make_mesh() {
     throw DomainError("no face could be meshed: " +
                       (failed != result.mesh.faces.end() ? failed->why : std::string("no reason is known")));
   }
+  for (const PrescriptionSource* source : options.size.sources)
+    for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);
+  s.background_report = background ? background->report() : BackgroundReport{};
+  s.has_previous = s.has_mesh;
+  s.previous = std::move(s.result.mesh);
   s.result = std::move(result);
   s.supports = std::move(supports);
   s.topology = std::move(topology);
   s.meshed_model = std::move(model);
   s.meshed_parameters = s.tried_parameters;
+  s.meshed_background = background;
   s.has_mesh = true;
   s.last_failed = false;
   describe_result(s.result, s.monitor);
@@ -292,7 +329,7 @@ std::vector<std::string> Session::write_fields(const std::string& path, const Fi
     set_parameter_boxes(s.meshed_model, s.supports, cad);
     FieldRun run{s.meshed_model, s.topology, &s.supports, &s.result, {}, s.meshed_parameters, diag};
     run.size = composite_options(s.meshed_parameters, diag).size;
-    run.size.sources = s.sources();
+    run.size.sources = s.sources(s.meshed_background.get());
     return carreau::write_fields(run, path, options, cad, s.monitor);
   }
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
@@ -308,7 +345,7 @@ std::vector<std::string> Session::write_fields(const std::string& path, const Fi
   FieldRun run{s.model, none, supports ? &*supports : nullptr, nullptr, {}, parameters, 0};
   run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
   run.size = composite_options(parameters, run.diag).size;
-  run.size.sources = s.sources();
+  run.size.sources = s.sources(s.last_failed ? s.tried_background.get() : s.background.get());
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 

@@ -13,6 +13,7 @@
 #include "model/model.h"
 #include "session/fields.h"
 #include "session/parameters.h"
+#include "size/background.h"
 #include "support/monitor.h"
 #include "surface/composite.h"
 
@@ -32,6 +33,11 @@ class Session {
   /// them (a background mesh). What both answer at a place is intersected. nullptr: none, as at the start.
   void set_metric_callbacks(std::shared_ptr<PrescriptionSource> source);
   void set_prescription_source(std::shared_ptr<PrescriptionSource> source);
+  /// A background mesh as that other source; the parameters background_mesh and background_sol come before it. nullptr:
+  /// none.
+  void set_background(std::shared_ptr<BackgroundField> background);
+  /// How the background mesh of the last make_mesh() was used; zero when there was none.
+  [[nodiscard]] const BackgroundReport& background_report() const noexcept;
   /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken.
   void set_model(Model model);
   void load_pardom(const std::string& path);
@@ -48,6 +54,9 @@ class Session {
   /// Throws InvalidArgument before the first make_mesh().
   [[nodiscard]] const SurfaceMesh& mesh() const;
   [[nodiscard]] bool has_mesh() const noexcept;
+  /// The mesh before mesh(): what fields are transferred from. Throws InvalidArgument before the second make_mesh().
+  [[nodiscard]] const SurfaceMesh& previous_mesh() const;
+  [[nodiscard]] bool has_previous_mesh() const noexcept;
   /// Size prescribed at each vertex of mesh().
   [[nodiscard]] const std::vector<double>& vertex_sizes() const;
   [[nodiscard]] const CompositeReport& report() const;

@@ -16,6 +16,9 @@ namespace {
 /// it (arcs of 60 degrees are 0.13 of their chord away from it).
 constexpr double outside_share = 0.125;
 
+/// Change from one vertex to the next above which a place is steep.
+constexpr double steep_ratio = 1.5;
+
 std::string vertex_name(std::size_t v) { return "the background mesh: vertex " + std::to_string(v) + " (from 0) "; }
 
 void check_geometry(const BackgroundMesh& mesh) {
@@ -74,7 +77,7 @@ void BackgroundField::check_values(std::size_t vertices) const {
 
 void BackgroundField::add_piece(int face, Piece piece) {
   if (piece.triangles.empty()) return;
-  piece.tree = TriangleTree(piece.vertices, piece.triangles);
+  piece.tree = TriangleSearch(piece.vertices, piece.triangles);
   planes_.emplace(face, std::move(piece));
 }
 
@@ -87,7 +90,7 @@ BackgroundField::BackgroundField(const BackgroundMesh& mesh)
   std::vector<std::int32_t> same(mesh.vertices.size());
   for (std::size_t v = 0; v < same.size(); ++v) same[v] = static_cast<std::int32_t>(v);
   if (mesh.dimension == 3) {
-    space_ = Piece{TriangleTree(mesh.vertices, mesh.triangles), mesh.vertices, mesh.triangles, std::move(same)};
+    space_ = Piece{TriangleSearch(mesh.vertices, mesh.triangles), mesh.vertices, mesh.triangles, std::move(same)};
     return;
   }
   std::map<int, std::vector<std::array<std::int32_t, 3>>> groups;
@@ -119,7 +122,7 @@ BackgroundField::BackgroundField(const SurfaceMesh& mesh, VertexValues values)
   // A face without triangles is looked up in space.
   needs_position_ = planes_.size() < mesh.faces.size();
   if (whole.triangles.empty()) throw InvalidArgument("the background mesh has no triangle");
-  whole.tree = TriangleTree(whole.vertices, whole.triangles);
+  whole.tree = TriangleSearch(whole.vertices, whole.triangles);
   space_ = std::move(whole);
 }
 
@@ -170,7 +173,24 @@ double BackgroundField::change(std::int32_t a, std::int32_t b) const {
   return std::max(r.largest, 1 / r.smallest);
 }
 
-std::vector<Vec2> BackgroundField::steep_places(int face, double ratio) const {
+// Values at vertices come from estimates, and their interpolation has a kink on every edge: what is finer than this
+// would be sampled for nothing.
+double BackgroundField::accuracy() const noexcept { return 0.05; }
+
+void BackgroundField::begin_run(MetricLaw law) {
+  law_ = law;
+  report_ = {};
+}
+
+std::vector<std::string> BackgroundField::remarks() const {
+  if (report_.asked == 0) return {"the background mesh was not asked: none of its triangles is for these faces"};
+  if (report_.outside == 0) return {};
+  return {std::to_string(report_.outside) + " of " + std::to_string(report_.asked) +
+          " points lie outside of the background mesh and have the nearest value; the farthest is " +
+          format_number(report_.farthest) + " away"};
+}
+
+std::vector<Vec2> BackgroundField::steep_places(int face) const {
   auto found = planes_.find(face);
   if (found == planes_.end()) found = planes_.find(0);
   if (found == planes_.end()) return {};
@@ -179,7 +199,7 @@ std::vector<Vec2> BackgroundField::steep_places(int face, double ratio) const {
   for (const auto& t : piece.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
-      if (change(piece.value[a], piece.value[b]) > ratio) steep[a] = steep[b] = 1;
+      if (change(piece.value[a], piece.value[b]) > steep_ratio) steep[a] = steep[b] = 1;
     }
   std::vector<Vec2> places;
   for (std::size_t v = 0; v < steep.size(); ++v)

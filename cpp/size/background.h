@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "mesh/surface_mesh.h"
-#include "mesh/triangle_tree.h"
+#include "mesh/triangle_search.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3.h"
 #include "metric/prescription.h"
@@ -60,28 +60,29 @@ class BackgroundField final : public PrescriptionSource {
   /// vertices in space. The surface is looked up in space for points only. Throws the same.
   BackgroundField(const SurfaceMesh& mesh, VertexValues values);
 
-  /// For sizes and metrics between vertices; linear at first.
-  void set_law(MetricLaw law) noexcept { law_ = law; }
-
   [[nodiscard]] std::string name() const override { return "the background mesh"; }
+  /// Forgets the report. The law is linear before the first run.
+  void begin_run(MetricLaw law) override;
+  /// The report in words.
+  [[nodiscard]] std::vector<std::string> remarks() const override;
   [[nodiscard]] bool needs_position() const noexcept override { return needs_position_; }
+  [[nodiscard]] double accuracy() const noexcept override;
   Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override;
   Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override;
   /// A plane mesh does not answer.
   Prescription at_point(int point, Vec3 xyz) override;
 
-  /// Since the object was made or clear_report() was called.
+  /// Since the last begin_run().
   [[nodiscard]] const BackgroundReport& report() const noexcept { return report_; }
-  void clear_report() noexcept { report_ = {}; }
 
-  /// Places in the parameter plane of a face where the field changes by more than `ratio` from one vertex to the next;
-  /// empty for a mesh in space.
-  [[nodiscard]] std::vector<Vec2> steep_places(int face, double ratio) const;
+  /// Vertices in the parameter plane of a face from which the field changes by more than a factor 1.5 to the next one;
+  /// none for a mesh in space.
+  [[nodiscard]] std::vector<Vec2> steep_places(int face) const override;
 
  private:
   /// Triangles of one parameter plane, or of space.
   struct Piece {
-    TriangleTree tree;
+    TriangleSearch tree;
     std::vector<Vec3> vertices;
     std::vector<std::array<std::int32_t, 3>> triangles;  // of vertices
     std::vector<std::int32_t> value;                     // of each vertex: index in values_

@@ -86,6 +86,23 @@ bool SizeRules::needs_positions() const noexcept {
                                        [](const PrescriptionSource* s) { return s->needs_position(); });
 }
 
+double SizeRules::source_accuracy() const noexcept {
+  double accuracy = 0;
+  if (asks_sources())
+    for (const PrescriptionSource* source : parameters_.sources) accuracy = std::max(accuracy, source->accuracy());
+  return accuracy;
+}
+
+std::vector<Vec2> SizeRules::steep_places(int face) const {
+  std::vector<Vec2> places;
+  if (!asks_sources()) return places;
+  for (const PrescriptionSource* source : parameters_.sources) {
+    const std::vector<Vec2> more = source->steep_places(model_.faces[static_cast<std::size_t>(face)].ref);
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  return places;
+}
+
 // ---- what is answered ----
 
 SizeRules::Answers SizeRules::answers_on_surface(int face, Vec2 uv, Vec3 xyz) {

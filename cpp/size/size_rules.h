@@ -82,6 +82,10 @@ class SizeRules {
   [[nodiscard]] bool uses_metrics() const noexcept {
     return (uses_curvature() && parameters_.geo_anisotropic) || asks_sources();
   }
+  /// What sources say of their own fields: the largest accuracy(), and the steep places of a face (index in
+  /// Model::faces).
+  [[nodiscard]] double source_accuracy() const noexcept;
+  [[nodiscard]] std::vector<Vec2> steep_places(int face) const;
   /// How sizes vary between two points where they are known (hinterpol_flag).
   [[nodiscard]] SizeLaw law() const noexcept { return static_cast<SizeLaw>(parameters_.hinterpol_flag); }
 

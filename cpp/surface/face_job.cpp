@@ -57,7 +57,11 @@ void FaceJob::step(Monitor& monitor) {
 
 void FaceJob::sample(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
-  if (input_.limits.field != nullptr) suspects_ = input_.limits.field->tips(input_.face);
+  suspects_ = rules_.steep_places(input_.face);
+  if (input_.limits.field != nullptr) {
+    const std::vector<Vec2> tips = input_.limits.field->tips(input_.face);
+    suspects_.insert(suspects_.end(), tips.begin(), tips.end());
+  }
   space_ = sample_face(input_, cad_, rules_, suspects_, monitor);
   refuse_beyond_limit(space_->measure());
   next_ = Step::mesh;

@@ -1,5 +1,7 @@
 #include "surface/face_mesher.h"
 
+#include <algorithm>
+
 #include "surface/face_metric.h"
 #include "surface/space_swaps.h"
 
@@ -43,7 +45,7 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, st
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;
-  space_options.tolerance = input.tolerance;
+  space_options.tolerance = std::max(input.tolerance, rules.source_accuracy());
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, space_options, monitor);
 }
 

@@ -115,6 +115,16 @@ contains
     if (phase < CARREAU_PHASE_IDLE .or. fraction < 0 .or. fraction > 1 .or. entity < 0) w%reports = -1000
   end function progress
 
+  function height(n, xyz, values, user) result(status) bind(c)
+    integer(c_int64_t), value :: n
+    real(c_double), intent(in) :: xyz(3, n)
+    real(c_double), intent(out) :: values(n)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    values = xyz(1, :)**2 - xyz(2, :)**2
+    status = merge(1, 0, c_associated(user))
+  end function height
+
   subroutine message(level, text, user) bind(c)
     integer(c_int32_t), value :: level
     type(c_ptr), value :: text, user
@@ -151,6 +161,7 @@ program fortran_test
   call test_same_mesh_as_in_c
   call test_callbacks_by_value_and_files
   call test_curve
+  call test_adaptation
   call test_errors
   if (failures > 0) stop 1
   print '(a)', 'fortran_test: all passed'
@@ -358,6 +369,64 @@ contains
     call expect(status == CARREAU_ERR_ARGUMENT, 'metrics of two rows are refused')
     call carreau_session_free(session)
   end subroutine test_curve
+
+  subroutine test_adaptation
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    type(carreau_estimator) :: estimator
+    type(carreau_adaptation_report) :: report
+    type(carreau_background_report) :: background
+    real(c_double), allocatable :: xyz(:, :), sizes(:), metrics(:, :), moved(:, :), now(:, :)
+    real(c_double) :: corners(2, 4), metric(3, 4)
+    integer(c_int32_t) :: status, halves(3, 2)
+    integer(c_int64_t) :: outside
+    call carreau_session_create(session, status)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status)
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', 0.5d0, status)
+    call carreau_mesh_generate(session, status)
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_vertices(mesh, xyz, status)
+    ! Sizes that halve those of the mesh, handed back.
+    allocate (sizes(size(xyz, 2)))
+    sizes = 0.25d0
+    call carreau_set_vertex_sizes(session, sizes, status)
+    call expect_ok(status, session, 'set_vertex_sizes')
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'mesh_generate')
+    call carreau_mesh_vertices(mesh, now, status)
+    call expect(size(now, 2) > 3 * size(xyz, 2), 'half the size, four times the vertices')
+    call carreau_transfer(session, xyz, moved, outside, status)
+    call expect_ok(status, session, 'transfer')
+    call expect(outside == 0 .and. all(abs(moved(1:2, :) - now(1:2, :)) < 1d-12), 'linear fields are carried over exactly')
+    estimator%tolerance = 0.1d0
+    estimator%shape = CARREAU_ANISOTROPIC
+    call carreau_estimate(session, estimator, now(3, :), sizes, metrics, status)
+    call expect_ok(status, session, 'estimate')
+    call expect(size(metrics, 2) == size(now, 2) .and. all(metrics(1, :) > 0), 'there is a metric at each vertex')
+    call carreau_set_vertex_metrics(session, metrics, status)
+    call expect_ok(status, session, 'set_vertex_metrics')
+    corners = reshape([-2.5d0, -2.5d0, 2.5d0, -2.5d0, 2.5d0, 2.5d0, -2.5d0, 2.5d0], [2, 4])
+    halves = reshape([1, 2, 3, 1, 3, 4], [3, 2])
+    metric = spread([16d0, 0d0, 16d0], 2, 4)
+    call carreau_set_background(session, corners, halves, status, faces=[1, 1], metrics=metric)
+    call expect_ok(status, session, 'set_background')
+    call carreau_mesh_generate(session, status)
+    call carreau_session_background(session, background, status)
+    call expect(background%asked > 0 .and. background%outside == 0, 'the background mesh covers the face')
+    call carreau_set_background(session, corners, halves, status, sizes=[1d0, 1d0])
+    call expect(status == CARREAU_ERR_ARGUMENT, 'two sizes for four vertices are refused')
+    call carreau_set_background_mesh(session, 'none.mesh', 'none.sol', status)
+    call expect(status == CARREAU_ERR_FILE, 'files that do not exist are told')
+    call carreau_clear_background(session, status)
+    estimator%shape = CARREAU_ISOTROPIC
+    estimator%hmin = 0.2d0
+    estimator%hmax = 1
+    call carreau_adapt(session, estimator, height, report, status, iterations=2)
+    call expect_ok(status, session, 'adapt')
+    call expect(report%iterations == 2 .and. report%triangles > 0 .and. report%error_max < 1, 'the loop reports')
+    call carreau_session_free(session)
+  end subroutine test_adaptation
 
   subroutine test_errors
     type(carreau_session) :: session

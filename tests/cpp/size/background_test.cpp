@@ -43,7 +43,7 @@ std::string sentence_of(const BackgroundMesh& mesh) {
   return "";
 }
 
-TEST(TriangleTree, FindsWhatAllTrianglesTogetherSay) {
+TEST(TriangleSearch, FindsWhatAllTrianglesTogetherSay) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> number(-1, 1);
   for (int round = 0; round < 30; ++round) {
@@ -54,13 +54,13 @@ TEST(TriangleTree, FindsWhatAllTrianglesTogetherSay) {
       const auto v = [&] { return static_cast<std::int32_t>(random() % 40); };
       triangles.push_back({v(), v(), v()});  // some of them flat
     }
-    const TriangleTree tree(vertices, triangles);
+    const TriangleSearch tree(vertices, triangles);
     for (int k = 0; k < 50; ++k) {
       const Vec3 p{2 * number(random), 2 * number(random), 2 * number(random)};
       const NearestOnMesh found = tree.nearest(p, static_cast<std::int32_t>(random() % 60));
       double least = 1e9;
       for (std::size_t i = 0; i < triangles.size(); ++i)
-        least = std::min(least, TriangleTree(vertices, {&triangles[i], 1}).nearest(p).distance);
+        least = std::min(least, TriangleSearch(vertices, {&triangles[i], 1}).nearest(p).distance);
       EXPECT_EQ(found.distance, least);
       EXPECT_EQ(norm(found.point - p), found.distance);
       // Nothing on a fine sample of the triangle that was found is nearer.
@@ -103,7 +103,9 @@ TEST(BackgroundField, PointsOutsideTakeTheNearestValueAndAreCounted) {
   EXPECT_DOUBLE_EQ(field.on_curve(1, 1, 0, {-1, -1}, {}).size, 1);
   EXPECT_DOUBLE_EQ(field.on_surface(1, {0.4, 0.4}, {}).size, 1.4);
   EXPECT_EQ(field.report(), (BackgroundReport{.asked = 4, .outside = 3, .farthest = 2.5}));
-  field.clear_report();
+  EXPECT_EQ(field.remarks(), (std::vector<std::string>{"3 of 4 points lie outside of the background mesh and have the "
+                                                       "nearest value; the farthest is 2.5 away"}));
+  field.begin_run(MetricLaw::linear);
   EXPECT_EQ(field.report(), BackgroundReport{});
 }
 
@@ -131,7 +133,7 @@ TEST(BackgroundField, LawsAreThoseOfTheInterpolationAlongEdges) {
   mesh.values.sizes = {1, 4, 9};
   BackgroundField field(mesh);
   for (const MetricLaw law : {MetricLaw::linear, MetricLaw::geometric, MetricLaw::sinusoidal}) {
-    field.set_law(law);
+    field.begin_run(law);
     for (double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       EXPECT_NEAR(field.on_surface(1, {t, 0}, {}).size, size_between(4, t, law), 1e-14);
       EXPECT_NEAR(field.on_surface(1, {0, t}, {}).size, size_between(9, t, law), 1e-14);
@@ -201,10 +203,11 @@ TEST(BackgroundField, SteepPlacesAreWhereTheFieldJumps) {
   BackgroundMesh mesh = grid(10, flat, 2);
   for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(p.x < 0.45 ? 1 : 5);
   const BackgroundField field(mesh);
-  const std::vector<Vec2> places = field.steep_places(1, 2);
+  const std::vector<Vec2> places = field.steep_places(1);
   EXPECT_EQ(places.size(), 22u);
   for (const Vec2 p : places) EXPECT_NEAR(p.x, 0.45, 0.0501);
-  EXPECT_TRUE(field.steep_places(1, 6).empty());
+  for (double& h : mesh.values.sizes) h = h > 1 ? 1.4 : h;
+  EXPECT_TRUE(BackgroundField(mesh).steep_places(1).empty());
 }
 
 TEST(BackgroundField, RefusesWhatItCannotUse) {

@@ -1,4 +1,4 @@
-#include "mesh/triangle_tree.h"
+#include "mesh/triangle_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,8 +53,8 @@ std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner)
 
 }  // namespace
 
-struct TriangleTree::Builder {
-  TriangleTree& tree;
+struct TriangleSearch::Builder {
+  TriangleSearch& tree;
   std::vector<Vec3> centre;
 
   void enclose(Box& box) const {
@@ -93,7 +93,7 @@ struct TriangleTree::Builder {
   }
 };
 
-TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles) {
+TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles) {
   if (triangles.empty()) return;
   Builder builder{*this, {}};
   for (const auto& t : triangles) {
@@ -112,7 +112,7 @@ TriangleTree::TriangleTree(std::span<const Vec3> vertices, std::span<const std::
     if (boxes_[b].count > leaf_size) builder.split(b);
 }
 
-double TriangleTree::squared_distance(const Box& box, Vec3 p) noexcept {
+double TriangleSearch::squared_distance(const Box& box, Vec3 p) noexcept {
   const auto beyond = [](double low, double x, double high) { return std::max({low - x, x - high, 0.0}); };
   const double x = beyond(box.low.x, p.x, box.high.x), y = beyond(box.low.y, p.y, box.high.y),
                z = beyond(box.low.z, p.z, box.high.z);
@@ -120,7 +120,7 @@ double TriangleTree::squared_distance(const Box& box, Vec3 p) noexcept {
 }
 
 /// `distance` of best is squared here.
-void TriangleTree::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept {
+void TriangleSearch::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept {
   const auto& c = corners_[static_cast<std::size_t>(triangle)];
   const std::array<double, 3> w = nearest_weights(p, c);
   const Vec3 point = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
@@ -129,7 +129,7 @@ void TriangleTree::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) c
   best = {triangle, w, point, squared};
 }
 
-NearestOnMesh TriangleTree::nearest(Vec3 p, std::int32_t guess) const noexcept {
+NearestOnMesh TriangleSearch::nearest(Vec3 p, std::int32_t guess) const noexcept {
   NearestOnMesh best;
   look_at(guess >= 0 && static_cast<std::size_t>(guess) < corners_.size() ? guess : 0, p, best);
   // The depth is the logarithm of the number of triangles: 64 pairs are more than memory can hold.
@@ -158,7 +158,7 @@ NearestOnMesh TriangleTree::nearest(Vec3 p, std::int32_t guess) const noexcept {
   return best;
 }
 
-double TriangleTree::longest_edge(std::int32_t triangle) const noexcept {
+double TriangleSearch::longest_edge(std::int32_t triangle) const noexcept {
   const auto& c = corners_[static_cast<std::size_t>(triangle)];
   return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
 }

@@ -21,11 +21,11 @@ struct NearestOnMesh {
 
 /// Boxes around triangles of space, halved down to a few triangles. Plane meshes have z = 0: a point of one lies in the
 /// triangle that is nearest. Copies what it is given. nearest() is safe from several threads.
-class TriangleTree {
+class TriangleSearch {
  public:
-  TriangleTree() = default;
+  TriangleSearch() = default;
   /// Indices lie in range, coordinates are finite. Flat triangles are segments or points.
-  TriangleTree(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles);
+  TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles);
 
   [[nodiscard]] bool empty() const noexcept { return corners_.empty(); }
   /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found

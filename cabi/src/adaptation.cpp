@@ -1,0 +1,263 @@
+#include "session/adaptation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "arguments.h"
+#include "guard.h"
+#include "metric/metric3_algebra.h"
+
+using carreau::EstimatorOptions;
+using carreau::FieldFunction;
+using carreau::InvalidArgument;
+using carreau::Metric2;
+using carreau::Metric3;
+using carreau::SurfaceMesh;
+using carreau::Vec3;
+using carreau::VertexPrescriptions;
+using carreau::VertexValues;
+using namespace carreau::abi;
+
+static_assert(int(carreau::ErrorSource::hessian) == CARREAU_HESSIAN);
+static_assert(int(carreau::ErrorSource::curvature) == CARREAU_CURVATURE);
+static_assert(int(carreau::ErrorSource::deformation) == CARREAU_DEFORMATION);
+static_assert(int(carreau::ErrorShape::isotropic) == CARREAU_ISOTROPIC);
+static_assert(int(carreau::ErrorShape::graph) == CARREAU_GRAPH);
+static_assert(int(carreau::ErrorShape::anisotropic) == CARREAU_ANISOTROPIC);
+
+namespace {
+
+constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+
+/// Order of the interface: xx xy xz yy yz zz.
+Metric3 metric_of(const double* m) { return {m[0], m[1], m[2], m[3], m[4], m[5]}; }
+
+std::vector<Metric3> metrics_of(const double* values, std::size_t n) {
+  std::vector<Metric3> metrics;
+  metrics.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) metrics.push_back(metric_of(values + 6 * i));
+  return metrics;
+}
+
+const SurfaceMesh& mesh_of(const carreau_session& handle) {
+  if (!handle.session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
+  return handle.session.mesh();
+}
+
+/// Throws unless `n` is the number of vertices of the mesh.
+std::size_t checked_rows(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
+  if (n >= 0 && std::uint64_t(n) == mesh.vertices.size()) return mesh.vertices.size();
+  throw InvalidArgument("there are " + std::to_string(n) + " rows, but the " + which + " has " +
+                        std::to_string(mesh.vertices.size()) + " vertices");
+}
+
+std::size_t checked_count(std::int64_t n, const char* name) {
+  if (n >= 0 && n <= most) return static_cast<std::size_t>(n);
+  throw InvalidArgument(std::string(name) + " is " + std::to_string(n) + "; it must lie between 0 and " +
+                        std::to_string(most));
+}
+
+carreau::BackgroundMesh background_mesh(const carreau_background& given) {
+  carreau::BackgroundMesh mesh;
+  mesh.dimension = given.dimension;
+  if (given.dimension != 2 && given.dimension != 3)
+    throw InvalidArgument("background->dimension is " + std::to_string(given.dimension) + "; it must be 2 or 3");
+  const std::size_t n = checked_count(given.vertex_count, "background->vertex_count");
+  const std::size_t m = checked_count(given.triangle_count, "background->triangle_count");
+  if ((given.sizes != nullptr) == (given.metrics != nullptr))
+    throw InvalidArgument(
+        "a background mesh has either sizes or metrics: one of background->sizes and "
+        "background->metrics must be NULL, the other not");
+  if (n > 0) required(given.vertices, "background->vertices");
+  if (m > 0) required(given.triangles, "background->triangles");
+  const auto width = static_cast<std::size_t>(given.dimension);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double* p = given.vertices + width * i;
+    mesh.vertices.push_back({p[0], p[1], width == 3 ? p[2] : 0});
+  }
+  for (std::size_t i = 0; i < m; ++i)
+    mesh.triangles.push_back({given.triangles[3 * i], given.triangles[3 * i + 1], given.triangles[3 * i + 2]});
+  if (given.faces != nullptr) {
+    if (width == 3) throw InvalidArgument("background->faces is for meshes of dimension 2 only");
+    mesh.faces.assign(given.faces, given.faces + m);
+  }
+  if (given.sizes != nullptr) {
+    mesh.values.sizes.assign(given.sizes, given.sizes + n);
+  } else if (width == 3) {
+    mesh.values.space = metrics_of(given.metrics, n);
+  } else {
+    for (std::size_t i = 0; i < n; ++i)
+      mesh.values.parameter.push_back(
+          Metric2{given.metrics[3 * i], given.metrics[3 * i + 1], given.metrics[3 * i + 2]});
+  }
+  return mesh;
+}
+
+void check_choice(const char* name, std::int32_t value) {
+  if (value < 0 || value > 2)
+    throw InvalidArgument(std::string(name) + " is " + std::to_string(value) + "; it must be 0, 1 or 2");
+}
+
+EstimatorOptions options_of(const carreau_estimator* estimator) {
+  const carreau_estimator known = read_struct(estimator, "estimator");
+  check_choice("estimator->source", known.source);
+  check_choice("estimator->shape", known.shape);
+  EstimatorOptions options;
+  options.source = static_cast<carreau::ErrorSource>(known.source);
+  options.shape = static_cast<carreau::ErrorShape>(known.shape);
+  options.relative = known.relative != 0;
+  if (known.tolerance != 0) options.tolerance = known.tolerance;
+  if (known.relative_floor != 0) options.relative_floor = known.relative_floor;
+  if (known.ratio != 0) options.ratio = known.ratio;
+  options.hmin = known.hmin;
+  options.hmax = known.hmax;
+  return options;
+}
+
+/// Positions as plain numbers: the callback's form.
+FieldFunction function_of(carreau_field_fn field, void* user, const carreau::Monitor& monitor) {
+  return [field, user, &monitor](std::span<const Vec3> points, std::span<double> values) {
+    std::vector<double> xyz;
+    constexpr std::size_t batch = 4096;
+    for (std::size_t from = 0; from < points.size(); from += batch) {
+      const std::size_t n = std::min(batch, points.size() - from);
+      xyz.clear();
+      for (const Vec3& p : points.subspan(from, n)) xyz.insert(xyz.end(), {p.x, p.y, p.z});
+      const std::int32_t status = field(std::int64_t(n), xyz.data(), values.data() + from, user);
+      if (monitor.stop_requested()) throw carreau::Cancelled("stopped by the host");
+      if (status != 0)
+        throw carreau::CallbackError({}, "the callback of the field returned the status " + std::to_string(status));
+    }
+  };
+}
+
+}  // namespace
+
+carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path, const char* sol_path) {
+  return guarded(session, [&] {
+    session->session.set_background(
+        carreau::read_background(required(mesh_path, "mesh_path"), required(sol_path, "sol_path")));
+  });
+}
+
+carreau_status carreau_set_background(carreau_session* session, const carreau_background* background) {
+  return guarded(session, [&] {
+    session->session.set_background(
+        std::make_shared<carreau::BackgroundField>(background_mesh(read_struct(background, "background"))));
+  });
+}
+
+carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double* sizes) {
+  return guarded(session, [&] {
+    const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
+    required(sizes, "sizes");
+    session->session.set_background(
+        carreau::background_of(session->session, {.sizes = {sizes, sizes + rows}, .space = {}, .parameter = {}}));
+  });
+}
+
+carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double* metrics) {
+  return guarded(session, [&] {
+    const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
+    session->session.set_background(carreau::background_of(
+        session->session, {.sizes = {}, .space = metrics_of(required(metrics, "metrics"), rows), .parameter = {}}));
+  });
+}
+
+carreau_status carreau_clear_background(carreau_session* session) {
+  return guarded(session, [&] { session->session.set_background(nullptr); });
+}
+
+carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report) {
+  return guarded(session, [&] {
+    mesh_of(*session);
+    const carreau::BackgroundReport& report = session->session.background_report();
+    carreau_background_report result{};
+    result.asked = report.asked;
+    result.outside = report.outside;
+    result.farthest = report.farthest;
+    write_struct(result, out_report, "out_report");
+  });
+}
+
+carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
+                                const double* values, double* out_sizes, double* out_metrics) {
+  return guarded(session, [&] {
+    const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
+    const EstimatorOptions options = options_of(estimator);
+    if (out_sizes == nullptr && out_metrics == nullptr)
+      throw InvalidArgument("neither out_sizes nor out_metrics is given: there is no place for the result");
+    if (options.shape != carreau::ErrorShape::isotropic && out_metrics == nullptr)
+      throw InvalidArgument("the shape of the estimator gives metrics, but out_metrics is NULL");
+    const VertexPrescriptions wanted =
+        carreau::estimate_on_mesh(session->session, std::span(required(values, "values"), rows), options);
+    for (std::size_t v = 0; v < rows; ++v) {
+      const bool sized = !wanted.sizes.empty();
+      const Metric3 m = sized ? carreau::isotropic_metric3(wanted.sizes[v]) : wanted.metrics[v];
+      if (out_metrics != nullptr) {
+        const std::array<double, 6> row{m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+        std::copy(row.begin(), row.end(), out_metrics + 6 * v);
+      }
+      if (out_sizes != nullptr) out_sizes[v] = sized ? wanted.sizes[v] : 1 / std::sqrt(carreau::eigen(m).value[0]);
+    }
+  });
+}
+
+carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n, const double* values,
+                                int64_t capacity, double* out_values, int64_t* out_outside) {
+  return guarded(session, [&] {
+    const SurfaceMesh& to = mesh_of(*session);
+    if (!session->session.has_previous_mesh())
+      throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh before this one: fields are transferred from it");
+    const SurfaceMesh& from = session->session.previous_mesh();
+    const std::size_t rows = checked_rows(n, from, "mesh before this one");
+    if (components < 1)
+      throw InvalidArgument("components is " + std::to_string(components) + "; a field has one component at least");
+    check_capacity(capacity, to.vertices.size(), "vertices");
+    required(out_values, "out_values");
+    const auto width = static_cast<std::size_t>(components);
+    const carreau::TransferredField result =
+        carreau::transfer_field(from, to, std::span(required(values, "values"), rows * width), width);
+    std::copy(result.values.begin(), result.values.end(), out_values);
+    if (out_outside != nullptr) *out_outside = result.outside;
+  });
+}
+
+carreau_status carreau_adapt(carreau_session* session, const carreau_adaptation* adaptation,
+                             carreau_adaptation_report* out_report) {
+  return guarded(session, [&] {
+    const carreau_adaptation known = read_struct(adaptation, "adaptation");
+    carreau_adaptation_report result{};
+    if (out_report != nullptr) write_struct(result, out_report, "out_report");  // a wrong size is found before the work
+    if (!session->has_cad)
+      throw StatusError(CARREAU_ERR_SEQUENCE,
+                        "no geometry is registered: call carreau_set_cad or carreau_set_cad_m first");
+    if (session->model().faces.empty()) throw StatusError(CARREAU_ERR_SEQUENCE, "the model has no face yet");
+    carreau::AdaptationOptions options;
+    options.estimator = options_of(known.estimator);
+    options.differences = known.differences != 0;
+    if (known.iterations != 0) options.iterations = known.iterations;
+    options.convergence = known.convergence;
+    const FieldFunction field = function_of(required(known.field, "adaptation->field"), known.user, session->monitor);
+    session->monitor.clear_stop();
+    session->commit_model();
+    const carreau::AdaptationReport report = carreau::adapt(session->session, field, options, session->monitor);
+    const carreau::AdaptationStep &first = report.steps.front(), &last = report.steps.back();
+    result.iterations = std::int32_t(report.steps.size()) - 1;
+    result.converged = report.converged ? 1 : 0;
+    result.vertices = last.vertices;
+    result.triangles = last.triangles;
+    result.triangles_before = first.triangles;
+    result.error_max = last.error.largest;
+    result.error_rms = last.error.rms;
+    result.error_max_before = first.error.largest;
+    result.error_rms_before = first.error.rms;
+    result.size_min = last.smallest_size;
+    result.stretch_max = last.largest_stretch;
+    result.outside = last.background.outside;
+    if (out_report != nullptr) write_struct(result, out_report, "out_report");
+    report_failed_faces(session->session);
+  });
+}

@@ -1,0 +1,156 @@
+#include "adapt/transfer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "mesh/triangle_search.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr double outside_share = 0.125;  // as for background meshes
+
+/// Triangles to be looked up, with the vertices of the mesh that carry the values.
+struct Piece {
+  TriangleSearch tree;
+  std::vector<std::array<std::int32_t, 3>> carriers;
+  std::int32_t last = 0;
+};
+
+Piece piece_of(const FaceMesh& face) {
+  std::vector<Vec3> vertices;
+  for (const Vec2 p : face.uv) vertices.push_back({p.x, p.y, 0});
+  std::vector<std::array<std::int32_t, 3>> triangles = face.triangles;
+  triangles.insert(triangles.end(), face.flattened.begin(), face.flattened.end());
+  Piece piece;
+  for (const auto& t : triangles) {
+    const auto global = [&](std::size_t k) { return face.vertex[static_cast<std::size_t>(t[k])]; };
+    piece.carriers.push_back({global(0), global(1), global(2)});
+  }
+  piece.tree = TriangleSearch(vertices, triangles);
+  return piece;
+}
+
+Piece piece_of(const SurfaceMesh& mesh) {
+  Piece piece;
+  for (const FaceMesh& face : mesh.faces)
+    for (const auto& t : face.triangles) {
+      const auto global = [&](std::size_t k) { return face.vertex[static_cast<std::size_t>(t[k])]; };
+      piece.carriers.push_back({global(0), global(1), global(2)});
+    }
+  piece.tree = TriangleSearch(mesh.vertices, piece.carriers);
+  return piece;
+}
+
+class Transfer {
+ public:
+  Transfer(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values, std::size_t components)
+      : from_(from), to_(to), values_(values), components_(components) {
+    result_.values.assign(to.vertices.size() * components, 0);
+    done_.assign(to.vertices.size(), 0);
+  }
+
+  TransferredField run() {
+    std::map<int, const FaceMesh*> old_faces;
+    for (const FaceMesh& face : from_.faces)
+      if (!face.triangles.empty()) old_faces.emplace(face.ref, &face);
+    for (const FaceMesh& face : to_.faces) {
+      const auto old = old_faces.find(face.ref);
+      if (old == old_faces.end()) continue;
+      Piece piece = piece_of(*old->second);
+      for (std::size_t i = 0; i < face.vertex.size(); ++i)
+        look_up(piece, {face.uv[i].x, face.uv[i].y, 0}, static_cast<std::size_t>(face.vertex[i]));
+    }
+    if (std::find(done_.begin(), done_.end(), 0) != done_.end()) {
+      Piece whole = piece_of(from_);
+      for (std::size_t v = 0; v < done_.size(); ++v) look_up(whole, to_.vertices[v], v);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void look_up(Piece& piece, Vec3 p, std::size_t vertex) {
+    if (done_[vertex] != 0) return;
+    done_[vertex] = 1;
+    const NearestOnMesh found = piece.tree.nearest(p, piece.last);
+    piece.last = found.triangle;
+    if (found.distance > outside_share * piece.tree.longest_edge(found.triangle)) {
+      ++result_.outside;
+      result_.farthest = std::max(result_.farthest, found.distance);
+    }
+    const auto& carrier = piece.carriers[static_cast<std::size_t>(found.triangle)];
+    for (std::size_t c = 0; c < components_; ++c) {
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        sum += found.weight[k] * values_[static_cast<std::size_t>(carrier[k]) * components_ + c];
+      result_.values[vertex * components_ + c] = sum;
+    }
+  }
+
+  const SurfaceMesh& from_;
+  const SurfaceMesh& to_;
+  std::span<const double> values_;
+  std::size_t components_;
+  std::vector<char> done_;
+  TransferredField result_;
+};
+
+}  // namespace
+
+TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
+                                std::size_t components) {
+  if (components == 0) throw InvalidArgument("a field to be transferred has one component at least");
+  if (values.size() != from.vertices.size() * components)
+    throw InvalidArgument("a field to be transferred has " + std::to_string(values.size()) +
+                          " values; the old mesh has " + std::to_string(from.vertices.size()) + " vertices, with " +
+                          std::to_string(components) + " values each");
+  if (from.triangle_count() == 0) throw InvalidArgument("a field cannot be transferred from a mesh without triangles");
+  return Transfer(from, to, values, components).run();
+}
+
+InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact) {
+  check_field(field);
+  // Three middles and the centre of each triangle.
+  std::vector<Vec3> points;
+  std::vector<double> linear;
+  points.reserve(4 * field.triangles.size());
+  linear.reserve(4 * field.triangles.size());
+  for (const auto& t : field.triangles) {
+    const auto p = [&](std::size_t k) { return field.vertices[static_cast<std::size_t>(t[k % 3])]; };
+    const auto f = [&](std::size_t k) { return field.values[static_cast<std::size_t>(t[k % 3])]; };
+    for (std::size_t k = 0; k < 3; ++k) {
+      points.push_back(0.5 * (p(k) + p(k + 1)));
+      linear.push_back(0.5 * (f(k) + f(k + 1)));
+    }
+    points.push_back((1.0 / 3) * (p(0) + p(1) + p(2)));
+    linear.push_back((f(0) + f(1) + f(2)) / 3);
+  }
+  std::vector<double> values(points.size());
+  exact(points, values);
+  InterpolationError error;
+  double area = 0, squares = 0;
+  for (std::size_t i = 0; i < field.triangles.size(); ++i) {
+    const auto& t = field.triangles[i];
+    const Vec3 p = field.vertices[static_cast<std::size_t>(t[0])];
+    const double a = 0.5 * norm(cross(field.vertices[static_cast<std::size_t>(t[1])] - p,
+                                      field.vertices[static_cast<std::size_t>(t[2])] - p));
+    area += a;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double value = values[4 * i + k];
+      if (!std::isfinite(value)) throw InvalidArgument("the field at a point is " + format_number(value));
+      const double away = std::abs(value - linear[4 * i + k]);
+      error.largest = std::max(error.largest, away);
+      if (k < 3) squares += a / 3 * away * away;
+    }
+  }
+  error.rms = area > 0 ? std::sqrt(squares / area) : 0;
+  return error;
+}
+
+}  // namespace carreau

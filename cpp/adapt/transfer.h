@@ -1,0 +1,36 @@
+// From one mesh to the next: values at vertices, and how well a mesh carries a field.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "adapt/differences.h"
+#include "adapt/scalar_field.h"
+#include "mesh/surface_mesh.h"
+
+namespace carreau {
+
+struct TransferredField {
+  std::vector<double> values;  ///< vertex by vertex of the new mesh, components together
+  std::int64_t outside = 0;    ///< vertices beside the old mesh by more than 1/8 of an edge; the nearest value holds
+  double farthest = 0;         ///< distance of the farthest one, parameter length (model length: see below)
+};
+
+/// Interpolates linearly, from vertices of `from` to vertices of `to`, two meshes of one model. Each vertex is looked
+/// up in the parameter plane of a face that both meshes have, so sheets that touch in space are not mixed up; in space
+/// when there is none. Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`,
+/// or when `from` has no triangle.
+TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
+                                std::size_t components);
+
+/// Distance between a field and its linear interpolation on a mesh, in the field's unit.
+struct InterpolationError {
+  double largest = 0;  ///< at the centres of triangles and the middles of edges
+  double rms = 0;      ///< root of the mean square over the area, by the middles of edges (exact to degree 2)
+};
+/// Throws what check_field throws; InvalidArgument when the function returns a number that is not finite.
+InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact);
+
+}  // namespace carreau

@@ -1,0 +1,61 @@
+// The loop of RR-2928 sec. 2.2 and HDR sec. 1.2: mesh, estimate, a new field on the mesh's vertices, mesh again.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "adapt/estimators.h"
+#include "adapt/transfer.h"
+#include "session/session.h"
+#include "size/background.h"
+
+namespace carreau {
+
+/// A mesh file (`.mesh`, `.meshb`) with a solution file (`.sol`, `.solb`) of sizes or metrics. A mesh of dimension 3 is
+/// a surface in space; the triangles of one of dimension 2 lie in the parameter planes of the faces that their
+/// references name (0: any). Throws FileError; names the file, and the line or byte where there is one.
+std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path);
+
+/// The session's mesh with sizes or metrics at its vertices, to be used for the next one.
+std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);
+
+/// Sizes or metrics from values at the vertices of the session's mesh. Bounds of 0 are replaced by hphymin and hphymax.
+VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options);
+/// The same from the field itself: see estimate_function().
+VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options);
+
+struct AdaptationOptions {
+  EstimatorOptions estimator;  ///< bounds of 0 are replaced by hphymin and hphymax
+  /// Derivatives of the field itself by differences (meshes of the plane z = 0), in place of those recovered from its
+  /// values at the vertices.
+  bool differences = false;
+  int iterations = 5;  ///< at most; > 0
+  /// Ends when the number of triangles changes by less than this share; 0: never.
+  double convergence = 0.01;
+};
+
+/// A mesh of the loop.
+struct AdaptationStep {
+  std::int64_t vertices = 0, triangles = 0;
+  InterpolationError error;     ///< of the field on that mesh
+  double smallest_size = 0;     ///< prescribed for that mesh; 0 for the first one
+  double largest_stretch = 1;   ///< of prescribed metrics, in the tangent plane
+  BackgroundReport background;  ///< of that run
+};
+
+struct AdaptationReport {
+  std::vector<AdaptationStep> steps;  ///< the first is that of the mesh that the loop started with
+  bool converged = false;
+};
+
+/// Adapts the session's mesh to a field; makes one first when there is none, by the parameters alone. The session keeps
+/// the last mesh that was made, also when this throws, and has no background mesh afterwards. Where hphymin or hphymax
+/// is not set, the runs take the bounds of what the estimator prescribes. Throws InvalidArgument (options; hphy_flag =
+/// 0: sizes would be ignored), what make_mesh() throws, and what `field` throws.
+AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
+                       Monitor& monitor);
+
+}  // namespace carreau

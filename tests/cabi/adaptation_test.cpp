@@ -1,0 +1,406 @@
+// Background meshes, estimators, transfer and the loop of adaptation through the interface.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "abi_fixture.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The square [-1, 1]^2 of the plane z = 0.
+int32_t plane(int32_t, double u, double v, int32_t order, double* S, double* Su, double* Sv, double* Suu, double* Suv,
+              double* Svv, void*) {
+  S[0] = u, S[1] = v, S[2] = 0;
+  if (order >= 1) Su[0] = Sv[1] = 1, Su[1] = Su[2] = Sv[0] = Sv[2] = 0;
+  if (order >= 2)
+    for (int k = 0; k < 3; ++k) Suu[k] = Suv[k] = Svv[k] = 0;
+  return 0;
+}
+int32_t interval(int32_t, int32_t, double* a, double* b, void*) { return *a = -1, *b = 1, 0; }
+int32_t side(int32_t, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt, void*) {
+  const double sign = ic <= 2 ? 1 : -1;
+  const int along = ic % 2 == 1 ? 0 : 1;
+  C[along] = sign * t, C[1 - along] = ic == 2 || ic == 3 ? 1 : -1;
+  if (order >= 1) Ct[along] = sign, Ct[1 - along] = 0;
+  if (order >= 2) Ctt[0] = Ctt[1] = 0;
+  return 0;
+}
+
+struct Field {
+  std::function<double(double, double)> at;
+  int32_t status = 0;
+  carreau_session* stop = nullptr;
+  int64_t calls = 0;
+};
+int32_t evaluate(int64_t n, const double* xyz, double* values, void* user) {
+  auto& field = *static_cast<Field*>(user);
+  ++field.calls;
+  for (int64_t i = 0; i < n; ++i) values[i] = field.at(xyz[3 * i], xyz[3 * i + 1]);
+  if (field.stop != nullptr) carreau_stop(field.stop);
+  return field.status;
+}
+
+class Adaptation : public abi_tests::SessionTest {
+ protected:
+  void SetUp() override {
+    SessionTest::SetUp();
+    auto cad = abi_tests::sized<carreau_cad>();
+    cad.surface_order = cad.curve_order = 2;
+    cad.surface = plane;
+    cad.curve_interval = interval;
+    cad.curve = side;
+    ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+    ASSERT_EQ(carreau_model_add_face(session, 1, 1), CARREAU_OK);
+    for (int32_t ic = 1; ic <= 4; ++ic)
+      ASSERT_EQ(carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, ic, ic, ic % 4 + 1), CARREAU_OK);
+    set("hphydef", 0.2);
+    set("hphymin", 1e-3);
+    folder = fs::temp_directory_path() / ("carreau adaptation " + std::to_string(std::random_device{}()));
+    fs::create_directories(folder);
+  }
+  void TearDown() override {
+    SessionTest::TearDown();
+    std::error_code ignored;
+    fs::remove_all(folder, ignored);
+  }
+
+  void set(const char* name, double value) { ASSERT_EQ(carreau_set_real(session, name, value), CARREAU_OK); }
+  abi_tests::MeshData run() {
+    EXPECT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    EXPECT_EQ(abi_tests::defects_of(mesh()), "");
+    return abi_tests::data_of(mesh());
+  }
+  carreau_background_report background_report() {
+    auto report = abi_tests::sized<carreau_background_report>();
+    EXPECT_EQ(carreau_session_background(session, &report), CARREAU_OK) << error();
+    return report;
+  }
+  std::string file(const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  }
+  /// A background mesh of the square, in two triangles.
+  carreau_background square(int dimension) {
+    auto b = abi_tests::sized<carreau_background>();
+    b.dimension = dimension;
+    b.vertex_count = 4;
+    b.triangle_count = 2;
+    b.vertices = dimension == 3 ? xyz : xy;
+    b.triangles = triangles;
+    return b;
+  }
+  carreau_adaptation adaptation(const carreau_estimator& estimator, Field& field) {
+    auto a = abi_tests::sized<carreau_adaptation>();
+    a.estimator = &estimator;
+    a.field = evaluate;
+    a.user = &field;
+    return a;
+  }
+
+  const double xyz[12] = {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0}, xy[8] = {-1, -1, 1, -1, 1, 1, -1, 1};
+  const int32_t triangles[6] = {0, 1, 2, 0, 2, 3};
+  fs::path folder;
+};
+
+/// Unit triangles that a density of sizes wants over the square: integral of dx dy / (h1 h2) over sqrt(3) / 4.
+double wanted(const std::function<double(double)>& h1h2_of_x) {
+  double sum = 0;
+  for (int i = 0; i < 1000; ++i) sum += 2 * 0.002 / h1h2_of_x(-1 + 0.002 * (i + 0.5));
+  return sum / (std::sqrt(3.0) / 4);
+}
+
+TEST_F(Adaptation, SizesOfABackgroundMeshAreFollowed) {
+  const double sizes[4] = {0.05, 0.2, 0.2, 0.05};
+  for (const int dimension : {2, 3}) {
+    carreau_background b = square(dimension);
+    b.sizes = sizes;
+    ASSERT_EQ(carreau_set_background(session, &b), CARREAU_OK) << error();
+    const auto data = run();
+    const double expected = wanted([](double x) { return std::pow(0.125 + 0.075 * x, 2); });
+    EXPECT_NEAR(double(data.triangle_count()) / expected, 1, 0.08);
+    for (std::size_t v = 0; v < data.vertex_count(); ++v)
+      EXPECT_NEAR(data.sizes[v], 0.125 + 0.075 * data.xyz[3 * v], 0.012);
+    EXPECT_GT(background_report().asked, 100);
+    EXPECT_EQ(background_report().outside, 0);
+  }
+  const std::size_t with = run().triangle_count();
+  ASSERT_EQ(carreau_clear_background(session), CARREAU_OK);
+  EXPECT_LT(run().triangle_count(), with / 2);
+  EXPECT_EQ(background_report().asked, 0);
+}
+
+TEST_F(Adaptation, MetricsOfABackgroundMeshAreFollowed) {
+  // Sizes 0.03 and 0.3, turned by 30 degrees.
+  const double c = std::cos(0.5235987755982988), s = std::sin(0.5235987755982988), p = 1 / 0.0009, q = 1 / 0.09;
+  const double xx = p * c * c + q * s * s, xy_ = (p - q) * c * s, yy = p * s * s + q * c * c;
+  std::vector<double> space, parameter;
+  for (int i = 0; i < 4; ++i) {
+    space.insert(space.end(), {xx, xy_, 0, yy, 0, 100});
+    parameter.insert(parameter.end(), {xx, xy_, yy});
+  }
+  for (const int dimension : {2, 3}) {
+    carreau_background b = square(dimension);
+    b.metrics = dimension == 2 ? parameter.data() : space.data();
+    ASSERT_EQ(carreau_set_background(session, &b), CARREAU_OK) << error();
+    const auto data = run();
+    EXPECT_NEAR(double(data.triangle_count()) / wanted([](double) { return 0.009; }), 1, 0.1);
+    double sum = 0;
+    for (std::size_t t = 0; t < data.triangles.size(); ++t) {
+      const auto from = std::size_t(data.triangles[t]), to = std::size_t(data.triangles[t % 3 == 2 ? t - 2 : t + 1]);
+      const double dx = data.xyz[3 * to] - data.xyz[3 * from], dy = data.xyz[3 * to + 1] - data.xyz[3 * from + 1];
+      sum += std::sqrt(xx * dx * dx + 2 * xy_ * dx * dy + yy * dy * dy);
+    }
+    EXPECT_NEAR(sum / double(data.triangles.size()), 1, 0.05) << "mean length of edges in the metric";
+  }
+}
+
+TEST_F(Adaptation, FilesAreReadAndTheirErrorsName) {
+  set("hphydef", 0.5);
+  run();
+  const std::string mesh_path = (folder / "old.mesh").string();
+  ASSERT_EQ(carreau_mesh_write(mesh(), mesh_path.c_str()), CARREAU_OK);
+  const std::size_t n = abi_tests::data_of(mesh()).vertex_count();
+  const auto sol = [&](std::size_t count, const std::string& type, const std::string& value, int dimension = 3) {
+    std::string text = "MeshVersionFormatted 2\nDimension " + std::to_string(dimension) + "\nSolAtVertices\n" +
+                       std::to_string(count) + "\n" + type + "\n";
+    for (std::size_t i = 0; i < count; ++i) text += value + "\n";
+    return file("x.sol", text + "End\n");
+  };
+  const auto set_files = [&](const std::string& path) {
+    return carreau_set_background_mesh(session, mesh_path.c_str(), path.c_str());
+  };
+  ASSERT_EQ(set_files(sol(n, "1 1", "0.1")), CARREAU_OK) << error();
+  EXPECT_NEAR(double(run().triangle_count()) / wanted([](double) { return 0.01; }), 1, 0.1);
+  // A wrong file leaves the background mesh as it was.
+  const std::string path = (folder / "x.sol").string();
+  EXPECT_EQ(set_files(sol(n + 1, "1 1", "0.1")), CARREAU_ERR_FILE);
+  EXPECT_EQ(error(), path + ": it has values at " + std::to_string(n + 1) + " vertices, but " + mesh_path + " has " +
+                         std::to_string(n));
+  EXPECT_EQ(set_files(sol(n, "1 2", "0.1 0 0")), CARREAU_ERR_FILE);
+  EXPECT_NE(error().find("x.sol, line 5: the values are vectors"), std::string::npos) << error();
+  EXPECT_EQ(set_files(sol(n, "1 1", "nan")), CARREAU_ERR_FILE);
+  EXPECT_NE(error().find("x.sol, line 6: a value is not finite"), std::string::npos) << error();
+  EXPECT_EQ(set_files(sol(n, "1 3", "1 2 1 0 0 1")), CARREAU_ERR_FILE);
+  EXPECT_NE(error().find("x.sol, line 6: vertex 1 has a metric that is not positive definite"), std::string::npos);
+  EXPECT_EQ(set_files(sol(n, "1 1", "0.1", 2)), CARREAU_ERR_FILE);
+  EXPECT_NE(error().find("its dimension is 2"), std::string::npos) << error();
+  EXPECT_EQ(set_files((folder / "none.sol").string()), CARREAU_ERR_FILE);
+  const std::string empty = file("empty.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 0\nTriangles 0\nEnd\n");
+  sol(0, "1 1", "1");
+  EXPECT_EQ(carreau_set_background_mesh(session, empty.c_str(), path.c_str()), CARREAU_ERR_FILE);
+  EXPECT_EQ(error(), empty + ": a background mesh needs triangles; it has none");
+  EXPECT_EQ(carreau_set_background_mesh(session, nullptr, path.c_str()), CARREAU_ERR_ARGUMENT);
+  EXPECT_NEAR(double(run().triangle_count()) / wanted([](double) { return 0.01; }), 1, 0.1);
+}
+
+TEST_F(Adaptation, ParametersNameFilesAndEnvFilesFindThemBesideThem) {
+  file("b.mesh",
+       "MeshVersionFormatted 2\nDimension 2\nVertices 4\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\nTriangles 2\n"
+       "1 2 3 1\n1 3 4 1\nEnd\n");
+  file("b.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices 4\n1 1\n0.1 0.1 0.1 0.1\nEnd\n");
+  const std::string env = file("blsurf.env",
+                               "background_mesh b.mesh background_sol b.sol\ncall inimesh\n"
+                               "background_mesh b.mesh\ncall inimesh\n");
+  // The second action forgets one of the two.
+  EXPECT_EQ(carreau_run_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("background_mesh and background_sol name two files of one field, but only background_mesh"),
+            std::string::npos)
+      << error();
+  EXPECT_NEAR(double(abi_tests::data_of(mesh()).triangle_count()) / wanted([](double) { return 0.01; }), 1, 0.1);
+  EXPECT_GT(background_report().asked, 100);
+}
+
+TEST_F(Adaptation, PointsOutsideAreCounted) {
+  carreau_background b = square(2);
+  const double half[8] = {-1, -1, 0, -1, 0, 1, -1, 1}, sizes[4] = {0.1, 0.1, 0.1, 0.1};
+  b.vertices = half;
+  b.sizes = sizes;
+  ASSERT_EQ(carreau_set_background(session, &b), CARREAU_OK);
+  EXPECT_NEAR(double(run().triangle_count()) / wanted([](double) { return 0.01; }), 1, 0.1);
+  const carreau_background_report report = background_report();
+  EXPECT_GT(report.outside, report.asked / 5);
+  EXPECT_LT(report.outside, report.asked);
+  EXPECT_NEAR(report.farthest, 1, 1e-12);
+}
+
+TEST_F(Adaptation, SizesAreHandedBackOnTheSessionsMesh) {
+  const auto first = run();
+  std::vector<double> sizes(first.vertex_count(), 0.05), metrics;
+  for (std::size_t v = 0; v < first.vertex_count(); ++v) metrics.insert(metrics.end(), {400, 0, 0, 25, 0, 400});
+  const auto n = int64_t(first.vertex_count());
+  EXPECT_EQ(carreau_set_vertex_sizes(session, n - 1, sizes.data()), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_set_vertex_sizes(session, n, sizes.data()), CARREAU_OK) << error();
+  EXPECT_NEAR(double(run().triangle_count()) / wanted([](double) { return 0.0025; }), 1, 0.06);
+  std::vector<double> bad = metrics;
+  bad.resize(6 * abi_tests::data_of(mesh()).vertex_count(), 1);
+  EXPECT_EQ(carreau_set_vertex_metrics(session, int64_t(bad.size() / 6), bad.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("has a metric that is not positive definite"), std::string::npos) << error();
+  ASSERT_EQ(carreau_clear_background(session), CARREAU_OK);
+  run();
+  ASSERT_EQ(carreau_set_vertex_metrics(session, n, metrics.data()), CARREAU_OK) << error();
+  EXPECT_NEAR(double(run().triangle_count()) / wanted([](double) { return 0.05 * 0.2; }), 1, 0.1);
+}
+
+TEST_F(Adaptation, FieldsAreTransferredFromTheMeshBefore) {
+  double value = 0;
+  EXPECT_EQ(carreau_transfer(session, 1, 1, &value, 1, &value, nullptr), CARREAU_ERR_SEQUENCE);
+  const auto old = run();
+  EXPECT_EQ(carreau_transfer(session, 1, int64_t(old.vertex_count()), old.xyz.data(), 1, &value, nullptr),
+            CARREAU_ERR_SEQUENCE);
+  EXPECT_EQ(error(), "there is no mesh before this one: fields are transferred from it");
+  set("hphydef", 0.07);
+  const auto now = run();
+  // Coordinates are a linear field: the interpolation is exact.
+  std::vector<double> moved(now.xyz.size());
+  int64_t outside = -1;
+  ASSERT_EQ(carreau_transfer(session, 3, int64_t(old.vertex_count()), old.xyz.data(), int64_t(now.vertex_count()),
+                             moved.data(), &outside),
+            CARREAU_OK)
+      << error();
+  EXPECT_EQ(outside, 0);
+  for (std::size_t i = 0; i < moved.size(); ++i) EXPECT_NEAR(moved[i], now.xyz[i], 1e-14);
+  EXPECT_EQ(carreau_transfer(session, 3, int64_t(old.vertex_count()), old.xyz.data(), 1, moved.data(), nullptr),
+            CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_transfer(session, 3, 7, old.xyz.data(), int64_t(now.vertex_count()), moved.data(), nullptr),
+            CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("mesh before this one"), std::string::npos) << error();
+}
+
+TEST_F(Adaptation, EstimatesOfAQuadraticAreExact) {
+  const auto data = run();
+  const auto n = int64_t(data.vertex_count());
+  std::vector<double> values, sizes(data.vertex_count()), metrics(6 * data.vertex_count());
+  for (std::size_t v = 0; v < data.vertex_count(); ++v) {
+    const double x = data.xyz[3 * v], y = data.xyz[3 * v + 1];
+    values.push_back(2 * x * x + 0.5 * y * y);
+  }
+  auto estimator = abi_tests::sized<carreau_estimator>();
+  estimator.tolerance = 0.01;
+  estimator.hmin = 1e-3, estimator.hmax = 10;
+  ASSERT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), nullptr), CARREAU_OK) << error();
+  for (const double h : sizes) EXPECT_NEAR(h, std::sqrt(4.5 * 0.01 / 4), 1e-8);  // 2/9 M h^2 (HDR eq. 3.3)
+  estimator.shape = CARREAU_ANISOTROPIC;
+  EXPECT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), nullptr), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), metrics.data()), CARREAU_OK);
+  for (std::size_t v = 0; v < sizes.size(); ++v) {
+    EXPECT_NEAR(metrics[6 * v], 4 / 0.045, 1e-5);
+    EXPECT_NEAR(metrics[6 * v + 1], 0, 1e-5);
+    EXPECT_NEAR(metrics[6 * v + 3], 1 / 0.045, 1e-5);
+    EXPECT_NEAR(sizes[v], std::sqrt(0.045 / 4), 1e-8);
+  }
+  estimator.source = 3;
+  EXPECT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), metrics.data()),
+            CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(error(), "estimator->source is 3; it must be 0, 1 or 2");
+}
+
+TEST_F(Adaptation, TheLoopHalvesTheErrorWithTheTolerance) {
+  Field field{[](double x, double y) { return std::tanh(10 * (y - 0.3 * std::sin(3 * x))); }};
+  double before = 0;
+  for (const bool differences : {true, false})
+    for (const double tolerance : {0.04, 0.01}) {
+      auto estimator = abi_tests::sized<carreau_estimator>();
+      estimator.shape = CARREAU_ANISOTROPIC;
+      estimator.tolerance = tolerance;
+      estimator.hmin = 1e-3, estimator.hmax = 0.5, estimator.ratio = 20;
+      carreau_adaptation a = adaptation(estimator, field);
+      a.iterations = 4;
+      a.differences = differences;
+      auto report = abi_tests::sized<carreau_adaptation_report>();
+      ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+      EXPECT_EQ(abi_tests::defects_of(mesh()), "");
+      EXPECT_EQ(report.iterations, 4);
+      EXPECT_EQ(report.converged, 0);
+      EXPECT_EQ(report.triangles, int64_t(abi_tests::data_of(mesh()).triangle_count()));
+      EXPECT_LT(report.error_rms, tolerance);
+      EXPECT_GT(report.stretch_max, 2);
+      if (tolerance < 0.02) {
+        EXPECT_LT(report.error_rms, before / 2);
+      }
+      before = report.error_rms;
+    }
+}
+
+TEST_F(Adaptation, TheLoopEndsWhenTheMeshNoLongerChanges) {
+  // The size is the same everywhere: one mesh, and one to see it.
+  Field field{[](double x, double y) { return x * x + y * y; }};
+  auto estimator = abi_tests::sized<carreau_estimator>();
+  estimator.tolerance = 0.01;
+  estimator.hmin = 0.01, estimator.hmax = 1;
+  carreau_adaptation a = adaptation(estimator, field);
+  a.convergence = 0.05;
+  a.iterations = 10;
+  auto report = abi_tests::sized<carreau_adaptation_report>();
+  ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+  EXPECT_EQ(report.converged, 1);
+  EXPECT_LE(report.iterations, 3);
+  const double h = std::sqrt(4.5 * 0.01 / 2);
+  EXPECT_NEAR(report.size_min, h, 1e-6);
+  EXPECT_NEAR(double(report.triangles) / wanted([h](double) { return h * h; }), 1, 0.1);
+  // 2/9 M h^2 bounds the error on triangles of edges h; the worst of a real mesh are a little larger.
+  EXPECT_LT(report.error_max, 1.5 * 0.01);
+  EXPECT_GT(report.error_max, 0.5 * 0.01);
+}
+
+TEST_F(Adaptation, FailuresOfTheFieldEndTheLoop) {
+  Field field{[](double x, double) { return x; }};
+  const auto estimator = abi_tests::sized<carreau_estimator>();
+  carreau_adaptation a = adaptation(estimator, field);
+  field.status = 17;
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_CALLBACK);
+  EXPECT_EQ(error(), "the callback of the field returned the status 17");
+  field.status = 0;
+  field.at = [](double x, double) { return x > 0.5 ? std::nan("") : x; };
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("nan"), std::string::npos) << error();
+  field.at = [](double x, double) { return x; };
+  field.stop = session;
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_CANCELLED);
+  field.stop = nullptr;
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_OK) << error();
+  a.field = nullptr;
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
+  a.field = evaluate;
+  a.iterations = -1;
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
+  a.iterations = 1;
+  ASSERT_EQ(carreau_set_integer(session, "hphy_flag", 0), CARREAU_OK);
+  ASSERT_EQ(carreau_set_integer(session, "hgeo_flag", 1), CARREAU_OK);
+  EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("hphy_flag is 0"), std::string::npos) << error();
+}
+
+TEST_F(Adaptation, WrongBackgroundMeshesAreRefused) {
+  const double sizes[4] = {0.1, 0.1, 0.1, 0.1};
+  const auto refused = [&](const carreau_background& b) {
+    EXPECT_EQ(carreau_set_background(session, &b), CARREAU_ERR_ARGUMENT);
+    return error();
+  };
+  EXPECT_NE(refused(square(3)).find("either sizes or metrics"), std::string::npos);
+  carreau_background b = square(3);
+  b.sizes = sizes;
+  b.triangle_count = 0;
+  EXPECT_EQ(refused(b), "the background mesh has no triangle");
+  b = square(3);
+  b.sizes = sizes;
+  b.dimension = 4;
+  EXPECT_EQ(refused(b), "background->dimension is 4; it must be 2 or 3");
+  b = square(3);
+  b.sizes = sizes;
+  b.vertex_count = 3;
+  EXPECT_NE(refused(b).find("names vertex 3, but there are 3"), std::string::npos);
+  const double negative[4] = {0.1, -0.1, 0.1, 0.1};
+  b = square(3);
+  b.sizes = negative;
+  EXPECT_NE(refused(b).find("vertex 1 (from 0) has the size -0.1"), std::string::npos);
+  b.vertex_count = -1;
+  EXPECT_NE(refused(b).find("background->vertex_count is -1"), std::string::npos);
+  EXPECT_EQ(carreau_set_background(session, nullptr), CARREAU_ERR_ARGUMENT);
+}
+
+}  // namespace
