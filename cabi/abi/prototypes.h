@@ -108,6 +108,19 @@ typedef struct c_estimator {
     double hmax;
     double ratio;
 } c_estimator;
+typedef struct c_exr_options {
+    long struct_size;
+    int longest;
+    int width;
+    int height;
+    int channels;
+    int face;
+    int multi_part;
+    int raw;
+    int compression;
+    int threads;
+    int reserved;
+} c_exr_options;
 typedef struct c_face {
     long struct_size;
     int ref;
@@ -241,3 +254,4 @@ long strlen (void *text);
 int carreau_transfer (void *session, int components, long n, const double *values, long capacity, double *transferred, long *outside);
 void *carreau_version ();
 int carreau_version_number ();
+int carreau_write_exr (void *session, const char *path, const c_exr_options *options);

@@ -37,6 +37,7 @@ module carreau
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
+  public :: carreau_exr_options, carreau_write_exr
   public :: carreau_curve_split
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
@@ -60,6 +61,10 @@ module carreau
     CARREAU_PHASE_PATCHES = 3, CARREAU_PHASE_ASSEMBLY = 4, CARREAU_PHASE_WRITING = 5, CARREAU_PHASE_GRADATION = 7
   integer(c_int32_t), parameter, public :: CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, &
     CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3
+  integer(c_int32_t), parameter, public :: CARREAU_EXR_SIZE = 1, CARREAU_EXR_INDUCED = 2, CARREAU_EXR_TARGET = 4, &
+    CARREAU_EXR_CURVATURE = 8, CARREAU_EXR_POSITION = 16, CARREAU_EXR_NORMAL = 32, CARREAU_EXR_DEVIATION = 64, &
+    CARREAU_EXR_TRIANGLE = 128, CARREAU_EXR_MASK = 256, CARREAU_EXR_PREVIEW = 512
+  integer(c_int32_t), parameter, public :: CARREAU_EXR_ZIP = 0, CARREAU_EXR_PIZ = 1
 
   integer(c_int32_t), parameter, public :: CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2
   integer(c_int32_t), parameter, public :: CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2
@@ -115,6 +120,12 @@ module carreau
     real(c_double) :: size_min = 0, stretch_max = 0
     integer(c_int64_t) :: outside = 0
   end type carreau_adaptation_report
+
+  type :: carreau_exr_options
+    integer(c_int32_t) :: longest = 0, width = 0, height = 0, channels = 0, face = 0
+    logical :: multi_part = .false., raw = .false.
+    integer(c_int32_t) :: compression = CARREAU_EXR_ZIP, threads = 0
+  end type carreau_exr_options
 
   type :: carreau_face
     integer(c_int32_t) :: ref = 0, status = 0
@@ -954,6 +965,28 @@ contains
     status = c_mesh_defects(mesh%handle, merge(1_c_int32_t, 0_c_int32_t, closed), limit, count, c_sentences)
     text = carreau_string(c_sentences)
   end subroutine carreau_mesh_defects
+
+  ! ---- Fields as images ----
+
+  !> Triangles in the files count from 0, as in C.
+  subroutine carreau_write_exr(session, path, options, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    type(carreau_exr_options), intent(in) :: options
+    integer(c_int32_t), intent(out) :: status
+    type(c_exr_options) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%longest = options%longest
+    c%width = options%width
+    c%height = options%height
+    c%channels = options%channels
+    c%face = options%face
+    c%multi_part = merge(1, 0, options%multi_part)
+    c%raw = merge(1, 0, options%raw)
+    c%compression = options%compression
+    c%threads = options%threads
+    status = c_write_exr(session%handle, c_text(path), c)
+  end subroutine carreau_write_exr
 
   ! ---- Curves in metrics ----
 

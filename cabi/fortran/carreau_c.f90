@@ -90,6 +90,12 @@ module carreau_c
     integer(c_int64_t) :: outside = 0
   end type c_adaptation_report
 
+  type, bind(c) :: c_exr_options
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: longest = 0, width = 0, height = 0, channels = 0, face = 0, multi_part = 0, raw = 0
+    integer(c_int32_t) :: compression = 0, threads = 0, reserved = 0
+  end type c_exr_options
+
   type, bind(c) :: c_report
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: diag = 0
@@ -583,6 +589,15 @@ module carreau_c
       type(c_ptr), intent(inout) :: text
       integer(c_int32_t) :: status
     end function c_mesh_defects
+
+    function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")
+      import :: c_char, c_exr_options, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      type(c_exr_options), intent(in) :: options
+      integer(c_int32_t) :: status
+    end function c_write_exr
 
     function c_curve_split(session, curve, capacity, abscissae, edges, length) result(status) &
         bind(c, name="carreau_curve_split")

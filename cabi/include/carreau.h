@@ -20,10 +20,10 @@
  *              that handle ("" after success). A NULL handle is CARREAU_ERR_ARGUMENT and has no sentence.
  *   Threads    Handles are independent of one another. One handle is used by one thread at a time; carreau_stop alone
  *              may be called from anywhere at any time. There is no global state.
- *   Callbacks  come from the thread that called carreau_mesh_generate or carreau_run_env, one after another, unless
- *              carreau_cad.reentrant says otherwise. A callback must return: no C++ exception, longjmp or Fortran stop
- *              may leave it. From inside one, carreau_stop is the only call allowed on its session and mesh; any other
- *              returns CARREAU_ERR_BUSY.
+ *   Callbacks  come from the thread that called carreau_mesh_generate, carreau_run_env or carreau_write_exr, one after
+ *              another, unless carreau_cad.reentrant says otherwise. A callback must return: no C++ exception, longjmp
+ *              or Fortran stop may leave it. From inside one, carreau_stop is the only call allowed on its session and
+ *              mesh; any other returns CARREAU_ERR_BUSY.
  *   Silence    Nothing is printed, no signal is raised or caught, and no call ends the process. The floating-point
  *              environment (rounding, traps, flags) of the caller is given back as it was; callbacks run in the
  *              default one.
@@ -542,8 +542,8 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
 /* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl. The mesh of a session is
- * written as its parameters option, refs and flag say (RT-0232 sec. 4). The file is complete or as it was before.
- * Errors: FILE; ARGUMENT (suffix, refs). */
+ * written as its parameters option, refs and flag say (RT-0232 sec. 4); .exr: its fields, as carreau_write_exr does
+ * with multi_part. The file is complete or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
 
 /* Numbers of vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */
@@ -610,6 +610,76 @@ CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_qual
  * Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
                                                 const char** out_text);
+
+/* ---- Fields as images (OpenEXR) ---- */
+
+/* Groups of channels: 32-bit reals where nothing else is said.
+ *   SIZE        size.h                       prescribed size: sqrt(h1 h2); model length
+ *               size.h1 size.h2 size.angle   sizes along the axes of the prescribed metric, h1 <= h2, and the
+ *                                            direction of h1 in the tangent plane, from Su to Sv; degrees, 0 to 180
+ *   INDUCED     induced.e .f .g              Su.Su, Su.Sv, Sv.Sv
+ *   TARGET      target.m11 .m12 .m22         metric of the parameter plane that the mesher used, as its control space
+ *                                            holds it; 1 / parameter^2
+ *   CURVATURE   curvature.k1 .k2             principal curvatures, k1 >= k2; 1 / model length; those that bend
+ *                                            towards the normal are positive
+ *   POSITION    position.x .y .z             model length
+ *   NORMAL      normal.x .y .z               unit, along Su x Sv
+ *   DEVIATION   deviation.a0 .a1             of the pixel's triangle: largest distance from the surface (model length)
+ *                                            and largest angle with its normals (degrees), at sample points
+ *   TRIANGLE    triangle                     unsigned integer: index of the pixel's triangle in the mesh of the
+ *                                            session, from 0; 4294967295: none
+ *   MASK        mask                         1 in the domain, 0 outside
+ *   PREVIEW     R G B A                      16-bit reals of linear light: size in false colours, from red, the
+ *                                            smallest of the face, to blue, the largest, on a logarithmic scale;
+ *                                            sides of triangles and curves dark; purple: there is no size
+ * A pixel stands for the point of the parameter plane at its centre. What is not known there is NaN: all but the mask
+ * and the preview outside the domain, and whatever the host fails to give inside. */
+enum {
+  CARREAU_EXR_SIZE = 1,
+  CARREAU_EXR_INDUCED = 2,
+  CARREAU_EXR_TARGET = 4,
+  CARREAU_EXR_CURVATURE = 8,
+  CARREAU_EXR_POSITION = 16,
+  CARREAU_EXR_NORMAL = 32,
+  CARREAU_EXR_DEVIATION = 64,
+  CARREAU_EXR_TRIANGLE = 128,
+  CARREAU_EXR_MASK = 256,
+  CARREAU_EXR_PREVIEW = 512
+};
+/* Both compress without loss. */
+enum { CARREAU_EXR_ZIP = 0, CARREAU_EXR_PIZ = 1 };
+
+typedef struct carreau_exr_options {
+  size_t struct_size;
+  int32_t longest; /* pixels of the longer side, up to 65536; the shorter one follows the patch in space; 0: 1024 */
+  int32_t width;   /* with height, both > 0: pixels of every image, in place of longest */
+  int32_t height;
+  int32_t channels;    /* sum of CARREAU_EXR_...; 0: all */
+  int32_t face;        /* reference of the only face to be written; 0: every face */
+  int32_t multi_part;  /* 1: one file of a part a face, named face.<ref>; 0: a file a face */
+  int32_t raw;         /* 1: of the model as it is now, without its mesh */
+  int32_t compression; /* CARREAU_EXR_ZIP or CARREAU_EXR_PIZ */
+  int32_t threads;     /* that compute and compress; 0: parameter threads. The files do not depend on it */
+  int32_t reserved;    /* 0 */
+} carreau_exr_options;
+
+/* Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images: from
+ * "a/x.exr" the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns go from the smallest u
+ * to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low, uv.high), the
+ * reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>), the first
+ * triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the version of
+ * the library. `options` may be NULL: all zero.
+ *
+ * The fields are those of the session's mesh. Where there is none, where the last carreau_mesh_generate has failed, for
+ * faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain as far as its curves
+ * are known: positions, derivatives, sizes, without triangles and target. A host that fails at some points leaves NaN
+ * there, and a warning; its sentence is no error of this call.
+ *
+ * Asks the geometry at every pixel of the domain, from the caller's thread, and for CARREAU_EXR_DEVIATION at some 20
+ * points a vertex of the mesh. The mesh is not touched, whatever happens; each file is complete or as it was before.
+ * Errors: ARGUMENT, SEQUENCE (no geometry, no model), MODEL, FILE, CANCELLED, MEMORY. */
+CARREAU_API carreau_status carreau_write_exr(carreau_session* session, const char* path,
+                                             const carreau_exr_options* options);
 
 /* ---- Curves in metrics ---- */
 

@@ -40,10 +40,10 @@ struct FieldOptions {
   int longest = 1024;
   int width = 0, height = 0;  ///< both > 0: of every image, in place of `longest`
   unsigned groups = all_fields;
-  int face = 0;             ///< reference of the only face to be written; 0: all
-  bool multi_part = false;  ///< one file of a part a face ("face.<ref>"), instead of a file a face
-  bool raw = false;         ///< the model as it is now, without its mesh
-  ExrOptions file = {};
+  int face = 0;                      ///< reference of the only face to be written; 0: all
+  bool multi_part = false;           ///< one file of a part a face ("face.<ref>"), instead of a file a face
+  bool raw = false;                  ///< the model as it is now, without its mesh
+  ExrOptions file = {.threads = 0};  ///< threads 0: parameter threads
 };
 
 /// What is known of a face. Pointers may be null: the channels that need them have no value then.

@@ -319,20 +319,30 @@ void Session::make_mesh() {
 }
 
 std::vector<std::string> Session::write_fields(const std::string& path, const FieldOptions& options) {
+  const bool of_mesh = state_->has_mesh && !state_->last_failed && !options.raw;
+  return of_mesh ? write_fields_of_mesh(path, options) : write_fields_of_model(path, options);
+}
+
+std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, FieldOptions options) {
   State& s = *state_;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   CheckedCad whole_cad(*s.cad);
-  const bool of_mesh = s.has_mesh && !s.last_failed && !options.raw;
-  PartCad cad(whole_cad, parts_of(of_mesh ? s.meshed_model : s.model));
-  if (of_mesh) {
-    const double diag = s.result.report.diag;
-    set_parameter_boxes(s.meshed_model, s.supports, cad);
-    FieldRun run{s.meshed_model, s.topology, &s.supports, &s.result, {}, s.meshed_parameters, diag};
-    run.size = composite_options(s.meshed_parameters, diag).size;
-    run.size.sources = s.sources(s.meshed_background.get());
-    return carreau::write_fields(run, path, options, cad, s.monitor);
-  }
+  PartCad cad(whole_cad, parts_of(s.meshed_model));
+  const double diag = s.result.report.diag;
+  set_parameter_boxes(s.meshed_model, s.supports, cad);
+  FieldRun run{s.meshed_model, s.topology, &s.supports, &s.result, {}, s.meshed_parameters, diag};
+  run.size = composite_options(s.meshed_parameters, diag).size;
+  run.size.sources = s.sources(s.meshed_background.get());
+  if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, diag).threads;
+  return carreau::write_fields(run, path, options, cad, s.monitor);
+}
+
+std::vector<std::string> Session::write_fields_of_model(const std::string& path, FieldOptions options) {
+  State& s = *state_;
+  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  CheckedCad whole_cad(*s.cad);
+  PartCad cad(whole_cad, parts_of(s.model));
   const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
   std::optional<ModelSupports> supports;
   try {
@@ -346,6 +356,7 @@ std::vector<std::string> Session::write_fields(const std::string& path, const Fi
   run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
   run.size = composite_options(parameters, run.diag).size;
   run.size.sources = s.sources(s.last_failed ? s.tried_background.get() : s.background.get());
+  if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, run.diag).threads;
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 
@@ -355,7 +366,15 @@ FlatMesh Session::exported() const {
   return export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
 }
 
-void Session::write(const std::string& path) const {
+void Session::write(const std::string& path) {
+  if (path.ends_with(".exr")) {
+    (void)mesh();
+    FieldOptions options;
+    options.multi_part = true;
+    if (state_->parameters.text("option").starts_with("onesurf")) options.face = state_->parameters.integer("refs");
+    write_fields_of_mesh(path, options);
+    return;
+  }
   const MeshFormat format = mesh_format_of(path);
   state_->monitor.progress(Phase::writing, 0, 1);
   write_mesh(exported(), path, format);

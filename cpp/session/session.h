@@ -63,8 +63,9 @@ class Session {
 
   /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written.
   [[nodiscard]] FlatMesh exported() const;
-  /// Writes exported() to a file; format by suffix.
-  void write(const std::string& path) const;
+  /// Writes exported() to a file; format by suffix. `.exr`: the fields of all faces, or of the one of onesurf*, in one
+  /// file.
+  void write(const std::string& path);
 
   /// What governed each face's mesh, sampled and written as images (session/fields.h): returns the names of the files.
   /// Of the mesh; of the model alone as it is now, without triangles, when options.raw says so, when there is no mesh,
@@ -84,6 +85,8 @@ class Session {
   void run_env(const std::string& path);
 
  private:
+  std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
+  std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);
   [[nodiscard]] bool has_model_from_host() const noexcept;
   void load_pardom_of_env(const std::string& path);
 

@@ -162,6 +162,7 @@ program fortran_test
   call test_callbacks_by_value_and_files
   call test_curve
   call test_adaptation
+  call test_fields
   call test_errors
   if (failures > 0) stop 1
   print '(a)', 'fortran_test: all passed'
@@ -427,6 +428,31 @@ contains
     call expect(report%iterations == 2 .and. report%triangles > 0 .and. report%error_max < 1, 'the loop reports')
     call carreau_session_free(session)
   end subroutine test_adaptation
+
+  ! A file of ours starts with the magic number of OpenEXR; what it holds is tested in C++.
+  subroutine test_fields
+    type(carreau_session) :: session
+    type(carreau_exr_options) :: options
+    integer(c_int32_t) :: status, magic
+    integer :: unit
+    call carreau_session_create(session, status)
+    call build_model(session)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status=status)
+    call expect_ok(status, session, 'set_cad_m')
+    options%longest = 16
+    options%channels = CARREAU_EXR_POSITION + CARREAU_EXR_MASK
+    options%multi_part = .true.
+    options%raw = .true.
+    call carreau_write_exr(session, 'fortran_test.exr', options, status)
+    call expect_ok(status, session, 'write_exr')
+    open(newunit=unit, file='fortran_test.exr', access='stream', form='unformatted', status='old')
+    read(unit) magic
+    close(unit, status='delete')
+    call expect(magic == 20000630, 'magic number of OpenEXR')
+    call carreau_write_exr(session, 'none/fortran_test.exr', options, status)
+    call expect(status == CARREAU_ERR_FILE, 'write_exr to a folder that is not there')
+    call carreau_session_free(session)
+  end subroutine test_fields
 
   subroutine test_errors
     type(carreau_session) :: session

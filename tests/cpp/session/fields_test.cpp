@@ -437,6 +437,26 @@ TEST(Fields, AreOneFileAFaceUnlessAskedOtherwise) {
   EXPECT_EQ(run.images({.longest = 20}).size(), 32U);
 }
 
+// Formats of `call export`.
+TEST(Fields, AreExportedUnderTheNameThatIsGiven) {
+  AnalyticCad narrow;
+  for (const int ref : {3, 5})
+    narrow.faces[ref] = {testing::paraboloid_jet, testing::rectangle({double(ref), 0}, {ref + 1.0, 0.05})};
+  FieldCase run(std::move(narrow));
+  EXPECT_THROW(run.session->write(run.file("x.exr")), InvalidArgument);  // there is no mesh yet
+  run.session->make_mesh();
+  run.session->parameters().set("option", "onesurf3d");
+  run.session->parameters().set("refs", 5);
+  run.session->write(run.file("x.exr"));
+  EXPECT_EQ(read_exr(run.file("x.exr")).at(0).integer_attribute("face"), 5);
+  // That of the mesh, whatever happened later.
+  run.session->parameters().set("hphymin", 2.0);
+  run.session->parameters().set("hphymax", 1.0);
+  EXPECT_THROW(run.session->make_mesh(), InvalidArgument);
+  run.session->write(run.file("y.exr"));
+  EXPECT_EQ(read_exr(run.file("y.exr")).at(0).text_attribute("face.status"), "meshed");
+}
+
 // The torus patch is pi long at most and 0.7 pi wide in space: 2.7 pi / 2 x 0.7 pi at its outer side.
 TEST(Fields, ImagesHaveTheShapeOfThePatch) {
   FieldCase run(testing::torus_patch());
@@ -467,8 +487,8 @@ TEST(Fields, ThatCannotBeWrittenLeaveTheMesh) {
             "the height of an image is 0 pixels; it must be from 1 to 65536");
   EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.groups = 1024})),
             "the groups of channels are 1024, which is not from 1 to 1023");
-  EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.file = {.threads = 0}})),
-            "the number of threads is 0; it must be at least 1");
+  EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.file = {.threads = -1}})),
+            "the number of threads is -1; it must be at least 1");
   EXPECT_TRUE(std::filesystem::is_empty(run.folder));
   EXPECT_EQ(run.session->mesh().vertices, before);
   run.session->write_fields(run.file("x.exr"), {.longest = 10});
