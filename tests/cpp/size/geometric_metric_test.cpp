@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "common/analytic_cad.h"
 #include "cpp/cad/surfaces.h"
 #include "metric/metric3_algebra.h"
 
@@ -148,6 +149,37 @@ TEST(DirectedSizes, TorusAlongItsCirclesInAnyParametrisation) {
   EXPECT_NEAR(again->h1, sizes->h1, 1e-10);
   EXPECT_NEAR(again->h2, sizes->h2, 1e-9);
   EXPECT_NEAR(std::abs(dot(again->w1, sizes->w1)), 1, 1e-10);
+}
+
+// The four umbilics of an ellipsoid a > b > c have the radius b^3 / (a c); around each the directions make half a turn.
+TEST(DirectedSizes, UmbilicsOfAnEllipsoid) {
+  const double a = 3, b = 2, c = 1;
+  const auto face = half_ellipsoid(a, b, c).faces.at(1);
+  const double x = std::sqrt((a * a - b * b) / (a * a - c * c)), z = std::sqrt((b * b - c * c) / (a * a - c * c));
+  const Vec2 umbilic{x / (1 + z), 0};
+  for (const GeometricCriterion criterion : criteria) {
+    const GeometricRule rule = rule_of(criterion, true);
+    const auto at = geometric_sizes(rule, face.at(umbilic));
+    ASSERT_TRUE(at);
+    EXPECT_NEAR(at->h1, geometric_size(rule, b * b * b / (a * c)), 1e-9);
+    EXPECT_NEAR(at->h2 / at->h1, 1, 1e-6);
+    double turned = 0;
+    constexpr int steps = 64;
+    std::optional<Vec3> last;
+    for (int i = 0; i <= steps; ++i) {
+      const double angle = 2 * pi * i / steps;
+      const auto near = geometric_sizes(rule, face.at(umbilic + 0.01 * Vec2{std::cos(angle), std::sin(angle)}));
+      ASSERT_TRUE(near);
+      EXPECT_NEAR(near->h2 / near->h1, 1, 0.05);
+      Vec3 w = near->w1;
+      if (last) {
+        if (dot(w, *last) < 0) w = -1.0 * w;
+        turned += std::acos(std::min(1., dot(w, *last)));
+      }
+      last = w;
+    }
+    EXPECT_NEAR(turned, pi, 0.05);
+  }
 }
 
 // At an inflection of a profile the curvature passes through zero: the size along it is not bounded by the surface

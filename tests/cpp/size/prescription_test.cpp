@@ -161,8 +161,33 @@ TEST(GeometricMetrics, AreInvariantUnderReparametrisationRotationAndScale) {
   }
 }
 
+// HDR eq. 2.31 and 2.33 for the curve's own radius, on a plane; no bound where it is straight.
+TEST(GeometricMetrics, ACurveIsKeptByItsOwnCurvature) {
+  FourPatches s;
+  const double radius = 0.5;
+  for (const int ref : {8, 4}) {
+    const double sign = ref == 8 ? 1 : -1;
+    s.cad.curves[{ref, 1}] = plane_curve({0, 1}, [=](double t) {
+      return radius * Vec2{std::cos(sign * t), std::sin(sign * t)};
+    });
+  }
+  for (const bool anisotropic : {false, true}) {
+    SizeParameters p = geometric(anisotropic);
+    EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 2 * std::sin(8 * pi / 180) * radius, 1e-6);
+    EXPECT_EQ(s.rules(p).on_curve(1, middle, 0.4), p.hgeomax);
+    p.geo_rule = GeometricCriterion::chord;
+    p.eps_chord = 0.003;
+    EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 2 * std::sqrt(0.003 * (2 * radius - 0.003)), 1e-6);
+    p.geo_rule = GeometricCriterion::both;
+    EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 2 * std::sqrt(0.003 * (2 * radius - 0.003)), 1e-6);
+    p.geo_guarantee = true;
+    p.geo_rule = GeometricCriterion::angle;
+    EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), guaranteed_angle_factor * 2 * std::sin(8 * pi / 180) * radius,
+                1e-6);
+  }
+}
+
 TEST(GeometricMetrics, ContradictionsHaveASentence) {
-  const FourPatches s;
   const auto refused = [&](const SizeParameters& p) {
     FourPatches fresh;
     return sentence_of([&] { fresh.rules(p); });
