@@ -18,6 +18,8 @@ constexpr double steepest_interval = 1.15;  ///< ratio of the sizes at its ends
 constexpr int initial_intervals = 4;
 constexpr std::size_t most_samples = 20'000;
 constexpr double narrowest = 1e-7;  ///< of the curve's length
+/// Steep places of a source this near to a curve, over its extent, are looked at on the curve; and how far apart.
+constexpr double beside_curve = 0.01, steep_spacing = 0.002;
 
 struct Sample {
   double r = 0;
@@ -50,12 +52,51 @@ bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double len
   return edges > shortest_interval * lss && std::max(left.h, right.h) > steepest_interval * std::min(left.h, right.h);
 }
 
+/// Fraction of the curve's length at the point of a use's support that is nearest to a place of the parameter plane, or
+/// -1 when that is farther away than `reach`.
+double fraction_near(const CurveSupport& support, Vec2 place, double reach) noexcept {
+  double best = reach * reach, fraction = -1;
+  for (std::size_t i = 0; i + 1 < support.uv.size(); ++i) {
+    const Vec2 d = support.uv[i + 1] - support.uv[i];
+    const double squared = dot(d, d);
+    const double w = squared > 0 ? std::clamp(dot(place - support.uv[i], d) / squared, 0., 1.) : 0;
+    const Vec2 away = place - lerp(support.uv[i], support.uv[i + 1], w);
+    if (dot(away, away) > best) continue;
+    best = dot(away, away);
+    fraction = ((1 - w) * support.arc[i] + w * support.arc[i + 1]) / support.length();
+  }
+  return fraction;
+}
+
+/// Fractions at which a source's field is steep: it would be missed between samples that are far apart.
+std::vector<double> steep_fractions(const CurveModel& model, int curve, const SizeRules& rules) {
+  std::vector<double> fractions;
+  for (const CurveUse& use : model.curve(curve).uses) {
+    const CurveSupport& support = model.support(use);
+    const std::vector<Vec2> places = rules.steep_places(use.face);
+    if (places.empty() || !(support.length() > 0)) continue;
+    double extent = 0;
+    for (const Vec2 p : support.uv) extent = std::max(extent, norm(p - support.uv.front()));
+    for (const Vec2 place : places) {
+      const double fraction = fraction_near(support, place, beside_curve * extent);
+      if (fraction > narrowest && fraction < 1 - narrowest) fractions.push_back(use.reversed ? 1 - fraction : fraction);
+    }
+  }
+  std::sort(fractions.begin(), fractions.end());
+  std::vector<double> apart;
+  for (const double r : fractions)
+    if (apart.empty() || r - apart.back() > steep_spacing) apart.push_back(r);
+  return apart;
+}
+
 std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules, double lss) {
   const double length = model.length(curve);
+  std::vector<double> starts = steep_fractions(model, curve, rules);
+  for (int i = 0; i <= initial_intervals; ++i) starts.push_back(static_cast<double>(i) / initial_intervals);
+  std::sort(starts.begin(), starts.end());
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   std::vector<Sample> samples;
-  for (int i = 0; i <= initial_intervals; ++i) {
-    samples.push_back(ask(model, curve, rules, static_cast<double>(i) / initial_intervals));
-  }
+  for (const double r : starts) samples.push_back(ask(model, curve, rules, r));
   for (bool again = true; again;) {
     again = false;
     std::vector<Sample> finer{samples.front()};
