@@ -20,6 +20,24 @@ int picture(const PictureOptions& options);
 /// Prints counts, quality and defects. 1 when there are defects.
 int check(const std::string& path, bool closed, int limit);
 
+struct FieldsOptions {
+  std::string input;  ///< .pardom or .env
+  std::string host;   ///< shared library
+  std::string out;    ///< .exr
+  int longest = 1024, width = 0, height = 0;
+  int face = 0;     ///< reference of the only one; 0: all
+  int threads = 0;  ///< 0: all processors
+  bool multi_part = false, raw = false, piz = false;
+  std::vector<std::string> channels;  ///< names of field_groups(); none: all
+  std::vector<std::string> settings;  ///< NAME=VALUE
+};
+
+/// Meshes, and writes what governed the mesh as EXR files. 1 when the files are there but not all faces have triangles.
+int fields(const FieldsOptions& options);
+
+/// Names of the groups of channels.
+std::vector<std::string> field_groups();
+
 /// Prints the parameters, all or one of them.
 int params(const std::string& name);
 

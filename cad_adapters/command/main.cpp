@@ -1,5 +1,5 @@
-// carreau: pictures and checks of meshes, and the list of parameters. Exit codes: 0 done, 1 the mesh has defects,
-// 2 the command line or a file cannot be used.
+// carreau: pictures and checks of meshes, fields that govern them, and the list of parameters. Exit codes: 0 done, 1
+// the mesh has defects or lacks faces, 2 the command line or a file cannot be used.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -15,11 +15,46 @@ void parse_size(const std::string& text, int& width, int& height) {
     throw command::Failure("The size '" + text + "' is not WIDTHxHEIGHT with numbers from 16 to 20000.");
 }
 
+/// "800x600", or the longer side alone.
+void parse_field_size(const std::string& text, command::FieldsOptions& options) {
+  int end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%n", &options.width, &options.height, &end) == 2 &&
+      end == static_cast<int>(text.size()) && options.width > 0 && options.height > 0)
+    return;
+  options.width = options.height = 0;
+  if (std::sscanf(text.c_str(), "%d%n", &options.longest, &end) != 1 || end != static_cast<int>(text.size()) ||
+      options.longest < 1)
+    throw command::Failure("The size '" + text + "' is neither a number of pixels nor WIDTHxHEIGHT.");
+}
+
+CLI::App* add_fields(CLI::App& app, command::FieldsOptions& options, std::string& size) {
+  CLI::App* fields = app.add_subcommand("fields", "Mesh, and write what governed the mesh as OpenEXR images");
+  fields->add_option("INPUT", options.input, "File .pardom, or .env whose actions are run")->required();
+  fields->add_option("--host", options.host, "Shared library with the routines of cad_m, in C or Fortran")->required();
+  fields->add_option("-o,--output", options.out, "File .exr; a file a face: NAME.face.REF.exr")->required();
+  fields->add_option("--size", size, "Pixels of the longer side, or WIDTHxHEIGHT")->capture_default_str();
+  fields->add_option("--face", options.face, "Only this face, into the file as it is named")
+      ->check(CLI::PositiveNumber);
+  fields->add_flag("--multi-part", options.multi_part, "All faces into one file, a part each");
+  fields->add_option("--channels", options.channels, "Groups of channels, separated by commas; all by default")
+      ->delimiter(',')
+      ->check(CLI::IsMember(command::field_groups()))
+      ->allow_extra_args(false);
+  fields->add_flag("--piz", options.piz, "PIZ in place of ZIP; both are lossless");
+  fields->add_flag("--raw", options.raw, "What the geometry answers, without a mesh");
+  fields->add_option("--set", options.settings, "NAME=VALUE of a parameter; may be repeated")->allow_extra_args(false);
+  fields->add_option("--threads", options.threads, "0: one for each processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  return fields;
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"Meshes of surfaces made of parametric patches: pictures, checks, parameters.", "carreau"};
+  CLI::App app{"Meshes of surfaces made of parametric patches: pictures, checks, fields, parameters.", "carreau"};
   app.set_version_flag("--version", std::string("carreau ") + carreau_version());
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 the mesh has defects, 2 wrong command line or file. Manual: man carreau");
+  app.footer(
+      "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file. Manual: man carreau");
 
   command::PictureOptions options;
   std::string size = "1200x900";
@@ -50,14 +85,18 @@ int run(int argc, char** argv) {
   check->add_flag("--closed", closed, "An edge with one triangle is a defect too");
   check->add_option("--limit", limit, "Defects to look for")->check(CLI::PositiveNumber)->capture_default_str();
 
+  command::FieldsOptions field_options;
+  std::string field_size = "1024";
+  CLI::App* fields = add_fields(app, field_options, field_size);
+
   std::string name;
   CLI::App* params =
       app.add_subcommand("params", "List the parameters with types, defaults, ranges and a line of help");
   params->add_option("NAME", name, "One parameter only");
 
   const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-' && first != "picture" && first != "check" && first != "params")
-    throw command::Failure("There is no command '" + first + "'; there are picture, check and params.");
+  if (first[0] != '-' && first != "picture" && first != "check" && first != "fields" && first != "params")
+    throw command::Failure("There is no command '" + first + "'; there are picture, check, fields and params.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -68,6 +107,10 @@ int run(int argc, char** argv) {
     using command::Paint;
     options.scene.paint = paint == "face" ? Paint::face : paint == "quality" ? Paint::quality : Paint::none;
     return command::picture(options);
+  }
+  if (*fields) {
+    parse_field_size(field_size, field_options);
+    return command::fields(field_options);
   }
   if (*check) return command::check(mesh, closed, limit);
   return command::params(name);

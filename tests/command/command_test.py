@@ -180,7 +180,7 @@ class Command(unittest.TestCase):
         self.assertIn("default 0.02 diag", run("params", "hphydef").stdout)
 
     def test_help_and_version(self):
-        for arguments in (["--help"], ["picture", "--help"], ["check", "--help"], ["params", "--help"], ["--version"]):
+        for arguments in (["--help"], ["picture", "--help"], ["check", "--help"], ["params", "--help"], ["fields", "--help"], ["--version"]):
             done = run(*arguments)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             self.assertTrue(done.stdout)

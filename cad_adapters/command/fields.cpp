@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <thread>
+
+#include "commands.h"
+#include "session_handle.h"
+#include "shared_host.h"
+
+namespace command {
+
+namespace {
+
+struct Group {
+  const char* name;
+  std::int32_t bit;
+};
+constexpr std::array groups{Group{"size", CARREAU_EXR_SIZE},           Group{"induced", CARREAU_EXR_INDUCED},
+                            Group{"target", CARREAU_EXR_TARGET},       Group{"curvature", CARREAU_EXR_CURVATURE},
+                            Group{"position", CARREAU_EXR_POSITION},   Group{"normal", CARREAU_EXR_NORMAL},
+                            Group{"deviation", CARREAU_EXR_DEVIATION}, Group{"triangle", CARREAU_EXR_TRIANGLE},
+                            Group{"mask", CARREAU_EXR_MASK},           Group{"preview", CARREAU_EXR_PREVIEW}};
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+void check(const FieldsOptions& options) {
+  if (!ends_with(options.out, ".exr")) throw Failure("The output '" + options.out + "' does not end in .exr.");
+  const bool env = ends_with(options.input, ".env");
+  if (!env && !ends_with(options.input, ".pardom"))
+    throw Failure("The input '" + options.input + "' is neither a .pardom nor a .env file.");
+  if (env && options.raw) throw Failure("A .env file meshes: --raw goes with a .pardom file.");
+  if (env && !options.settings.empty())
+    throw Failure("A .env file sets its parameters itself: --set goes with a .pardom file.");
+}
+
+carreau_exr_options exr_options(const FieldsOptions& options) {
+  carreau_exr_options exr{};
+  exr.struct_size = sizeof exr;
+  exr.longest = options.longest;
+  exr.width = options.width;
+  exr.height = options.height;
+  for (const std::string& name : options.channels) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return name == g.name; });
+    exr.channels |= group->bit;  // main.cpp lets no other name through
+  }
+  exr.face = options.face;
+  exr.multi_part = options.multi_part ? 1 : 0;
+  exr.raw = options.raw ? 1 : 0;
+  exr.compression = options.piz ? CARREAU_EXR_PIZ : CARREAU_EXR_ZIP;
+  exr.threads =
+      options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  return exr;
+}
+
+void set(carreau_session* session, const std::string& setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos) throw Failure("The setting '" + setting + "' is not NAME=VALUE.");
+  require(session, carreau_set_word(session, setting.substr(0, equals).c_str(), setting.substr(equals + 1).c_str()));
+}
+
+carreau_status make_mesh(carreau_session* session, const FieldsOptions& options) {
+  if (ends_with(options.input, ".env")) return carreau_run_env(session, options.input.c_str());
+  require(session, carreau_set_integer(session, "threads", options.threads));
+  for (const std::string& setting : options.settings) set(session, setting);
+  require(session, carreau_model_read_pardom(session, options.input.c_str()));
+  return options.raw ? CARREAU_OK : carreau_mesh_generate(session);
+}
+
+void print_files(carreau_session* session, const FieldsOptions& options) {
+  if (options.face != 0 || options.multi_part) {
+    std::printf("%s\n", options.out.c_str());
+    return;
+  }
+  std::int64_t count = 0;
+  require(session, carreau_model_count(session, &count, nullptr, nullptr));
+  std::vector<std::int32_t> refs(static_cast<std::size_t>(count));
+  require(session, carreau_model_faces(session, count, refs.data(), nullptr));
+  const std::string stem = options.out.substr(0, options.out.size() - 4);
+  for (const std::int32_t ref : refs) std::printf("%s.face.%d.exr\n", stem.c_str(), static_cast<int>(ref));
+}
+
+}  // namespace
+
+std::vector<std::string> field_groups() {
+  std::vector<std::string> names;
+  for (const Group& group : groups) names.emplace_back(group.name);
+  return names;
+}
+
+int fields(const FieldsOptions& options) {
+  check(options);
+  const SharedHost host(options.host);
+  const SessionHandle handle = make_session();
+  carreau_session* session = handle.get();
+  require(session, carreau_set_cad_m(session, &host.routines()));
+  const carreau_status status = make_mesh(session, options);
+  if (status != CARREAU_OK) {
+    std::int64_t faces = 0;
+    const std::string sentence = carreau_last_error(session);
+    if (carreau_model_count(session, &faces, nullptr, nullptr) != CARREAU_OK || faces == 0) throw Failure(sentence);
+    std::fprintf(stderr, "carreau: %s\n", sentence.c_str());
+  }
+  const carreau_exr_options exr = exr_options(options);
+  require(session, carreau_write_exr(session, options.out.c_str(), &exr));
+  print_files(session, options);
+  return status == CARREAU_OK ? 0 : 1;
+}
+
+}  // namespace command
