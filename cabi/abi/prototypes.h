@@ -85,6 +85,23 @@ typedef struct c_curve {
     void *metrics;
     double lss;
 } c_curve;
+typedef struct c_delivered {
+    long struct_size;
+    long vertices;
+    long edges;
+    long triangles;
+    long short_edges;
+    long long_edges;
+    long folded_triangles;
+    double in_range;
+    long not_met;
+    void *text;
+    long surf0_calls;
+    long surf1_calls;
+    long surf2_calls;
+    long size_calls;
+    double seconds;
+} c_delivered;
 typedef struct c_error_place {
     long struct_size;
     int face;
@@ -128,6 +145,22 @@ typedef struct c_face {
     long triangles;
     void *why;
 } c_face;
+typedef struct c_measure {
+    long struct_size;
+    void *name;
+    void *title;
+    int entity;
+    int classes;
+    long values;
+    long count;
+    double mean;
+    double min;
+    double p1;
+    double p99;
+    double max;
+    double limit;
+    long beyond;
+} c_measure;
 typedef struct c_metric_callbacks {
     long struct_size;
     void *user;
@@ -188,6 +221,12 @@ typedef struct c_report {
 int carreau_adapt (void *session, const c_adaptation *adaptation, c_adaptation_report *report);
 int carreau_clear_background (void *session);
 int carreau_curve_split (void *session, const c_curve *curve, long capacity, double *abscissae, long *edges, double *length);
+int carreau_delivered_edges (void *session, long capacity, int *vertices, int *curves);
+int carreau_delivered_histogram (void *session, int kind, long capacity, double *bounds, long *counts);
+int carreau_delivered_measure (void *session, int kind, c_measure *measure);
+int carreau_delivered_triangle_edges (void *session, long capacity, int *edges);
+int carreau_delivered_values (void *session, int kind, long capacity, double *values);
+int carreau_delivered_write (void *session, const char *path);
 int carreau_estimate (void *session, const c_estimator *estimator, long n, const double *values, double *sizes, double *metrics);
 int carreau_get_integer (void *session, const char *name, int *value);
 int carreau_get_real (void *session, const char *name, double *value);
@@ -231,6 +270,7 @@ int carreau_reset_parameters (void *session);
 int carreau_run_env (void *session, const char *path);
 int carreau_session_background (void *session, c_background_report *report);
 int carreau_session_create (void *session);
+int carreau_session_delivered (void *session, c_delivered *delivered);
 void carreau_session_free (void *session);
 int carreau_session_mesh (void *session, void *mesh);
 int carreau_session_report (void *session, c_report *report);

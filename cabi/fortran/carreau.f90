@@ -14,7 +14,7 @@ module carreau
   private
 
   public :: carreau_session, carreau_mesh, carreau_error_place, carreau_parameter, carreau_report, carreau_face
-  public :: carreau_quality
+  public :: carreau_quality, carreau_delivered, carreau_measure
   public :: carreau_init_fn, carreau_surf0_fn, carreau_surf1_fn, carreau_surf2_fn, carreau_curv_int_fn, carreau_curv_fn
   public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
   public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
@@ -38,6 +38,8 @@ module carreau
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
   public :: carreau_exr_options, carreau_write_exr
+  public :: carreau_session_delivered, carreau_delivered_measure, carreau_delivered_histogram
+  public :: carreau_delivered_values, carreau_delivered_edges, carreau_delivered_triangle_edges, carreau_delivered_write
   public :: carreau_curve_split
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
@@ -58,7 +60,12 @@ module carreau
   integer(c_int32_t), parameter, public :: CARREAU_LEVEL_ERROR = 0, CARREAU_LEVEL_WARNING = 1, &
     CARREAU_LEVEL_SUMMARY = 10, CARREAU_LEVEL_DETAIL = 50, CARREAU_LEVEL_DEBUG = 100
   integer(c_int32_t), parameter, public :: CARREAU_PHASE_IDLE = 0, CARREAU_PHASE_MODEL = 1, CARREAU_PHASE_CURVES = 2, &
-    CARREAU_PHASE_PATCHES = 3, CARREAU_PHASE_ASSEMBLY = 4, CARREAU_PHASE_WRITING = 5, CARREAU_PHASE_GRADATION = 7
+    CARREAU_PHASE_PATCHES = 3, CARREAU_PHASE_ASSEMBLY = 4, CARREAU_PHASE_WRITING = 5, &
+    CARREAU_PHASE_MEASURE = 6, CARREAU_PHASE_GRADATION = 7
+  integer(c_int32_t), parameter, public :: CARREAU_MEASURE_LENGTH = 1, CARREAU_MEASURE_EDGE_ANGLE = 2, &
+    CARREAU_MEASURE_GRADATION = 3, CARREAU_MEASURE_LENGTH_RATIO = 4, CARREAU_MEASURE_Q1 = 5, CARREAU_MEASURE_Q2 = 6, &
+    CARREAU_MEASURE_METRIC_QUALITY = 7, CARREAU_MEASURE_A0 = 8, CARREAU_MEASURE_A1 = 9
+  integer(c_int32_t), parameter, public :: CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3
   integer(c_int32_t), parameter, public :: CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, &
     CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3
   integer(c_int32_t), parameter, public :: CARREAU_EXR_SIZE = 1, CARREAU_EXR_INDUCED = 2, CARREAU_EXR_TARGET = 4, &
@@ -126,6 +133,25 @@ module carreau
     logical :: multi_part = .false., raw = .false.
     integer(c_int32_t) :: compression = CARREAU_EXR_ZIP, threads = 0
   end type carreau_exr_options
+
+  !> text: all lines, with line feeds (achar(10)) between.
+  type :: carreau_delivered
+    integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0
+    integer(c_int64_t) :: short_edges = 0, long_edges = 0, folded_triangles = 0
+    real(c_double) :: in_range = 0
+    integer(c_int64_t) :: not_met = 0
+    character(len=:), allocatable :: text
+    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, size_calls = 0
+    real(c_double) :: seconds = 0
+  end type carreau_delivered
+
+  type :: carreau_measure
+    character(len=:), allocatable :: name, title
+    integer(c_int32_t) :: entity = 0, classes = 0
+    integer(c_int64_t) :: values = 0, count = 0
+    real(c_double) :: mean = 0, min = 0, p1 = 0, p99 = 0, max = 0, limit = 0
+    integer(c_int64_t) :: beyond = 0
+  end type carreau_measure
 
   type :: carreau_face
     integer(c_int32_t) :: ref = 0, status = 0
@@ -770,6 +796,125 @@ contains
       c%curv2_calls, c%size_calls, c%seconds_curves, c%seconds_sampling, c%seconds_plane, c%seconds_lift, &
       c%seconds_total)
   end subroutine carreau_session_report
+
+  ! ---- What was delivered ----
+
+  subroutine carreau_session_delivered(session, delivered, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_delivered), intent(out) :: delivered
+    integer(c_int32_t), intent(out) :: status
+    type(c_delivered) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_session_delivered(session%handle, c)
+    if (status /= CARREAU_OK) return
+    delivered%vertices = c%vertices
+    delivered%edges = c%edges
+    delivered%triangles = c%triangles
+    delivered%short_edges = c%short_edges
+    delivered%long_edges = c%long_edges
+    delivered%folded_triangles = c%folded_triangles
+    delivered%in_range = c%in_range
+    delivered%not_met = c%not_met
+    delivered%surf0_calls = c%surf0_calls
+    delivered%surf1_calls = c%surf1_calls
+    delivered%surf2_calls = c%surf2_calls
+    delivered%size_calls = c%size_calls
+    delivered%seconds = c%seconds
+    delivered%text = carreau_string(c%text)
+  end subroutine carreau_session_delivered
+
+  subroutine carreau_delivered_measure(session, kind, measure, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: kind
+    type(carreau_measure), intent(out) :: measure
+    integer(c_int32_t), intent(out) :: status
+    type(c_measure) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_delivered_measure(session%handle, kind, c)
+    if (status /= CARREAU_OK) return
+    measure%name = carreau_string(c%name)
+    measure%title = carreau_string(c%title)
+    measure%entity = c%entity
+    measure%classes = c%classes
+    measure%values = c%values
+    measure%count = c%count
+    measure%mean = c%mean
+    measure%min = c%min
+    measure%p1 = c%p1
+    measure%p99 = c%p99
+    measure%max = c%max
+    measure%limit = c%limit
+    measure%beyond = c%beyond
+  end subroutine carreau_delivered_measure
+
+  !> counts(i): values from bounds(i) up to bounds(i + 1)
+  subroutine carreau_delivered_histogram(session, kind, bounds, counts, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: kind
+    real(c_double), allocatable, intent(out) :: bounds(:)
+    integer(c_int64_t), allocatable, intent(out) :: counts(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_measure) :: measure
+    call carreau_delivered_measure(session, kind, measure, status)
+    if (status /= CARREAU_OK) return
+    allocate (bounds(measure%classes), counts(measure%classes))
+    status = c_delivered_histogram(session%handle, kind, int(measure%classes, c_int64_t), bounds, counts)
+    if (status /= CARREAU_OK) deallocate (bounds, counts)
+  end subroutine carreau_delivered_histogram
+
+  subroutine carreau_delivered_values(session, kind, values, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: kind
+    real(c_double), allocatable, intent(out) :: values(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_measure) :: measure
+    call carreau_delivered_measure(session, kind, measure, status)
+    if (status /= CARREAU_OK) return
+    allocate (values(measure%values))
+    status = c_delivered_values(session%handle, kind, measure%values, values)
+    if (status /= CARREAU_OK) deallocate (values)
+  end subroutine carreau_delivered_values
+
+  !> vertices(2, k), from 1; curves(k): references, 0 inside faces
+  subroutine carreau_delivered_edges(session, vertices, curves, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: vertices(:, :), curves(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_delivered) :: delivered
+    call carreau_session_delivered(session, delivered, status)
+    if (status /= CARREAU_OK) return
+    allocate (vertices(2, delivered%edges), curves(delivered%edges))
+    status = c_delivered_edges(session%handle, delivered%edges, vertices, curves)
+    if (status == CARREAU_OK) then
+      vertices = vertices + 1
+    else
+      deallocate (vertices, curves)
+    end if
+  end subroutine carreau_delivered_edges
+
+  !> edges(3, m), from 1: the edge that leaves each corner
+  subroutine carreau_delivered_triangle_edges(session, edges, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: edges(:, :)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_delivered) :: delivered
+    call carreau_session_delivered(session, delivered, status)
+    if (status /= CARREAU_OK) return
+    allocate (edges(3, delivered%triangles))
+    status = c_delivered_triangle_edges(session%handle, delivered%triangles, edges)
+    if (status == CARREAU_OK) then
+      edges = edges + 1
+    else
+      deallocate (edges)
+    end if
+  end subroutine carreau_delivered_triangle_edges
+
+  subroutine carreau_delivered_write(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_delivered_write(session%handle, c_text(path))
+  end subroutine carreau_delivered_write
 
   ! ---- Meshes ----
 

@@ -105,6 +105,26 @@ module carreau_c
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type c_report
 
+  type, bind(c) :: c_delivered
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0
+    integer(c_int64_t) :: short_edges = 0, long_edges = 0, folded_triangles = 0
+    real(c_double) :: in_range = 0
+    integer(c_int64_t) :: not_met = 0
+    type(c_ptr) :: text = c_null_ptr
+    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, size_calls = 0
+    real(c_double) :: seconds = 0
+  end type c_delivered
+
+  type, bind(c) :: c_measure
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: name = c_null_ptr, title = c_null_ptr
+    integer(c_int32_t) :: entity = 0, classes = 0
+    integer(c_int64_t) :: values = 0, count = 0
+    real(c_double) :: mean = 0, min = 0, p1 = 0, p99 = 0, max = 0, limit = 0
+    integer(c_int64_t) :: beyond = 0
+  end type c_measure
+
   type, bind(c) :: c_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: ref = 0, status = 0
@@ -694,6 +714,73 @@ module carreau_c
       type(c_adaptation_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function c_adapt
+
+    function c_session_delivered(session, delivered) result(status) bind(c, name="carreau_session_delivered")
+      import :: c_delivered, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_delivered), intent(inout) :: delivered
+      integer(c_int32_t) :: status
+    end function c_session_delivered
+
+    function c_delivered_measure(session, kind, measure) result(status) bind(c, name="carreau_delivered_measure")
+      import :: c_int32_t, c_measure, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: kind
+      type(c_measure), intent(inout) :: measure
+      integer(c_int32_t) :: status
+    end function c_delivered_measure
+
+    function c_delivered_histogram(session, kind, capacity, bounds, counts) result(status) &
+      bind(c, name="carreau_delivered_histogram")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: bounds(*)
+      integer(c_int64_t), intent(inout) :: counts(*)
+      integer(c_int32_t) :: status
+    end function c_delivered_histogram
+
+    function c_delivered_values(session, kind, capacity, values) result(status) bind(c, name="carreau_delivered_values")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int32_t) :: status
+    end function c_delivered_values
+
+    function c_delivered_edges(session, capacity, vertices, curves) result(status) &
+      bind(c, name="carreau_delivered_edges")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: vertices(*), curves(*)
+      integer(c_int32_t) :: status
+    end function c_delivered_edges
+
+    function c_delivered_triangle_edges(session, capacity, edges) result(status) &
+      bind(c, name="carreau_delivered_triangle_edges")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: edges(*)
+      integer(c_int32_t) :: status
+    end function c_delivered_triangle_edges
+
+    function c_delivered_write(session, path) result(status) bind(c, name="carreau_delivered_write")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_delivered_write
 
     function c_strlen(text) result(length) bind(c, name="strlen")
       import :: c_ptr, c_size_t

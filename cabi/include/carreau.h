@@ -20,10 +20,11 @@
  *              that handle ("" after success). A NULL handle is CARREAU_ERR_ARGUMENT and has no sentence.
  *   Threads    Handles are independent of one another. One handle is used by one thread at a time; carreau_stop alone
  *              may be called from anywhere at any time. There is no global state.
- *   Callbacks  come from the thread that called carreau_mesh_generate, carreau_run_env or carreau_write_exr, one after
- *              another, unless carreau_cad.reentrant says otherwise. A callback must return: no C++ exception, longjmp
- *              or Fortran stop may leave it. From inside one, carreau_stop is the only call allowed on its session and
- *              mesh; any other returns CARREAU_ERR_BUSY.
+ *   Callbacks  come from the thread that called carreau_mesh_generate, carreau_run_env, carreau_write_exr or, when what
+ *              was delivered is measured, carreau_session_delivered and its like, one after another, unless
+ *              carreau_cad.reentrant says otherwise. A callback must return: no C++ exception, longjmp or Fortran stop
+ *              may leave it. From inside one, carreau_stop is the only call allowed on its session and mesh; any other
+ *              returns CARREAU_ERR_BUSY.
  *   Silence    Nothing is printed, no signal is raised or caught, and no call ends the process. The floating-point
  *              environment (rounding, traps, flags) of the caller is given back as it was; callbacks run in the
  *              default one.
@@ -358,6 +359,7 @@ enum {
   CARREAU_PHASE_PATCHES = 3,
   CARREAU_PHASE_ASSEMBLY = 4,
   CARREAU_PHASE_WRITING = 5,
+  CARREAU_PHASE_MEASURE = 6,  /* of what was delivered; `fraction` is of the measure */
   CARREAU_PHASE_GRADATION = 7 /* before curves and patches, when the parameter gradation is not 0 */
 };
 
@@ -703,6 +705,89 @@ typedef struct carreau_curve {
  * Errors: ARGUMENT (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
 CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
                                                double* out_abscissae, int64_t* out_edges, double* out_length);
+
+/* ---- What was delivered ---- */
+
+/* Measures of the latest mesh of a session, on the surface that the callbacks describe and against the sizes and
+ * metrics that they prescribe, not against what the library had sampled of them. A mesh is measured when one of these
+ * functions is first called, or right after the run when the parameter measure is 1: about 24 evaluations a vertex, by
+ * the callbacks that made the mesh, so what they use must still be there. Messages say the result (levels SUMMARY and
+ * WARNING); .vtu files written from then on hold the values: on triangles and vertices, and with flag = 1 on all edges.
+ *
+ *   kind                            of         unit
+ *   CARREAU_MEASURE_LENGTH          edges      length of the edge's image on the surface in the prescribed metric, by
+ *                                              Gauss quadrature; 1 is as prescribed
+ *   CARREAU_MEASURE_EDGE_ANGLE      edges      largest angle with the tangent planes at its ends, degrees
+ *   CARREAU_MEASURE_GRADATION       edges      ratio of the prescribed sizes at its ends, for a step of length 1
+ *   CARREAU_MEASURE_LENGTH_RATIO    vertices   longest over shortest of its edges; in an anisotropic metric each is
+ *                                              divided by the size along it over the mean size
+ *   CARREAU_MEASURE_Q1, Q2          triangles  shape in space, as in carreau_quality
+ *   CARREAU_MEASURE_METRIC_QUALITY  triangles  Q2 in the metric
+ *   CARREAU_MEASURE_A0              triangles  distance of the surface above it, at sample points; model length
+ *   CARREAU_MEASURE_A1              triangles  largest angle between its normal and the surface's, degrees, 0 to 180
+ *
+ * A value is NaN where it has no meaning (sizes at a singular point). */
+enum {
+  CARREAU_MEASURE_LENGTH = 1,
+  CARREAU_MEASURE_EDGE_ANGLE = 2,
+  CARREAU_MEASURE_GRADATION = 3,
+  CARREAU_MEASURE_LENGTH_RATIO = 4,
+  CARREAU_MEASURE_Q1 = 5,
+  CARREAU_MEASURE_Q2 = 6,
+  CARREAU_MEASURE_METRIC_QUALITY = 7,
+  CARREAU_MEASURE_A0 = 8,
+  CARREAU_MEASURE_A1 = 9
+};
+enum { CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3 };
+
+typedef struct carreau_delivered {
+  size_t struct_size;
+  int64_t vertices, edges, triangles;
+  int64_t short_edges, long_edges; /* metric length below 1 / sqrt(2), above sqrt(2) */
+  int64_t folded_triangles;        /* turned by more than 90 degrees against the surface */
+  double in_range;                 /* share of the edges with a length between */
+  int64_t not_met;                 /* number of prescriptions that are not met everywhere */
+  const char* text;                /* for a person: a line for each kind, then a sentence for each prescription not
+                                      met; lives until the next call on the session */
+  int64_t surf0_calls, surf1_calls, surf2_calls, size_calls; /* of the measure, not of the run */
+  double seconds;
+} carreau_delivered;
+
+/* Errors of these functions: ARGUMENT, SEQUENCE (no mesh yet), CALLBACK, CANCELLED, MEMORY. */
+CARREAU_API carreau_status carreau_session_delivered(carreau_session* session, carreau_delivered* out_delivered);
+
+typedef struct carreau_measure {
+  size_t struct_size;
+  const char* name;  /* as in files; static */
+  const char* title; /* for a person, with the unit; static */
+  int32_t entity;    /* CARREAU_OF_... */
+  int32_t classes;   /* of the histogram */
+  int64_t values;    /* number of entities */
+  int64_t count;     /* of those whose value is not NaN; the spread is theirs, and zero when there are none */
+  double mean, min, p1, p99, max; /* p1, p99: percentiles */
+  double limit;                   /* what was asked: no value above this; infinity: nothing was */
+  int64_t beyond;                 /* values above it (gradation: by more than 2 %) */
+} carreau_measure;
+
+CARREAU_API carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind,
+                                                     carreau_measure* out_measure);
+
+/* Histogram: counts[i] values from bounds[i] up to bounds[i + 1]; bounds[0] is -infinity. `capacity`: rows of both. */
+CARREAU_API carreau_status carreau_delivered_histogram(carreau_session* session, int32_t kind, int64_t capacity,
+                                                       double* out_bounds, int64_t* out_counts);
+/* One value an edge, vertex or triangle; triangles and vertices as in carreau_mesh_triangles and _vertices. */
+CARREAU_API carreau_status carreau_delivered_values(carreau_session* session, int32_t kind, int64_t capacity,
+                                                    double* out_values);
+/* The edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0 inside a
+ * face. Either array may be NULL. */
+CARREAU_API carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacity, int32_t* out_vertices,
+                                                   int32_t* out_curves);
+/* m x 3: the edge that leaves each corner of a triangle. */
+CARREAU_API carreau_status carreau_delivered_triangle_edges(carreau_session* session, int64_t capacity,
+                                                            int32_t* out_edges);
+
+/* Writes the spreads, histograms, counts and sentences as JSON; numbers that are not finite are null. Errors: FILE. */
+CARREAU_API carreau_status carreau_delivered_write(carreau_session* session, const char* path);
 
 #ifdef __cplusplus
 }

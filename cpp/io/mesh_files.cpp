@@ -33,9 +33,14 @@ void check_field(const MeshField& field, const FlatMesh& mesh) {
   if (field.components < 1)
     throw InvalidArgument("a mesh cannot be written: field '" + field.name + "' has " +
                           std::to_string(field.components) + " components");
-  const std::size_t entities = field.on_vertices ? mesh.vertices.size() : mesh.triangles.size();
-  check_length(("field '" + field.name + "'").c_str(), field.values.size(),
-               entities * static_cast<std::size_t>(field.components));
+  const std::string what = "field '" + field.name + "'";
+  const auto components = static_cast<std::size_t>(field.components);
+  if (!field.edge_values.empty())
+    check_length((what + " of edges").c_str(), field.edge_values.size(),
+                 field.on_vertices ? 0 : mesh.edges.size() * components);
+  if (field.values.empty() && !field.edge_values.empty()) return;
+  check_length(what.c_str(), field.values.size(),
+               (field.on_vertices ? mesh.vertices.size() : mesh.triangles.size()) * components);
 }
 
 void check_mesh(const FlatMesh& mesh) {

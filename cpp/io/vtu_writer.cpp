@@ -108,10 +108,13 @@ void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
   file.array("reference", 1, refs);
   for (const MeshField& field : mesh.fields) {
     if (field.on_vertices) continue;
-    // VTK wants a value for every cell; NaN says that an edge has none and is left out of colour ranges.
+    // VTK wants a value for every cell; NaN says that a cell has none and is left out of colour ranges.
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const auto components = static_cast<std::size_t>(field.components);
     std::vector<double> values = field.values;
-    values.resize(values.size() + mesh.edges.size() * static_cast<std::size_t>(field.components),
-                  std::numeric_limits<double>::quiet_NaN());
+    values.resize(mesh.triangles.size() * components, none);
+    values.insert(values.end(), field.edge_values.begin(), field.edge_values.end());
+    values.resize((mesh.triangles.size() + mesh.edges.size()) * components, none);
     file.array(field.name, field.components, values);
   }
   file.xml("</CellData>\n");

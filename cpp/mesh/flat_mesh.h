@@ -10,12 +10,13 @@
 
 namespace carreau {
 
-/// One number or vector a vertex or a triangle.
+/// One number or vector a vertex, or a cell: a triangle or an edge.
 struct MeshField {
   std::string name;
   bool on_vertices = true;
   int components = 1;
-  std::vector<double> values;  ///< entity by entity, components together
+  std::vector<double> values;            ///< of vertices or triangles, entity by entity, components together
+  std::vector<double> edge_values = {};  ///< of edges, when not on vertices. One list may be empty: NaN
 };
 
 struct FlatMesh {

@@ -10,7 +10,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::array<std::string_view, 3> actions{"inimesh", "export", "exit"};
+constexpr std::array<std::string_view, 4> actions{"inimesh", "export", "exit", "measure"};
 
 // Parameters have their defaults from here on and again at the end of the scope, which an exception may end.
 class DefaultsAround {
@@ -77,9 +77,12 @@ class EnvRunner {
     } else if (pair.value == actions[1]) {
       if (!session_.has_mesh()) throw InvalidArgument(at(pair), "call export comes before any call inimesh");
       session_.write(beside_env("." + session_.parameters().text("format")));
+    } else if (pair.value == actions[3]) {
+      if (!session_.has_mesh()) throw InvalidArgument(at(pair), "call measure comes before any call inimesh");
+      session_.write_delivered(beside_env(".json"));
     } else {
       throw InvalidArgument(at(pair),
-                            "unknown action \"" + pair.value + "\": the actions are inimesh, export and exit");
+                            "unknown action \"" + pair.value + "\": the actions are inimesh, measure, export and exit");
     }
   }
 

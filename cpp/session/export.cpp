@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <numeric>
 #include <set>
 
 #include "mesh/quality.h"
@@ -30,6 +32,12 @@ std::vector<CurveEdge> edges_of_curves(const SurfaceMesh& mesh) {
   return edges;
 }
 
+// Where the entities of a flat mesh come from: vertex and triangle of the surface mesh (-1: none of space).
+struct FlatSources {
+  std::vector<std::int32_t> vertex;
+  std::vector<std::int64_t> triangle;
+};
+
 // Appends one face, in space or in its parameter plane, with its own vertices only.
 class FaceAppender {
  public:
@@ -38,12 +46,17 @@ class FaceAppender {
     flat_.dimension = plane ? 2 : 3;
   }
 
-  void append(const FaceMesh& face) {
+  /// `first`: the first triangle of the face among those of the mesh.
+  void append(const FaceMesh& face, std::size_t first) {
     rank_.assign(plane_ ? face.uv.size() : mesh_.vertices.size(), -1);
     edges_.clear();
-    for (const auto& t : face.triangles) append_triangle(face, t);
+    for (const auto& t : face.triangles) {
+      append_triangle(face, t);
+      triangle_source_.push_back(static_cast<std::int64_t>(first++));
+    }
     if (plane_)
       for (const auto& t : face.flattened) append_triangle(face, t);
+    triangle_source_.resize(flat_.triangles.size(), -1);
     std::sort(edges_.begin(), edges_.end());
     edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
     for (const CurveEdge& edge : edges_) {
@@ -53,7 +66,7 @@ class FaceAppender {
   }
 
   FlatMesh take() { return std::move(flat_); }
-  [[nodiscard]] const std::vector<std::int32_t>& sources() const { return source_; }
+  [[nodiscard]] FlatSources sources() const { return {source_, triangle_source_}; }
 
  private:
   std::int32_t vertex(const FaceMesh& face, std::int32_t local) {
@@ -86,11 +99,12 @@ class FaceAppender {
   FlatMesh flat_;
   std::vector<CurveEdge> curve_edges_, edges_;
   std::vector<std::int32_t> rank_, source_;
+  std::vector<std::int64_t> triangle_source_;
 };
 
-const FaceMesh& face_of_reference(const SurfaceMesh& mesh, int ref) {
-  for (const FaceMesh& face : mesh.faces)
-    if (face.ref == ref) return face;
+std::size_t face_of_reference(const SurfaceMesh& mesh, int ref) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (mesh.faces[f].ref == ref) return f;
   throw InvalidArgument("export: no face has the reference " + std::to_string(ref) + " (parameter refs)");
 }
 
@@ -113,14 +127,11 @@ FlatMesh supports_as_mesh(const ExportSource& source) {
   return flat;
 }
 
-void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const std::vector<std::int32_t>* sources) {
-  MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}};
-  if (sources == nullptr)
-    size.values = vertex_size;
-  else
-    for (const std::int32_t v : *sources) size.values.push_back(vertex_size[v]);
-  MeshField q1{.name = "Q1", .on_vertices = false, .components = 1, .values = {}},
-      q2{.name = "Q2", .on_vertices = false, .components = 1, .values = {}};
+void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const FlatSources& sources) {
+  MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};
+  for (const std::int32_t v : sources.vertex) size.values.push_back(vertex_size[v]);
+  MeshField q1{.name = "Q1", .on_vertices = false, .components = 1, .values = {}, .edge_values = {}}, q2 = q1;
+  q2.name = "Q2";
   for (const auto& t : flat.triangles) {
     const Vec3 a = flat.vertices[t[0]], b = flat.vertices[t[1]], c = flat.vertices[t[2]];
     q1.values.push_back(quality_q1(a, b, c));
@@ -129,25 +140,90 @@ void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const st
   flat.fields = {std::move(size), std::move(q1), std::move(q2)};
 }
 
+// A side of a triangle of the flat mesh: edge of the surface mesh, vertices of the flat one.
+struct FlatEdge {
+  std::int32_t edge;
+  std::array<std::int32_t, 2> vertices;
+  friend auto operator<=>(const FlatEdge&, const FlatEdge&) = default;
+};
+
+// Replaces the edges by those of all triangles; one that a seam gives two places in (u, v) comes twice there.
+std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, const Delivered& delivered,
+                                    const FlatSources& sources) {
+  std::vector<FlatEdge> all;
+  for (std::size_t t = 0; t < flat.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3 && sources.triangle[t] >= 0; ++i)
+      all.push_back({delivered.edges.of_triangle[sources.triangle[t]][i],
+                     ordered(flat.triangles[t][i], flat.triangles[t][(i + 1) % 3])});
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  flat.edges.clear();
+  flat.edge_refs.clear();
+  for (const FlatEdge& each : all) {
+    const std::int32_t segment = delivered.edges.segment[each.edge];
+    flat.edges.push_back(each.vertices);
+    flat.edge_refs.push_back(segment < 0 ? 0 : mesh.curves[delivered.edges.segments[segment].curve].ref);
+  }
+  return all;
+}
+
+void add_delivered(FlatMesh& flat, const ExportSource& source, const FlatSources& sources, bool with_edges) {
+  const Delivered& delivered = *source.delivered;
+  std::vector<FlatEdge> edges;
+  if (with_edges) edges = add_all_edges(flat, source.mesh, delivered, sources);
+  for (const DeliveredMeasure& row : delivered_measures()) {
+    const bool known = std::any_of(flat.fields.begin(), flat.fields.end(),
+                                   [&](const MeshField& field) { return field.name == row.name; });
+    if (known || (row.entity == DeliveredEntity::edge && !with_edges)) continue;
+    const std::vector<double>& values = delivered[row.kind].values;
+    MeshField field{.name = row.name,
+                    .on_vertices = row.entity == DeliveredEntity::vertex,
+                    .components = 1,
+                    .values = {},
+                    .edge_values = {}};
+    if (row.entity == DeliveredEntity::vertex)
+      for (const std::int32_t v : sources.vertex) field.values.push_back(values[v]);
+    if (row.entity == DeliveredEntity::triangle)
+      for (const std::int64_t t : sources.triangle)
+        field.values.push_back(t < 0 ? std::numeric_limits<double>::quiet_NaN() : values[t]);
+    if (row.entity == DeliveredEntity::edge)
+      for (const FlatEdge& each : edges) field.edge_values.push_back(values[each.edge]);
+    flat.fields.push_back(std::move(field));
+  }
+}
+
+FlatSources all_of(const SurfaceMesh& mesh) {
+  FlatSources sources{std::vector<std::int32_t>(mesh.vertices.size()),
+                      std::vector<std::int64_t>(mesh.triangle_count())};
+  std::iota(sources.vertex.begin(), sources.vertex.end(), 0);
+  std::iota(sources.triangle.begin(), sources.triangle.end(), 0);
+  return sources;
+}
+
 }  // namespace
 
 FlatMesh export_mesh(const ExportSource& source, const std::string& option, int face, bool with_edges) {
   if (option == "smo3d") return supports_as_mesh(source);
-  if (option.empty() || option == "allsurf3d") {
-    FlatMesh flat = flatten(source.mesh, with_edges);
-    add_fields(flat, source.vertex_size, nullptr);
-    return flat;
+  const bool plane = option == "allsurf2d" || option == "onesurf2d", whole = option.empty() || option == "allsurf3d";
+  if (!plane && !whole && option != "onesurf3d") throw InvalidArgument("export: unknown option \"" + option + "\"");
+  FlatMesh flat;
+  FlatSources sources;
+  if (whole) {
+    flat = flatten(source.mesh, with_edges);
+    sources = all_of(source.mesh);
+  } else {
+    FaceAppender appender(source.mesh, plane, with_edges);
+    const std::size_t wanted = option == "allsurf2d" ? 0 : face_of_reference(source.mesh, face);
+    std::size_t first = 0;
+    for (std::size_t f = 0; f < source.mesh.faces.size(); ++f) {
+      if (option == "allsurf2d" || f == wanted) appender.append(source.mesh.faces[f], first);
+      first += source.mesh.faces[f].triangles.size();
+    }
+    sources = appender.sources();
+    flat = appender.take();
   }
-  const bool plane = option == "allsurf2d" || option == "onesurf2d";
-  if (!plane && option != "onesurf3d") throw InvalidArgument("export: unknown option \"" + option + "\"");
-  FaceAppender appender(source.mesh, plane, with_edges);
-  if (option == "allsurf2d")
-    for (const FaceMesh& each : source.mesh.faces) appender.append(each);
-  else
-    appender.append(face_of_reference(source.mesh, face));
-  const std::vector<std::int32_t> sources = appender.sources();
-  FlatMesh flat = appender.take();
-  if (!plane) add_fields(flat, source.vertex_size, &sources);
+  if (!plane) add_fields(flat, source.vertex_size, sources);
+  if (source.delivered != nullptr) add_delivered(flat, source, sources, with_edges);
   return flat;
 }
 

@@ -7,6 +7,7 @@
 #include "mesh/flat_mesh.h"
 #include "model/model.h"
 #include "surface/composite.h"
+#include "surface/delivered.h"
 
 namespace carreau {
 
@@ -16,11 +17,13 @@ struct ExportSource {
   const std::vector<double>& vertex_size;
   const Model& model;
   const ModelSupports& supports;
+  const Delivered* delivered = nullptr;  ///< its values become fields; nullptr: none
 };
 
 /// `option` is "", allsurf3d, allsurf2d, onesurf3d, onesurf2d or smo3d; `face` the reference that onesurf* want;
 /// `with_edges` is flag = 1. Fields: size (vertices), Q1 and Q2 (triangles) in 3-D. Throws InvalidArgument for a face
-/// that does not exist or an unknown option.
+/// that does not exist or an unknown option. With `delivered`: its values as fields, in 2-D as well, and with_edges
+/// gives every edge once, with reference 0 inside faces.
 FlatMesh export_mesh(const ExportSource& source, const std::string& option, int face, bool with_edges);
 
 }  // namespace carreau

@@ -31,7 +31,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text. Ours: max_triangles and what governs metrics (anisotropy_max, eps_chord,
+// the figure is hphymin in the text. Ours: max_triangles, measure, and what governs metrics (anisotropy_max, eps_chord,
 // geo_guarantee, geo_metric, geo_rule, metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
@@ -72,6 +72,7 @@ constexpr std::array kTable = {
     diag_row("hphymax", kPositive, 1.0 / 5, "largest physical size, model length"),
     diag_row("hphymin", kPositive, 1.0 / 500, "smallest physical size, model length"),
     integer_row("max_triangles", 0, INT_MAX, 0, "largest number of triangles of a mesh (0: by memory)"),
+    integer_row("measure", 0, 1, 0, "1: what a mesh delivers is measured on the surface, said, and exported to vtu"),
     integer_row("metric_combination", 0, 1, 1,
                 "prescribed and geometric metrics: 0 the prescribed one is scaled and keeps its shape, 1 intersection"),
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),

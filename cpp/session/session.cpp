@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cad/checked_cad.h"
+#include "io/delivered_json.h"
 #include "io/files.h"
 #include "io/mesh_files.h"
 #include "io/pardom.h"
@@ -16,8 +17,24 @@
 #include "session/field_files.h"
 #include "session/gluing.h"
 #include "support/format.h"
+#include "surface/delivered_composite.h"
 
 namespace carreau {
+
+namespace {
+
+/// What a mesh was made of: what measures it asks the same again.
+struct Meshed {
+  std::shared_ptr<Cad> cad;
+  std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;  // of `options`, as is the next
+  std::shared_ptr<BackgroundField> background;
+  Model model;
+  ModelSupports supports;
+  Topology topology;
+  CompositeOptions options;
+};
+
+}  // namespace
 
 struct Session::State {
   explicit State(Monitor& m) : monitor(m) {}
@@ -26,7 +43,7 @@ struct Session::State {
   std::shared_ptr<Cad> cad;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
-  std::shared_ptr<BackgroundField> tried_background, meshed_background;  // of files, or what was set
+  std::shared_ptr<BackgroundField> tried_background;  // of files, or what was set
   BackgroundReport background_report;
   SurfaceMesh previous;
   bool has_previous = false;
@@ -35,12 +52,11 @@ struct Session::State {
   bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
   Parameters parameters;
   CompositeResult result;
-  Model meshed_model;  // what `result` is a mesh of
-  ModelSupports supports;
-  Topology topology;
+  Meshed meshed;
   bool has_mesh = false;
   Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
   bool last_failed = false;                        // the last make_mesh() has thrown
+  std::optional<Delivered> delivered;              // of `result`
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const {
@@ -198,6 +214,18 @@ void describe_result(const CompositeResult& result, Monitor& monitor) {
                                       short_text(r.seconds_lift) + ")");
 }
 
+Delivered measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
+  CheckedCad cad(*meshed.cad);
+  set_parameter_boxes(meshed.model, meshed.supports, cad);
+  return measure_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
+}
+
+void describe_delivered(const Delivered& delivered, Monitor& monitor) {
+  const DeliveredText text = describe(delivered);
+  for (const std::string& line : text.summary) monitor.message(Level::summary, line);
+  for (const std::string& sentence : text.not_met) monitor.message(Level::warning, sentence);
+}
+
 }  // namespace
 
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}
@@ -253,7 +281,7 @@ const SurfaceMesh& Session::previous_mesh() const {
 }
 const std::vector<double>& Session::vertex_sizes() const { return (void)mesh(), state_->result.vertex_size; }
 const CompositeReport& Session::report() const { return (void)mesh(), state_->result.report; }
-const ModelSupports& Session::supports() const { return (void)mesh(), state_->supports; }
+const ModelSupports& Session::supports() const { return (void)mesh(), state_->meshed.supports; }
 
 void Session::make_mesh() {
   State& s = *state_;
@@ -303,18 +331,28 @@ void Session::make_mesh() {
   }
   for (const PrescriptionSource* source : options.size.sources)
     for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);
-  s.background_report = background ? background->report() : BackgroundReport{};
+  const BackgroundReport background_report = background ? background->report() : BackgroundReport{};
+  Meshed meshed{s.cad,
+                s.metric_callbacks,
+                s.prescription_source,
+                background,
+                std::move(model),
+                std::move(supports),
+                std::move(topology),
+                std::move(options)};
+  std::optional<Delivered> delivered;
+  if (s.parameters.integer("measure") != 0) delivered = measure(meshed, result, s.monitor);
+  s.background_report = background_report;
   s.has_previous = s.has_mesh;
   s.previous = std::move(s.result.mesh);
   s.result = std::move(result);
-  s.supports = std::move(supports);
-  s.topology = std::move(topology);
-  s.meshed_model = std::move(model);
+  s.meshed = std::move(meshed);
+  s.delivered = std::move(delivered);
   s.meshed_parameters = s.tried_parameters;
-  s.meshed_background = background;
   s.has_mesh = true;
   s.last_failed = false;
   describe_result(s.result, s.monitor);
+  if (s.delivered) describe_delivered(*s.delivered, s.monitor);
   s.monitor.progress(Phase::idle, 0, 1);
 }
 
@@ -327,12 +365,11 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   State& s = *state_;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   CheckedCad whole_cad(*s.cad);
-  PartCad cad(whole_cad, parts_of(s.meshed_model));
+  PartCad cad(whole_cad, parts_of(s.meshed.model));
   const double diag = s.result.report.diag;
-  set_parameter_boxes(s.meshed_model, s.supports, cad);
-  FieldRun run{s.meshed_model, s.topology, &s.supports, &s.result, {}, s.meshed_parameters, diag};
-  run.size = composite_options(s.meshed_parameters, diag).size;
-  run.size.sources = s.sources(s.meshed_background.get());
+  set_parameter_boxes(s.meshed.model, s.meshed.supports, cad);
+  FieldRun run{s.meshed.model, s.meshed.topology, &s.meshed.supports, &s.result, {}, s.meshed_parameters, diag};
+  run.size = s.meshed.options.size;
   if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, diag).threads;
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
@@ -360,8 +397,26 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 
-FlatMesh Session::exported() const {
-  const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed_model, state_->supports};
+const Delivered& Session::delivered() {
+  State& s = *state_;
+  (void)mesh();
+  if (!s.delivered) {
+    s.delivered = measure(s.meshed, s.result, s.monitor);
+    describe_delivered(*s.delivered, s.monitor);
+    s.monitor.progress(Phase::idle, 0, 1);
+  }
+  return *s.delivered;
+}
+
+void Session::write_delivered(const std::string& path) {
+  const std::string text = delivered_json(mesh(), report(), delivered());
+  state_->monitor.progress(Phase::writing, 0, 1);
+  write_file(path, text);
+}
+
+FlatMesh Session::exported(const Delivered* delivered) const {
+  const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports,
+                            delivered};
   const Parameters& p = state_->parameters;
   return export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
 }
@@ -376,8 +431,11 @@ void Session::write(const std::string& path) {
     return;
   }
   const MeshFormat format = mesh_format_of(path);
+  const Delivered* measures = nullptr;  // other formats have no place for them
+  if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
+    measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  write_mesh(exported(), path, format);
+  write_mesh(exported(measures), path, format);
 }
 
 }  // namespace carreau

@@ -16,6 +16,7 @@
 #include "size/background.h"
 #include "support/monitor.h"
 #include "surface/composite.h"
+#include "surface/delivered.h"
 
 namespace carreau {
 
@@ -61,10 +62,18 @@ class Session {
   [[nodiscard]] const std::vector<double>& vertex_sizes() const;
   [[nodiscard]] const CompositeReport& report() const;
 
-  /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written.
-  [[nodiscard]] FlatMesh exported() const;
-  /// Writes exported() to a file; format by suffix. `.exr`: the fields of all faces, or of the one of onesurf*, in one
-  /// file.
+  /// What the last make_mesh() delivered, measured when first asked (or by make_mesh() when the parameter measure is
+  /// 1), on the geometry and the sources of that run, which are asked again; messages say it for a person. Throws
+  /// InvalidArgument before the first make_mesh(), and what callbacks throw.
+  const Delivered& delivered();
+  /// Writes delivered() as JSON.
+  void write_delivered(const std::string& path);
+
+  /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written; `delivered` adds its
+  /// values as fields.
+  [[nodiscard]] FlatMesh exported(const Delivered* delivered = nullptr) const;
+  /// Writes exported() to a file; format by suffix. A .vtu holds what delivered() knows, when it was asked or the
+  /// parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
   void write(const std::string& path);
 
   /// What governed each face's mesh, sampled and written as images (session/fields.h): returns the names of the files.

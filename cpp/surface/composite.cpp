@@ -68,7 +68,7 @@ class Pipeline {
     mesh_faces();
     tell(Phase::assembly, 0, curves_share + patches_share);
     assemble(model_, topology_, domains_, curves_, patches_, result_);
-    keep_interfaces();
+    keep_prescriptions();
     result_.report.calls = cad_.counts();
     result_.report.seconds_total = seconds_since(start);
     return std::move(result_);
@@ -186,7 +186,10 @@ class Pipeline {
     tell_progress(i + 1);
   }
 
-  void keep_interfaces() {
+  void keep_prescriptions() {
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      result_.curve_size.push_back(result_.mesh.curves[c].vertices.size() > 1 ? std::move(curves_[c].size)
+                                                                              : std::vector<double>{});
     result_.interfaces.resize(model_.faces.size());
     for (std::size_t f = 0; f < result_.interfaces.size(); ++f)
       if (domains_.domain[f])

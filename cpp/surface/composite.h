@@ -51,6 +51,8 @@ struct CompositeResult {
   std::vector<FaceInterfaces> interfaces;           ///< by face; empty where the domain could not be made
   std::vector<std::optional<ControlSpace>> spaces;  ///< by face: what the mesher used; empty: it was not sampled
   std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
+  /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
+  std::vector<std::vector<double>> curve_size;
   CompositeReport report;
 };
 

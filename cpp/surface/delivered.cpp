@@ -213,7 +213,7 @@ class Measurement {
                    if (edges_.segment[o.edge] < 0)
                      above_[static_cast<std::size_t>(o.edge) * n + k % n] = jet.s;
                    else
-                     raise(DeliveredKind::deviation, o.triangle, distance(jet.s, o.triangle));
+                     raise_deviation(o.triangle, jet.s);
                    if (!o.measured) return;
                    double speed = length(metric, d);
                    if (const auto h = curve_sizes(o.edge, o.a))
@@ -277,14 +277,27 @@ class Measurement {
     for (std::size_t t = 0; t < face_->triangles.size(); ++t) finish_quality(t);
   }
 
-  // The image of the triangle of (u, v) may reach beyond the triangle in space: what lies there is above a neighbour.
+  // The image of a triangle of (u, v) may reach beyond the triangle in space, by much at a pole: what lies there is
+  // above a neighbour, or its neighbour, as long as they come nearer.
+  [[nodiscard]] double distance_to_mesh(Vec3 s, std::size_t triangle) const {
+    double d = distance(s, triangle);
+    for (bool nearer = true; nearer;) {
+      nearer = false;
+      for (const std::int32_t edge : edges_.of_triangle[triangle])
+        for (const std::int32_t other : beside_[edge]) {
+          const double there = other >= 0 ? distance(s, other) : d;
+          if (there >= d) continue;
+          d = there;
+          triangle = static_cast<std::size_t>(other);
+          nearer = true;
+        }
+    }
+    return d;
+  }
+
   void raise_deviation(std::size_t place, Vec3 s) {
-    double d = distance(s, place);
-    if (!(d > of(DeliveredKind::deviation)[place])) return;
-    for (const std::int32_t edge : edges_.of_triangle[place])
-      for (const std::int32_t other : beside_[edge])
-        if (other >= 0 && static_cast<std::size_t>(other) != place) d = std::min(d, distance(s, other));
-    raise(DeliveredKind::deviation, place, d);
+    if (distance(s, place) > of(DeliveredKind::deviation)[place])
+      raise(DeliveredKind::deviation, place, distance_to_mesh(s, place));
   }
 
   void raise_angle(std::size_t place, const std::array<Vec3, 3>& p, const std::optional<Vec3>& normal) {
@@ -320,8 +333,8 @@ class Measurement {
       const auto [p, q] = beside_[edge];
       if (p < 0) continue;
       for (std::size_t k = edge * n; k < (edge + 1) * n; ++k) {
-        double d = distance(above_[k], p);
-        if (q >= 0) d = std::min(d, distance(above_[k], q));
+        double d = distance_to_mesh(above_[k], p);
+        if (q >= 0 && d > 0) d = std::min(d, distance_to_mesh(above_[k], q));
         raise(DeliveredKind::deviation, p, d);
         if (q >= 0) raise(DeliveredKind::deviation, q, d);
       }

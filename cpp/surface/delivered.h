@@ -46,8 +46,8 @@ enum class DeliveredKind : int {
   q2 = 6,
   /// Of a triangle: Q2 in the prescribed metric, 4 sqrt(3) area / sum of squared lengths, all in the metric; at most 1.
   metric_quality = 7,
-  /// Of a triangle: A0 (HDR eq. 4.1), largest distance to it, or to a neighbour of the same face when that is nearer,
-  /// from sample points of the surface that its triangle of (u, v) covers; model length.
+  /// Of a triangle: A0 (HDR eq. 4.1), largest distance from sample points of the surface that its triangle of (u, v)
+  /// covers to it, or to the triangles of the same face around when they are nearer; model length.
   deviation = 8,
   /// Of a triangle: A1 (HDR sec. 4.3.4), largest angle between its normal and that of the surface at sample points and
   /// at its vertices; degrees, 0 to 180.
@@ -105,7 +105,8 @@ struct Delivery {
   std::vector<double> values;
   Spread spread;
   double limit = std::numeric_limits<double>::infinity();  ///< asked; infinity: nothing was
-  std::int64_t beyond = 0;                                 ///< values above the limit, rounding apart
+  /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
+  std::int64_t beyond = 0;
 };
 
 /// All measures; prescriptions that are not met are counted.

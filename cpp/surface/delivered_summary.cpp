@@ -67,8 +67,8 @@ std::string part_of(std::int64_t part, std::int64_t all, const char* entities) {
   return std::to_string(part) + " of " + std::to_string(all) + " " + entities + " (" + percent(part, all) + ") have";
 }
 
-std::int64_t count_above(const std::vector<double>& values, double limit) {
-  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + rounding); });
+std::int64_t count_above(const std::vector<double>& values, double limit, double tolerance = rounding) {
+  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + tolerance); });
 }
 
 }  // namespace
@@ -153,7 +153,7 @@ void summarise(Delivered& d) {
         break;
     }
     one.spread = spread_of(one.values, bounds);
-    one.beyond = count_above(one.values, one.limit);
+    one.beyond = count_above(one.values, one.limit, measure.kind == DeliveredKind::gradation ? 0.02 : rounding);
   }
   const std::vector<double>& length = d[DeliveredKind::length].values;
   d.long_edges = count_above(length, long_limit);

@@ -296,11 +296,52 @@ contains
     call expect(defects == 0 .and. text == '', 'no defects')
     call carreau_session_report(session, report, status)
     call expect(report%surf0_calls >= n .and. report%seconds_total > 0 .and. abs(report%diag - 7.735d0) < 0.01d0, 'report')
+    call check_delivered(session, xyz, triangles)
     call carreau_model_curves(session, face_refs, types, curve_refs, ends, status)
     call expect(all(ends(2, :) == [2, 3, 4, 1]) .and. all(types == CARREAU_BOUNDARY) .and. all(face_refs == 1) .and. &
       all(curve_refs == [1, 2, 3, 4]), 'model_curves')
     call carreau_session_free(session)
   end subroutine test_same_mesh_as_in_c
+
+  subroutine check_delivered(session, xyz, triangles)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: xyz(:, :)
+    integer(c_int32_t), intent(in) :: triangles(:, :)
+    type(carreau_delivered) :: delivered
+    type(carreau_measure) :: measure
+    real(c_double), allocatable :: length(:), bounds(:)
+    integer(c_int64_t), allocatable :: counts(:)
+    integer(c_int32_t), allocatable :: ends(:, :), curves(:), sides(:, :)
+    integer(c_int32_t) :: status, t, i
+    real(c_double) :: chord
+    call carreau_session_delivered(session, delivered, status)
+    call expect_ok(status, session, 'delivered')
+    call expect(delivered%vertices - delivered%edges + delivered%triangles == 1 .and. delivered%in_range > 0.95d0 .and. &
+      delivered%folded_triangles == 0 .and. delivered%surf0_calls > 0 .and. index(delivered%text, 'shape Q2') > 0, 'delivered')
+    call carreau_delivered_measure(session, CARREAU_MEASURE_LENGTH, measure, status)
+    call expect(measure%name == 'metric_length' .and. measure%entity == CARREAU_OF_EDGES .and. &
+      abs(measure%mean - 1) < 0.05d0 .and. measure%limit > huge(1.d0), 'measure')
+    call carreau_delivered_values(session, CARREAU_MEASURE_LENGTH, length, status)
+    call carreau_delivered_edges(session, ends, curves, status)
+    call expect(size(length, kind=c_int64_t) == delivered%edges .and. minval(ends) == 1 .and. &
+      maxval(ends) == delivered%vertices .and. all(shape(ends) == [2_c_int64_t, delivered%edges]), 'values and edges')
+    call carreau_delivered_triangle_edges(session, sides, status)
+    do t = 1, size(triangles, 2)
+      do i = 1, 3
+        if (any(ends(:, sides(i, t)) /= [min(triangles(i, t), triangles(mod(i, 3) + 1, t)), &
+          max(triangles(i, t), triangles(mod(i, 3) + 1, t))])) status = -1
+        chord = norm2(xyz(:, triangles(i, t)) - xyz(:, triangles(mod(i, 3) + 1, t)))/h
+        if (length(sides(i, t)) < 0.999d0*chord .or. length(sides(i, t)) > 1.1d0*chord) status = -1
+      end do
+    end do
+    call expect(status == CARREAU_OK, 'edges of triangles')
+    call carreau_delivered_histogram(session, CARREAU_MEASURE_LENGTH, bounds, counts, status)
+    call expect(size(bounds) == measure%classes .and. sum(counts) == delivered%edges, 'histogram')
+    call carreau_delivered_values(session, 0_c_int32_t, length, status)
+    call expect(status == CARREAU_ERR_ARGUMENT .and. .not. allocated(length), 'kinds count from 1')
+    call carreau_delivered_write(session, 'delivered.json', status)
+    call expect_ok(status, session, 'delivered_write')
+  end subroutine check_delivered
 
   subroutine test_callbacks_by_value_and_files
     type(carreau_session) :: session

@@ -1,0 +1,82 @@
+#include "io/delivered_json.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace carreau {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+const char* entity_name(DeliveredEntity entity) {
+  switch (entity) {
+    case DeliveredEntity::edge:
+      return "edge";
+    case DeliveredEntity::vertex:
+      return "vertex";
+    default:
+      return "triangle";
+  }
+}
+
+Json histogram(const Histogram& h) {
+  Json bounds = Json::array();
+  for (std::size_t i = 1; i + 1 < h.bound.size(); ++i) bounds.push_back(number(h.bound[i]));
+  return {{"bounds", bounds}, {"counts", h.count}};
+}
+
+Json measure(const DeliveredMeasure& row, const Delivery& one) {
+  const Spread& s = one.spread;
+  const auto value = [&](double x) { return s.count > 0 ? number(x) : Json(nullptr); };
+  return {{"of", entity_name(row.entity)},
+          {"count", s.count},
+          {"mean", value(s.mean)},
+          {"min", value(s.min)},
+          {"p1", value(s.p1)},
+          {"p99", value(s.p99)},
+          {"max", value(s.max)},
+          {"limit", number(one.limit)},
+          {"beyond", one.beyond},
+          {"histogram", histogram(s.histogram)}};
+}
+
+Json calls(const CallCounts& c) {
+  return {{"surf0", c.surf0}, {"surf1", c.surf1}, {"surf2", c.surf2}, {"curv0", c.curv0},
+          {"curv1", c.curv1}, {"curv2", c.curv2}, {"sizes", c.sizes}};
+}
+
+Json mesh_counts(const SurfaceMesh& mesh, const Delivered& delivered) {
+  const auto failed = std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                                    [](const FaceMesh& face) { return face.status == FaceStatus::failed; });
+  return {{"faces", mesh.faces.size()},
+          {"failed_faces", failed},
+          {"vertices", mesh.vertices.size()},
+          {"triangles", delivered.edges.of_triangle.size()},
+          {"edges", delivered.edges.vertices.size()},
+          {"edges_on_curves", delivered.edges.segments.size()}};
+}
+
+}  // namespace
+
+std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const Delivered& delivered) {
+  Json measures = Json::object();
+  for (const DeliveredMeasure& row : delivered_measures()) measures[row.name] = measure(row, delivered[row.kind]);
+  const Json json = {{"format", "carreau delivered 1"},
+                     {"mesh", mesh_counts(mesh, delivered)},
+                     {"diag", number(report.diag)},
+                     {"measures", measures},
+                     {"lengths_in_range", delivered.share_in_range()},
+                     {"short_edges", delivered.short_edges},
+                     {"long_edges", delivered.long_edges},
+                     {"folded_triangles", delivered.folded_triangles},
+                     {"not_met", describe(delivered).not_met},
+                     {"calls", {{"run", calls(report.calls)}, {"measure", calls(delivered.calls)}}},
+                     {"seconds", {{"run", report.seconds_total}, {"measure", delivered.seconds}}}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace carreau

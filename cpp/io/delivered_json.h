@@ -1,0 +1,16 @@
+// The summary of what was delivered, as JSON.
+#pragma once
+
+#include <string>
+
+#include "surface/composite.h"
+#include "surface/delivered.h"
+
+namespace carreau {
+
+/// One object, indented, ending with a newline; keys always the same and in the same order. A number that is not finite
+/// (a limit that was not asked, the mean of nothing) is null. Times, which differ from run to run, stand last, in
+/// "seconds".
+std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const Delivered& delivered);
+
+}  // namespace carreau

@@ -1,0 +1,174 @@
+// Meshes by A0 and A1 keep what they promise, measured on the surfaces (HDR sec. 4.3; geo_guarantee = 1).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "common/analytic_cad.h"
+#include "session/session.h"
+
+namespace carreau {
+namespace {
+
+using testing::AnalyticCad;
+using Kind = DeliveredKind;
+constexpr double pi = std::numbers::pi;
+
+AnalyticCad one_face(std::function<SurfaceJet(Vec2)> at, std::vector<testing::AnalyticCurve> curves) {
+  AnalyticCad cad;
+  cad.faces[1] = {std::move(at), std::move(curves)};
+  return cad;
+}
+
+/// Half axes a, b, c; u longitude, v latitude.
+SurfaceJet ellipsoid_jet(Vec2 p, Vec3 axes) {
+  const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+  const auto scaled = [&](double x, double y, double z) { return Vec3{axes.x * x, axes.y * y, axes.z * z}; };
+  return {scaled(cu * cv, su * cv, sv),  scaled(-su * cv, cu * cv, 0), scaled(-cu * sv, -su * sv, cv),
+          scaled(-cu * cv, -su * cv, 0), scaled(su * sv, -cu * sv, 0), scaled(-cu * cv, -su * cv, -sv)};
+}
+
+/// All with a diagonal of a few units; the sphere and the ellipsoid whole, with poles and a seam; a quarter of the
+/// torus, with a seam.
+AnalyticCad sphere() {
+  return one_face(
+      [](Vec2 p) {
+        return ellipsoid_jet(p, {1, 1, 1});
+      },
+      testing::rectangle({0, -pi / 2}, {2 * pi, pi / 2}));
+}
+AnalyticCad ellipsoid() {
+  return one_face(
+      [](Vec2 p) {
+        return ellipsoid_jet(p, {1, 0.8, 0.5});
+      },
+      testing::rectangle({0, -pi / 2}, {2 * pi, pi / 2}));
+}
+AnalyticCad torus() {
+  return one_face([](Vec2 p) { return testing::torus_jet(p, 1, 0.4); }, testing::rectangle({0, 0}, {pi / 2, 2 * pi}));
+}
+AnalyticCad paraboloid() { return one_face(testing::paraboloid_jet, testing::rectangle({-1.5, -1.5}, {1.5, 1.5})); }
+
+struct Surface {
+  const char* name;
+  AnalyticCad (*make)();
+};
+const Surface surfaces[] = {{"sphere", sphere}, {"torus", torus}, {"paraboloid", paraboloid}, {"ellipsoid", ellipsoid}};
+
+struct GeometricRun {
+  std::unique_ptr<Monitor> monitor = std::make_unique<Monitor>();
+  std::unique_ptr<Session> session = std::make_unique<Session>(*monitor);
+
+  GeometricRun(AnalyticCad geometry, const std::function<void(Parameters&)>& more) {
+    auto cad = std::make_shared<AnalyticCad>(std::move(geometry));
+    session->set_cad(cad);
+    session->set_model(testing::unglued(*cad));
+    Parameters& p = session->parameters();
+    p.set("hphy_flag", 0);
+    p.set("hgeo_flag", 1);
+    p.set("hgeomin", 1e-5);
+    p.set("hgeomax", 10.0);
+    p.set("geo_guarantee", 1);
+    p.set("max_triangles", 1000000);
+    more(p);
+    session->make_mesh();
+    EXPECT_EQ(find_defects(session->mesh()), std::vector<std::string>{});
+  }
+};
+
+double share_within(const std::vector<double>& values, double limit) {
+  const auto within = std::count_if(values.begin(), values.end(), [&](double x) { return x <= limit; });
+  return static_cast<double>(within) / static_cast<double>(values.size());
+}
+
+// What is known of a kind, for those who choose the factors.
+std::string known(const Delivery& delivery, double asked) {
+  std::vector<double> values = delivery.values;
+  std::sort(values.begin(), values.end());
+  const auto text = [](double x) { return std::to_string(x); };
+  return text(asked) + " was asked of " + std::to_string(values.size()) + ": mean " +
+         text(delivery.spread.mean / asked) + ", 99.5 % below " + text(values[values.size() * 995 / 1000] / asked) +
+         ", worst " + text(values.back() / asked) + " of it";
+}
+
+class Guarantee : public ::testing::TestWithParam<Surface> {};
+
+TEST_P(Guarantee, AngleOfEdges) {
+  for (const double angle : {8.0, 4.0, 2.0}) {
+    const GeometricRun run(GetParam().make(), [&](Parameters& p) { p.set("angle_mesh", angle); });
+    const Delivered& d = run.session->delivered();
+    const Delivery& edges = d[Kind::edge_angle];
+    SCOPED_TRACE(known(edges, angle));
+    EXPECT_EQ(edges.limit, angle);
+    EXPECT_GE(share_within(edges.values, angle), 0.995);
+    EXPECT_LE(edges.spread.max, 1.25 * angle);
+    EXPECT_EQ(d.folded_triangles, 0);
+    EXPECT_GE(d[Kind::q2].spread.mean, 0.95);
+  }
+}
+
+TEST_P(Guarantee, NormalsAsPredicted) {
+  // HDR eq. 4.26: where two edges at an angle alpha make at most eps1 with the tangent plane, the normal of the
+  // triangle is off by at most phi, sin(phi) = sin(eps1) sqrt(2 + 2 |cos(alpha)|) / sin(alpha).
+  const GeometricRun run(GetParam().make(), [](Parameters& p) { p.set("angle_mesh", 8.0); });
+  const Delivered& d = run.session->delivered();
+  const SurfaceMesh& mesh = run.session->mesh();
+  const FaceMesh& face = mesh.faces[0];
+  for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+    double factor = 0, steepest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 a = mesh.vertices[face.vertex[face.triangles[t][i]]];
+      const Vec3 u = mesh.vertices[face.vertex[face.triangles[t][(i + 1) % 3]]] - a,
+                 v = mesh.vertices[face.vertex[face.triangles[t][(i + 2) % 3]]] - a;
+      const double cosine = dot(u, v) / (norm(u) * norm(v)), sine = norm(cross(u, v)) / (norm(u) * norm(v));
+      factor = std::max(factor, std::sqrt(2 + 2 * std::abs(cosine)) / sine);
+      steepest = std::max(steepest, d[Kind::edge_angle].values[d.edges.of_triangle[t][i]] * pi / 180);
+    }
+    ASSERT_LE(std::sin(d[Kind::angle].values[t] * pi / 180), std::sin(steepest) * factor + 1e-9) << "triangle " << t;
+  }
+}
+
+TEST_P(Guarantee, DistanceOverThreeDecades) {
+  for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
+    const GeometricRun run(GetParam().make(), [&](Parameters& p) {
+      p.set("geo_rule", "chord");
+      p.set("eps_chord", eps);
+    });
+    const Delivered& d = run.session->delivered();
+    const Delivery& a0 = d[Kind::deviation];
+    SCOPED_TRACE(known(a0, eps));
+    EXPECT_EQ(a0.limit, eps);
+    EXPECT_GE(share_within(a0.values, eps), 0.995);
+    EXPECT_LE(a0.spread.max, 1.3 * eps);
+    // Not by far too small triangles.
+    EXPECT_GE(a0.spread.mean, 0.3 * eps);
+  }
+}
+
+TEST_P(Guarantee, BothAndByDirection) {
+  // The smaller of both sizes, then sizes by both principal radii: the distance is kept as before.
+  const double eps = 1e-3, angle = 8;
+  for (const int by_direction : {0, 1}) {
+    const GeometricRun run(GetParam().make(), [&](Parameters& p) {
+      p.set("geo_rule", by_direction != 0 ? "chord" : "both");
+      p.set("geo_metric", by_direction);
+      p.set("eps_chord", eps);
+    });
+    const Delivered& d = run.session->delivered();
+    SCOPED_TRACE(known(d[Kind::deviation], eps));
+    EXPECT_GE(share_within(d[Kind::deviation].values, eps), 0.995);
+    EXPECT_LE(d[Kind::deviation].spread.max, 1.3 * eps);
+    if (by_direction == 0) {
+      EXPECT_GE(share_within(d[Kind::edge_angle].values, angle), 0.995);
+      EXPECT_LE(d[Kind::edge_angle].spread.max, 1.25 * angle);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, Guarantee, ::testing::ValuesIn(surfaces),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace carreau
