@@ -73,5 +73,33 @@ TEST(Vtu, AMeshOfThePlaneHasZeroZAndZeroReferencesWhenNoneAreGiven) {
   EXPECT_EQ(array_of<std::int32_t>(file, "CellData", "reference", "Int32"), std::vector<std::int32_t>(6, 0));
 }
 
+TEST(Vtu, FieldsOfCellsMayBeOfTrianglesOfEdgesOrOfBoth) {
+  FlatMesh mesh = square();
+  mesh.fields = {
+      {.name = "length", .on_vertices = false, .components = 1, .values = {}, .edge_values = {1, 2, 3, 4}},
+      {.name = "both", .on_vertices = false, .components = 1, .values = {5, 6}, .edge_values = {7, 8, 9, 10}}};
+  const std::string file = mesh_bytes(mesh, MeshFormat::vtu);
+  const auto length = array_of<double>(file, "CellData", "length", "Float64");
+  ASSERT_EQ(length.size(), 6U);
+  EXPECT_TRUE(std::isnan(length[0]) && std::isnan(length[1]));
+  EXPECT_EQ(std::vector<double>(length.begin() + 2, length.end()), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(array_of<double>(file, "CellData", "both", "Float64"), (std::vector<double>{5, 6, 7, 8, 9, 10}));
+
+  const auto refused = [&](MeshField field, const std::string& why) {
+    mesh.fields = {std::move(field)};
+    try {
+      (void)mesh_bytes(mesh, MeshFormat::vtu);
+      ADD_FAILURE() << "not refused: " << why;
+    } catch (const InvalidArgument& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused({.name = "f", .on_vertices = false, .components = 1, .values = {}, .edge_values = {1, 2, 3}},
+          "field 'f' of edges has 3 entries instead of 4");
+  refused({.name = "f", .on_vertices = true, .components = 1, .values = {1, 2, 3, 4}, .edge_values = {1}},
+          "field 'f' of edges has 1 entries instead of 0");
+  refused({.name = "f", .on_vertices = false, .components = 1, .values = {}}, "field 'f' has 0 entries instead of 2");
+}
+
 }  // namespace
 }  // namespace carreau
