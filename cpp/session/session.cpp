@@ -215,7 +215,8 @@ void describe_result(const CompositeResult& result, Monitor& monitor) {
 }
 
 Delivered measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
-  CheckedCad cad(*meshed.cad);
+  CheckedCad whole_cad(*meshed.cad);
+  PartCad cad(whole_cad, parts_of(meshed.model));
   set_parameter_boxes(meshed.model, meshed.supports, cad);
   return measure_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
 }
