@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "surface/coincident_edges.h"
 #include "surface/face_metric.h"
 #include "surface/space_swaps.h"
 
@@ -57,11 +58,15 @@ PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const P
 }
 
 void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
-  const std::span<const Vec2> uv = mesh.plane.vertices;
+  const auto lift_rest = [&] {
+    const std::span<const Vec2> uv = mesh.plane.vertices;
+    const std::vector<Vec3> rest = lift(input.ref, uv.subspan(mesh.xyz.size()), cad, monitor);
+    mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
+  };
   mesh.xyz = input.curve_xyz;
-  const std::vector<Vec3> rest = lift(input.ref, uv.subspan(input.curve_xyz.size()), cad, monitor);
-  mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
+  lift_rest();
   if (input.isotropic) improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
+  if (divide_coincident_edges(*input.domain, mesh.plane) > 0) lift_rest();
 }
 
 }  // namespace carreau

@@ -13,6 +13,7 @@
 #include "session/session.h"
 #include "size/geometric_metric.h"
 #include "surface/delivered.h"
+#include "surface/mesh_edges.h"
 
 namespace carreau {
 namespace {
@@ -285,6 +286,31 @@ TEST(Source, AnswersInOnePlaceAndNotInAnother) {
     }
     EXPECT_GE(static_cast<double>(in_range), 0.97 * static_cast<double>(answered));
     EXPECT_GE(answered, 1000U);
+  }
+}
+
+// Sizes of a third of the way round a pole and more: rings would have one or two edges.
+TEST(Source, SeamsAndPolesStayConformingUnderLongSizes) {
+  AnalyticCad cone;
+  cone.faces[1] = {[](Vec2 p) {
+                     const double c = std::cos(p.x), s = std::sin(p.x);
+                     return SurfaceJet{{p.y * c, p.y * s, 2 * p.y}, {-p.y * s, p.y * c, 0}, {c, s, 2}, {}, {}, {}};
+                   },
+                   testing::rectangle({0, 0}, {2 * std::numbers::pi, 1})};
+  AnalyticCad tube = testing::fillet(0.1, 3);
+  tube.faces[1].curves = testing::rectangle({0, 0}, {2 * std::numbers::pi, 3});
+  for (const double round : {0.1, 0.2, 0.3, 0.5, 1., 3.}) {
+    const auto source = testing::field_of_space([&](Vec3 p) {
+      return Prescription::of_space(metric_of_sizes({-p.y, p.x, 1e-6}, round, 0.05));
+    });
+    for (const bool closed : {true, false}) {
+      Prescribed run(closed ? cone : tube, source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
+      const SurfaceMesh& mesh = run.session.mesh();
+      EXPECT_GE(mesh.triangle_count(), 12U) << round;
+      // Euler's number: a disc, or a tube.
+      const auto edges = static_cast<std::int64_t>(edges_of(mesh).vertices.size());
+      EXPECT_EQ(static_cast<std::int64_t>(mesh.vertices.size() + mesh.triangle_count()) - edges, closed ? 1 : 0);
+    }
   }
 }
 
