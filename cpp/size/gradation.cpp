@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "size/place_fans.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -14,19 +15,15 @@ namespace carreau {
 
 namespace {
 
+using detail::roll;
+
 // The line from a source to a vertex passes near the vertex before it when they see it within this angle (cosine): the
 // six neighbours of a vertex of a good mesh leave at most 30 degrees.
 constexpr double seen_from_beside = 0.7;
-// Normals of places that are one smooth surface (cosine).
-constexpr double smooth_corner = 0.9;
 // Two fronts are one when their directions agree that well (cosine).
 constexpr double same_front = 0.7;
 constexpr std::size_t vertices_between_checks = 1 << 14;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// v, tangent where the normal is n, rolled to where it is m: the rotation about n x m, which at a crease is the
-/// curve's tangent. n . m > -1.
-Vec3 roll(Vec3 v, Vec3 n, Vec3 m) noexcept { return v - (dot(v, m) / (1 + dot(n, m))) * (n + m); }
 
 Vec3 resized(Vec3 v, double length) noexcept {
   const double l = norm(v);
@@ -39,9 +36,8 @@ Vec3 resized(Vec3 v, double length) noexcept {
 class Grading {
  public:
   Grading(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor)
-      : graph_(graph), slope_(slope), monitor_(monitor), front_(graph.xyz.size()) {
+      : graph_(graph), slope_(slope), monitor_(monitor), fans_(graph), front_(graph.xyz.size()) {
     for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
-    collect_places();
     collect_triangles();
     collect_segments();
   }
@@ -56,7 +52,7 @@ class Grading {
     for (std::size_t v = 0; v < front_.size(); ++v) {
       if (dot(front_[v].line, front_[v].line) == 0) {
         front_[v].source = static_cast<int>(v);
-        front_[v].place = first_place_[v];
+        front_[v].place = fans_.first(static_cast<int>(v));
       }
       if (std::isfinite(front_[v].h)) queue_.emplace(front_[v].h, static_cast<int>(v));
     }
@@ -76,7 +72,7 @@ class Grading {
     for (std::size_t v = 0; v < front_.size(); ++v) {
       sizes[v].h = front_[v].h;
       Vec3 line;
-      if (first_place_[v] >= 0 && carry(static_cast<int>(v), first_place_[v], line))
+      if (fans_.first(static_cast<int>(v)) >= 0 && carry(static_cast<int>(v), fans_.first(static_cast<int>(v)), line))
         sizes[v].slope = resized(line, slope_);
     }
     return sizes;
@@ -108,28 +104,10 @@ class Grading {
     bool settled = false;
   };
 
-  void collect_places() {
-    const std::size_t n = graph_.xyz.size();
-    first_place_.assign(n, -1);
-    next_place_.assign(graph_.places.size(), -1);
-    for (std::size_t p = graph_.places.size(); p-- > 0;) {
-      const int v = graph_.places[p].vertex;
-      next_place_[p] = first_place_[v];
-      first_place_[v] = static_cast<int>(p);
-    }
-  }
-
   void collect_triangles() {
     start_.assign(graph_.places.size() + 1, 0);
-    inward_.assign(graph_.places.size(), Vec3{});
     for (const auto& t : graph_.triangles)
-      for (int i = 0; i < 3; ++i) {
-        ++start_[t[i] + 1];
-        for (int k = 1; k < 3; ++k) {
-          const Vec3 e = position(t[(i + k) % 3]) - position(t[i]);
-          inward_[t[i]] = inward_[t[i]] + resized(e, 1);
-        }
-      }
+      for (const int p : t) ++start_[p + 1];
     for (std::size_t p = 0; p < graph_.places.size(); ++p) start_[p + 1] += start_[p];
     others_.resize(3 * graph_.triangles.size());
     std::vector<int> fill(start_.begin(), start_.end() - 1);
@@ -152,31 +130,12 @@ class Grading {
 
   /// The line of a vertex as another of its places sees it; false when the surface cannot be unfolded there.
   bool carry(int v, int to, Vec3& line) const noexcept {
-    const Front& f = front_[v];
-    line = f.line;
-    if (f.place == to || dot(line, line) == 0) return true;
-    if (f.place < 0) return false;
-    const Vec3 n = normal(f.place), m = normal(to);
-    const int first = first_place_[v], second = next_place_[first];
-    const bool two = second >= 0 && next_place_[second] < 0;
-    if (!two) {
-      if (std::abs(dot(n, m)) < smooth_corner) return false;
-      line = roll(line, n, dot(n, m) < 0 ? -1 * m : m);
-      return true;
-    }
-    // Unfolded, the two sides lie on opposite sides of the curve.
-    const Vec3 from = inward_[f.place] - dot(inward_[f.place], n) * n, into = inward_[to];
-    for (const double side : {1., -1.}) {
-      const Vec3 k = side * m;
-      if (dot(n, k) < -0.999 || dot(roll(from, n, k), into) >= 0) continue;
-      line = roll(line, n, k);
-      return true;
-    }
-    return false;
+    line = front_[v].line;
+    return fans_.carry(front_[v].place, to, line);
   }
 
   void leave(int v) {
-    for (int p = first_place_[v]; p >= 0; p = next_place_[p]) {
+    for (int p = fans_.first(static_cast<int>(v)); p >= 0; p = fans_.next(p)) {
       Front from = front_[v];
       from.place = p;
       if (!carry(v, p, from.line)) from = restarted(v, p);
@@ -191,7 +150,7 @@ class Grading {
     for (int k = segment_start_[v]; k < segment_start_[v + 1]; ++k) {
       const int to = segment_end_[k];
       const double length = norm(graph_.xyz[to] - graph_.xyz[v]);
-      improve(to, {front_[v].h + slope_ * length, front_[v].h + slope_ * length, {}, first_place_[to], v, false});
+      improve(to, {front_[v].h + slope_ * length, front_[v].h + slope_ * length, {}, fans_.first(to), v, false});
     }
   }
 
@@ -258,11 +217,10 @@ class Grading {
   const GradationGraph& graph_;
   double slope_;
   Monitor& monitor_;
+  detail::PlaceFans fans_;
   std::vector<Front> front_;
-  std::vector<int> first_place_, next_place_;  // of a vertex, of a place; -1: none
-  std::vector<int> start_;                     // by place, in others_
-  std::vector<std::pair<int, int>> others_;    // the other two places of each triangle
-  std::vector<Vec3> inward_;                   // by place: towards the middle of its triangles
+  std::vector<int> start_;                   // by place, in others_
+  std::vector<std::pair<int, int>> others_;  // the other two places of each triangle
   std::vector<int> segment_start_, segment_end_;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;

@@ -75,4 +75,34 @@ double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const n
   return wave && place.inside ? std::min(h, linear) : h;
 }
 
+TangentMetric GradedField::sizes(int face, Vec2 uv, TangentMetric prescribed) const noexcept {
+  if (static_cast<std::size_t>(face) >= faces_.size()) return prescribed;
+  const GradedFace& f = faces_[face];
+  const TrianglePlace place = f.tree.find(uv);
+  if (place.triangle < 0 || f.smooth[place.triangle] != 0) return prescribed;
+  double h1 = 0, h2 = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (!(place.weight[i] > 0)) continue;
+    const TangentMetric& corner = f.metric[f.triangles[place.triangle][i]];
+    h1 += place.weight[i] * corner.nearest(prescribed.d1);
+    h2 += place.weight[i] * corner.nearest(prescribed.d2);
+  }
+  if (std::isfinite(h1) && std::isfinite(h2)) prescribed.h1 = h1, prescribed.h2 = h2;
+  return prescribed;
+}
+
+double GradedField::smaller_size(int face, Vec2 uv) const noexcept {
+  if (static_cast<std::size_t>(face) >= faces_.size()) return infinity;
+  const GradedFace& f = faces_[face];
+  const TrianglePlace place = f.tree.find(uv);
+  if (place.triangle < 0 || f.smooth[place.triangle] != 0) return infinity;
+  double h = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (!(place.weight[i] > 0)) continue;
+    const TangentMetric& corner = f.metric[f.triangles[place.triangle][i]];
+    h += place.weight[i] * std::min(corner.h1, corner.h2);
+  }
+  return h;
+}
+
 }  // namespace carreau

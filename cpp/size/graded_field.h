@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "size/gradation.h"
+#include "size/metric_grading.h"
 #include "size/triangle_tree.h"
 #include "support/monitor.h"
 #include "support/vec.h"
@@ -19,6 +20,7 @@ struct GradedFace {
   std::vector<Vec3> xyz, normal;  ///< normal: unit, either side
   std::vector<double> h;          ///< graded size
   std::vector<GradationFront> front;
+  std::vector<TangentMetric> metric;  ///< graded, where sizes differ by direction: then h and front are empty
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counterclockwise in (u, v)
   /// By triangle: bit i is set when the side from corner i to the next one lies on a curve, along which sizes between
   /// the corners are interpolated.
@@ -46,6 +48,11 @@ class GradedField {
   /// At (u, v) in a face, whose image is `xyz` and where the size `prescribed` is wanted (+infinity: anything).
   /// Logarithmic in the number of triangles. Outside the triangles, the nearest one.
   [[nodiscard]] double size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept;
+
+  /// The same for sizes by direction: those of `prescribed` with its directions.
+  [[nodiscard]] TangentMetric sizes(int face, Vec2 uv, TangentMetric prescribed) const noexcept;
+  /// The smaller of both, interpolated: for places without a tangent plane. +infinity where nothing is bounded.
+  [[nodiscard]] double smaller_size(int face, Vec2 uv) const noexcept;
 
  private:
   double slope_;

@@ -24,6 +24,8 @@ namespace {
 constexpr double bytes_per_triangle = 300;
 // Shares of the progress fraction.
 constexpr double curves_share = 0.1, patches_share = 0.85;
+// Of the control spaces of graded sizes.
+constexpr double graded_tolerance = 0.005;
 // Share of the whole that the gradation takes before these, when there is one.
 constexpr double gradation_share = 0.3;
 
@@ -79,7 +81,7 @@ class Pipeline {
 
   // One size everywhere obeys any gradation.
   void grade() {
-    if (options_.gradation == 0 || rules_.constant() || rules_.uses_metrics()) return;
+    if (options_.gradation == 0 || rules_.constant()) return;
     const auto start = std::chrono::steady_clock::now();
     monitor_.progress(Phase::gradation, 0, 0);
     graded_ = grade_model(curve_model_, rules_, options_, supports_.diag, monitor_);
@@ -88,6 +90,10 @@ class Pipeline {
     result_.report.gradation_rounds = graded_.rounds;
     result_.report.gradation_triangles = graded_.triangles;
     result_.report.seconds_gradation = seconds_since(start);
+  }
+  // Where cones of sizes meet, edges of the mesh are seen to break the gradation before they are seen to be too long.
+  [[nodiscard]] double tolerance() const noexcept {
+    return graded_.field ? graded_tolerance : ControlSpaceOptions{}.tolerance;
   }
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded_.field.get()}; }
 
@@ -125,7 +131,8 @@ class Pipeline {
                                                            .curve_xyz = positions_on_curves(domain, curves_, topology_),
                                                            .constant_size = rules_.constant(),
                                                            .isotropic = !rules_.uses_metrics(),
-                                                           .limits = limits()},
+                                                           .limits = limits(),
+                                                           .tolerance = tolerance()},
                                                 cad_, reentrant ? rules_of_job_.back() : rules_, options_, reentrant));
       job(jobs_.size() - 1).limit_triangles(options_.max_triangles);
       face_of_job_.push_back(f);

@@ -53,4 +53,9 @@ double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;
 void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   std::span<Metric2> metric) noexcept;
 
+/// The same for metrics of any kind; where the parametrisation is degenerate the smaller graded
+/// size counts.
+void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                         std::span<Metric2> metric) noexcept;
+
 }  // namespace carreau

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -20,7 +21,10 @@ constexpr double too_long = 3.2;
 constexpr int most_rounds = 5;
 // Prescribed sizes are smooth where they are what linear interpolation in the graph promises, up to this share.
 constexpr double roughness = 0.01;
+constexpr double rough_metric = 0.1;
 constexpr std::size_t most_tips = 50;
+// Of sizes along curves, which are interpolated between samples.
+constexpr double interpolation_error = 0.02;
 // Of its control spaces: sizes and positions are asked at its vertices again.
 constexpr double graph_tolerance = 0.1;
 // Samples of a curve's sizes on each of its edges in the graph.
@@ -38,6 +42,7 @@ struct Sample {
   Vec2 uv;
   Vec3 xyz;
   double h = 0;
+  TangentMetric sizes{};  // instead of h where sizes differ by direction
   std::int32_t triangle = 0;
   std::array<double, 3> promised{};  // weights of its corners
 };
@@ -46,7 +51,12 @@ struct Sample {
 class Round {
  public:
   Round(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, double diag, Monitor& monitor)
-      : model_(model), rules_(rules), options_(options), monitor_(monitor), largest_(diag * graph_share) {
+      : model_(model),
+        rules_(rules),
+        options_(options),
+        monitor_(monitor),
+        metrics_(rules.uses_metrics()),
+        largest_(diag * graph_share) {
     options_.check_close_edges = options_.check_adjacent_edges = options_.check_well_defined = 0;
   }
 
@@ -71,12 +81,14 @@ class Round {
         add_face(f, limits);
       } catch (const DomainError&) {
         faces_[f] = {};  // it will fail again, and then say so
+        samples_[f].clear();
       }
     }
-    return grade(raw);
+    return metrics_ ? grade_by_direction(raw) : grade(raw);
   }
 
-  [[nodiscard]] bool coarse() const noexcept { return coarse_; }
+  /// Edges of the graph that are too long for the graded sizes.
+  [[nodiscard]] std::size_t long_edges() const noexcept { return long_edges_; }
 
  private:
   [[nodiscard]] SizeSamples coarsened(SizeSamples samples) const {
@@ -170,7 +182,11 @@ class Round {
         const std::int32_t v = face.triangles[s.triangle][i];
         s.promised[i] = place.weight[i];
         const Vec3 way = step_on_surface(face.normal[v], s.xyz - face.xyz[v]);
-        sources_.push_back({static_cast<int>(place_of_[f]) + v, {s.h, -1 * way}});
+        const int at = static_cast<int>(place_of_[f]) + v;
+        if (metrics_)
+          metric_sources_.push_back({at, s.sizes, way});
+        else
+          sources_.push_back({at, {s.h, -1 * way}});
       }
     }
   }
@@ -186,7 +202,11 @@ class Round {
       for (int i = 0; i < 3; ++i) linear += s.promised[i] * face.h[face.triangles[s.triangle][i]];
       if (std::abs(linear - s.h) > roughness * s.h) face.smooth[s.triangle] = 0;
     }
-    // Nor do they beside: samples are few.
+    widen_rough(face);
+  }
+
+  // Nor do they beside: samples are few.
+  static void widen_rough(GradedFace& face) {
     std::vector<char> beside(face.uv.size(), 0);
     for (std::size_t t = 0; t < face.triangles.size(); ++t)
       if (face.smooth[t] == 0)
@@ -205,13 +225,23 @@ class Round {
       jets.resize(uv.size());
       model_.cad.surface(input.ref, want_position | prescribed.wants(), uv, jets);
       prescribed.at(uv, jets, metric);
-      for (std::size_t i = 0; i < uv.size(); ++i)
-        if (const double h = isotropic_size(jets[i], metric[i]); h > 0) samples.push_back({uv[i], jets[i].s, h});
-      apply_limits(input.limits, input.face, uv, jets, metric);
+      for (std::size_t i = 0; i < uv.size(); ++i) keep_sample(uv[i], jets[i], metric[i], samples);
+      if (metrics_)
+        apply_metric_limits(input.limits, input.face, uv, jets, metric);
+      else
+        apply_limits(input.limits, input.face, uv, jets, metric);
     };
     ControlSpaceOptions options;
     options.tolerance = input.tolerance;
     return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor_);
+  }
+
+  void keep_sample(Vec2 uv, const SurfaceJet& jet, Metric2 metric, std::vector<Sample>& samples) const {
+    if (!metrics_) {
+      if (const double h = isotropic_size(jet, metric); h > 0) samples.push_back({uv, jet.s, h});
+    } else if (const auto sizes = tangent_metric(jet, metric)) {
+      samples.push_back({uv, jet.s, 0, *sizes});
+    }
   }
 
   // Positions, normals and prescribed sizes; on curves those of the face count beside those of the curve, so that
@@ -233,7 +263,12 @@ class Round {
         const bool on_curve = v < input.domain->origin.size() && input.domain->origin[v].curve >= 0;
         if (!on_curve) graph_.xyz[vertex] = face.xyz[v] = jet[k].s;
         face.normal[v] = unit(cross(jet[k].su, jet[k].sv));
-        if (const double h = isotropic_size(jet[k], metrics[k]); h > 0) h_[vertex] = std::min(h_[vertex], h);
+        if (metrics_) {
+          const auto sizes = tangent_metric(jet[k], metrics[k]);
+          metric_.push_back(sizes ? *sizes : TangentMetric{});
+        } else if (const double h = isotropic_size(jet[k], metrics[k]); h > 0) {
+          h_[vertex] = std::min(h_[vertex], h);
+        }
       }
     }
   }
@@ -253,7 +288,14 @@ class Round {
 
   void add_triangles(const FaceDomain& domain, GradedFace& face, std::size_t first) {
     const auto place = [first](std::int32_t v) { return static_cast<int>(first) + v; };
-    for (std::size_t v = 0; v < face.uv.size(); ++v) graph_.places[first + v].normal = face.normal[v];
+    for (std::size_t v = 0; v < face.uv.size(); ++v) {
+      const Vec3 n = graph_.places[first + v].normal = face.normal[v];
+      if (!metrics_) continue;
+      // A pole has no directions of its own.
+      TangentMetric& m = metric_[first + v];
+      if (!std::isfinite(m.h1))
+        m.d1 = unit(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
+    }
     std::vector<std::array<int, 2>> imposed;
     for (const PlaneEdge& e : domain.plane.edges)
       if (e.kind != PlaneEdgeKind::degenerate) imposed.push_back({std::min(e.a, e.b), std::max(e.a, e.b)});
@@ -293,10 +335,10 @@ class Round {
     const double slope = slope_of_gradation(options_.gradation);
     const GradationFronts fronts = grade_fronts(graph_, h_, sources_, slope, monitor_);
     for (const auto& t : graph_.triangles)
-      for (int i = 0; i < 3 && !coarse_; ++i) {
+      for (int i = 0; i < 3; ++i) {
         const int a = graph_.places[t[i]].vertex, b = graph_.places[t[(i + 1) % 3]].vertex;
-        coarse_ = normalised_length(SizeLaw::linear, fronts.h[a], fronts.h[b], norm(graph_.xyz[a] - graph_.xyz[b])) >
-                  too_long;
+        long_edges_ += normalised_length(SizeLaw::linear, fronts.h[a], fronts.h[b],
+                                         norm(graph_.xyz[a] - graph_.xyz[b])) > too_long;
       }
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (std::size_t v = 0; v < faces_[f].uv.size(); ++v) {
@@ -310,6 +352,121 @@ class Round {
     result.triangles = graph_.triangles.size();
     result.field = std::make_shared<GradedField>(slope, std::move(faces_));
     for (std::size_t c = 0; c < raw.size(); ++c) result.curves.push_back(bounded(c, raw[c], fronts.h, *result.field));
+    return result;
+  }
+
+  GradedModel grade_by_direction(const std::vector<SizeSamples>& raw) {
+    const double slope = slope_of_gradation(options_.gradation);
+    collect_places();
+    const std::vector<TangentMetric> prescribed = metric_;
+    for (std::size_t c = 0; c < raw.size(); ++c) bound_by_curve(c, raw[c]);
+    bound_by_points(raw);
+    metric_ = grade_metrics(graph_, std::move(metric_), metric_sources_, slope, monitor_);
+    for (const auto& t : graph_.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const Vec3 e = graph_.xyz[graph_.places[t[(i + 1) % 3]].vertex] - graph_.xyz[graph_.places[t[i]].vertex];
+        const TangentMetric &p = metric_[t[i]], &q = metric_[t[(i + 1) % 3]];
+        long_edges_ += normalised_length(SizeLaw::linear, p.along(unit(e)), q.along(unit(e)), norm(e)) > too_long;
+      }
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const auto first = metric_.begin() + static_cast<std::ptrdiff_t>(place_of_[f]);
+      faces_[f].metric.assign(first, first + static_cast<std::ptrdiff_t>(faces_[f].uv.size()));
+      find_rough_metrics(faces_[f], prescribed.data() + place_of_[f], samples_[f]);
+    }
+    GradedModel result;
+    result.triangles = graph_.triangles.size();
+    result.field = std::make_shared<GradedField>(slope, std::move(faces_));
+    for (std::size_t c = 0; c < raw.size(); ++c) result.curves.push_back(bounded_along(c, raw[c]));
+    return result;
+  }
+
+  void collect_places() {
+    places_of_.resize(graph_.xyz.size());
+    for (std::size_t p = 0; p < graph_.places.size(); ++p)
+      places_of_[graph_.places[p].vertex].push_back(static_cast<int>(p));
+  }
+
+  // The unit tangent of a curve at a vertex, in the tangent plane of a place.
+  [[nodiscard]] Vec3 tangent(std::size_t c, std::size_t node, int place) const {
+    const std::vector<Vec3>& xyz = curves_[c].xyz;
+    const std::size_t last = xyz.size() - 1;
+    const Vec3 chord = xyz[std::min(node + 1, last)] - xyz[node > 0 ? node - 1 : 0], n = graph_.places[place].normal;
+    return unit(chord - dot(chord, n) * n);
+  }
+
+  // Sizes of curves are sizes along them.
+  void bound_by_curve(std::size_t c, const SizeSamples& raw) {
+    if (curves_[c].indivisible) return;
+    for (std::size_t k = 0; k < curves_[c].r.size(); ++k) {
+      const double h = raw.size_at(curves_[c].r[k]);
+      for (const int p : places_of_[node_of_[c][k]]) {
+        const Vec3 t = tangent(c, k, p);
+        // What is interpolated between samples differs a little from what holds at vertices.
+        if (metric_[p].along(t) > (1 + interpolation_error) * h) metric_[p].bound_along(t, h);
+      }
+    }
+  }
+
+  // A point that is smaller than its curves has a size of its own.
+  void bound_by_points(const std::vector<SizeSamples>& raw) {
+    std::vector<double> of_curves(model_.topology.points.size(), infinity);
+    for (std::size_t c = 0; c < raw.size(); ++c) {
+      if (curves_[c].indivisible) continue;
+      const Curve& curve = model_.topology.curves[c];
+      of_curves[curve.end1] = std::min(of_curves[curve.end1], raw[c].h.front());
+      of_curves[curve.end2] = std::min(of_curves[curve.end2], raw[c].h.back());
+    }
+    for (std::size_t v = 0; v < of_curves.size(); ++v) {
+      const double h = rules_.at_point(static_cast<int>(v));
+      if (h > (1 - interpolation_error) * of_curves[v]) continue;
+      for (const int p : places_of_[v]) {
+        metric_[p].h1 = std::min(metric_[p].h1, h);
+        metric_[p].h2 = std::min(metric_[p].h2, h);
+      }
+    }
+  }
+
+  // As find_rough().
+  static void find_rough_metrics(GradedFace& face, const TangentMetric* prescribed,
+                                 const std::vector<Sample>& samples) {
+    const auto less = [](double p, double q) { return p < (1 - roughness) * q; };
+    for (std::size_t t = 0; t < face.triangles.size(); ++t)
+      for (const std::int32_t v : face.triangles[t])
+        if (less(face.metric[v].h1, prescribed[v].h1) || less(face.metric[v].h2, prescribed[v].h2)) face.smooth[t] = 0;
+    for (const Sample& s : samples) {
+      double h1 = 0, h2 = 0;
+      for (int i = 0; i < 3; ++i) {
+        const TangentMetric& corner = face.metric[face.triangles[s.triangle][i]];
+        h1 += s.promised[i] * corner.nearest(s.sizes.d1);
+        h2 += s.promised[i] * corner.nearest(s.sizes.d2);
+      }
+      if (less(s.sizes.h1, (1 - rough_metric) * h1) || less(s.sizes.h2, (1 - rough_metric) * h2))
+        face.smooth[s.triangle] = 0;
+    }
+    widen_rough(face);
+  }
+
+  [[nodiscard]] SizeSamples bounded_along(std::size_t c, const SizeSamples& raw) const {
+    const DiscreteCurve& d = curves_[c];
+    SizeSamples result;
+    std::vector<double> h;
+    for (std::size_t k = 0; k < d.r.size(); ++k) {
+      h.push_back(raw.size_at(d.r[k]));
+      if (d.indivisible) continue;
+      for (const int p : places_of_[node_of_[c][k]]) h.back() = std::min(h.back(), metric_[p].along(tangent(c, k, p)));
+    }
+    const auto add = [&](double r, double size) {
+      result.r.push_back(r);
+      result.h.push_back(std::min(size, raw.size_at(r)));
+      result.physical.push_back(raw.physical_at(r));
+    };
+    for (std::size_t k = 0; k + 1 < d.r.size(); ++k) {
+      add(d.r[k], h[k]);
+      if (d.indivisible) continue;
+      for (const double r : between(d.r[k], d.r[k + 1], raw.r))
+        add(r, std::lerp(h[k], h[k + 1], (r - d.r[k]) / (d.r[k + 1] - d.r[k])));
+    }
+    add(d.r.back(), h.back());
     return result;
   }
 
@@ -359,6 +516,7 @@ class Round {
   SizeRules& rules_;
   CompositeOptions options_;
   Monitor& monitor_;
+  bool metrics_;  // sizes may differ by direction
   double largest_;
   std::vector<DiscreteCurve> curves_;
   RefinedDomains domains_;
@@ -369,7 +527,10 @@ class Round {
   std::vector<std::size_t> place_of_;  // first place of a face
   std::vector<std::vector<Sample>> samples_;
   std::vector<GradationSource> sources_;
-  bool coarse_ = false;
+  std::vector<TangentMetric> metric_;  // of places, where sizes differ by direction
+  std::vector<MetricSource> metric_sources_;
+  std::vector<std::vector<int>> places_of_;  // of vertices
+  std::size_t long_edges_ = 0;
 };
 
 }  // namespace
@@ -382,11 +543,17 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
     raw.push_back(sample_sizes(model, static_cast<int>(c), rules, {.lss = options.lss}));
   }
   GradedModel graded;
+  std::size_t long_before = SIZE_MAX;
+  double triangles_before = 0;
   for (int round = 1; round <= most_rounds; ++round) {
     Round next(model, rules, options, diag, monitor);
     graded = next.run(raw, graded);
     graded.rounds = round;
-    if (!next.coarse()) break;
+    // Those of a pole stay.
+    const double change = static_cast<double>(graded.triangles) / std::max(triangles_before, 1.) - 1;
+    if (next.long_edges() == 0 || (std::abs(change) < 0.1 && 2 * next.long_edges() > long_before)) break;
+    long_before = next.long_edges();
+    triangles_before = static_cast<double>(graded.triangles);
   }
   return graded;
 }

@@ -54,7 +54,7 @@ class LiftCheck {
 
   void compare_metrics() {
     constexpr std::size_t batch = 512;
-    FaceMetric prescribed(input_.face, rules_, input_.domain->plane, input_.domain->physical, monitor_);
+    FaceMetric prescribed(input_.face, rules_, input_.domain->plane, input_.domain->physical, monitor_, input_.limits);
     std::vector<SurfaceJet> jets(batch);
     std::vector<Metric2> metric(batch);
     const std::span<const Vec2> uv = mesh_.plane.vertices;

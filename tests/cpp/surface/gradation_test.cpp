@@ -304,5 +304,118 @@ TEST(GradedModel, DISABLED_EveryEdgeObeys) {
   }
 }
 
+// Metrics of space by closed forms.
+class SpaceMetric : public PrescriptionSource {
+ public:
+  explicit SpaceMetric(std::function<Metric3(Vec3)> at) : at_(std::move(at)) {}
+  Prescription on_surface(int, Vec2, Vec3 xyz) override { return Prescription::of_space(at_(xyz)); }
+  Prescription on_curve(int, int, double, Vec2, Vec3 xyz) override { return Prescription::of_space(at_(xyz)); }
+  Prescription at_point(int, Vec3 xyz) override { return Prescription::of_space(at_(xyz)); }
+
+ private:
+  std::function<Metric3(Vec3)> at_;
+};
+
+struct Anisotropic {
+  double steepest = 1, over = 0, in_range = 0, shape = 0, worst_shape = 1;
+};
+
+// Gradation of sizes along the edges in the control spaces, lengths and shapes there.
+Anisotropic measure_directions(AnalyticCad& cad, CompositeOptions options, SpaceMetric* source, CompositeResult* kept) {
+  Monitor monitor;
+  if (source != nullptr) options.size.sources = {source};
+  ModelSupports supports = build_supports(testing::unglued(cad), cad, 1, monitor);
+  const Model model = glue(testing::unglued(cad), traces_of(supports), supports.diag / 500);
+  const Topology topology = build_topology(model, traces_of(supports), supports.diag / 100);
+  if (options.size.hgeomax == 0) options.size.hgeomax = supports.diag / 5, options.size.hgeomin = supports.diag / 500;
+  *kept = mesh_composite(model, topology, supports, cad, options, monitor);
+  EXPECT_EQ(find_defects(kept->mesh), std::vector<std::string>{});
+  Anisotropic a;
+  double count = 0, triangles = 0;
+  for (std::size_t f = 0; f < kept->mesh.faces.size(); ++f) {
+    const FaceMesh& face = kept->mesh.faces[f];
+    const ControlSpace& space = *kept->spaces[f];
+    std::vector<SurfaceJet> jets(face.uv.size());
+    cad.surface(face.ref, want_first, face.uv, jets);
+    for (const auto& t : face.triangles) {
+      double squares = 0;
+      for (int i = 0; i < 3; ++i) {
+        const int p = t[i], q = t[(i + 1) % 3];
+        const Vec2 d = face.uv[q] - face.uv[p];
+        const double l = field_length([&](Vec2 x) { return space.at(x); }, face.uv[p], face.uv[q], 0.1);
+        const auto along = [&](int v) {
+          return norm(d.x * jets[v].su + d.y * jets[v].sv) / length(space.at(face.uv[v]), d);
+        };
+        const double g = std::pow(std::max(along(p) / along(q), along(q) / along(p)), 1 / l);
+        a.steepest = std::max(a.steepest, g);
+        a.over += g > 1.02 * options.gradation ? 1 : 0;
+        a.in_range += l >= std::numbers::sqrt2 / 2 && l <= std::numbers::sqrt2 ? 1 : 0;
+        squares += l * l;
+        ++count;
+      }
+      const Vec2 o = face.uv[t[0]], m = (1. / 3) * (o + face.uv[t[1]] + face.uv[t[2]]);
+      const double q = 2 * std::numbers::sqrt3 * cross(face.uv[t[1]] - o, face.uv[t[2]] - o) *
+                       std::sqrt(determinant(space.at(m))) / squares;
+      a.shape += q;
+      a.worst_shape = std::min(a.worst_shape, q);
+      ++triangles;
+    }
+  }
+  a.over /= count, a.in_range /= count, a.shape /= triangles;
+  if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
+    std::printf(
+        "%g: %zu triangles, gradation %.4f, share over %.5f, in range %.4f, shape %.3f %.3f; %d rounds of %zu; "
+        "%.3f of %.3f s; %lld calls\n",
+        options.gradation, kept->mesh.triangle_count(), a.steepest, a.over, a.in_range, a.shape, a.worst_shape,
+        kept->report.gradation_rounds, kept->report.gradation_triangles, kept->report.seconds_gradation,
+        kept->report.seconds_total, static_cast<long long>(kept->report.calls.surface()));
+  return a;
+}
+
+TEST(GradedMetrics, ALayerGrowsInBothDirections) {
+  // Sizes 0.01 across and 0.1 along the side y = 0, 1 x 1 elsewhere: both grow by what the layer's metric says.
+  for (const double beta : {1.1, 1.3, 2.}) {
+    AnalyticCad cad = square(2);
+    SpaceMetric source([](Vec3 x) {
+      return x.y < 1e-9 ? metric_of_sizes({0, 1, 0}, 0.01, 0.1) : isotropic_metric3(1);
+    });
+    CompositeResult result;
+    const Anisotropic a = measure_directions(cad, host_sizes(beta), &source, &result);
+    EXPECT_LE(a.over, 0.002);
+    EXPECT_GE(a.in_range, 0.94);
+    double error = 0;
+    for (std::size_t v = 0; v < result.vertex_size.size(); ++v) {
+      const Vec3 x = result.mesh.vertices[v];
+      if (x.x == 0 || x.x == 2 || x.y == 0 || x.y == 2) continue;  // sizes along the border
+      const double across = std::min(1., 0.01 + std::log(beta) * x.y), along = std::min(1., 10 * across);
+      error = std::max(error, std::abs(result.vertex_size[v] / std::sqrt(across * along) - 1));
+    }
+    EXPECT_LE(error, 0.1);  // where a size stops growing
+  }
+}
+
+TEST(GradedMetrics, CurvatureOfTheTeapot) {
+  for (const double beta : {1.1, 1.3, 2.}) {
+    CompositeOptions options = curvature(beta);
+    options.size.geo_anisotropic = true;
+    AnalyticCad cad = testing::teapot();
+    CompositeResult result;
+    const Anisotropic a = measure_directions(cad, options, nullptr, &result);
+    EXPECT_LE(a.over, 0.02);
+    EXPECT_GE(a.in_range, 0.98);
+    EXPECT_GE(a.shape, 0.94);
+  }
+}
+
+TEST(GradedMetrics, FieldsThatObeyAreLeftAsTheyAre) {
+  for (const double beta : {0., 1.3}) {
+    AnalyticCad cad = square(2);
+    SpaceMetric source([](Vec3) { return metric_of_sizes({1, 2, 0}, 0.01, 0.1); });
+    CompositeResult result;
+    const Anisotropic a = measure_directions(cad, host_sizes(beta), &source, &result);
+    EXPECT_LE(a.steepest, 1.001);
+  }
+}
+
 }  // namespace
 }  // namespace carreau
