@@ -673,9 +673,9 @@ typedef struct carreau_exr_options {
  * the library. `options` may be NULL: all zero.
  *
  * The fields are those of the session's mesh. Where there is none, where the last carreau_mesh_generate has failed, for
- * faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain as far as its curves
- * are known: positions, derivatives, sizes, without triangles and target. A host that fails at some points leaves NaN
- * there, and a warning; its sentence is no error of this call.
+ * faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain, as far as its curves
+ * are known: positions, derivatives, sizes; without triangles, and without a target unless the mesher had sampled it. A
+ * host that fails at some points leaves NaN there, and a warning; its sentence is no error of this call.
  *
  * Asks the geometry at every pixel of the domain, from the caller's thread, and for CARREAU_EXR_DEVIATION at some 20
  * points a vertex of the mesh. The mesh is not touched, whatever happens; each file is complete or as it was before.

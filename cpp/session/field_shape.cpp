@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace carreau {
 
@@ -44,25 +45,58 @@ std::vector<Vec2> sampled(Cad& cad, int face, int ic) {
   return points;
 }
 
-// Each curve has two ends; pairs them, the nearest first.
-void close_loops(FieldShape& shape, const std::vector<int>& ends) {
-  struct Pair {
-    double distance;
-    std::size_t i, j;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < ends.size(); ++i)
-    for (std::size_t j = i + 1; j < ends.size(); ++j)
-      pairs.push_back({norm(shape.loops.vertices[ends[i]] - shape.loops.vertices[ends[j]]), i, j});
-  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.distance < q.distance; });
-  std::vector<char> taken(ends.size(), 0);
-  for (const Pair& pair : pairs) {
-    if (taken[pair.i] != 0 || taken[pair.j] != 0) continue;
-    taken[pair.i] = taken[pair.j] = 1;
-    shape.gap = std::max(shape.gap, pair.distance);
-    shape.loops.segments.emplace_back(ends[pair.i], ends[pair.j]);
+// Pairs ends of curves.
+class LoopCloser {
+ public:
+  LoopCloser(FieldShape& shape, std::vector<int> ends)
+      : shape_(shape), ends_(std::move(ends)), taken_(ends_.size(), 0) {}
+
+  void run() {
+    join_those_that_meet();
+    join_nearest_first();
   }
-}
+
+ private:
+  [[nodiscard]] Vec2 at(std::size_t i) const { return shape_.loops.vertices[static_cast<std::size_t>(ends_[i])]; }
+  void join(std::size_t i, std::size_t j) {
+    taken_[i] = taken_[j] = 1;
+    shape_.gap = std::max(shape_.gap, norm(at(i) - at(j)));
+    shape_.loops.segments.emplace_back(ends_[i], ends_[j]);
+  }
+
+  // Nearly all of them; the rest is few.
+  void join_those_that_meet() {
+    double extent = 0;
+    for (const Vec2 p : shape_.loops.vertices) extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+    const double tolerance = 1e-9 * extent;
+    std::vector<std::size_t> order(ends_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) { return at(i).x < at(j).x; });
+    for (std::size_t a = 0; a < order.size(); ++a)
+      for (std::size_t b = a + 1; b < order.size() && taken_[order[a]] == 0; ++b) {
+        if (at(order[b]).x - at(order[a]).x > tolerance) break;
+        if (taken_[order[b]] == 0 && norm(at(order[b]) - at(order[a])) <= tolerance) join(order[a], order[b]);
+      }
+  }
+
+  void join_nearest_first() {
+    struct Pair {
+      double distance;
+      std::size_t i, j;
+    };
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < ends_.size(); ++i)
+      for (std::size_t j = i + 1; j < ends_.size(); ++j)
+        if (taken_[i] == 0 && taken_[j] == 0) pairs.push_back({norm(at(i) - at(j)), i, j});
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.distance < q.distance; });
+    for (const Pair& pair : pairs)
+      if (taken_[pair.i] == 0 && taken_[pair.j] == 0) join(pair.i, pair.j);
+  }
+
+  FieldShape& shape_;
+  std::vector<int> ends_;
+  std::vector<char> taken_;
+};
 
 }  // namespace
 
@@ -90,7 +124,7 @@ FieldShape shape_of(const Face& face, std::span<const CurveSupport> supports, Ca
     const auto [first, last] = append(shape.loops, points);
     ends.insert(ends.end(), {first, last});
   }
-  close_loops(shape, ends);
+  LoopCloser(shape, std::move(ends)).run();
   set_box(shape);
   return shape;
 }

@@ -270,6 +270,39 @@ TEST(Fields, OfAnAnisotropicMeshHaveTwoSizesAndADirection) {
   EXPECT_LT(along, 200);
 }
 
+// A small size at one place; with gradation 1.3 sizes grow by ln 1.3 at most along a path, and the target agrees.
+TEST(Fields, ObeyTheGradationOfTheMesh) {
+  FieldCase run(testing::hemisphere());
+  run.cad->size_on_surface = [](int, Vec2 p) {
+    return std::optional<double>(norm(p - Vec2{0.2, 0.1}) < 0.05 ? 0.02 : 0.3);
+  };
+  Parameters& parameters = run.session->parameters();
+  parameters.set("hphy_flag", 2);
+  parameters.set("hphymin", 0.01);
+  parameters.set("hphymax", 0.5);
+  parameters.set("gradation", 1.3);
+  run.session->make_mesh();
+  const ExrImage image = run.image(120, 120);
+  const double slope = std::log(1.3);
+  int bounded = 0, apart = 0;
+  const int inside = for_each_inside(image, [&](int i, int j, Vec2 p) {
+    const auto at = [&](const char* name) { return static_cast<double>(image.at(name, i, j)); };
+    bounded += at("size.h") < 0.29;
+    // Some pixels away it differs by no more than the slope times the distance on the sphere.
+    if (i + 12 < 120 && image.at("mask", i + 12, j) == 1) {
+      const Vec3 a{at("position.x"), at("position.y"), at("position.z")};
+      const Vec3 b{image.at("position.x", i + 12, j), image.at("position.y", i + 12, j),
+                   image.at("position.z", i + 12, j)};
+      const double distance = 2 * std::asin(norm(b - a) / 2);
+      ASSERT_LE(std::abs(image.at("size.h", i + 12, j) - at("size.h")), 1.05 * slope * distance);
+    }
+    const double d = 1 + dot(p, p), m = 4 / (d * d * at("size.h") * at("size.h"));
+    apart += length_error({at("target.m11"), at("target.m12"), at("target.m22")}, {m, 0, m}) > 0.05;
+  });
+  EXPECT_GT(bounded, inside / 3);
+  EXPECT_LT(apart, 0.02 * inside);
+}
+
 TEST(Fields, MaskCountsTheAreaOfTheDomain) {
   FieldCase run(testing::hemisphere());
   run.session->parameters().set("hphydef", 0.05);
