@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include "io/mesh_files.h"
@@ -156,6 +158,85 @@ class Loop {
   AdaptationReport report_;
 };
 
+template <typename Enum>
+Enum choice(const Parameters& parameters, const char* name, std::initializer_list<const char*> texts) {
+  const std::string text = parameters.text(name);
+  int i = 0;
+  for (const char* known : texts) {
+    if (text == known) break;
+    ++i;
+  }
+  return static_cast<Enum>(i);
+}
+
+EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Vec3>& vertices) {
+  EstimatorOptions options;
+  options.source =
+      choice<ErrorSource>(parameters, "adapt_source", {"hessian", "curvature", "deformation"});  // order of the values
+  options.shape = choice<ErrorShape>(parameters, "adapt_shape", {"isotropic", "graph", "anisotropic"});
+  options.tolerance = parameters.real("adapt_tolerance");
+  options.relative = parameters.integer("adapt_relative") != 0;
+  Vec3 low = vertices.front(), high = low;
+  for (const Vec3 p : vertices) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const double diagonal = norm(high - low);
+  options.hmin = parameters.real("adapt_hmin") > 0 ? parameters.real("adapt_hmin") : diagonal / 500;
+  options.hmax = parameters.real("adapt_hmax") > 0 ? parameters.real("adapt_hmax") : diagonal / 5;
+  return options;
+}
+
+/// A mesh of a file as one whose faces lie in their parameter planes (dimension 2), or in none.
+SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
+  SurfaceMesh mesh;
+  mesh.vertices = flat.vertices;
+  mesh.vertex_ref.assign(flat.vertices.size(), 0);
+  FaceMesh whole;
+  for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
+    whole.uv.push_back({flat.vertices[v].x, flat.vertices[v].y});
+    whole.vertex.push_back(static_cast<std::int32_t>(v));
+  }
+  const auto part = [&](int ref, int named) {
+    FaceMesh face = whole;
+    face.ref = ref;
+    for (std::size_t i = 0; i < flat.triangles.size(); ++i)
+      if (flat.triangle_refs[i] == named) face.triangles.push_back(flat.triangles[i]);
+    if (!face.triangles.empty()) mesh.faces.push_back(std::move(face));
+  };
+  if (flat.dimension == 2) {
+    for (const Face& face : model.faces) {
+      const bool named =
+          std::find(flat.triangle_refs.begin(), flat.triangle_refs.end(), face.ref) != flat.triangle_refs.end();
+      part(face.ref, named ? face.ref : 0);
+    }
+  } else {  // no face of a model has this reference: looked up in space
+    whole.ref = std::numeric_limits<int>::min();
+    whole.triangles = flat.triangles;
+    mesh.faces.push_back(std::move(whole));
+  }
+  return mesh;
+}
+
+/// On parameter planes sizes are lengths there: metrics say so.
+VertexValues values_on(int dimension, const VertexPrescriptions& wanted) {
+  if (dimension == 3) return {wanted.sizes, wanted.metrics, {}};
+  VertexValues values;
+  for (const double h : wanted.sizes) values.parameter.push_back({1 / (h * h), 0, 1 / (h * h)});
+  for (const Metric3& m : wanted.metrics) values.parameter.push_back({m.xx, m.xy, m.yy});
+  return values;
+}
+
+/// Values of a scalar field of a file at so many vertices.
+Solution read_field(const std::string& path, std::size_t vertices, const std::string& mesh_name) {
+  Solution field = read_solution(path);
+  if (field.tensor) throw FileError({.file = path}, "it has tensors; a field to adapt to is a scalar at each vertex");
+  if (field.count() != vertices)
+    throw FileError({.file = path}, "it has values at " + std::to_string(field.count()) + " vertices, but " +
+                                        mesh_name + " has " + std::to_string(vertices));
+  return field;
+}
+
 }  // namespace
 
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path) {
@@ -194,6 +275,45 @@ VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& fiel
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
                        Monitor& monitor) {
   return Loop(session, field, options, monitor).run();
+}
+
+void adapt_by_files(Session& session, Monitor& monitor) {
+  Parameters& parameters = session.parameters();
+  const std::string mesh_path = parameters.text("adapt_mesh"), sol_path = parameters.text("adapt_sol");
+  const std::string out_path = parameters.text("adapt_out");
+  if (sol_path.empty()) throw InvalidArgument("call adapt needs a field: the parameter adapt_sol names no file");
+  if (parameters.integer("hphy_flag") == 0)
+    throw InvalidArgument("an adaptation prescribes physical sizes, but hphy_flag is 0: they would be ignored");
+  if (mesh_path.empty() && !session.has_mesh())
+    throw InvalidArgument("call adapt needs a mesh: none was made yet, and the parameter adapt_mesh names no file");
+  const bool own = mesh_path.empty();
+  const FlatMesh flat = own ? flatten(session.mesh(), false) : read_mesh(mesh_path);
+  if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a mesh with a field needs triangles; it has none");
+  const Solution field = read_field(sol_path, flat.vertices.size(), own ? "the mesh made last" : mesh_path);
+  const VertexPrescriptions wanted =
+      estimate({flat.vertices, flat.triangles, field.values}, estimator_of(parameters, flat.vertices));
+  const SurfaceMesh from = own ? session.mesh() : surface_of(flat, session.model());
+  const NoBackgroundAfterwards afterwards(session);
+  if (own) {
+    session.set_background(background_of(session, values_on(3, wanted)));
+  } else {
+    const std::vector<std::int32_t> faces = flat.dimension == 2 ? flat.triangle_refs : std::vector<std::int32_t>{};
+    session.set_background(std::make_shared<BackgroundField>(
+        BackgroundMesh{flat.dimension, flat.vertices, flat.triangles, faces, values_on(flat.dimension, wanted)}));
+  }
+  // Lengths of parameter planes say nothing about bounds in space.
+  if (flat.dimension == 3) {
+    const OpenBounds bounds(parameters, range_of(wanted));
+    session.make_mesh();
+  } else {
+    session.make_mesh();
+  }
+  if (out_path.empty()) return;
+  const TransferredField moved = transfer_field(from, session.mesh(), field.values, 1);
+  if (moved.outside > 0)
+    monitor.message(Level::warning, std::to_string(moved.outside) + " vertices lie outside of the mesh of the field " +
+                                        "and have the nearest value");
+  write_solution({.dimension = 3, .tensor = false, .values = moved.values}, out_path);
 }
 
 }  // namespace carreau

@@ -58,4 +58,10 @@ struct AdaptationReport {
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
                        Monitor& monitor);
 
+/// `call adapt` of blsurf.env: one step of the loop by files. The field adapt_sol at the vertices of adapt_mesh, or of
+/// the session's mesh, is estimated as the parameters adapt_* say, and the model is meshed again by that; adapt_out
+/// gets the field on the new mesh. On a mesh of dimension 2, sizes are lengths of the parameter planes. Throws
+/// FileError, InvalidArgument (no adapt_sol, no mesh; what estimate() throws), and what make_mesh() throws.
+void adapt_by_files(Session& session, Monitor& monitor);
+
 }  // namespace carreau

@@ -4,13 +4,14 @@
 #include <functional>
 
 #include "io/env.h"
+#include "session/adaptation.h"
 #include "session/session.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> actions{"inimesh", "export", "exit", "measure"};
+constexpr std::array<std::string_view, 5> actions{"inimesh", "export", "exit", "measure", "adapt"};
 
 // Parameters have their defaults from here on and again at the end of the scope, which an exception may end.
 class DefaultsAround {
@@ -80,9 +81,13 @@ class EnvRunner {
     } else if (pair.value == actions[3]) {
       if (!session_.has_mesh()) throw InvalidArgument(at(pair), "call measure comes before any call inimesh");
       session_.write_delivered(beside_env(".json"));
+    } else if (pair.value == actions[4]) {
+      if (load_pardom_) load_pardom_(beside_env(".pardom"));
+      find_beside_env({"adapt_mesh", "adapt_sol", "adapt_out"});
+      adapt_by_files(session_, session_.monitor());
     } else {
-      throw InvalidArgument(at(pair),
-                            "unknown action \"" + pair.value + "\": the actions are inimesh, measure, export and exit");
+      throw InvalidArgument(
+          at(pair), "unknown action \"" + pair.value + "\": the actions are inimesh, adapt, measure, export and exit");
     }
   }
 

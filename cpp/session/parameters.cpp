@@ -40,6 +40,17 @@ constexpr std::array kTable = {
                 "number of passes that check that each parameter domain is well defined"),
     real_row("CoefRectangle", 0, 10, 0.25, "thickness of the rectangles of CheckCloseEdges, as a share of the edge"),
     real_row("LSS", 1e-3, 10, 0.5, "longest sub-segment, in the metric, when the length of an edge is integrated"),
+    real_row("adapt_hmax", 0, kInfinity, 0, "call adapt: largest size (0: a fifth of the diagonal of its mesh)"),
+    real_row("adapt_hmin", 0, kInfinity, 0, "call adapt: smallest size (0: 1/500 of the diagonal of its mesh)"),
+    text_row("adapt_mesh", "", nullptr, "call adapt: mesh file that adapt_sol belongs to (\"\": the mesh made last)"),
+    text_row("adapt_out", "", nullptr, "call adapt: .sol file for the field on the new mesh (\"\": none)"),
+    integer_row("adapt_relative", 0, 1, 0, "call adapt: 1: adapt_tolerance is a share of the field's absolute value"),
+    text_row("adapt_shape", "isotropic", "isotropic|graph|anisotropic",
+             "call adapt: sizes, circles in the tangent planes of the graph, or metrics by both principal values"),
+    text_row("adapt_sol", "", nullptr, "call adapt: file of a field at the vertices of adapt_mesh"),
+    text_row("adapt_source", "hessian", "hessian|curvature|deformation",
+             "call adapt: what the error is estimated from"),
+    real_row("adapt_tolerance", kPositive, kInfinity, 0.01, "call adapt: error of the field (curvature: degrees)"),
     real_row("angle_mesh", 0.01, 89, 8, "angle between the mesh and the tangents of surfaces and curves, degrees"),
     real_row("angle_smo", 0.001, 89, 1, "angle between the supports of curves and their tangents, degrees"),
     real_row("anisotropy_max", 1, kInfinity, 1000,
@@ -145,7 +156,8 @@ std::string quoted_choices(std::string_view choices) {
 
 void check_text(const ParameterInfo& info, std::string_view value) {
   if (info.choices == nullptr) {
-    if (value.empty()) throw InvalidArgument(std::string("parameter ") + info.name + " must not be empty");
+    if (value.empty() && *info.default_text != '\0')
+      throw InvalidArgument(std::string("parameter ") + info.name + " must not be empty");
     if (value.find('\0') != value.npos)
       throw InvalidArgument(std::string("parameter ") + info.name + " must not hold a zero byte");
     return;

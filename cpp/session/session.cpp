@@ -269,6 +269,7 @@ void Session::clear_model() noexcept { state_->model = {}; }
 
 const Model& Session::model() const noexcept { return state_->model; }
 Parameters& Session::parameters() noexcept { return state_->parameters; }
+Monitor& Session::monitor() noexcept { return state_->monitor; }
 bool Session::has_mesh() const noexcept { return state_->has_mesh; }
 
 const SurfaceMesh& Session::mesh() const {

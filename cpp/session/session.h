@@ -46,6 +46,7 @@ class Session {
   [[nodiscard]] const Model& model() const noexcept;
 
   Parameters& parameters() noexcept;
+  Monitor& monitor() noexcept;
 
   /// `call inimesh`: supports, sizes, curves, domains, patches, assembly. An earlier mesh is kept when this throws.
   /// References that are zero are found first (gluing); the glued model replaces the model, and is written to

@@ -215,6 +215,63 @@ TEST_F(Adaptation, ParametersNameFilesAndEnvFilesFindThemBesideThem) {
   EXPECT_GT(background_report().asked, 100);
 }
 
+TEST_F(Adaptation, AnActionOfEnvFilesAdaptsToAFieldOfAFile) {
+  // y^2 on a grid: size sqrt(4.5 tolerance / 2) across, the largest one along (HDR eq. 3.3).
+  const int n = 20;
+  std::string points = "Vertices " + std::to_string((n + 1) * (n + 1)) + "\n", values, triangles_text;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = -1 + 2.0 * i / n, y = -1 + 2.0 * j / n;
+      points += std::to_string(x) + " " + std::to_string(y) + " 0\n";
+      values += std::to_string(y * y) + "\n";
+      const int at = j * (n + 1) + i + 1;
+      if (i < n && j < n)
+        triangles_text += std::to_string(at) + " " + std::to_string(at + 1) + " " + std::to_string(at + n + 2) +
+                          " 1\n" + std::to_string(at) + " " + std::to_string(at + n + 2) + " " +
+                          std::to_string(at + n + 1) + " 1\n";
+    }
+  const std::string head = "MeshVersionFormatted 2\nDimension 2\n";
+  file("f.mesh", head + points + "Triangles " + std::to_string(2 * n * n) + "\n" + triangles_text + "End\n");
+  file("f.sol", head + "SolAtVertices " + std::to_string((n + 1) * (n + 1)) + "\n1 1\n" + values + "End\n");
+  const auto env = [&](const std::string& text) { return file("blsurf.env", text + "\ncall adapt\n"); };
+  const std::string good =
+      "adapt_mesh f.mesh adapt_sol f.sol adapt_shape anisotropic adapt_tolerance 0.01\nadapt_hmin 0.01 adapt_hmax 0.45 "
+      "adapt_out moved.sol hphymin 0.01 hphymax 1";
+  ASSERT_EQ(carreau_run_env(session, env(good).c_str()), CARREAU_OK) << error();
+  const auto data = abi_tests::data_of(mesh());
+  EXPECT_NEAR(double(data.triangle_count()) / wanted([](double) { return 0.15 * 0.45; }), 1, 0.2);
+  // The field on the new mesh is its linear interpolation: not below y^2, and not farther above than an old edge
+  // allows.
+  std::ifstream moved(folder / "moved.sol");
+  std::string word;
+  while (moved >> word && word != "SolAtVertices") {
+  }
+  std::size_t count = 0;
+  int one = 0, type = 0;
+  moved >> count >> one >> type;
+  ASSERT_EQ(count, data.vertex_count());
+  for (std::size_t v = 0; v < count; ++v) {
+    double value = 0;
+    moved >> value;
+    const double y = data.xyz[3 * v + 1];
+    EXPECT_GE(value, y * y - 1e-6);
+    EXPECT_LE(value, y * y + 0.0025 + 1e-6);
+  }
+  // Once more, on the mesh that was made, with its own field.
+  std::string again = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices " + std::to_string(count) + "\n1 1\n";
+  for (std::size_t v = 0; v < count; ++v) again += std::to_string(std::pow(data.xyz[3 * v], 2)) + "\n";
+  file("g.sol", again + "End\n");
+  ASSERT_EQ(carreau_run_env(session, env("adapt_sol g.sol adapt_hmax 0.5 adapt_hmin 0.1").c_str()), CARREAU_OK)
+      << error();
+  EXPECT_NEAR(double(abi_tests::data_of(mesh()).triangle_count()) / wanted([](double) { return 0.0225; }), 1, 0.25);
+  EXPECT_EQ(background_report().outside, 0);
+  EXPECT_EQ(carreau_run_env(session, env("adapt_mesh f.mesh").c_str()), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("adapt_sol names no file"), std::string::npos) << error();
+  EXPECT_EQ(carreau_run_env(session, env("adapt_sol f.sol").c_str()), CARREAU_ERR_FILE);
+  EXPECT_NE(error().find("but the mesh made last has"), std::string::npos) << error();
+  EXPECT_EQ(carreau_run_env(session, env("adapt_mesh f.mesh adapt_sol f.mesh").c_str()), CARREAU_ERR_FILE);
+}
+
 TEST_F(Adaptation, PointsOutsideAreCounted) {
   carreau_background b = square(2);
   const double half[8] = {-1, -1, 0, -1, 0, 1, -1, 1}, sizes[4] = {0.1, 0.1, 0.1, 0.1};
