@@ -144,6 +144,7 @@ typedef struct c_face {
     int status;
     long triangles;
     void *why;
+    void *name;
 } c_face;
 typedef struct c_measure {
     long struct_size;
@@ -260,6 +261,7 @@ int carreau_model_clear (void *session);
 int carreau_model_count (void *session, long *faces, long *curves, long *points);
 int carreau_model_curves (void *session, long capacity, int *face_refs, int *types, int *refs, int *ends);
 int carreau_model_faces (void *session, long capacity, int *refs, int *orientations);
+int carreau_model_name_face (void *session, int face_ref, const char *name);
 int carreau_model_points (void *session, long capacity, int *face_refs, int *refs, double *uv);
 int carreau_model_read_pardom (void *session, const char *path);
 int carreau_model_write_pardom (void *session, const char *path);

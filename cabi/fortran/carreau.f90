@@ -25,6 +25,7 @@ module carreau
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
+  public :: carreau_model_name_face
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
   public :: carreau_parameter_count, carreau_parameter_info
@@ -156,7 +157,7 @@ module carreau
   type :: carreau_face
     integer(c_int32_t) :: ref = 0, status = 0
     integer(c_int64_t) :: triangles = 0
-    character(len=:), allocatable :: why
+    character(len=:), allocatable :: why, name
   end type carreau_face
 
   type :: carreau_quality
@@ -569,6 +570,14 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_add_point(session%handle, face_ref, ref, u, v)
   end subroutine carreau_model_add_point
+
+  subroutine carreau_model_name_face(session, face_ref, name, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref
+    character(len=*), intent(in) :: name
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_name_face(session%handle, face_ref, c_text(name))
+  end subroutine carreau_model_name_face
 
   subroutine carreau_model_read_pardom(session, path, status)
     type(carreau_session), intent(in) :: session
@@ -1082,6 +1091,7 @@ contains
     face%status = c%status
     face%triangles = c%triangles
     face%why = carreau_string(c%why)
+    face%name = carreau_string(c%name)
   end subroutine carreau_mesh_face
 
   subroutine carreau_mesh_quality(mesh, quality, status)

@@ -129,7 +129,7 @@ module carreau_c
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: ref = 0, status = 0
     integer(c_int64_t) :: triangles = 0
-    type(c_ptr) :: why = c_null_ptr
+    type(c_ptr) :: why = c_null_ptr, name = c_null_ptr
   end type c_face
 
   type, bind(c) :: c_quality
@@ -252,6 +252,15 @@ module carreau_c
       real(c_double), value :: u, v
       integer(c_int32_t) :: status
     end function c_model_add_point
+
+    function c_model_name_face(session, face_ref, name) result(status) bind(c, name="carreau_model_name_face")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t) :: status
+    end function c_model_name_face
 
     function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
       import :: c_char, c_int32_t, c_ptr

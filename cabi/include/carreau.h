@@ -276,6 +276,10 @@ CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int
 CARREAU_API carreau_status carreau_model_add_point(carreau_session* session, int32_t face_ref, int32_t ref, double u,
                                                    double v);
 
+/* Names a face, for files that hold names (.vtu, .msh, .stl) and for people; several faces may have one name; "" takes it
+ * away. Errors: ARGUMENT (no such face, NULL). */
+CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name);
+
 /* Replaces the model by the content of a file x.pardom. On error the old model stays. Errors: FILE, MODEL. */
 CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
 
@@ -543,9 +547,10 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
-/* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl. The mesh of a session is
- * written as its parameters option, refs and flag say (RT-0232 sec. 4); .exr: its fields, as carreau_write_exr does
- * with multi_part. The file is complete or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
+/* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face), .msh and
+ * .msh2 (Gmsh 4.1 and 2.2, with physical names). The mesh of a session is written as its parameters option, refs and
+ * flag say (RT-0232 sec. 4); .exr: its fields, as carreau_write_exr does with multi_part. A mesh from a file has binary
+ * .stl. The file is complete or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
 
 /* Numbers of vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */
@@ -582,6 +587,7 @@ typedef struct carreau_face {
   int32_t status;    /* CARREAU_FACE_... */
   int64_t triangles; /* their number; they follow those of the faces before */
   const char* why;   /* sentence for `mended` and `failed`, else ""; lives until the next call on the mesh */
+  const char* name;  /* given by carreau_model_name_face, else ""; lives as `why` does */
 } carreau_face;
 
 /* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending.

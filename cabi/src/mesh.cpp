@@ -241,14 +241,15 @@ carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face
                             std::to_string(n));
     const auto i = std::size_t(index);
     carreau_face result{};
-    result.why = "";
+    result.why = result.name = "";
     if (mesh->session != nullptr) {
       const FaceMesh& face = surface_of(*mesh).faces[i];
-      mesh->text = face.why;
+      mesh->text = face.why + '\0' + face.name;
       result.ref = face.ref;
       result.status = std::int32_t(face.status);
       result.triangles = std::int64_t(face.triangles.size());
       result.why = mesh->text.c_str();
+      result.name = result.why + face.why.size() + 1;
     } else {
       result.ref = mesh->flat_faces[i].first;
       result.status = CARREAU_FACE_MESHED;

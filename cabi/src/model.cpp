@@ -74,6 +74,10 @@ carreau_status carreau_model_add_point(carreau_session* session, int32_t face_re
   });
 }
 
+carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name) {
+  return guarded(session, [&] { face_of(session->edited_model(), face_ref).name = required(name, "name"); });
+}
+
 carreau_status carreau_model_read_pardom(carreau_session* session, const char* path) {
   return guarded(session, [&] {
     session->session.load_pardom(required(path, "path"));

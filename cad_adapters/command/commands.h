@@ -17,6 +17,20 @@ struct PictureOptions {
 
 int picture(const PictureOptions& options);
 
+struct MeshOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  std::string size, minimum, maximum;   ///< lengths as typed; empty: not given
+  double angle = 0;                     ///< degrees; 0: not given
+  std::vector<std::string> face_sizes;  ///< "face=length", the face by number or name
+  std::vector<std::string> settings;    ///< "parameter=value"
+  int threads = 0;                      ///< 0: all cores
+  bool quiet = false;
+};
+
+/// Meshes a CAD file. 0 all faces, 1 some faces have no mesh, 130 stopped by a signal.
+int mesh(const MeshOptions& options);
+
 /// Prints counts, quality and defects. 1 when there are defects.
 int check(const std::string& path, bool closed, int limit);
 

@@ -1,9 +1,11 @@
-// carreau: pictures and checks of meshes, fields that govern them, and the list of parameters. Exit codes: 0 done, 1
-// the mesh has defects or lacks faces, 2 the command line or a file cannot be used.
+// carreau: meshes of CAD files, pictures and checks of meshes, fields that govern them, and the list of parameters.
+// Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 the command line or a file cannot be used.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <string>
 
+#include "cad_input.h"
 #include "commands.h"
 
 namespace {
@@ -49,8 +51,32 @@ CLI::App* add_fields(CLI::App& app, command::FieldsOptions& options, std::string
   return fields;
 }
 
+CLI::App* add_mesh(CLI::App& app, command::MeshOptions& options) {
+  CLI::App* mesh = app.add_subcommand("mesh", "Mesh the faces of a CAD file");
+  mesh->add_option("INPUT", options.input, "File .step, .stp, .iges, .igs, .brep or .brp")->required();
+  mesh->add_option("-o,--output", options.outputs,
+                   "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1) or .msh2 (2.2); may be repeated")
+      ->required()
+      ->allow_extra_args(false);
+  mesh->add_option("--size", options.size,
+                   "Length of edges, or a share of the model's diagonal such as 1%; 2% when "
+                   "neither a size nor an angle is given");
+  mesh->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
+      ->check(CLI::Range(0.01, 89.0));
+  mesh->add_option("--min", options.minimum, "Smallest size, a length or a share");
+  mesh->add_option("--max", options.maximum, "Largest size, a length or a share");
+  mesh->add_option("--face-size", options.face_sizes, "FACE=LENGTH, the size on a face given by number or name")
+      ->allow_extra_args(false);
+  mesh->add_option("--set", options.settings, "NAME=VALUE, any parameter that `carreau params` lists")
+      ->allow_extra_args(false);
+  mesh->add_option("--threads", options.threads, "Threads to use, 0: all cores; the mesh does not depend on it")
+      ->check(CLI::Range(0, 1024));
+  mesh->add_flag("-q,--quiet", options.quiet, "Tell errors only");
+  return mesh;
+}
+
 int run(int argc, char** argv) {
-  CLI::App app{"Meshes of surfaces made of parametric patches: pictures, checks, fields, parameters.", "carreau"};
+  CLI::App app{"Meshes of surfaces made of parametric patches.", "carreau"};
   app.set_version_flag("--version", std::string("carreau ") + carreau_version());
   app.require_subcommand(1);
   app.footer(
@@ -88,6 +114,14 @@ int run(int argc, char** argv) {
   command::FieldsOptions field_options;
   std::string field_size = "1024";
   CLI::App* fields = add_fields(app, field_options, field_size);
+  std::string part;
+  int each = 10;
+  CLI::App* info = app.add_subcommand("info", "Print what a CAD file holds and what of it is hard to mesh");
+  info->add_option("INPUT", part, "File .step, .stp, .iges, .igs, .brep or .brp")->required();
+  info->add_option("--limit", each, "Sentences of each kind")->check(CLI::PositiveNumber)->capture_default_str();
+
+  command::MeshOptions mesh_options;
+  CLI::App* mesh_command = add_mesh(app, mesh_options);
 
   std::string name;
   CLI::App* params =
@@ -95,13 +129,17 @@ int run(int argc, char** argv) {
   params->add_option("NAME", name, "One parameter only");
 
   const std::string first = argc > 1 ? argv[1] : "-";
-  if (first[0] != '-' && first != "picture" && first != "check" && first != "fields" && first != "params")
-    throw command::Failure("There is no command '" + first + "'; there are picture, check, fields and params.");
+  const std::string known[] = {"mesh", "info", "picture", "check", "fields", "params"};
+  if (first[0] != '-' && std::find(std::begin(known), std::end(known), first) == std::end(known))
+    throw command::Failure("There is no command '" + first +
+                           "'; there are mesh, info, picture, check, fields and params.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  if (*info) return command::print_cad_info(part, each);
+  if (*mesh_command) return command::mesh(mesh_options);
   if (*picture) {
     parse_size(size, options.width, options.height);
     using command::Paint;

@@ -21,7 +21,9 @@ SessionHandle make_session() {
 }
 
 void require(carreau_session* session, carreau_status status) {
-  if (status != CARREAU_OK) throw Failure(carreau_last_error(session));
+  if (status == CARREAU_OK) return;
+  const std::string sentence = carreau_last_error(session);
+  throw Failure(sentence.empty() ? carreau_status_meaning(status) : sentence);
 }
 
 }  // namespace command

@@ -14,6 +14,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
 #include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Pnt2d.hxx>
@@ -39,6 +40,9 @@ struct HostFace {
   BRepAdaptor_Surface surface;
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
+  std::string name;
+  double size = 0;     // 0: no size of its own
+  std::string broken;  // why it cannot be meshed; "": it can
 };
 
 void store(const gp_Pnt& p, double* to) { to[0] = p.X(), to[1] = p.Y(), to[2] = p.Z(); }
@@ -49,11 +53,13 @@ void store(const gp_Vec& v, double* to) { to[0] = v.X(), to[1] = v.Y(), to[2] = 
 struct BrepHost::State {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges, vertices;
-  std::vector<HostFace> host_faces;  // face number - 1
-  std::vector<int> uses;             // of each edge, by its number - 1
+  std::vector<HostFace> host_faces;            // face number - 1
+  std::vector<int> uses;                       // of each edge, by its number - 1
+  std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
   std::string failure;
 
   void collect();
+  void collect_names(const ShapeFile& file);
   void collect_face(int number);
 
   static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
@@ -61,6 +67,10 @@ struct BrepHost::State {
   static int32_t interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept;
   static int32_t curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
                        void* user) noexcept;
+  static int32_t surface_size(int32_t face, double u, double v, double* value, void* user) noexcept;
+  static int32_t curve_size(int32_t face, int32_t ic, double t, double* value, void* user) noexcept;
+  static int32_t point_size(int32_t point, double* value, void* user) noexcept;
+  void collect_sizes();
   int32_t fail(int32_t face, const Standard_Failure& why) noexcept;
 };
 
@@ -71,7 +81,17 @@ void BrepHost::State::collect() {
   if (faces.IsEmpty()) throw std::runtime_error("the shape has no face");
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
-  for (int f = 1; f <= faces.Extent(); ++f) collect_face(f);
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
+    try {
+      collect_face(f);
+      if (face.curves.empty()) face.broken = "no edge bounds it";
+    } catch (const Standard_Failure& error) {
+      face.broken = std::string("OpenCASCADE: ") + error.GetMessageString();
+    } catch (const std::runtime_error& error) {
+      face.broken = error.what();
+    }
+  }
 }
 
 void BrepHost::State::collect_face(int number) {
@@ -86,8 +106,7 @@ void BrepHost::State::collect_face(int number) {
     if (edge.Orientation() == TopAbs_EXTERNAL) continue;
     HostCurve curve;
     curve.curve = BRep_Tool::CurveOnSurface(edge, forward, curve.first, curve.last);
-    if (curve.curve.IsNull())
-      throw std::runtime_error("face " + std::to_string(number) + ": an edge has no curve in its parameter plane");
+    if (curve.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
     curve.adaptor.Load(curve.curve);
     curve.edge = edges.FindIndex(edge);
     curve.end1 = vertices.FindIndex(TopExp::FirstVertex(edge, Standard_False));
@@ -98,6 +117,57 @@ void BrepHost::State::collect_face(int number) {
     if (BRep_Tool::Degenerated(edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
     host.curves.push_back(std::move(curve));
   }
+}
+
+// Wide parts first, so that the name of the narrowest part stays.
+void BrepHost::State::collect_names(const ShapeFile& file) {
+  std::vector<std::pair<int, std::vector<int>>> parts;  // label, faces
+  for (std::size_t l = 0; l < file.labels.size(); ++l) {
+    if (file.labels[l].name.empty()) continue;
+    std::vector<int> held;
+    for (TopExp_Explorer e(file.labels[l].part, TopAbs_FACE); e.More(); e.Next())
+      if (const int number = faces.FindIndex(e.Current()); number > 0) held.push_back(number);
+    parts.emplace_back(static_cast<int>(l), std::move(held));
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto& p, const auto& q) { return p.second.size() > q.second.size(); });
+  for (const auto& [label, held] : parts)
+    for (const int number : held)
+      host_faces[static_cast<std::size_t>(number - 1)].name = file.labels[static_cast<std::size_t>(label)].name;
+}
+
+void BrepHost::State::collect_sizes() {
+  edge_size.assign(uses.size(), 0);
+  vertex_size.assign(static_cast<std::size_t>(vertices.Extent()), 0);
+  const auto lower = [](double& size, double other) { size = size > 0 ? std::min(size, other) : other; };
+  for (const HostFace& face : host_faces)
+    for (const HostCurve& curve : face.curves) {
+      if (!(face.size > 0)) continue;
+      lower(edge_size[static_cast<std::size_t>(curve.edge - 1)], face.size);
+      for (const int end : {curve.end1, curve.end2}) lower(vertex_size[static_cast<std::size_t>(end - 1)], face.size);
+    }
+}
+
+namespace {
+int32_t answer(double size, double* value) {
+  if (!(size > 0)) return CARREAU_NO_ANSWER;
+  *value = size;
+  return 0;
+}
+}  // namespace
+
+int32_t BrepHost::State::surface_size(int32_t face, double, double, double* value, void* user) noexcept {
+  return answer(static_cast<State*>(user)->host_faces[static_cast<std::size_t>(face - 1)].size, value);
+}
+
+int32_t BrepHost::State::curve_size(int32_t face, int32_t ic, double, double* value, void* user) noexcept {
+  const auto& state = *static_cast<State*>(user);
+  const int edge = state.host_faces[static_cast<std::size_t>(face - 1)].curves[static_cast<std::size_t>(ic - 1)].edge;
+  return answer(state.edge_size[static_cast<std::size_t>(edge - 1)], value);
+}
+
+int32_t BrepHost::State::point_size(int32_t point, double* value, void* user) noexcept {
+  return answer(static_cast<State*>(user)->vertex_size[static_cast<std::size_t>(point - 1)], value);
 }
 
 int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
@@ -133,6 +203,8 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
     return 0;
   } catch (const Standard_Failure& failure) {
     return state.fail(face, failure);
+  } catch (...) {
+    return state.fail(face, Standard_Failure("out of memory"));
   }
 }
 
@@ -165,13 +237,16 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
     return 0;
   } catch (const Standard_Failure& failure) {
     return state.fail(face, failure);
+  } catch (...) {
+    return state.fail(face, Standard_Failure("out of memory"));
   }
 }
 
-BrepHost::BrepHost(const TopoDS_Shape& shape) : state_(std::make_unique<State>()) {
-  state_->shape = shape;
+BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
+  state_->shape = file.shape;
   try {
     state_->collect();
+    state_->collect_names(file);
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
   }
@@ -187,22 +262,53 @@ carreau_status BrepHost::give_to(carreau_session* session) {
   cad.surface_batch = State::surface_batch;
   cad.curve_interval = State::interval;
   cad.curve = State::curve;
+  state_->collect_sizes();
+  cad.surface_size = State::surface_size;
+  cad.curve_size = State::curve_size;
+  cad.point_size = State::point_size;
   carreau_status status = carreau_set_cad(session, &cad);
   if (status == CARREAU_OK) status = carreau_model_clear(session);
   for (std::size_t f = 0; f < state_->host_faces.size() && status == CARREAU_OK; ++f) {
     const HostFace& face = state_->host_faces[f];
+    if (!face.broken.empty()) continue;
     int32_t orientation = 0;
     for (std::size_t c = 0; c < face.curves.size() && orientation == 0; ++c)
       if (!face.curves[c].internal)
         orientation = static_cast<int32_t>(c + 1) * (face.curves[c].forward != face.swapped ? 1 : -1);
     const auto ref = static_cast<int32_t>(f + 1);
     status = carreau_model_add_face(session, ref, orientation);
+    if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
     for (const HostCurve& curve : face.curves)
       if (status == CARREAU_OK)
         status = carreau_model_add_curve(session, ref, curve.internal ? CARREAU_INTERNAL : CARREAU_BOUNDARY, curve.edge,
                                          curve.end1, curve.end2);
   }
   return status;
+}
+
+bool BrepHost::set_face_size(const std::string& face, double size) {
+  bool found = false;
+  for (std::size_t f = 0; f < state_->host_faces.size(); ++f) {
+    if (face != state_->host_faces[f].name && face != std::to_string(f + 1)) continue;
+    state_->host_faces[f].size = size;
+    found = true;
+  }
+  return found;
+}
+
+void BrepHost::exclude(int face, const std::string& why) {
+  state_->host_faces[static_cast<std::size_t>(face - 1)].broken = why;
+}
+
+std::vector<std::pair<int, std::string>> BrepHost::excluded() const {
+  std::vector<std::pair<int, std::string>> list;
+  for (std::size_t f = 0; f < state_->host_faces.size(); ++f)
+    if (!state_->host_faces[f].broken.empty()) list.emplace_back(static_cast<int>(f + 1), state_->host_faces[f].broken);
+  return list;
+}
+
+const std::string& BrepHost::face_name(int number) const {
+  return state_->host_faces[static_cast<std::size_t>(number - 1)].name;
 }
 
 int BrepHost::face_count() const noexcept { return state_->faces.Extent(); }
@@ -217,7 +323,7 @@ double BrepHost::diagonal() const {
 
 bool BrepHost::is_closed() const noexcept {
   for (const int n : state_->uses)
-    if (n != 2) return false;
+    if (n != 2 && n != 0) return false;  // 0: an edge that no face holds
   return true;
 }
 

@@ -3,11 +3,12 @@
 
 #include <carreau.h>
 
-#include <TopoDS_Shape.hxx>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include "shape_file.h"
 
 namespace carreau_occ {
 
@@ -16,8 +17,8 @@ namespace carreau_occ {
 /// which are counterclockwise in (u, v), look outwards of a solid.
 class BrepHost {
  public:
-  /// `shape` is kept. Throws std::runtime_error when it has no face.
-  explicit BrepHost(const TopoDS_Shape& shape);
+  /// The shape and the names of its faces are kept. Throws std::runtime_error when it has no face.
+  explicit BrepHost(const ShapeFile& file);
   ~BrepHost();
   BrepHost(const BrepHost&) = delete;
   BrepHost& operator=(const BrepHost&) = delete;
@@ -26,6 +27,17 @@ class BrepHost {
   /// in the session.
   carreau_status give_to(carreau_session* session);
 
+  /// Size wanted on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
+  /// size of its faces. Before give_to. False: there is no such face.
+  bool set_face_size(const std::string& face, double size);
+
+  /// Leaves a face out of what give_to hands over, for a reason that excluded() tells again.
+  void exclude(int face, const std::string& why);
+  /// Faces that are left out: those that OpenCASCADE fails on, and those of exclude(). Ascending, with the reason.
+  [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const;
+
+  /// Own name of a face, or that of the smallest part that holds it; "": none. Numbers from 1.
+  [[nodiscard]] const std::string& face_name(int number) const;
   [[nodiscard]] int face_count() const noexcept;
   [[nodiscard]] int edge_count() const noexcept;
   [[nodiscard]] int vertex_count() const noexcept;

@@ -75,7 +75,7 @@ class Silence {
 std::string name_of(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (!label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
-  return TCollection_AsciiString(name->Get(), '?').ToCString();
+  return TCollection_AsciiString(name->Get()).ToCString() /* UTF-8 */;
 }
 
 void collect_labels(const Handle(XCAFDoc_ShapeTool) & shapes, const Handle(XCAFDoc_ColorTool) & colours,
@@ -103,8 +103,11 @@ void collect_labels(const Handle(XCAFDoc_ShapeTool) & shapes, const Handle(XCAFD
 
 template <typename Reader>
 void read_document(const std::string& path, const char* kind, ShapeFile& file) {
+  // Names of faces are kept, and no names are invented.
+  XCAFDoc_ShapeTool::SetAutoNaming(Standard_False);
   Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
   Reader reader;
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);  // known once there is a reader
   reader.SetNameMode(Standard_True);
   reader.SetColorMode(Standard_True);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)

@@ -70,7 +70,10 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (suffix == ".meshb") return MeshFormat::meshb;
   if (suffix == ".vtu") return MeshFormat::vtu;
   if (suffix == ".stl") return MeshFormat::stl;
-  throw InvalidArgument("'" + path + "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl");
+  if (suffix == ".msh") return MeshFormat::msh;
+  if (suffix == ".msh2") return MeshFormat::msh2;
+  throw InvalidArgument("'" + path +
+                        "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2");
 }
 
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options) {
@@ -84,6 +87,10 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
       return vtu_bytes(mesh);
     case MeshFormat::stl:
       return options.ascii_stl ? stl_text(mesh) : stl_bytes(mesh);
+    case MeshFormat::msh:
+      return msh_text(mesh, false);
+    case MeshFormat::msh2:
+      return msh_text(mesh, true);
   }
   throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
 }

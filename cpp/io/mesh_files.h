@@ -11,7 +11,8 @@ namespace carreau {
 
 /// Medit ASCII (`.mesh`, version 2), its binary form (`.meshb`, GMF version 2; 3 when the file would exceed 2 GiB), VTK
 /// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only).
-enum class MeshFormat { mesh, meshb, vtu, stl };
+/// Gmsh ASCII (`.msh`, version 4.1; `.msh2`, version 2.2; both with physical names).
+enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2 };
 
 struct MeshFileOptions {
   /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); otherwise binary.

@@ -60,7 +60,7 @@ void append_point(std::string& text, const char* before, Vec3 p) {
 
 void append_solid(std::string& text, const FlatMesh& mesh, std::int32_t ref, const std::vector<std::size_t>& order,
                   std::size_t begin, std::size_t end) {
-  const std::string name = "surface_" + std::to_string(ref);
+  const std::string name = name_of_face(mesh, ref, "surface_");
   text += "solid " + name + "\n";
   for (std::size_t i = begin; i < end; ++i) {
     const Facet facet = facet_of(mesh, order[i]);
@@ -93,6 +93,16 @@ std::string stl_bytes(const FlatMesh& mesh) {
     bytes.append(2, '\0');  // attribute byte count, unused
   }
   return bytes;
+}
+
+std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix) {
+  std::string name;
+  for (const FlatFace& face : mesh.faces)
+    if (face.ref == ref) name = face.name;
+  if (name.empty()) return prefix + std::to_string(ref);
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < ' ' || c == '"' || c == '\x7f') c = '_';
+  return name;
 }
 
 std::string stl_text(const FlatMesh& mesh) {

@@ -65,6 +65,14 @@ class VtuFile {
     if (length > 0) std::memcpy(data_.data() + begin + sizeof length, values.data(), length);
   }
 
+  /// An array of the whole file instead of its points or cells.
+  void field(const std::string& name, const std::vector<std::int32_t>& values) {
+    xml_ += "<DataArray type=\"Int32\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"" +
+            std::to_string(values.size()) + "\" format=\"ascii\">\n";
+    for (const std::int32_t value : values) xml_ += std::to_string(value) + "\n";
+    xml_ += "</DataArray>\n";
+  }
+
   [[nodiscard]] std::string finished() const {
     return xml_ + "<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
   }
@@ -120,6 +128,25 @@ void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
   file.xml("</CellData>\n");
 }
 
+/// Field data: reference, status and name of each face. Strings are arrays of character codes, each string ended by a
+/// zero, as VTK reads them.
+void add_faces(VtuFile& file, const FlatMesh& mesh) {
+  if (mesh.faces.empty()) return;
+  std::vector<std::int32_t> refs, status;
+  std::string codes;
+  for (const FlatFace& face : mesh.faces) {
+    refs.push_back(face.ref);
+    status.push_back(static_cast<std::int32_t>(face.status));
+    for (const char c : face.name) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
+    codes += "0\n";
+  }
+  file.xml("<FieldData>\n");
+  file.field("face_reference", refs);
+  file.field("face_status", status);
+  file.xml("<Array type=\"String\" Name=\"face_name\" NumberOfTuples=\"" + std::to_string(refs.size()) +
+           "\" format=\"ascii\">\n" + codes + "</Array>\n</FieldData>\n");
+}
+
 }  // namespace
 
 std::string vtu_bytes(const FlatMesh& mesh) {
@@ -142,7 +169,9 @@ std::string vtu_bytes(const FlatMesh& mesh) {
   file.array("Points", 3, points);
   file.xml("</Points>\n");
   add_cells(file, mesh);
-  file.xml("</Piece>\n</UnstructuredGrid>\n");
+  file.xml("</Piece>\n");
+  add_faces(file, mesh);
+  file.xml("</UnstructuredGrid>\n");
   return file.finished();
 }
 

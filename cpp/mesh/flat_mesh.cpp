@@ -12,6 +12,7 @@ FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges) {
     for (const auto& t : face.triangles)
       flat.triangles.push_back({face.vertex[t[0]], face.vertex[t[1]], face.vertex[t[2]]});
     flat.triangle_refs.resize(flat.triangles.size(), face.ref);
+    flat.faces.push_back({face.ref, face.status, face.name});
   }
   if (!with_edges) return flat;
   flat.edges.reserve(mesh.edge_count());

@@ -19,6 +19,13 @@ struct MeshField {
   std::vector<double> edge_values = {};  ///< of edges, when not on vertices. One list may be empty: NaN
 };
 
+/// What is known of a face beside its triangles, which have its reference.
+struct FlatFace {
+  std::int32_t ref = 0;
+  FaceStatus status = FaceStatus::not_meshed;
+  std::string name = {};  ///< empty: none
+};
+
 struct FlatMesh {
   int dimension = 3;  ///< 2: z is 0 and not written
   std::vector<Vec3> vertices;
@@ -28,6 +35,7 @@ struct FlatMesh {
   std::vector<std::array<std::int32_t, 2>> edges;
   std::vector<std::int32_t> edge_refs;
   std::vector<MeshField> fields;
+  std::vector<FlatFace> faces = {};  ///< may be empty, or lack references of triangles
 };
 
 /// The whole mesh in space, faces in order; with_edges: the edges of the curves too.

@@ -17,6 +17,7 @@ enum class FaceStatus : int { not_meshed = 0, meshed = 1, mended = 2, failed = 3
 /// has several.
 struct FaceMesh {
   int ref = 0;
+  std::string name = {};  ///< given by the host; empty: none
   FaceStatus status = FaceStatus::not_meshed;
   std::string why;                                     ///< sentence for `mended` and `failed`
   std::vector<Vec2> uv;                                ///< of local vertices

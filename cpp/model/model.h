@@ -41,6 +41,7 @@ struct Face {
   int orientation = 1;
   std::vector<FaceCurve> curves;
   std::vector<FacePoint> points;
+  std::string name = {};  ///< for people and for files that hold names; empty: none
   int line = 0;
 };
 

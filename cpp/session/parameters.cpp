@@ -64,7 +64,7 @@ constexpr std::array kTable = {
     diag_row("eps_ends", 0, 1.0 / 500, "curves whose ends are nearer than this are reported, model length"),
     diag_row("eps_glue", 0, 1.0 / 500, "points nearer than this are one when references are sought, model length"),
     integer_row("flag", 0, 1, 0, "1: exported files hold the edges of the curves too"),
-    text_row("format", "mesh", "mesh|meshb|vtu|stl|exr", "format and suffix of exported files"),
+    text_row("format", "mesh", "mesh|meshb|vtu|stl|msh|msh2|exr", "format and suffix of exported files"),
     integer_row("frontal", 0, 1, 1, "placement of points: 1 frontal, 0 algebraic (on edges)"),
     integer_row("geo_guarantee", 0, 1, 0,
                 "1: geometric sizes a little smaller, so that nearly every edge and triangle keeps geo_rule"),

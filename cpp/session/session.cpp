@@ -437,7 +437,7 @@ void Session::write(const std::string& path) {
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  write_mesh(exported(measures), path, format);
+  write_mesh(exported(measures), path, format, {.ascii_stl = true});
 }
 
 }  // namespace carreau

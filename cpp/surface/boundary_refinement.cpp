@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "plane/domain_check.h"
+#include "surface/triangle_distance.h"
 
 namespace carreau {
 
@@ -14,8 +15,42 @@ namespace {
 // Each iteration halves the edges that cross: 2^-16 of an edge is below the accuracy of any support.
 constexpr int most_halvings = 16;
 
+// And those of a boundary that is inside out: a model that is wrong stays so.
+constexpr int most_turned_rounds = 6;
+// Straight distances in space are taken this much shorter than lengths in the metric of a curved surface.
+constexpr double straight_reserve = 2;
+
 /// Segments to split, by curve.
 using Splits = std::map<int, std::set<int>>;
+
+/// Vertices in the order of the coordinate along which they are spread most.
+class NearVertices {
+ public:
+  explicit NearVertices(std::vector<Vec3> points) : points_(std::move(points)) {
+    Vec3 low = points_.empty() ? Vec3{} : points_.front(), high = low;
+    for (const Vec3 p : points_) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const Vec3 extent = high - low;
+    axis_ = extent.x >= extent.y && extent.x >= extent.z ? &Vec3::x : extent.y >= extent.z ? &Vec3::y : &Vec3::z;
+    std::sort(points_.begin(), points_.end(), [this](Vec3 p, Vec3 q) { return p.*axis_ < q.*axis_; });
+  }
+
+  /// Is a vertex within `reach` of the segment (a, b), one that is at neither end of it?
+  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach) const {
+    const double low = std::min(a.*axis_, b.*axis_) - reach, high = std::max(a.*axis_, b.*axis_) + reach;
+    auto it = std::lower_bound(points_.begin(), points_.end(), low,
+                               [this](Vec3 p, double value) { return p.*axis_ < value; });
+    for (; it != points_.end() && (*it).*axis_ <= high; ++it)
+      if (!(*it == a) && !(*it == b) && distance_to_segment(*it, a, b) <= reach) return true;
+    return false;
+  }
+
+ private:
+  std::vector<Vec3> points_;
+  double Vec3::*axis_ = &Vec3::x;
+};
 
 class Refiner {
  public:
@@ -34,16 +69,17 @@ class Refiner {
     result_.failure.resize(n);
     result_.mended.resize(n, 0);
     stale_.assign(n, 1);
+    changed_.assign(n, 1);
   }
 
   RefinedDomains run() {
     uncross();
-    for (int i = 0; i < options_.check_close_edges; ++i)
-      refine([this](int f) {
-        return edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
-      });
-    for (int i = 0; i < options_.check_adjacent_edges; ++i)
-      refine([this](int f) { return edges_to_split_for_balance(result_.domain[f]->plane, space_of(f)); });
+    repeat(options_.check_close_edges, [this](int f) {
+      if (!may_be_narrow(f)) return std::vector<int>{};
+      return edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
+    });
+    repeat(options_.check_adjacent_edges,
+           [this](int f) { return edges_to_split_for_balance(result_.domain[f]->plane, space_of(f)); });
     for (int i = 0; i < options_.check_well_defined; ++i) uncross();
     uncross();
     report_what_still_crosses();
@@ -58,14 +94,31 @@ class Refiner {
       if (stale_[f] == 0 || !result_.failure[f].empty()) continue;
       monitor_.checkpoint();
       stale_[f] = 0;
+      changed_[f] = 1;
       result_.domain[f].reset();
       try {
         result_.domain[f] = build_face_domain(model_, topology_, curves_, f);
+      } catch (const TurnedDomain& error) {
+        turned_.insert(f);  // mended by refine(), or reported at the end
+        unbuilt_[f] = error.what();
+        continue;
       } catch (const DomainError& error) {
         unbuilt_[f] = error.what();
         continue;
       }
       unbuilt_.erase(f);
+      turned_.erase(f);
+    }
+  }
+
+  // Rounds of one check, until nothing more is split; only faces that have changed are looked at again.
+  template <typename FindEdges>
+  void repeat(int rounds, FindEdges&& find_edges) {
+    rebuild_stale();
+    changed_.assign(changed_.size(), 1);
+    for (int i = 0; i < rounds; ++i) {
+      const std::vector<char> look = std::exchange(changed_, std::vector<char>(changed_.size(), 0));
+      if (!refine([&](int f) { return look[f] != 0 ? find_edges(f) : std::vector<int>{}; })) return;
     }
   }
 
@@ -74,6 +127,7 @@ class Refiner {
   bool refine(FindEdges&& find_edges) {
     rebuild_stale();
     Splits splits;
+    add_loose_edges(splits);
     for (int f = 0; f < face_count(); ++f) {
       if (!result_.domain[f]) continue;
       for (const int e : find_edges(f)) {
@@ -89,6 +143,53 @@ class Refiner {
     return any;
   }
 
+  // A boundary whose polygon is inside out follows its curves too loosely: there the edges that leave them most are
+  // split.
+  void add_loose_edges(Splits& splits) {
+    for (const int face : turned_) {
+      if (turned_rounds_[face]++ >= most_turned_rounds) continue;
+      struct Candidate {
+        int curve, segment;
+        double deviation;
+      };
+      std::vector<Candidate> candidates;
+      double worst = 0;
+      for (const int curve : topology_.curve_of[face]) {
+        const DiscreteCurve& discrete = curves_[curve];
+        if (discrete.indivisible) continue;
+        for (int k = 0; k < discrete.segments(); ++k) {
+          candidates.push_back({curve, k, deviation(face, discrete, k)});
+          worst = std::max(worst, candidates.back().deviation);
+        }
+      }
+      for (const Candidate& c : candidates)
+        if (c.deviation >= worst / 4 && worst > 0 && splits[c.curve].insert(c.segment).second) result_.mended[face] = 1;
+    }
+  }
+
+  // Distance of a segment's support to its chord in the parameter plane of a face; the largest of all uses in the face.
+  [[nodiscard]] double deviation(int face, const DiscreteCurve& discrete, int k) const {
+    double largest = 0;
+    const auto& uses = topology_.curves[discrete.curve].uses;
+    for (std::size_t u = 0; u < uses.size(); ++u) {
+      if (uses[u].face != face) continue;
+      const CurveSupport& support = curve_model_.support(uses[u]);
+      const Vec2 p = discrete.uv_of_use[u][k], q = discrete.uv_of_use[u][k + 1];
+      const auto [low, high] = std::minmax(discrete.t_of_use[u][k], discrete.t_of_use[u][k + 1]);
+      for (std::size_t i = 0; i < support.t.size(); ++i)
+        if (low < support.t[i] && support.t[i] < high)
+          largest = std::max(largest, distance_to_chord(support.uv[i], p, q));
+    }
+    return largest;
+  }
+
+  static double distance_to_chord(Vec2 x, Vec2 p, Vec2 q) {
+    const Vec2 chord = q - p;
+    const double squared = dot(chord, chord);
+    const double s = squared > 0 ? std::clamp(dot(x - p, chord) / squared, 0.0, 1.0) : 0;
+    return norm(x - (p + s * chord));
+  }
+
   bool split(int curve, int segment) {
     if (!split_segment(curves_[curve], segment, curve_model_)) return false;
     for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
@@ -98,6 +199,22 @@ class Refiner {
   void uncross() {
     for (int i = 0; i < most_halvings; ++i)
       if (!refine([this](int f) { return edges_to_split_for_crossings(result_.domain[f]->plane); })) return;
+  }
+
+  // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
+  // Costs no callback. Where metrics have directions, distances in space say nothing.
+  bool may_be_narrow(int f) {
+    if (rules_.uses_metrics()) return true;
+    const FaceDomain& domain = *result_.domain[f];
+    const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
+    if (xyz.size() < domain.origin.size()) return true;  // imposed points
+    const NearVertices near(xyz);
+    for (const PlaneEdge& edge : domain.plane.edges) {
+      if (edge.kind == PlaneEdgeKind::degenerate) continue;
+      const Vec3 a = xyz[edge.a], b = xyz[edge.b];
+      if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a))) return true;
+    }
+    return false;
   }
 
   // Loose spaces are enough to compare edges with their neighbours; they are kept while the curves change.
@@ -146,7 +263,10 @@ class Refiner {
   Monitor& monitor_;
   RefinedDomains result_;
   std::vector<char> stale_;
+  std::vector<char> changed_;  // since the last round of a check
   std::map<int, std::string> unbuilt_;
+  std::set<int> turned_;  // of those
+  std::map<int, int> turned_rounds_;
   std::map<int, std::optional<ControlSpace>> spaces_;
 };
 

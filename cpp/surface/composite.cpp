@@ -10,6 +10,7 @@
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_job.h"
+#include "surface/shared_chords.h"
 #include "surface/size_grading.h"
 
 #if defined(__unix__)
@@ -64,11 +65,15 @@ class Pipeline {
     result_.report.diag = supports_.diag;
     result_.mesh.faces.resize(model_.faces.size());
     result_.spaces.resize(model_.faces.size());
-    for (std::size_t f = 0; f < model_.faces.size(); ++f) result_.mesh.faces[f].ref = model_.faces[f].ref;
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+      result_.mesh.faces[f].ref = model_.faces[f].ref;
+      result_.mesh.faces[f].name = model_.faces[f].name;
+    }
     grade();
     discretise();
     mesh_faces();
     tell(Phase::assembly, 0, curves_share + patches_share);
+    separate_chords(model_, topology_, domains_, curves_, cad_, patches_, monitor_);
     assemble(model_, topology_, domains_, curves_, patches_, result_);
     keep_prescriptions();
     result_.report.calls = cad_.counts();

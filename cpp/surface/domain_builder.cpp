@@ -117,7 +117,7 @@ class Builder {
     if (orient_loops(domain_.plane, seed_, seed_left_)) return;
     const Where where{.face = face_.ref, .curve_index = std::abs(face_.orientation)};
     if (!defects.empty()) throw DomainError(where, defects.front());
-    throw DomainError(
+    throw TurnedDomain(
         where,
         "the boundary is turned the wrong way: the side given by the orientation is not the inside of the domain");
   }

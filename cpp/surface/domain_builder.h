@@ -8,6 +8,7 @@
 #include "curve/discrete_curve.h"
 #include "model/topology.h"
 #include "plane/plane_mesh.h"
+#include "support/error.h"
 
 namespace carreau {
 
@@ -27,10 +28,16 @@ struct FaceDomain {
   std::vector<double> physical;            ///< its physical part
 };
 
+/// The side that the orientation gives is not the inside of the discretised boundary: a model that is wrong, or curves
+/// discretised so coarsely that their polygon is inside out.
+struct TurnedDomain : DomainError {
+  using DomainError::DomainError;
+};
+
 /// Collects the discretised curves and the imposed points of face `face` (index) and turns its loops so that the
 /// surface lies on their left. Ends of curves that meet in the parameter plane become one vertex; those that meet in
-/// space only (seams) do not. Throws DomainError naming the face when a loop does not close or is turned the wrong way
-/// (HDR fig. 3.1).
+/// space only (seams) do not. Throws DomainError naming the face when a loop does not close, TurnedDomain when it is
+/// turned the wrong way (HDR fig. 3.1).
 FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
                              int face);
 

@@ -50,6 +50,7 @@ class Swapper {
     if (a == b || b == c || c == a) return 1;
     return quality_q2(a, b, c);
   }
+  [[nodiscard]] double length(int a, int b) const { return norm(xyz_[a] - xyz_[b]); }
   [[nodiscard]] bool positive(const Triangle& t) const {
     return orientation(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]) > 0;
   }
@@ -93,6 +94,9 @@ class Swapper {
       // c on the left of a -> b, d on its right: the other diagonal is c - d.
       const Triangle first{a, d, c}, second{d, b, c};
       if (xyz_[c] == xyz_[d] || !positive(first) || !positive(second)) continue;
+      // In a narrow strip that winds, far vertices make triangles of a better shape that leave the surface.
+      if (norm(xyz_[c] - xyz_[d]) > std::max({length(a, b), length(b, c), length(c, a), length(a, d), length(d, b)}))
+        continue;
       const double before = std::min(quality(mesh_.triangles[t]), quality(other));
       const double gain = std::min(quality(first), quality(second)) - before;
       if (gain > best) best = gain, best_u = u, best_t = first, best_other = second;

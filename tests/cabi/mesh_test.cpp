@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 
@@ -228,7 +230,8 @@ class MeshFileTest : public SessionTest {
   }
   void TearDown() override {
     carreau_mesh_free(read);
-    for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl"}) std::remove((path + suffix).c_str());
+    for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
+      std::remove((path + suffix).c_str());
     SessionTest::TearDown();
   }
   [[nodiscard]] std::string read_error() const { return carreau_mesh_last_error(read); }
@@ -266,8 +269,29 @@ TEST_F(MeshFileTest, AMeshWrittenIsReadBackBitForBit) {
   std::vector<double> sizes(written.vertex_count());
   EXPECT_EQ(carreau_mesh_vertex_sizes(read, std::int64_t(sizes.size()), sizes.data()), CARREAU_ERR_SEQUENCE);
   EXPECT_EQ(read_error(), "a mesh that was read from a file has no prescribed sizes");
-  for (const char* suffix : {".vtu", ".stl"})
+  for (const char* suffix : {".vtu", ".stl", ".msh", ".msh2"})
     EXPECT_EQ(carreau_mesh_write(read, (path + suffix).c_str()), CARREAU_OK) << read_error();
+}
+
+TEST_F(MeshFileTest, NamesOfFacesAreInTheMeshAndInFiles) {
+  use_paraboloid(0.8);
+  EXPECT_EQ(carreau_model_name_face(session, 2, "dish"), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_name_face(session, 1, nullptr), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_model_name_face(session, 1, "dish"), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  auto face = sized<carreau_face>();
+  ASSERT_EQ(carreau_mesh_face(mesh(), 0, &face), CARREAU_OK);
+  EXPECT_STREQ(face.name, "dish");
+  EXPECT_STREQ(face.why, "");
+  const auto content = [&](const char* suffix) {
+    EXPECT_EQ(carreau_mesh_write(mesh(), (path + suffix).c_str()), CARREAU_OK) << carreau_mesh_last_error(mesh());
+    std::ifstream file(path + suffix, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(content(".stl").substr(0, 11), "solid dish\n");
+  EXPECT_NE(content(".msh").find("\n2 1 \"dish\"\n"), std::string::npos);
+  EXPECT_NE(content(".msh2").find("\n2 1 \"dish\"\n"), std::string::npos);
+  EXPECT_NE(content(".vtu").find(">\n100 105 115 104 0\n<"), std::string::npos);
 }
 
 TEST_F(MeshFileTest, ExportsWhatTheParametersSay) {

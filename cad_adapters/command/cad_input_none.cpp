@@ -1,0 +1,16 @@
+// In place of cad_input_opencascade.cpp where OpenCASCADE is not built in.
+#include "cad_input.h"
+#include "mesh_file.h"
+
+namespace command {
+
+std::unique_ptr<CadInput> open_cad(const std::string& path) {
+  throw Failure("'" + path + "' cannot be read: this program was built without OpenCASCADE.");
+}
+
+int print_cad_info(const std::string& path, int) {
+  open_cad(path);
+  return 0;
+}
+
+}  // namespace command

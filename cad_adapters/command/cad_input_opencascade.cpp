@@ -1,0 +1,109 @@
+#include <brep_host.h>
+#include <shape_file.h>
+#include <shape_report.h>
+
+#include <cstdio>
+#include <map>
+
+#include "cad_input.h"
+#include "mesh_file.h"
+
+namespace command {
+namespace {
+
+class OpenCascadeInput final : public CadInput {
+ public:
+  explicit OpenCascadeInput(carreau_occ::ShapeFile file) : file_(std::move(file)), host_(file_) {}
+
+  carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
+  [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
+  [[nodiscard]] bool is_closed() const override { return host_.is_closed(); }
+  [[nodiscard]] std::string failure() const override { return host_.failure(); }
+  bool set_face_size(const std::string& face, double size) override { return host_.set_face_size(face, size); }
+
+  bool exclude(int face, const std::string& why) override {
+    if (face < 1 || face > host_.face_count()) return false;
+    for (const auto& [number, reason] : host_.excluded())
+      if (number == face) return false;
+    host_.exclude(face, why);
+    return true;
+  }
+  [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const override { return host_.excluded(); }
+
+  [[nodiscard]] std::string summary() const override {
+    const auto count = [](int n, const char* one, const char* many) {
+      return std::to_string(n) + " " + (n == 1 ? one : many);
+    };
+    return count(host_.face_count(), "face", "faces") + ", " + count(host_.edge_count(), "edge", "edges") + ", " +
+           count(host_.vertex_count(), "vertex", "vertices") + (host_.is_closed() ? ", closed" : ", open") +
+           (file_.unit.empty() ? "" : ", lengths in " + file_.unit);
+  }
+
+ private:
+  carreau_occ::ShapeFile file_;
+  carreau_occ::BrepHost host_;
+};
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string sentence(const carreau_occ::Danger& danger, const carreau_occ::BrepHost& host) {
+  std::string text;
+  if (danger.edge > 0) text += "edge " + std::to_string(danger.edge);
+  if (danger.face > 0) {
+    text += (text.empty() ? "face " : ", face ") + std::to_string(danger.face);
+    const std::string& name = host.face_name(danger.face);
+    if (!name.empty()) text += " (" + name + ")";
+  }
+  return text + ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
+}
+
+}  // namespace
+
+int print_cad_info(const std::string& path, int limit) try {
+  const carreau_occ::ShapeFile file = carreau_occ::read_shape(path);
+  const carreau_occ::BrepHost host(file);
+  const carreau_occ::ShapeReport r = carreau_occ::inspect(file);
+  std::printf("solids      %d\nshells      %d\nfaces       %d\nedges       %d\nvertices    %d\n", r.solids, r.shells,
+              r.faces, r.edges, r.vertices);
+  std::printf("unit        %s\n", file.unit.empty() ? "not said" : file.unit.c_str());
+  std::printf("diagonal    %s\narea        %s\nvolume      %s\n", number(r.diagonal).c_str(), number(r.area).c_str(),
+              number(r.volume).c_str());
+  std::string kinds;
+  for (const auto& [name, n] : r.surfaces) kinds += (kinds.empty() ? "" : ", ") + std::to_string(n) + " " + name;
+  std::printf("surfaces    %s\n", kinds.c_str());
+  std::printf("seams       %d\npoles       %d\nclosed edges %d\ninner wires %d\ninternal    %d\n", r.seams, r.poles,
+              r.closed_edges, r.inner_wires, r.internal_edges);
+  std::printf("shortest edge %s\nlargest tolerance %s\nlargest gap %s\n", number(r.shortest_edge).c_str(),
+              number(r.largest_tolerance).c_str(), number(r.largest_gap).c_str());
+  std::map<std::string, int> count;
+  for (const carreau_occ::Danger& danger : r.dangers) ++count[danger.kind];
+  if (count.empty()) std::puts("nothing looks dangerous");
+  std::map<std::string, int> told;
+  for (const carreau_occ::Danger& danger : r.dangers) {
+    int& n = told[danger.kind];
+    if (n == 0) std::printf("%s: %d\n", danger.kind.c_str(), count[danger.kind]);
+    if (++n <= limit) std::printf("  %s\n", sentence(danger, host).c_str());
+    if (n == limit + 1) std::puts("  ...");
+  }
+  return 0;
+} catch (const Failure&) {
+  throw;
+} catch (const std::exception& error) {
+  throw Failure(error.what());
+}
+
+std::unique_ptr<CadInput> open_cad(const std::string& path) {
+  try {
+    return std::make_unique<OpenCascadeInput>(carreau_occ::read_shape(path));
+  } catch (const std::bad_alloc&) {
+    throw Failure("'" + path + "': out of memory.");
+  } catch (const std::exception& error) {
+    throw Failure(error.what());
+  }
+}
+
+}  // namespace command

@@ -1,0 +1,29 @@
+#include "lengths.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "mesh_file.h"
+
+namespace command {
+
+Length parse_length(const std::string& text, const std::string& option) {
+  Length length;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, length.value);
+  length.relative = error == std::errc{} && rest + 1 == end && *rest == '%';
+  if (error != std::errc{} || (rest != end && !length.relative) || !std::isfinite(length.value) || length.value <= 0)
+    throw Failure(option + " '" + text +
+                  "' is no length: a number above 0, or a share of the model's diagonal such as 1%.");
+  if (length.relative) length.value /= 100;
+  return length;
+}
+
+std::pair<std::string, std::string> parse_assignment(const std::string& text, const std::string& option) {
+  const std::size_t at = text.rfind('=');
+  if (at == std::string::npos || at == 0 || at + 1 == text.size())
+    throw Failure(option + " '" + text + "' is not of the form name=value.");
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+}  // namespace command

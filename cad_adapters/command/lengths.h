@@ -1,0 +1,24 @@
+// Lengths on the command line: numbers, or shares of the model's extent.
+#pragma once
+
+#include <string>
+#include <utility>
+
+namespace command {
+
+/// "2.5" or "1%", a share of the diagonal.
+struct Length {
+  double value = 0;
+  bool relative = false;  ///< value is a share: 1% is 0.01
+
+  [[nodiscard]] double of(double diagonal) const noexcept { return relative ? value * diagonal : value; }
+};
+
+/// `option` is named in the sentence. Throws Failure unless the text is a positive finite number, alone or followed by
+/// '%'.
+Length parse_length(const std::string& text, const std::string& option);
+
+/// "left=right" at the last '='. Throws Failure when there is none, or nothing on one side.
+std::pair<std::string, std::string> parse_assignment(const std::string& text, const std::string& option);
+
+}  // namespace command

@@ -1,0 +1,181 @@
+// `carreau mesh`: from a CAD file to mesh files.
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <optional>
+
+#include "cad_input.h"
+#include "commands.h"
+#include "output_files.h"
+#include "progress.h"
+#include "session_handle.h"
+
+namespace command {
+namespace {
+
+constexpr int all_faces = 0, some_faces = 1, interrupted = 130;
+
+// The session that a signal stops. Without one the program ends at once.
+std::atomic<carreau_session*> running{nullptr};
+static_assert(std::atomic<carreau_session*>::is_always_lock_free);
+
+extern "C" void on_signal(int) {
+  if (carreau_session* session = running.load()) {
+    carreau_stop(session);
+    return;
+  }
+  OutputFiles::remove_in_handler();
+  _exit(interrupted);
+}
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction old {};
+    // Who started the program in the background wants it to go on.
+    if (sigaction(signal, nullptr, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+}
+
+void set(carreau_session* session, const char* name, double value) {
+  require(session, carreau_set_real(session, name, value));
+}
+
+struct Sizes {
+  std::optional<double> size, minimum, maximum;
+};
+
+/// Sizes of the command line in model units.
+Sizes sizes_of(const MeshOptions& options, double diagonal) {
+  const auto length = [&](const std::string& text, const char* name) -> std::optional<double> {
+    if (text.empty()) return std::nullopt;
+    return parse_length(text, name).of(diagonal);
+  };
+  Sizes sizes{length(options.size, "--size"), length(options.minimum, "--min"), length(options.maximum, "--max")};
+  if (sizes.minimum && sizes.maximum && *sizes.minimum > *sizes.maximum)
+    throw Failure("--min " + options.minimum + " is above --max " + options.maximum + ".");
+  return sizes;
+}
+
+void set_sizes(carreau_session* session, const MeshOptions& options, const Sizes& sizes, double diagonal) {
+  // Curvature alone governs when an angle is given without a size.
+  const bool by_angle = options.angle > 0, by_size = sizes.size || !by_angle || !options.face_sizes.empty();
+  const double size = sizes.size.value_or(0.02 * diagonal);
+  require(session, carreau_set_integer(session, "hphy_flag", !by_size ? 0 : options.face_sizes.empty() ? 1 : 2));
+  if (by_size) {
+    set(session, "hphydef", size);
+    // The bounds of the library are for sizes that a formula gives, not for what a person has typed.
+    set(session, "hphymin", sizes.minimum.value_or(std::min(size, diagonal) * 1e-6));
+    set(session, "hphymax", sizes.maximum.value_or(std::max(size, diagonal)));
+  }
+  if (by_angle) {
+    require(session, carreau_set_integer(session, "hgeo_flag", 1));
+    set(session, "angle_mesh", options.angle);
+    set(session, "hgeomin", sizes.minimum.value_or(diagonal / 500));
+    set(session, "hgeomax", sizes.maximum.value_or(diagonal / 5));
+  }
+}
+
+void set_parameters(carreau_session* session, const MeshOptions& options, const Sizes& sizes, double diagonal) {
+  set_sizes(session, options, sizes, diagonal);
+  require(session, carreau_set_integer(session, "threads", options.threads));
+  // Zones narrower than a twentieth of their edges would have triangles of no shape.
+  require(session, carreau_set_integer(session, "CheckCloseEdges", 20));
+  set(session, "CoefRectangle", 0.05);
+  require(session, carreau_set_integer(session, "flag", 1));
+  require(session, carreau_set_integer(session, "verb", 10));
+  for (const std::string& setting : options.settings) {
+    const auto [name, value] = parse_assignment(setting, "--set");
+    require(session, carreau_set_word(session, name.c_str(), value.c_str()));
+  }
+}
+
+/// The face that an error is about, 0: none.
+std::int32_t face_of_error(carreau_session* session) {
+  carreau_error_place place{};
+  place.struct_size = sizeof place;
+  return carreau_last_error_place(session, &place) == CARREAU_OK ? place.face : 0;
+}
+
+/// CARREAU_OK, CARREAU_ERR_PARTIAL or CARREAU_ERR_CANCELLED; throws Failure otherwise. A face whose geometry fails is
+/// left out, and the others are meshed.
+carreau_status generate(carreau_session* session, CadInput& input, Progress& progress) {
+  for (;;) {
+    require(session, input.give_to(session));
+    running = session;
+    const carreau_status status = carreau_mesh_generate(session);
+    running = nullptr;
+    if (status == CARREAU_OK || status == CARREAU_ERR_PARTIAL || status == CARREAU_ERR_CANCELLED) return status;
+    std::string sentence = carreau_last_error(session);
+    if (status == CARREAU_ERR_CALLBACK && !input.failure().empty()) sentence += " (" + input.failure() + ")";
+    const bool of_a_face = status == CARREAU_ERR_CALLBACK || status == CARREAU_ERR_MODEL;
+    const std::int32_t face = of_a_face ? face_of_error(session) : 0;
+    if (!input.exclude(face, sentence)) throw Failure(sentence);
+    progress.error("error: " + sentence);
+    progress.line("meshing again without face " + std::to_string(face));
+  }
+}
+
+/// One line: how many faces have no mesh, and which.
+std::string failed_faces(carreau_mesh* mesh, const CadInput& input) {
+  std::int64_t count = 0;
+  require(mesh, carreau_mesh_count(mesh, nullptr, nullptr, nullptr, &count));
+  std::vector<std::int32_t> failed;
+  for (const auto& [number, why] : input.excluded()) failed.push_back(number);
+  count += static_cast<std::int64_t>(failed.size());
+  for (std::int64_t i = 0; i + static_cast<std::int64_t>(input.excluded().size()) < count; ++i) {
+    carreau_face face{};
+    face.struct_size = sizeof face;
+    require(mesh, carreau_mesh_face(mesh, i, &face));
+    if (face.status == CARREAU_FACE_FAILED) failed.push_back(face.ref);
+  }
+  if (failed.empty()) return "";
+  std::sort(failed.begin(), failed.end());
+  std::string list;
+  for (std::size_t i = 0; i < failed.size() && i < 20; ++i) list += (i == 0 ? "" : ", ") + std::to_string(failed[i]);
+  return std::to_string(failed.size()) + " of " + std::to_string(count) + " faces have no mesh: " + list +
+         (failed.size() > 20 ? ", ..." : "");
+}
+
+}  // namespace
+
+int mesh(const MeshOptions& options) {
+  catch_signals();
+  for (const std::string& each : options.face_sizes) parse_assignment(each, "--face-size");
+  sizes_of(options, 1);  // words that mean nothing are told before a long reading
+  OutputFiles outputs(options.outputs);
+  Progress progress(options.quiet);
+  progress.line("reading " + options.input);
+  const std::unique_ptr<CadInput> input = open_cad(options.input);
+  progress.line(input->summary());
+  const double diagonal = input->diagonal();
+  for (const std::string& each : options.face_sizes) {
+    const auto [face, size] = parse_assignment(each, "--face-size");
+    if (!input->set_face_size(face, parse_length(size, "--face-size").of(diagonal)))
+      throw Failure("--face-size: there is no face '" + face + "'.");
+  }
+  const SessionHandle session = make_session();
+  progress.listen_to(session.get());
+  set_parameters(session.get(), options, sizes_of(options, diagonal), diagonal);
+  for (const auto& [face, why] : input->excluded()) progress.error("error: face " + std::to_string(face) + ": " + why);
+  const carreau_status status = generate(session.get(), *input, progress);
+  if (status == CARREAU_ERR_CANCELLED) {
+    progress.error("stopped; nothing was written");
+    return interrupted;
+  }
+  carreau_mesh* made = nullptr;
+  require(session.get(), carreau_session_mesh(session.get(), &made));
+  outputs.write(made);
+  for (const std::string& path : options.outputs) progress.line("written " + path);
+  const std::string failed = failed_faces(made, *input);
+  if (failed.empty()) return all_faces;
+  progress.error("error: " + failed);
+  return some_faces;
+}
+
+}  // namespace command

@@ -1,0 +1,126 @@
+#include "output_files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "mesh_file.h"
+
+namespace command {
+namespace {
+
+constexpr const char* suffixes[] = {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"};
+
+/// What a signal handler removes: fixed before `active` becomes true, and only read after that.
+struct Staged {
+  std::string folder, file, temporary;
+};
+std::vector<Staged> staged;
+volatile std::sig_atomic_t active = 0;
+
+void remove_staged() noexcept {
+  for (const Staged& s : staged) {
+    unlink(s.file.c_str());
+    unlink(s.temporary.c_str());
+    rmdir(s.folder.c_str());
+  }
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
+}
+std::string name_of(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Failure("'" + path + "' cannot be written: " + why + ".");
+}
+
+/// Signals wait while files get their names.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t some;
+    sigemptyset(&some);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&some, signal);
+    sigprocmask(SIG_BLOCK, &some, &old_);
+  }
+  ~SignalsBlocked() { sigprocmask(SIG_SETMASK, &old_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t old_;
+};
+
+void check(const std::string& path) {
+  std::string suffix = path.find('.') == std::string::npos ? "" : path.substr(path.find_last_of('.'));
+  for (char& c : suffix) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  if (std::find(std::begin(suffixes), std::end(suffixes), suffix) == std::end(suffixes)) {
+    std::string known;
+    for (const char* each : suffixes) known += std::string(known.empty() ? "" : ", ") + each;
+    refuse(path, "its suffix is none of " + known);
+  }
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) refuse(path, "it is not an ordinary file");
+  if (access(folder_of(path).c_str(), W_OK | X_OK) != 0)
+    refuse(path, "folder '" + folder_of(path) + "': " + std::strerror(errno));
+}
+
+}  // namespace
+
+OutputFiles::OutputFiles(std::vector<std::string> paths) : paths_(std::move(paths)) {
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    check(paths_[i]);
+    if (std::find(paths_.begin(), paths_.begin() + static_cast<std::ptrdiff_t>(i), paths_[i]) !=
+        paths_.begin() + static_cast<std::ptrdiff_t>(i))
+      refuse(paths_[i], "it is named twice");
+  }
+}
+
+OutputFiles::~OutputFiles() {
+  if (active == 0) return;
+  active = 0;
+  remove_staged();
+  staged.clear();
+}
+
+void OutputFiles::write(carreau_mesh* mesh) {
+  {
+    const SignalsBlocked blocked;  // a folder exists only once the handler knows of it
+    staged.clear();
+    staged.reserve(paths_.size());
+    active = 1;
+    for (const std::string& path : paths_) {
+      std::string folder = folder_of(path) + "/.carreau-XXXXXX";
+      if (mkdtemp(folder.data()) == nullptr) refuse(path, std::strerror(errno));
+      const std::string file = folder + "/" + name_of(path);
+      staged.push_back({folder, file, file + ".0.tmp"});
+    }
+  }
+  for (const Staged& s : staged) require(mesh, carreau_mesh_write(mesh, s.file.c_str()));
+  const SignalsBlocked blocked;
+  for (std::size_t i = 0; i < staged.size(); ++i) {
+    struct stat old {};
+    if (stat(paths_[i].c_str(), &old) == 0) chmod(staged[i].file.c_str(), old.st_mode & 07777);
+    char* const real = realpath(paths_[i].c_str(), nullptr);  // a symbolic link stays one
+    const std::string target = real != nullptr ? real : paths_[i];
+    std::free(real);
+    if (std::rename(staged[i].file.c_str(), target.c_str()) != 0) refuse(paths_[i], std::strerror(errno));
+  }
+  active = 0;
+  remove_staged();  // the folders
+  staged.clear();
+}
+
+void OutputFiles::remove_in_handler() noexcept {
+  if (active != 0) remove_staged();
+}
+
+}  // namespace command

@@ -1,0 +1,94 @@
+#include "progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace command {
+namespace {
+
+constexpr int bar_width = 30;
+constexpr std::chrono::milliseconds redraw{100};
+
+const char* phase_name(std::int32_t phase) {
+  switch (phase) {
+    case CARREAU_PHASE_MODEL:
+      return "model";
+    case CARREAU_PHASE_CURVES:
+      return "curves";
+    case CARREAU_PHASE_PATCHES:
+      return "patches";
+    case CARREAU_PHASE_ASSEMBLY:
+      return "assembly";
+    case CARREAU_PHASE_WRITING:
+      return "writing";
+    default:
+      return "done";
+  }
+}
+
+std::string entity_name(std::int32_t phase, std::int32_t entity) {
+  if (entity == 0) return "";
+  if (phase == CARREAU_PHASE_CURVES) return ", curve " + std::to_string(entity);
+  if (phase == CARREAU_PHASE_PATCHES) return ", face " + std::to_string(entity);
+  return "";
+}
+
+}  // namespace
+
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::~Progress() { clear(); }
+
+void Progress::listen_to(carreau_session* session) {
+  carreau_set_message_callback(session, on_message, this);
+  carreau_set_progress_callback(session, on_progress, this);
+}
+
+void Progress::clear() {
+  if (bar_) std::fputs("\r\033[K", stderr);
+  bar_ = false;
+}
+
+void Progress::line(const std::string& text) {
+  if (!quiet_) error(text);
+}
+
+void Progress::error(const std::string& text) {
+  clear();
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void Progress::on_message(std::int32_t level, const char* text, void* user) {
+  auto& self = *static_cast<Progress*>(user);
+  if (level <= CARREAU_LEVEL_ERROR)
+    self.error(std::string("error: ") + text);
+  else
+    self.line((level <= CARREAU_LEVEL_WARNING ? "warning: " : "") + std::string(text));
+}
+
+std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user) {
+  static_cast<Progress*>(user)->show(phase, entity, fraction);
+  return 0;
+}
+
+void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
+  if (quiet_ || phase == CARREAU_PHASE_IDLE) return;
+  const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
+  if (!terminal_) {
+    if (percent / 10 == tenth_ && phase == phase_) return;
+    tenth_ = percent / 10, phase_ = phase;
+    std::fprintf(stderr, "%3d %% %s%s\n", percent, phase_name(phase), entity_name(phase, entity).c_str());
+    return;
+  }
+  const auto now = Clock::now();
+  if (bar_ && phase == phase_ && now - drawn_ < redraw) return;
+  drawn_ = now, phase_ = phase, bar_ = true;
+  std::string bar(static_cast<std::size_t>(bar_width * percent / 100), '#');
+  bar.resize(bar_width, '.');
+  std::fprintf(stderr, "\r\033[K[%s] %3d %% %s%s", bar.c_str(), percent, phase_name(phase),
+               entity_name(phase, entity).c_str());
+  std::fflush(stderr);
+}
+
+}  // namespace command

@@ -1,0 +1,33 @@
+// What a shape holds, and what of it is hard to mesh: before anything is meshed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "brep_host.h"
+
+namespace carreau_occ {
+
+/// A thing that a mesher may stumble over. Numbers of faces and edges as in BrepHost, 0: not concerned.
+struct Danger {
+  std::string kind;  ///< "tiny edge", "sliver face", "gap", "free edge", ...
+  int face = 0, edge = 0;
+  double value = 0;  ///< a length in model units, or a number of faces
+  std::string text;  ///< the rest of the sentence
+};
+
+struct ShapeReport {
+  int solids = 0, shells = 0, faces = 0, edges = 0, vertices = 0;
+  int seams = 0, poles = 0, closed_edges = 0, inner_wires = 0, internal_edges = 0;
+  double diagonal = 0, area = 0, volume = 0;  ///< volume of the solids
+  double shortest_edge = 0, largest_tolerance = 0, largest_gap = 0;
+  std::vector<std::pair<std::string, int>> surfaces;  ///< kinds and how many, by name
+  std::vector<Danger> dangers;                        ///< by kind, worst first
+};
+
+/// Edges below `tiny` times the diagonal and faces that are narrower are dangers; so are gaps above it between the
+/// curve of an edge and its images on the surfaces beside, and above the edge's own tolerance. Costs some ten
+/// evaluations an edge. Faces that OpenCASCADE fails on are dangers too; nothing is thrown.
+ShapeReport inspect(const ShapeFile& file, double tiny = 1e-3);
+
+}  // namespace carreau_occ

@@ -1,0 +1,220 @@
+// Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"): one surface a triangle reference,
+// one curve an edge reference, one point a vertex reference that no other vertex has.
+#include <algorithm>
+#include <map>
+
+#include "io/mesh_writers.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr int line_type = 1, triangle_type = 2, point_type = 15;
+
+struct Entity {
+  int tag = 0, physical = 0;
+  std::string name;                  // of the physical group
+  std::vector<std::size_t> members;  // triangles, edges or the vertex
+  std::vector<std::size_t> nodes;    // that belong to no entity of a lower dimension
+};
+
+using Entities = std::map<std::int32_t, Entity>;  // by reference
+
+/// Tags are positive in the format: other references get numbers above the largest one.
+void give_tags(Entities& entities) {
+  int next = entities.empty() ? 1 : std::max(entities.rbegin()->first, 0) + 1;
+  for (auto& [ref, entity] : entities) entity.tag = ref > 0 ? ref : next++;
+}
+
+void number(std::string& text, double x) { append_number(text, x), text += ' '; }
+void number(std::string& text, std::size_t n) { text += std::to_string(n) + ' '; }
+void number(std::string& text, int n) { text += std::to_string(n) + ' '; }
+void end_line(std::string& text) { text.back() = '\n'; }
+
+class MshText {
+ public:
+  MshText(const FlatMesh& mesh, bool version_2) : mesh_(mesh), version_2_(version_2) {
+    collect_entities();
+    classify_nodes();
+  }
+
+  std::string run() {
+    text_ = version_2_ ? "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" : "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+    add_names();
+    if (version_2_) {
+      add_nodes_2();
+      add_elements_2();
+    } else {
+      add_entities();
+      add_nodes_4();
+      add_elements_4();
+    }
+    return std::move(text_);
+  }
+
+ private:
+  void collect_entities() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      entities_[2][ref_of(mesh_.triangle_refs, t)].members.push_back(t);
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) entities_[1][ref_of(mesh_.edge_refs, e)].members.push_back(e);
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
+      if (ref_of(mesh_.vertex_refs, v) > 0) entities_[0][ref_of(mesh_.vertex_refs, v)].members.push_back(v);
+    std::erase_if(entities_[0], [](const auto& point) { return point.second.members.size() > 1; });
+    for (Entities& entities : entities_) give_tags(entities);
+    // Faces of one name are one group, under the smallest of their tags.
+    std::map<std::string, int> group;
+    for (auto& [ref, face] : entities_[2]) {
+      face.name = name_of_face(mesh_, ref, "face_");
+      face.physical = group.emplace(face.name, face.tag).first->second;
+    }
+    for (auto& [ref, curve] : entities_[1])
+      curve.physical = curve.tag, curve.name = "curve_" + std::to_string(curve.tag);
+  }
+
+  void classify_nodes() {
+    std::vector<bool> taken(mesh_.vertices.size(), false);
+    const auto take = [&](Entity& entity, std::size_t v) {
+      if (!taken[v]) entity.nodes.push_back(v), taken[v] = true;
+    };
+    for (auto& [ref, point] : entities_[0]) take(point, point.members.front());
+    for (auto& [ref, curve] : entities_[1])
+      for (const std::size_t e : curve.members)
+        for (const std::int32_t v : mesh_.edges[e]) take(curve, static_cast<std::size_t>(v));
+    for (auto& [ref, face] : entities_[2])
+      for (const std::size_t t : face.members)
+        for (const std::int32_t v : mesh_.triangles[t]) take(face, static_cast<std::size_t>(v));
+    // Vertices that nothing holds.
+    for (std::size_t v = 0; v < taken.size(); ++v)
+      if (!taken[v] && !entities_[2].empty()) entities_[2].begin()->second.nodes.push_back(v);
+  }
+
+  void add_names() {
+    std::map<std::pair<int, int>, std::string> names;
+    for (const int dim : {1, 2})
+      for (const auto& [ref, entity] : entities_[dim]) names.emplace(std::pair{dim, entity.physical}, entity.name);
+    text_ += "$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+    for (const auto& [key, name] : names)
+      text_ += std::to_string(key.first) + " " + std::to_string(key.second) + " \"" + name + "\"\n";
+    text_ += "$EndPhysicalNames\n";
+  }
+
+  void add_coordinates(std::size_t v) {
+    const Vec3 p = mesh_.vertices[v];
+    number(text_, p.x), number(text_, p.y), number(text_, mesh_.dimension == 3 ? p.z : 0.0);
+    end_line(text_);
+  }
+
+  [[nodiscard]] std::size_t element_count() const {
+    return mesh_.triangles.size() + mesh_.edges.size() + entities_[0].size();
+  }
+
+  void add_corners(int dim, std::size_t member) {
+    if (dim == 0) number(text_, member + 1);
+    if (dim == 1)
+      for (const std::int32_t v : mesh_.edges[member]) number(text_, v + 1);
+    if (dim == 2)
+      for (const std::int32_t v : mesh_.triangles[member]) number(text_, v + 1);
+    end_line(text_);
+  }
+
+  static int type_of(int dim) { return dim == 0 ? point_type : dim == 1 ? line_type : triangle_type; }
+
+  void add_nodes_2() {
+    text_ += "$Nodes\n" + std::to_string(mesh_.vertices.size()) + "\n";
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) number(text_, v + 1), add_coordinates(v);
+    text_ += "$EndNodes\n";
+  }
+
+  void add_elements_2() {
+    text_ += "$Elements\n" + std::to_string(element_count()) + "\n";
+    std::size_t tag = 0;
+    for (const int dim : {0, 1, 2})
+      for (const auto& [ref, entity] : entities_[dim])
+        for (const std::size_t member : entity.members) {
+          number(text_, ++tag), number(text_, type_of(dim)), number(text_, 2);
+          number(text_, entity.physical), number(text_, entity.tag);
+          add_corners(dim, member);
+        }
+    text_ += "$EndElements\n";
+  }
+
+  void add_box(const Entity& entity, int dim) {
+    Vec3 low, high;
+    bool any = false;
+    const auto add = [&](std::int32_t v) {
+      const Vec3 p = mesh_.vertices[static_cast<std::size_t>(v)];
+      if (!any) low = high = p;
+      any = true;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    };
+    for (const std::size_t member : entity.members) {
+      if (dim == 1)
+        for (const std::int32_t v : mesh_.edges[member]) add(v);
+      else
+        for (const std::int32_t v : mesh_.triangles[member]) add(v);
+    }
+    for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z}) number(text_, x);
+  }
+
+  void add_entities() {
+    text_ += "$Entities\n" + std::to_string(entities_[0].size()) + " " + std::to_string(entities_[1].size()) + " " +
+             std::to_string(entities_[2].size()) + " 0\n";
+    for (const auto& [ref, point] : entities_[0]) {
+      const Vec3 p = mesh_.vertices[point.members.front()];
+      number(text_, point.tag), number(text_, p.x), number(text_, p.y), number(text_, p.z), number(text_, 0);
+      end_line(text_);
+    }
+    for (const int dim : {1, 2})
+      for (const auto& [ref, entity] : entities_[dim]) {
+        number(text_, entity.tag);
+        add_box(entity, dim);
+        number(text_, 1), number(text_, entity.physical), number(text_, 0);
+        end_line(text_);
+      }
+    text_ += "$EndEntities\n";
+  }
+
+  void add_nodes_4() {
+    std::size_t blocks = 0;
+    for (const Entities& entities : entities_)
+      for (const auto& [ref, entity] : entities) blocks += entity.nodes.empty() ? 0 : 1;
+    const std::size_t n = mesh_.vertices.size();
+    text_ += "$Nodes\n" + std::to_string(blocks) + " " + std::to_string(n) + " 1 " + std::to_string(n) + "\n";
+    for (const int dim : {0, 1, 2})
+      for (const auto& [ref, entity] : entities_[dim]) {
+        if (entity.nodes.empty()) continue;
+        number(text_, dim), number(text_, entity.tag), number(text_, 0), number(text_, entity.nodes.size());
+        end_line(text_);
+        for (const std::size_t v : entity.nodes) text_ += std::to_string(v + 1) + "\n";
+        for (const std::size_t v : entity.nodes) add_coordinates(v);
+      }
+    text_ += "$EndNodes\n";
+  }
+
+  void add_elements_4() {
+    const std::size_t blocks = entities_[0].size() + entities_[1].size() + entities_[2].size(), n = element_count();
+    text_ += "$Elements\n" + std::to_string(blocks) + " " + std::to_string(n) + " 1 " + std::to_string(n) + "\n";
+    std::size_t tag = 0;
+    for (const int dim : {0, 1, 2})
+      for (const auto& [ref, entity] : entities_[dim]) {
+        number(text_, dim), number(text_, entity.tag), number(text_, type_of(dim));
+        number(text_, entity.members.size());
+        end_line(text_);
+        for (const std::size_t member : entity.members) number(text_, ++tag), add_corners(dim, member);
+      }
+    text_ += "$EndElements\n";
+  }
+
+  const FlatMesh& mesh_;
+  bool version_2_;
+  Entities entities_[3];  // by dimension
+  std::string text_;
+};
+
+}  // namespace
+
+std::string msh_text(const FlatMesh& mesh, bool version_2) { return MshText(mesh, version_2).run(); }
+
+}  // namespace carreau

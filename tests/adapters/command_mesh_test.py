@@ -1,0 +1,243 @@
+#!/usr/bin/env python3
+"""command_mesh_test.py CARREAU MAKE_SHAPES: `carreau mesh` on files that OpenCASCADE makes."""
+import math
+import os
+import pty
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, MAKE_SHAPES = sys.argv[1:3]
+SHAPES = tempfile.mkdtemp(prefix="carreau shapes ")
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=120, **options)
+
+
+def content(path, binary=False):
+    with open(path, "rb" if binary else "r") as file:
+        return file.read()
+
+
+def figures(path, *options):
+    """What `carreau check` prints, by the first word of each line."""
+    done = run("check", path, *options)
+    return {line[:12].strip(): line[12:] for line in done.stdout.splitlines()} | {"status": done.returncode}
+
+
+def read_mesh(path):
+    """Vertices and triangles (with reference) of a .mesh file."""
+    words = iter(content(path).split())
+    vertices, triangles = [], []
+    for word in words:
+        if word == "Vertices":
+            vertices = [[float(next(words)) for _ in range(4)][:3] for _ in range(int(next(words)))]
+        elif word == "Triangles":
+            triangles = [[int(next(words)) for _ in range(4)] for _ in range(int(next(words)))]
+    return vertices, triangles
+
+
+def volume(path):
+    vertices, triangles = read_mesh(path)
+    total = 0
+    for i, j, k, _ in triangles:
+        (a, b, c), (d, e, f), (g, h, m) = vertices[i - 1], vertices[j - 1], vertices[k - 1]
+        total += a * (e * m - f * h) + b * (f * g - d * m) + c * (d * h - e * g)
+    return total / 6
+
+
+class Mesh(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau mesh ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def out(self, name):
+        return os.path.join(self.folder, name)
+
+    def mesh(self, shape, *options, output="out.mesh", status=0):
+        path = self.out(output)
+        done = run("mesh", os.path.join(SHAPES, shape), "-o", path, *options)
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(done.stdout, "")
+        return path
+
+    def refused(self, *arguments, sentence):
+        before = sorted(os.listdir(self.folder))
+        done = run("mesh", *arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(sentence, done.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_step_and_brep_of_a_sphere_give_its_area_and_volume(self):
+        for suffix in ("step", "brep"):
+            path = self.mesh("sphere." + suffix, "--size", "0.05")
+            values = figures(path, "--closed")
+            self.assertEqual((values["status"], values["defects"], values["faces"]), (0, "none", "1"))
+            self.assertAlmostEqual(float(values["area"]) / (4 * math.pi), 1, delta=1e-3)
+            self.assertAlmostEqual(volume(path) / (4 * math.pi / 3), 1, delta=2e-3)
+
+    def test_a_size_may_be_a_share_of_the_diagonal(self):
+        # The box of the sphere has the diagonal 2 sqrt(3).
+        mean = float(figures(self.mesh("sphere.step", "--size", "2%"))["edge length"].split()[-1])
+        self.assertAlmostEqual(mean / (0.02 * 2 * math.sqrt(3)), 1, delta=0.05)
+        again = float(figures(self.mesh("sphere.step", "--size", repr(0.02 * 2 * math.sqrt(3))))["edge length"].split()[-1])
+        self.assertAlmostEqual(mean, again, delta=1e-9)
+
+    def test_an_angle_makes_sizes_follow_the_curvature(self):
+        # Edges of length 2 r sin(angle) on the unit sphere; a size beside it is an upper bound.
+        for angle in (4, 8):
+            mean = float(figures(self.mesh("sphere.step", "--angle", str(angle)))["edge length"].split()[-1])
+            self.assertAlmostEqual(mean / (2 * math.sin(math.radians(angle))), 1, delta=0.06)
+        values = figures(self.mesh("sphere.step", "--angle", "8", "--max", "0.1"))
+        self.assertAlmostEqual(float(values["edge length"].split()[-1]) / 0.1, 1, delta=0.06)
+        values = figures(self.mesh("sphere.step", "--angle", "1", "--min", "0.2"))
+        self.assertAlmostEqual(float(values["edge length"].split()[-1]) / 0.2, 1, delta=0.06)
+
+    def test_all_formats_appear_together(self):
+        names = ["a.mesh", "a.meshb", "a.vtu", "a.stl", "a.msh", "a.msh2"]
+        arguments = [word for name in names for word in ("-o", self.out(name))]
+        done = run("mesh", os.path.join(SHAPES, "cone.step"), *arguments, "--size", "0.2", "-q")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(names))
+        ascii_figures = figures(self.out("a.mesh"))
+        self.assertEqual(ascii_figures, figures(self.out("a.meshb")))
+        facets = int(ascii_figures["triangles"])
+        self.assertEqual(content(self.out("a.stl")).count("outer loop"), facets)
+        self.assertIn(f'NumberOfCells="{facets + int(ascii_figures["curve edges"])}"',
+                      content(self.out("a.vtu"), True).decode("latin-1"))
+
+    def test_names_of_faces_and_parts_reach_the_files(self):
+        text = content(self.mesh("named_faces.step", output="named.msh"))
+        names = set(re.findall(r'^2 \d+ "(.*)"$', text, re.M))
+        self.assertEqual(names, {"bottom", "top", "side"})
+        solids = re.findall(r"^solid (.*)$", content(self.mesh("assembly.step", output="rig.stl")), re.M)
+        self.assertEqual(sorted(solids), ["ball"] + 12 * ["block"])
+
+    def test_parts_of_an_assembly_stand_where_it_says(self):
+        path = self.mesh("assembly.step", "--size", "0.5")
+        vertices, _ = read_mesh(path)
+        for axis, low, high in ((0, -1, 21), (1, -1, 2), (2, 0, 11)):
+            self.assertAlmostEqual(min(p[axis] for p in vertices), low, delta=0.1)
+            self.assertAlmostEqual(max(p[axis] for p in vertices), high, delta=0.1)
+        self.assertEqual(figures(path, "--closed")["faces"], "13")
+        self.assertAlmostEqual(volume(path) / (12 + 4 * math.pi / 3), 1, delta=0.04)
+
+    def test_units_are_millimetres(self):
+        self.assertAlmostEqual(volume(self.mesh("inch.step", "--size", "10")), 25.4**3, delta=1e-6)
+
+    def test_triangles_look_outwards_of_a_reversed_solid_as_it_says(self):
+        path = self.mesh("free.brep", "--size", "0.5")
+        vertices, triangles = read_mesh(path)
+        sheet = [t for t in triangles if vertices[t[0] - 1][0] < 5]
+        self.assertAlmostEqual(volume(path), -1, delta=1e-9)  # the sheet lies in z = 0 and encloses nothing
+        # The edge inside the sheet from (1, 1) to (3, 2) is made of edges of triangles.
+        inside = {i for t in sheet for i in t[:3]
+                  if abs((vertices[i - 1][1] - 1) - (vertices[i - 1][0] - 1) / 2) < 1e-9 and 1 <= vertices[i - 1][0] <= 3}
+        self.assertGreaterEqual(len(inside), 4)
+        self.assertEqual(figures(path)["defects"], "none")
+
+    def test_unsewn_faces_of_iges_are_meshed(self):
+        values = figures(self.mesh("open.igs", "--size", "0.4"))
+        self.assertEqual((values["faces"], values["defects"]), ("5", "none"))
+        self.assertAlmostEqual(float(values["area"]), 20, delta=1e-6)
+
+    def test_a_face_can_have_a_size_of_its_own(self):
+        for face in ("top", "6"):
+            _, triangles = read_mesh(self.mesh("named_faces.step", "--size", "0.25", "--face-size", face + "=0.05"))
+            count = {ref: sum(t[3] == ref for t in triangles) for ref in range(1, 7)}
+            fine = [ref for ref in count if count[ref] > 600]
+            self.assertEqual(len(fine), 1)
+            self.assertAlmostEqual(count[fine[0]] / (1 / (math.sqrt(3) / 4 * 0.05**2)), 1, delta=0.1)
+
+    def test_any_parameter_can_be_set(self):
+        self.mesh("cylinder.step", "--set", "option=onesurf2d", "--set", "refs=2")
+        self.assertEqual(figures(self.out("out.mesh"))["faces"], "1")
+        self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("a.mesh"), "--set", "hphydeff=1", sentence="hphydef")
+
+    def test_what_cannot_be_read_is_told(self):
+        def write(name, data):
+            path = self.out(name)
+            with open(path, "wb") as file:
+                file.write(data)
+            return path
+        step = content(os.path.join(SHAPES, "box_with_hole.step"), True)
+        brep = content(os.path.join(SHAPES, "torus.brep"), True)
+        for name, data, sentence in (("no.step", b"", "no.step"), ("png.step", b"\x89PNG\r\n\x1a\n" * 40, "png.step"),
+                                     ("brep.step", brep, "suffix"), ("step.brep", step, "suffix"),
+                                     ("cut.step", step[:len(step) // 2], "cut.step"), ("cut.brep", brep[:len(brep) // 2], "cut.brep"),
+                                     ("cut.igs", content(os.path.join(SHAPES, "open.igs"), True)[:2000], "cut.igs"),
+                                     ("part.xyz", b"hello", "part.xyz")):
+            self.refused(write(name, data), "-o", self.out("a.mesh"), sentence=sentence)
+        self.refused(self.out("missing.step"), "-o", self.out("a.mesh"), sentence="missing.step")
+        self.refused(self.folder, "-o", self.out("a.mesh"), sentence=os.path.basename(self.folder))
+
+    def test_what_cannot_be_written_is_told_before_the_work(self):
+        cone = os.path.join(SHAPES, "cone.step")
+        self.refused(cone, "-o", self.out("a.xyz"), sentence=".vtu")
+        self.refused(cone, "-o", self.out("no/a.mesh"), sentence="no")
+        self.refused(cone, "-o", self.out("a.mesh"), "-o", self.out("a.mesh"), sentence="twice")
+        self.refused(cone, sentence="--output")
+        for wrong in ("0", "-1", "1m", "%", "", "nan", "inf", "1%%"):
+            self.refused(cone, "-o", self.out("a.mesh"), "--size=" + wrong, sentence="--size")
+        self.refused(cone, "-o", self.out("a.mesh"), "--min", "2", "--max", "1", sentence="--max")
+        self.refused(cone, "-o", self.out("a.mesh"), "--face-size", "lid=1", sentence="lid")
+        self.refused(cone, "-o", self.out("a.mesh"), "--size", "1e-9", sentence="edges")
+
+    def test_a_log_has_plain_lines_and_a_terminal_a_bar(self):
+        done = run("mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "--size", "1%")
+        self.assertNotIn("\r", done.stderr)
+        self.assertNotIn("\033", done.stderr)
+        self.assertRegex(done.stderr, r"(?m)^reading .*torus\.step$")
+        self.assertRegex(done.stderr, r"(?m)^ *\d+ % patches, face 1$")
+        self.assertRegex(done.stderr, r"(?m)^1 face: \d+ vertices")
+        master, slave = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("b.mesh")],
+                                   stderr=slave, stdout=subprocess.DEVNULL)
+        os.close(slave)
+        text = b""
+        while True:
+            try:
+                block = os.read(master, 65536)
+            except OSError:
+                break
+            if not block:
+                break
+            text += block
+        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertRegex(text, rb"\r\033\[K\[#*\.*\] +\d+ % patches, face 1")
+
+    def interrupt(self, *options, after):
+        process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), *options],
+                                   stderr=subprocess.PIPE, text=True)
+        for line in process.stderr:
+            if after in line:
+                break
+        time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        start = time.monotonic()
+        process.communicate(timeout=60)
+        return process.returncode, time.monotonic() - start
+
+    def test_an_interrupt_stops_and_leaves_no_file(self):
+        with open(self.out("a.mesh"), "w") as old:
+            old.write("old")
+        status, _ = self.interrupt("--size", "0.08%", after="patches")
+        self.assertEqual(status, 130)
+        self.assertEqual(os.listdir(self.folder), ["a.mesh"])
+        self.assertEqual(content(self.out("a.mesh")), "old")
+
+
+if __name__ == "__main__":
+    try:
+        subprocess.run([MAKE_SHAPES, SHAPES], check=True, timeout=120, stdout=subprocess.DEVNULL)
+        unittest.main(argv=sys.argv[:1])
+    finally:
+        shutil.rmtree(SHAPES)

@@ -1,0 +1,138 @@
+// make_shapes FOLDER: files for the tests of the command, made by OpenCASCADE itself.
+//   NAME.step, NAME.brep   each shape of the torture set
+//   assembly.step          two boxes of one part "block", placed apart, and a "ball", in an assembly "rig"
+//   named_faces.step       a box whose six faces are called bottom, top and side
+//   inch.step              a cube of one inch
+//   open.igs               five faces of a box, each on its own
+//   free.brep              a face with an edge inside, and a box whose orientation is reversed
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Writer.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <cstdio>
+#include <exception>
+#include <gp_Pln.hxx>
+#include <gp_Trsf.hxx>
+#include <stdexcept>
+#include <string>
+
+#include "shapes.h"
+
+namespace {
+
+void require(bool good, const std::string& path) {
+  if (!good) throw std::runtime_error(path + " cannot be written");
+}
+
+void write_step(const TopoDS_Shape& shape, const std::string& path) {
+  STEPControl_Writer writer;
+  require(
+      writer.Transfer(shape, STEPControl_AsIs) == IFSelect_RetDone && writer.Write(path.c_str()) == IFSelect_RetDone,
+      path);
+}
+
+void name(const TDF_Label& label, const char* text) { TDataStd_Name::Set(label, text); }
+
+TopLoc_Location at(double x, double y, double z) {
+  gp_Trsf move;
+  move.SetTranslation(gp_Vec(x, y, z));
+  return TopLoc_Location(move);
+}
+
+void write_document(const Handle(TDocStd_Document) & document, const std::string& path) {
+  STEPCAFControl_Writer writer;
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  require(writer.Transfer(document) && writer.Write(path.c_str()) == IFSelect_RetDone, path);
+}
+
+void write_assembly(const std::string& path) {
+  Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const TDF_Label block = shapes->AddShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), Standard_False);
+  const TDF_Label ball = shapes->AddShape(BRepPrimAPI_MakeSphere(1).Shape(), Standard_False);
+  const TDF_Label rig = shapes->NewShape();
+  name(block, "block"), name(ball, "ball"), name(rig, "rig");
+  shapes->AddComponent(rig, block, at(10, 0, 0));
+  shapes->AddComponent(rig, block, at(20, 0, 0));
+  shapes->AddComponent(rig, ball, at(0, 0, 10));
+  shapes->UpdateAssemblies();
+  write_document(document, path);
+}
+
+void write_named_faces(const std::string& path) {
+  Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
+  const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  BRepPrimAPI_MakeBox box(1, 1, 1);
+  const TopoDS_Face bottom = box.BottomFace(), top = box.TopFace();
+  const TDF_Label whole = shapes->AddShape(box.Shape(), Standard_False);
+  name(whole, "box");
+  for (TopExp_Explorer e(box.Shape(), TopAbs_FACE); e.More(); e.Next()) {
+    const TDF_Label face = shapes->AddSubShape(whole, e.Current());
+    name(face, e.Current().IsSame(bottom) ? "bottom" : e.Current().IsSame(top) ? "top" : "side");
+  }
+  write_document(document, path);
+}
+
+void write_open_iges(const std::string& path) {
+  IGESControl_Writer writer("MM", 0);
+  int left = 5;
+  for (TopExp_Explorer e(BRepPrimAPI_MakeBox(2, 2, 2).Shape(), TopAbs_FACE); e.More() && left > 0; e.Next(), --left)
+    writer.AddShape(e.Current());
+  require(writer.Write(path.c_str()), path);
+}
+
+void write_free_edges(const std::string& path) {
+  const TopoDS_Face plain = BRepBuilderAPI_MakeFace(gp_Pln(), 0, 4, 0, 4).Face();
+  BRep_Builder builder;
+  TopoDS_Face face = TopoDS::Face(plain.EmptyCopied());
+  for (TopExp_Explorer e(plain, TopAbs_WIRE); e.More(); e.Next()) builder.Add(face, e.Current());
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  builder.Add(wire, BRepBuilderAPI_MakeEdge(gp_Pnt(1, 1, 0), gp_Pnt(3, 2, 0)).Edge().Oriented(TopAbs_INTERNAL));
+  builder.Add(face, wire.Oriented(TopAbs_INTERNAL));
+  TopoDS_Compound all;
+  builder.MakeCompound(all);
+  builder.Add(all, face);
+  builder.Add(all, BRepPrimAPI_MakeBox(gp_Pnt(10, 0, 0), 1, 1, 1).Shape().Reversed());
+  require(BRepTools::Write(all, path.c_str()), path);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const std::string folder = std::string(argv[1]) + "/";
+  Message::DefaultMessenger()->ChangePrinters().Clear();
+  try {
+    for (const shapes::NamedShape& shape : shapes::torture_set()) {
+      const TopoDS_Shape made = shape.make();
+      write_step(made, folder + shape.name + ".step");
+      require(BRepTools::Write(made, (folder + shape.name + ".brep").c_str()), shape.name);
+    }
+    write_assembly(folder + "assembly.step");
+    write_named_faces(folder + "named_faces.step");
+    Interface_Static::SetCVal("write.step.unit", "INCH");
+    write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");
+    write_open_iges(folder + "open.igs");
+    write_free_edges(folder + "free.brep");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,41 @@
+// A shape meshed through the C interface, and what can be measured on the result.
+#pragma once
+
+#include <brep_host.h>
+#include <carreau.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace adapters {
+
+struct MeasuredMesh {
+  carreau_status status = CARREAU_OK;
+  std::string error;                ///< of the run
+  std::vector<std::string> failed;  ///< sentence of each face that has no mesh
+  std::vector<std::string> defects;
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> refs;  ///< of triangles
+  std::int64_t open_edges = 0;     ///< with one triangle
+  std::int64_t crowded_edges = 0;  ///< with more than two
+  std::int64_t turned_edges = 0;   ///< of two triangles that run along it the same way
+  carreau_quality quality{};
+  double volume = 0;  ///< enclosed, by the divergence theorem
+  double seconds = 0;
+
+  /// "" for a mesh of all faces without a defect; else what is wrong, short. `closed`: open edges are wrong.
+  [[nodiscard]] std::string trouble(bool closed) const;
+};
+
+/// `prepare` may set more parameters.
+MeasuredMesh mesh_and_measure(carreau_occ::BrepHost& host, double size,
+                              const std::function<void(carreau_session*)>& prepare = {});
+
+/// The parameters with which the command meshes CAD files.
+void use_command_parameters(carreau_session* session, double size, double diagonal);
+
+}  // namespace adapters

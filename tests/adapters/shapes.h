@@ -1,0 +1,23 @@
+// Shapes that are hard on a mesher, made by OpenCASCADE's own constructors.
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace shapes {
+
+struct NamedShape {
+  std::string name;
+  std::function<TopoDS_Shape()> make;
+  bool forces_slivers = false;  ///< holds a face much narrower than any size of the sweep
+};
+
+/// All are solids.
+const std::vector<NamedShape>& torture_set();
+
+/// By name; throws std::runtime_error when there is none.
+TopoDS_Shape make(const std::string& name);
+
+}  // namespace shapes

@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+#include "io/mesh_files.h"
+#include "io_test_support.h"
+
+namespace carreau {
+namespace {
+
+/// A section of the file, without the lines that open and close it, word by word.
+std::istringstream section(const std::string& text, const std::string& name) {
+  const std::string open = "$" + name + "\n", close = "$End" + name + "\n";
+  const std::size_t from = text.find(open), to = text.find(close);
+  EXPECT_TRUE(from != std::string::npos && to != std::string::npos && from < to) << name;
+  return std::istringstream(from < to ? text.substr(from + open.size(), to - from - open.size()) : "");
+}
+
+struct Element {
+  int type, physical, entity;
+  std::vector<int> nodes;
+  friend bool operator==(const Element&, const Element&) = default;
+};
+
+struct Content {
+  std::map<std::pair<int, int>, std::string> names;  // dimension and tag
+  std::map<int, Vec3> nodes;
+  std::map<int, Element> elements;
+};
+
+int nodes_of(int type) { return type == 15 ? 1 : type == 1 ? 2 : 3; }
+
+void read_names(const std::string& text, Content& content) {
+  auto words = section(text, "PhysicalNames");
+  int count = 0, dim = 0, tag = 0;
+  words >> count;
+  for (int i = 0; i < count; ++i) {
+    std::string name;
+    words >> dim >> tag;
+    std::getline(words, name);
+    content.names[{dim, tag}] = name.substr(2, name.size() - 3);
+  }
+}
+
+/// What the manual of Gmsh says of version 2.2.
+Content read_2(const std::string& text) {
+  Content content;
+  read_names(text, content);
+  auto words = section(text, "Nodes");
+  int count = 0, tag = 0, tags = 0;
+  words >> count;
+  for (int i = 0; i < count; ++i) {
+    Vec3 p;
+    words >> tag >> p.x >> p.y >> p.z;
+    content.nodes[tag] = p;
+  }
+  words = section(text, "Elements");
+  words >> count;
+  for (int i = 0; i < count; ++i) {
+    Element e{};
+    words >> tag >> e.type >> tags >> e.physical >> e.entity;
+    EXPECT_EQ(tags, 2);
+    e.nodes.resize(static_cast<std::size_t>(nodes_of(e.type)));
+    for (int& node : e.nodes) words >> node;
+    content.elements[tag] = e;
+  }
+  EXPECT_FALSE(words.fail());
+  return content;
+}
+
+/// And of version 4.1.
+Content read_4(const std::string& text) {
+  Content content;
+  read_names(text, content);
+  auto words = section(text, "Entities");
+  int counts[4], tag = 0, n = 0;
+  double x = 0;
+  for (int& count : counts) words >> count;
+  std::map<std::pair<int, int>, int> physical;
+  for (int i = 0; i < counts[0]; ++i) {
+    words >> tag >> x >> x >> x >> n;
+    EXPECT_EQ(n, 0);
+  }
+  for (const int dim : {1, 2})
+    for (int i = 0; i < counts[dim]; ++i) {
+      words >> tag;
+      for (int k = 0; k < 6; ++k) words >> x;
+      words >> n >> physical[{dim, tag}];
+      EXPECT_EQ(n, 1);
+      words >> n;
+      EXPECT_EQ(n, 0);
+    }
+  EXPECT_EQ(counts[3], 0);
+  words = section(text, "Nodes");
+  int blocks = 0, total = 0, dim = 0, entity = 0;
+  words >> blocks >> total >> n >> n;
+  for (int b = 0; b < blocks; ++b) {
+    words >> dim >> entity >> n >> n;
+    std::vector<int> tags(static_cast<std::size_t>(n));
+    for (int& each : tags) words >> each;
+    for (const int each : tags) {
+      Vec3 p;
+      words >> p.x >> p.y >> p.z;
+      EXPECT_TRUE(content.nodes.emplace(each, p).second) << each;
+    }
+  }
+  EXPECT_EQ(content.nodes.size(), static_cast<std::size_t>(total));
+  words = section(text, "Elements");
+  int type = 0;
+  words >> blocks >> total >> n >> n;
+  for (int b = 0; b < blocks; ++b) {
+    words >> dim >> entity >> type >> n;
+    for (int i = 0; i < n; ++i) {
+      Element e{type, dim > 0 ? physical.at({dim, entity}) : 0, entity, {}};
+      words >> tag;
+      e.nodes.resize(static_cast<std::size_t>(nodes_of(type)));
+      for (int& node : e.nodes) words >> node;
+      content.elements[tag] = e;
+    }
+  }
+  EXPECT_FALSE(words.fail());
+  return content;
+}
+
+/// The square with two triangles on faces 3 and 7, one curve and one corner.
+FlatMesh named_square() {
+  FlatMesh mesh = square();
+  mesh.triangle_refs = {3, 7};
+  mesh.edges = {{0, 1}};
+  mesh.edge_refs = {5};
+  mesh.vertex_refs = {4, 0, 0, 0};
+  mesh.faces = {{.ref = 3, .status = FaceStatus::meshed, .name = "lid \"A\""},
+                {.ref = 7, .status = FaceStatus::meshed, .name = ""}};
+  return mesh;
+}
+
+TEST(Msh, BothVersionsHoldTheSameMesh) {
+  const FlatMesh mesh = named_square();
+  const Content old = read_2(mesh_bytes(mesh, MeshFormat::msh2)), now = read_4(mesh_bytes(mesh, MeshFormat::msh));
+  EXPECT_EQ(old.names, now.names);
+  EXPECT_EQ(old.nodes, now.nodes);
+  EXPECT_EQ(old.elements, now.elements);
+  ASSERT_EQ(now.nodes.size(), mesh.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    EXPECT_EQ(now.nodes.at(static_cast<int>(v) + 1), mesh.vertices[v]);  // bit for bit
+  EXPECT_EQ(now.elements.size(), 4u);
+  for (std::size_t t = 0; t < 2; ++t) {
+    const auto& corners = mesh.triangles[t];
+    const Element expected{2, t == 0 ? 3 : 7, t == 0 ? 3 : 7, {corners[0] + 1, corners[1] + 1, corners[2] + 1}};
+    EXPECT_EQ(now.elements.at(static_cast<int>(t) + 3), expected);
+  }
+  EXPECT_EQ(now.elements.at(1), (Element{15, 0, 4, {1}}));
+  EXPECT_EQ(now.elements.at(2), (Element{1, 5, 5, {1, 2}}));
+  const std::map<std::pair<int, int>, std::string> names{{{1, 5}, "curve_5"}, {{2, 3}, "lid _A_"}, {{2, 7}, "face_7"}};
+  EXPECT_EQ(now.names, names);
+}
+
+TEST(Msh, FacesOfOneNameAreOneGroup) {
+  FlatMesh mesh = named_square();
+  mesh.faces[0].name = mesh.faces[1].name = "wall";
+  for (const Content& content :
+       {read_2(mesh_bytes(mesh, MeshFormat::msh2)), read_4(mesh_bytes(mesh, MeshFormat::msh))}) {
+    EXPECT_EQ(content.elements.at(3).physical, 3);
+    EXPECT_EQ(content.elements.at(4).physical, 3);
+    EXPECT_EQ(content.elements.at(3).entity, 3);
+    EXPECT_EQ(content.elements.at(4).entity, 7);
+    EXPECT_EQ(content.names.size(), 2u);
+    EXPECT_EQ(content.names.at({2, 3}), "wall");
+  }
+}
+
+TEST(Msh, TagsArePositiveWhateverTheReferences) {
+  FlatMesh mesh = square();
+  mesh.triangle_refs = {-2, 0};
+  mesh.edges.clear(), mesh.edge_refs.clear(), mesh.vertex_refs.clear();
+  const Content content = read_4(mesh_bytes(mesh, MeshFormat::msh));
+  for (const auto& [tag, element] : content.elements) EXPECT_GT(element.entity, 0);
+  EXPECT_NE(content.elements.at(1).entity, content.elements.at(2).entity);
+  mesh.triangle_refs.clear();
+  EXPECT_EQ(read_4(mesh_bytes(mesh, MeshFormat::msh)).elements.at(2).entity, 1);
+}
+
+TEST(Names, AreInVtuAsFieldDataAndInStlAsSolids) {
+  const FlatMesh mesh = named_square();
+  const std::string vtu = mesh_bytes(mesh, MeshFormat::vtu);
+  const std::size_t at = vtu.find("Name=\"face_name\"");
+  ASSERT_NE(at, std::string::npos);
+  std::istringstream codes(vtu.substr(vtu.find('>', at) + 1));
+  std::string names;
+  for (int code = 0, ends = 0; ends < 2 && codes >> code;) {
+    names += static_cast<char>(code);
+    ends += code == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(names, std::string("lid \"A\"\0\0", 9));
+  const std::string stl = mesh_bytes(mesh, MeshFormat::stl, {.ascii_stl = true});
+  EXPECT_EQ(stl.substr(0, 14), "solid lid _A_\n");
+  EXPECT_NE(stl.find("\nsolid surface_7\n"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace carreau
