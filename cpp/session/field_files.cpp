@@ -4,12 +4,10 @@
 #include <array>
 #include <deque>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "session/field_samples.h"
 #include "support/error.h"
-#include "surface/delivered.h"
 
 namespace carreau {
 
@@ -161,31 +159,14 @@ class FieldWriter {
   }
 
   FieldDeviations deviations() {
-    if (!measured_) measure();
-    return {(*measured_)[DeliveredKind::deviation].values, (*measured_)[DeliveredKind::angle].values};
-  }
-
-  void measure() {
-    std::vector<std::unique_ptr<FaceMetric>> metrics(run_.model.faces.size());
-    // What any of them wants is the same for all.
-    const FaceInterfaces none;
-    const unsigned wants = FaceMetric(0, *rules_, none.plane, none.physical, monitor_, limits()).wants();
-    PrescribedMetric prescribed{.wants = wants, .at = {}};
-    prescribed.at = [&](int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                        std::span<Metric2> metric) {
-      const auto f = static_cast<std::size_t>(face);
-      const FaceInterfaces& interfaces = run_.result->interfaces[f];
-      if (!metrics[f])
-        metrics[f] =
-            std::make_unique<FaceMetric>(face, *rules_, interfaces.plane, interfaces.physical, monitor_, limits());
-      metrics[f]->at(uv, jets, metric);
-    };
-    try {
-      measured_ = measure_delivered(run_.result->mesh, cad_, prescribed, {}, monitor_);
-    } catch (const CallbackError& error) {
-      measured_.emplace();
-      monitor_.message(Level::warning, std::string("the deviations are not known: ") + error.what());
-    }
+    if (delivered_ == nullptr && !unknown_) try {
+        delivered_ = &run_.delivered();
+      } catch (const CallbackError& error) {
+        unknown_ = true;
+        monitor_.message(Level::warning, std::string("the deviations are not known: ") + error.what());
+      }
+    if (unknown_) return {};
+    return {(*delivered_)[DeliveredKind::deviation].values, (*delivered_)[DeliveredKind::angle].values};
   }
 
   const FieldRun& run_;
@@ -195,7 +176,8 @@ class FieldWriter {
   std::optional<SizeRules> rules_;
   std::vector<std::size_t> faces_;             // to be written
   std::vector<std::uint32_t> first_triangle_;  // by face
-  std::optional<Delivered> measured_;
+  const Delivered* delivered_ = nullptr;
+  bool unknown_ = false;  // the host failed while it was measured
 };
 
 }  // namespace

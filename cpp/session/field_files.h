@@ -8,6 +8,7 @@
 #include "session/fields.h"
 #include "session/parameters.h"
 #include "surface/composite.h"
+#include "surface/delivered.h"
 
 namespace carreau {
 
@@ -20,6 +21,8 @@ struct FieldRun {
   SizeParameters size;
   const Parameters& parameters;
   double diag = 0;  ///< 0: not known
+  /// What the mesh delivered; called from the caller's thread, and only when deviations are wanted.
+  std::function<const Delivered&()> delivered = {};
 };
 
 /// Diagonal of the box of all curves, from those of their points at which the host does not fail; 0 when there are

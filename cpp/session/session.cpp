@@ -43,7 +43,6 @@ struct Session::State {
   std::shared_ptr<Cad> cad;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
-  std::shared_ptr<BackgroundField> tried_background;  // of files, or what was set
   BackgroundReport background_report;
   SurfaceMesh previous;
   bool has_previous = false;
@@ -315,7 +314,6 @@ void Session::make_mesh() {
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, s.background);
-  s.tried_background = background;
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources)
     source->begin_run(static_cast<MetricLaw>(options.size.hinterpol_flag));
@@ -365,36 +363,21 @@ std::vector<std::string> Session::write_fields(const std::string& path, const Fi
 
 std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, FieldOptions options) {
   State& s = *state_;
-  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
-  CheckedCad whole_cad(*s.cad);
-  PartCad cad(whole_cad, parts_of(s.meshed.model));
+  const Meshed& meshed = s.meshed;
+  CheckedCad whole_cad(*meshed.cad);
+  PartCad cad(whole_cad, parts_of(meshed.model));
   const double diag = s.result.report.diag;
-  set_parameter_boxes(s.meshed.model, s.meshed.supports, cad);
-  FieldRun run{s.meshed.model, s.meshed.topology, &s.meshed.supports, &s.result, {}, s.meshed_parameters, diag};
-  run.size = s.meshed.options.size;
-  if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, diag).threads;
-  return carreau::write_fields(run, path, options, cad, s.monitor);
-}
-
-std::vector<std::string> Session::write_fields_of_model(const std::string& path, FieldOptions options) {
-  State& s = *state_;
-  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
-  if (s.model.faces.empty()) throw InvalidModel("the model has no face");
-  CheckedCad whole_cad(*s.cad);
-  PartCad cad(whole_cad, parts_of(s.model));
-  const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
-  std::optional<ModelSupports> supports;
-  try {
-    supports = build_supports(s.model, cad, parameters.real("angle_smo"), s.monitor);
-    set_parameter_boxes(s.model, *supports, cad);
-  } catch (const CallbackError& error) {
-    s.monitor.message(Level::warning, error.what());
-  }
-  const Topology none;
-  FieldRun run{s.model, none, supports ? &*supports : nullptr, nullptr, {}, parameters, 0};
-  run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
-  run.size = composite_options(parameters, run.diag).size;
-  run.size.sources = s.sources(s.last_failed ? s.tried_background.get() : s.background.get());
+  set_parameter_boxes(meshed.model, meshed.supports, cad);
+  // Silently: who asks for pictures has not asked for a report.
+  std::optional<Delivered> measured;
+  const auto delivered_here = [&]() -> const Delivered& {
+    if (s.delivered) return *s.delivered;
+    if (!measured) measured = measure(meshed, s.result, s.monitor);
+    return *measured;
+  };
+  const FieldRun run{meshed.model, meshed.topology,     &meshed.supports,
+                     &s.result,    meshed.options.size, s.meshed_parameters,
+                     diag,         delivered_here};
   if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, run.diag).threads;
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }

@@ -151,7 +151,7 @@ TEST_F(FieldsTest, StopWhenAsked) {
   use_paraboloid(0.5);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const auto stop = [](std::int32_t phase, std::int32_t face, double fraction, void*) -> std::int32_t {
-    EXPECT_EQ(face, 1);
+    EXPECT_TRUE(face == 1 || phase != CARREAU_PHASE_WRITING);
     return phase == CARREAU_PHASE_WRITING && fraction > 0.5 ? 1 : 0;
   };
   ASSERT_EQ(carreau_set_progress_callback(session, stop, nullptr), CARREAU_OK);
