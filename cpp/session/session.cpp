@@ -378,6 +378,36 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   const FieldRun run{meshed.model, meshed.topology,     &meshed.supports,
                      &s.result,    meshed.options.size, s.meshed_parameters,
                      diag,         delivered_here};
+  if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, diag).threads;
+  return carreau::write_fields(run, path, options, cad, s.monitor);
+}
+
+std::vector<std::string> Session::write_fields_of_model(const std::string& path, FieldOptions options) {
+  State& s = *state_;
+  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
+  if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  CheckedCad whole_cad(*s.cad);
+  PartCad cad(whole_cad, parts_of(s.model));
+  const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
+  // What stops a run only leaves something out here.
+  std::optional<ModelSupports> supports;
+  std::shared_ptr<BackgroundField> background;
+  try {
+    background = background_of_run(parameters, s.background);
+    supports = build_supports(s.model, cad, parameters.real("angle_smo"), s.monitor);
+    set_parameter_boxes(s.model, *supports, cad);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    s.monitor.message(Level::warning, error.what());
+  }
+  const Topology none;
+  FieldRun run{s.model, none, supports ? &*supports : nullptr, nullptr, {}, parameters};
+  run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
+  run.size = composite_options(parameters, run.diag).size;
+  run.size.sources = s.sources(background.get());
+  for (PrescriptionSource* source : run.size.sources)
+    source->begin_run(static_cast<MetricLaw>(run.size.hinterpol_flag));
   if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, run.diag).threads;
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
