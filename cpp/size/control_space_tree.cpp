@@ -77,9 +77,9 @@ Place Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, P
 void Tree::split(std::int32_t number) {
   const TreeCell cell = cells_[number];
   const std::int32_t half = cell.size / 2;
-  const std::vector<std::int32_t> candidates(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
+  candidates_.assign(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
   cells_[number].child = size();
-  const Place whole = !candidates.empty() ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
+  const Place whole = !candidates_.empty() ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
   // The 5 x 5 nodes of the parts, nine of which are those of the cell.
   std::array<std::int32_t, 25> node;
   node.fill(-1);
@@ -88,7 +88,7 @@ void Tree::split(std::int32_t number) {
     TreeCell child{.i = cell.i + (k % 2) * half, .j = cell.j + (k / 2) * half, .size = half};
     child.error = cell.error, child.decay = cell.decay;
     child.vertices = cell.vertices / 4;
-    const Place place = complete(child, candidates, whole);
+    const Place place = complete(child, candidates_, whole);
     for (int n = 0; n < 9; ++n) {
       std::int32_t& known = node[5 * (2 * (k / 2) + n / 3) + 2 * (k % 2) + n % 3];
       if (known < 0) known = lattice_.node(child.point(n), place);
@@ -124,16 +124,16 @@ void Tree::point_to_parts(std::int32_t number, int side) {
   const std::int32_t beyond = cell.beside[side];
   if (beyond < 0 || cells_[beyond].size != cell.size || cells_[beyond].child < 0) return;
   const int axis = side < 2 ? 2 : 1, facing = side ^ 1;
-  std::vector<std::int32_t> todo;
+  todo_.clear();
   const auto add_parts = [&](std::int32_t c) {
     for (int k = 0; k < 4; ++k)
-      if (((k & axis) != 0) == (facing % 2 == 1)) todo.push_back(cells_[c].child + k);
+      if (((k & axis) != 0) == (facing % 2 == 1)) todo_.push_back(cells_[c].child + k);
   };
   add_parts(beyond);
-  while (!todo.empty()) {
-    TreeCell& d = cells_[todo.back()];
-    const std::int32_t c = todo.back();
-    todo.pop_back();
+  while (!todo_.empty()) {
+    TreeCell& d = cells_[todo_.back()];
+    const std::int32_t c = todo_.back();
+    todo_.pop_back();
     const bool upper_half = side < 2 ? d.i >= cell.i + cell.size / 2 : d.j >= cell.j + cell.size / 2;
     d.beside[facing] = cell.child + (side % 2 == 1 ? axis : 0) + (upper_half ? 3 - axis : 0);
     if (d.child >= 0) add_parts(c);

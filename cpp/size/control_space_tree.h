@@ -70,6 +70,8 @@ class Tree {
   int columns_, rows_;
   std::vector<TreeCell> cells_;
   std::vector<std::int32_t> edges_;
+  // Scratch of split() and point_to_parts(); here for its memory.
+  std::vector<std::int32_t> candidates_, todo_;
 };
 
 }  // namespace carreau::detail

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -52,7 +51,7 @@ class Divider {
 
   // Vertices of the domain that are one in space get one number: the first of them.
   void identify(const FaceDomain& domain) {
-    std::map<std::array<int, 3>, int> first;
+    std::vector<std::pair<std::array<int, 3>, int>> places;
     image_of_.resize(domain.origin.size());
     several_.assign(domain.origin.size(), 0);
     curve_of_.assign(domain.origin.size(), -1);
@@ -63,10 +62,17 @@ class Divider {
       if (o.corner < 0) curve_of_[v] = o.curve;
       const std::array<int, 3> key =
           o.corner >= 0 ? std::array<int, 3>{0, o.corner, 0} : std::array<int, 3>{1, o.curve, o.node};
-      const auto [it, is_new] = first.emplace(key, v);
-      image_of_[v] = it->second;
-      if (is_new) continue;
-      several_[v] = several_[it->second] = 1;
+      places.emplace_back(key, v);
+    }
+    std::sort(places.begin(), places.end());
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+      if (places[i].first != places[first].first) {
+        first = i;
+        continue;
+      }
+      image_of_[places[i].second] = places[first].second;
+      several_[places[i].second] = several_[places[first].second] = 1;
       has_images_ = true;
     }
   }
