@@ -8,6 +8,7 @@
 
 #include "cad/fundamental_forms.h"
 #include "mesh/quality.h"
+#include "surface/degenerate_sides.h"
 #include "surface/gauss.h"
 #include "surface/triangle_distance.h"
 
@@ -137,6 +138,7 @@ class Measurement {
   }
 
   void measure_face() {
+    degenerate_ = DegenerateSides(*face_);
     measure_vertices();
     measure_edges();
     measure_triangles();
@@ -182,7 +184,16 @@ class Measurement {
     std::size_t triangle;  // of the mesh
     std::int32_t edge, a, b;
     bool measured;  // here
+    Vec2 from, to;  // of the edge in (u, v)
   };
+
+  // The edge from a to b, straight to a pole.
+  [[nodiscard]] std::array<Vec2, 2> ends(std::int32_t a, std::int32_t b) const {
+    Vec2 p = face_->uv[a], q = face_->uv[b];
+    if (normal_[a] && !normal_[b]) q = degenerate_.arrival(b, p, at_vertex_[a].metric).value_or(q);
+    if (normal_[b] && !normal_[a]) p = degenerate_.arrival(a, q, at_vertex_[b].metric).value_or(p);
+    return {p, q};
+  }
 
   [[nodiscard]] std::vector<Side> own_sides() {
     std::vector<Side> own;
@@ -194,7 +205,9 @@ class Measurement {
         raise_edge_angle(edge, a, b);
         note_lengths(a, b);
         note_lengths(b, a);
-        if (measured || edges_.segment[edge] >= 0) own.push_back({first_ + t, edge, a, b, measured});
+        if (!measured && edges_.segment[edge] < 0) continue;
+        const auto [from, to] = ends(a, b);
+        own.push_back({first_ + t, edge, a, b, measured, from, to});
       }
     return own;
   }
@@ -205,11 +218,11 @@ class Measurement {
     std::vector<Vec2> uv;
     uv.reserve(n * own.size());
     for (const Side& o : own)
-      for (const double s : gauss_.node) uv.push_back(lerp(face_->uv[o.a], face_->uv[o.b], s));
+      for (const double s : gauss_.node) uv.push_back(lerp(o.from, o.to, s));
     sampler_.run(face_index_, face_->ref, want_position | want_first, uv,
                  [&](std::size_t k, const SurfaceJet& jet, const Metric2& metric) {
                    const Side& o = own[k / n];
-                   const Vec2 d = face_->uv[o.b] - face_->uv[o.a];
+                   const Vec2 d = o.to - o.from;
                    if (edges_.segment[o.edge] < 0)
                      above_[static_cast<std::size_t>(o.edge) * n + k % n] = jet.s;
                    else
@@ -315,15 +328,19 @@ class Measurement {
 
   void finish_quality(std::size_t t) {
     const auto& c = face_->triangles[t];
-    const double area = 0.5 * cross(face_->uv[c[1]] - face_->uv[c[0]], face_->uv[c[2]] - face_->uv[c[0]]);
-    double squares = 0;
-    for (const std::int32_t edge : edges_.of_triangle[first_ + t]) {
-      const double l = of(DeliveredKind::length)[edge];
-      squares += l * l;
-    }
+    std::array<double, 3> l{};
+    for (std::size_t i = 0; i < 3; ++i) l[i] = of(DeliveredKind::length)[edges_.of_triangle[first_ + t][i]];
+    const double squares = l[0] * l[0] + l[1] * l[1] + l[2] * l[2];
+    double area = 0.5 * cross(face_->uv[c[1]] - face_->uv[c[0]], face_->uv[c[2]] - face_->uv[c[0]]);
     double& quality = of(DeliveredKind::metric_quality)[first_ + t];
+    area *= quality;
+    // At a pole the triangle of (u, v) is another one: that of the lengths stands for it (Heron's formula).
+    if (!normal_[c[0]] || !normal_[c[1]] || !normal_[c[2]]) {
+      const double s = (l[0] + l[1] + l[2]) / 2;
+      area = std::sqrt(std::max(0.0, s * (s - l[0]) * (s - l[1]) * (s - l[2])));
+    }
     // HDR eq. 1.6 with the metric's area and lengths; in a metric that varies they may be those of no flat triangle.
-    quality = squares > 0 ? std::min(1.0, 4 * std::numbers::sqrt3 * area * quality / squares) : 0;
+    quality = squares > 0 ? std::min(1.0, 4 * std::numbers::sqrt3 * area / squares) : 0;
   }
 
   // What lies above an edge belongs to both triangles beside, and is as near as the nearer one.
@@ -367,6 +384,7 @@ class Measurement {
   int face_index_ = 0;
   const FaceMesh* face_ = nullptr;
   std::size_t first_ = 0;  // triangle of the mesh
+  DegenerateSides degenerate_;
   std::vector<std::optional<Vec3>> normal_;
   std::vector<AtVertex> at_vertex_;
 };

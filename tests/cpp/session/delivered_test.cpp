@@ -241,6 +241,14 @@ TEST_F(SessionDelivered, SphereInThePlaneHasNoValuesForFlattenedTriangles) {
   EXPECT_EQ(d.folded_triangles, 0);
   EXPECT_EQ(2 * d.edges.vertices.size(), 3 * face.triangles.size());
   EXPECT_GE(d.share_in_range(), 0.99);
+  // Lengths are those of arcs, at the poles too, where edges of (u, v) end at another longitude.
+  for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
+    const Vec3 p = session.mesh().vertices[d.edges.vertices[e][0]], q = session.mesh().vertices[d.edges.vertices[e][1]];
+    const double arc = 2 * std::asin(norm(q - p) / 2) / 0.2;
+    const bool at_pole = std::max(std::abs(p.z), std::abs(q.z)) > 1 - 1e-12;
+    EXPECT_NEAR(d[Kind::length].values[e], arc, at_pole ? 1e-9 : 0.05);
+  }
+  EXPECT_GE(d[Kind::metric_quality].spread.min, 0.5);
   session.parameters().set("option", "allsurf2d");
   session.parameters().set("flag", 1);
   const FlatMesh plane = session.exported(&d);

@@ -1,0 +1,30 @@
+// Sides of a parameter domain that are one point of space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mesh/surface_mesh.h"
+#include "metric/metric2.h"
+
+namespace carreau {
+
+/// The degenerate sides of a face, as its flattened triangles show them. Keeps a reference to `face`.
+class DegenerateSides {
+ public:
+  DegenerateSides() = default;
+  explicit DegenerateSides(const FaceMesh& face);
+
+  /// Where on the side that ends at local vertex `p` the straight way from `a` arrives: nearest in the metric at `a`.
+  /// An edge to a pole is a meridian, whichever end of the side stands for the pole in (u, v). Empty where no side ends
+  /// at p.
+  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, Vec2 a, Metric2 at_a) const;
+
+ private:
+  const FaceMesh* face_ = nullptr;
+  std::vector<std::array<std::int32_t, 2>> sides_;  // local vertices, both ways, ascending
+};
+
+}  // namespace carreau
