@@ -460,4 +460,60 @@ TEST_F(Adaptation, WrongBackgroundMeshesAreRefused) {
   EXPECT_EQ(carreau_set_background(session, nullptr), CARREAU_ERR_ARGUMENT);
 }
 
+class AdaptationOfATorus : public abi_tests::SessionTest {
+ protected:
+  void SetUp() override {
+    SessionTest::SetUp();
+    const carreau_cad cad = torus_cad(&host);
+    ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+    ASSERT_EQ(torus_model(session), CARREAU_OK);
+    ASSERT_EQ(carreau_set_real(session, "hphydef", 0.3), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    old = abi_tests::data_of(mesh());
+    for (std::size_t v = 0; v < old.vertex_count(); ++v) sizes.push_back(size_at(old.xyz[3 * v + 2]));
+  }
+  static double size_at(double z) { return 0.2 + 0.1 * z; }  // -1 <= z <= 1
+  void expect_sizes() {
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    EXPECT_EQ(abi_tests::defects_of(mesh(), true), "");
+    const auto data = abi_tests::data_of(mesh());
+    for (std::size_t v = 0; v < data.vertex_count(); ++v)
+      EXPECT_NEAR(data.sizes[v], size_at(data.xyz[3 * v + 2]), 0.02);
+    auto report = abi_tests::sized<carreau_background_report>();
+    ASSERT_EQ(carreau_session_background(session, &report), CARREAU_OK);
+    EXPECT_GT(report.asked, 100);
+    EXPECT_EQ(report.outside, 0);
+  }
+
+  abi_tests::MeshData old;
+  std::vector<double> sizes;
+};
+
+TEST_F(AdaptationOfATorus, SizesHandedBackCrossTheSeams) {
+  ASSERT_EQ(carreau_set_vertex_sizes(session, int64_t(sizes.size()), sizes.data()), CARREAU_OK) << error();
+  expect_sizes();
+  // z is smooth across the seams, and so is what is carried over.
+  const auto data = abi_tests::data_of(mesh());
+  std::vector<double> z, moved(data.vertex_count());
+  for (std::size_t v = 0; v < old.vertex_count(); ++v) z.push_back(old.xyz[3 * v + 2]);
+  int64_t outside = -1;
+  ASSERT_EQ(carreau_transfer(session, 1, int64_t(z.size()), z.data(), int64_t(moved.size()), moved.data(), &outside),
+            CARREAU_OK)
+      << error();
+  EXPECT_EQ(outside, 0);
+  for (std::size_t v = 0; v < moved.size(); ++v) EXPECT_NEAR(moved[v], data.xyz[3 * v + 2], 0.3 * 0.3 / 4);
+}
+
+TEST_F(AdaptationOfATorus, SizesOnASurfaceInSpaceAreFoundAtItsNearestPoint) {
+  auto b = abi_tests::sized<carreau_background>();
+  b.dimension = 3;
+  b.vertex_count = int64_t(old.vertex_count());
+  b.triangle_count = int64_t(old.triangle_count());
+  b.vertices = old.xyz.data();
+  b.triangles = old.triangles.data();
+  b.sizes = sizes.data();
+  ASSERT_EQ(carreau_set_background(session, &b), CARREAU_OK) << error();
+  expect_sizes();
+}
+
 }  // namespace
