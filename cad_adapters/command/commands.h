@@ -35,8 +35,8 @@ int mesh(const MeshOptions& options);
 int check(const std::string& path, bool closed, int limit);
 
 struct FieldsOptions {
-  std::string input;  ///< .pardom or .env
-  std::string host;   ///< shared library
+  std::string input;  ///< .pardom, .env or a CAD file
+  std::string host;   ///< shared library, of the first two
   std::string out;    ///< .exr
   int longest = 1024, width = 0, height = 0;
   int face = 0;     ///< reference of the only one; 0: all

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "cad_input.h"
 #include "commands.h"
 #include "session_handle.h"
 #include "shared_host.h"
@@ -25,14 +26,19 @@ bool ends_with(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+bool is_env(const FieldsOptions& options) { return ends_with(options.input, ".env"); }
+bool is_pardom(const FieldsOptions& options) { return ends_with(options.input, ".pardom"); }
+
 void check(const FieldsOptions& options) {
   if (!ends_with(options.out, ".exr")) throw Failure("The output '" + options.out + "' does not end in .exr.");
-  const bool env = ends_with(options.input, ".env");
-  if (!env && !ends_with(options.input, ".pardom"))
-    throw Failure("The input '" + options.input + "' is neither a .pardom nor a .env file.");
-  if (env && options.raw) throw Failure("A .env file meshes: --raw goes with a .pardom file.");
-  if (env && !options.settings.empty())
-    throw Failure("A .env file sets its parameters itself: --set goes with a .pardom file.");
+  const bool needs_host = is_env(options) || is_pardom(options);
+  if (needs_host && options.host.empty())
+    throw Failure("'" + options.input + "' has no geometry: --host names the shared library that has.");
+  if (!needs_host && !options.host.empty())
+    throw Failure("--host goes with a .pardom or .env file, not with '" + options.input + "'.");
+  if (is_env(options) && options.raw) throw Failure("A .env file meshes: --raw does not go with it.");
+  if (is_env(options) && !options.settings.empty())
+    throw Failure("A .env file sets its parameters itself: --set does not go with it.");
 }
 
 carreau_exr_options exr_options(const FieldsOptions& options) {
@@ -61,10 +67,10 @@ void set(carreau_session* session, const std::string& setting) {
 }
 
 carreau_status make_mesh(carreau_session* session, const FieldsOptions& options) {
-  if (ends_with(options.input, ".env")) return carreau_run_env(session, options.input.c_str());
+  if (is_env(options)) return carreau_run_env(session, options.input.c_str());
   require(session, carreau_set_integer(session, "threads", options.threads));
   for (const std::string& setting : options.settings) set(session, setting);
-  require(session, carreau_model_read_pardom(session, options.input.c_str()));
+  if (is_pardom(options)) require(session, carreau_model_read_pardom(session, options.input.c_str()));
   return options.raw ? CARREAU_OK : carreau_mesh_generate(session);
 }
 
@@ -91,10 +97,16 @@ std::vector<std::string> field_groups() {
 
 int fields(const FieldsOptions& options) {
   check(options);
-  const SharedHost host(options.host);
+  std::unique_ptr<CadInput> shape;  // outlives the session
   const SessionHandle handle = make_session();
   carreau_session* session = handle.get();
-  require(session, carreau_set_cad_m(session, &host.routines()));
+  if (options.host.empty()) {
+    shape = open_cad(options.input);
+    require(session, shape->give_to(session));
+  } else {
+    const SharedHost host(options.host);
+    require(session, carreau_set_cad_m(session, &host.routines()));
+  }
   const carreau_status status = make_mesh(session, options);
   if (status != CARREAU_OK) {
     std::int64_t faces = 0;

@@ -31,8 +31,9 @@ void parse_field_size(const std::string& text, command::FieldsOptions& options) 
 
 CLI::App* add_fields(CLI::App& app, command::FieldsOptions& options, std::string& size) {
   CLI::App* fields = app.add_subcommand("fields", "Mesh, and write what governed the mesh as OpenEXR images");
-  fields->add_option("INPUT", options.input, "File .pardom, or .env whose actions are run")->required();
-  fields->add_option("--host", options.host, "Shared library with the routines of cad_m, in C or Fortran")->required();
+  fields->add_option("INPUT", options.input, "CAD file, .pardom, or .env whose actions are run")->required();
+  fields->add_option("--host", options.host,
+                     "Geometry of a .pardom or .env: a shared library with the routines of cad_m");
   fields->add_option("-o,--output", options.out, "File .exr; a file a face: NAME.face.REF.exr")->required();
   fields->add_option("--size", size, "Pixels of the longer side, or WIDTHxHEIGHT")->capture_default_str();
   fields->add_option("--face", options.face, "Only this face, into the file as it is named")

@@ -162,6 +162,15 @@ class Mesh(unittest.TestCase):
         self.assertEqual(figures(self.out("out.mesh"))["faces"], "1")
         self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("a.mesh"), "--set", "hphydeff=1", sentence="hphydef")
 
+    def test_fields_of_a_cad_file_are_an_image_a_face(self):
+        # What is in such files is tested in tests/command/fields_test.py and tests/cpp/session.
+        done = run("fields", os.path.join(SHAPES, "sphere.step"), "-o", self.out("s.exr"), "--size", "30", "--set",
+                   "hgeo_flag=1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        files = done.stdout.splitlines()
+        self.assertEqual(files, [self.out("s.face.1.exr")])
+        self.assertEqual(content(files[0], binary=True)[:4], b"\x76\x2f\x31\x01")
+
     def test_what_cannot_be_read_is_told(self):
         def write(name, data):
             path = self.out(name)

@@ -72,7 +72,7 @@ class Fields(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def run_fields(self, *arguments, host=HOSTS[0], code=0):
-        done = subprocess.run([PROGRAM, "fields", *arguments, "--host", host], capture_output=True, text=True, timeout=120,
+        done = subprocess.run([PROGRAM, "fields", *arguments, *(["--host", host] if host else [])], capture_output=True, text=True, timeout=120,
                               cwd=self.folder)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done
@@ -130,7 +130,9 @@ class Fields(unittest.TestCase):
         self.fails(self.pardom, "-o", "a.exr", host=self.pardom, sentence="cannot be loaded")
         self.fails(self.pardom, "-o", "a.exr", host=PARTIAL, sentence="lacks surf0, alone or in a Fortran module cad_m")
         self.fails(self.pardom, "-o", "a.png", sentence="'a.png' does not end in .exr")
-        self.fails("x.step", "-o", "a.exr", sentence="'x.step' is neither")
+        self.fails("x.step", "-o", "a.exr", sentence="--host goes with a .pardom or .env file, not with 'x.step'")
+        self.fails("x.step", "-o", "a.exr", host="", sentence="x.step")
+        self.fails(self.pardom, "-o", "a.exr", host="", sentence="--host names the shared library")
         self.fails("no.pardom", "-o", "a.exr", sentence="no.pardom")
         self.fails("no.env", "-o", "a.exr", sentence="no.env")
         self.fails("no.env", "-o", "a.exr", "--raw", sentence="--raw")
