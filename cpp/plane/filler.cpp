@@ -21,7 +21,8 @@ Filler::Filler(Triangulation& mesh, const Field& field, std::int64_t max_triangl
       field_(field),
       max_triangles_(max_triangles),
       monitor_(monitor),
-      strain_limit_(field.measure() < large_mesh ? strain_limit_small : strain_limit_large) {
+      strain_limit_(field.measure() < large_mesh ? strain_limit_small : strain_limit_large),
+      looks_between_(field.measure() >= large_mesh) {
   for (Vertex& v : mesh_.vertices) v.set_metric(field_.at(v.point()));
   const double expected = std::min(1.1 * std::max(field.measure(), 0.0) + static_cast<double>(mesh.triangles.size()),
                                    static_cast<double>(max_triangles));
@@ -66,7 +67,7 @@ bool Filler::try_insert(Vec2 p, int start, double distance, double height) {
 }
 
 // Fills the cavity and judges the new triangles by their circumradius: in the metric of the point, whose lengths are at
-// hand, and, if small enough, in the mean of their vertices.
+// hand, and, if small enough, in the mean of their vertices, or in that of the middle.
 void Filler::insert_at(Vec2 p, Metric2 metric) {
   constexpr double r2 = done_radius * done_radius;
   const auto v = static_cast<int>(mesh_.vertices.size());
@@ -89,7 +90,9 @@ void Filler::insert_at(Vec2 p, Metric2 metric) {
     if (std::max(A.d2, B.d2) > 4 * r2) continue;
     const Vec2 a{A.x, A.y}, b{B.x, B.y};
     if (!small(A.d2, B.d2, a, b, metric, four_det * e.area * e.area)) continue;
-    const Metric2 m = (1.0 / 3) * (metric + V[A.v].metric() + V[B.v].metric());
+    Metric2 m = (1.0 / 3) * (metric + V[A.v].metric() + V[B.v].metric());
+    if (looks_between_ && (turns_much(metric, V[A.v].metric()) || turns_much(metric, V[B.v].metric())))
+      m = field_.at(p + (1.0 / 3) * (a + b));
     if (small(squared_length(m, a), squared_length(m, b), a, b, m, 4 * determinant(m) * e.area * e.area))
       mesh_.triangles[star[i]].done = Done::yes;
   }

@@ -22,6 +22,10 @@ class Filler {
   void march();
   /// Algebraic: points on edges longer than unity until there are none (RR-2928 sec. 2.2), then leftovers.
   void split_long_edges();
+  /// Share of the places of points so far where the metric turned much from a vertex to the next.
+  [[nodiscard]] double turning() const noexcept {
+    return apexes_ > 0 ? static_cast<double>(turning_apexes_) / static_cast<double>(apexes_) : 0;
+  }
   /// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::least_fan), imposed
   /// and frozen. Returns the number of vertices that must not move from now on: those imposed and those of the fans.
   int surround_degenerate_edges(const PlaneDomain& domain);
@@ -59,7 +63,7 @@ class Filler {
   void add_front_edge(HalfEdge he);
   void link_front();
   [[nodiscard]] std::int32_t next_around(const FrontEdge& edge) const;
-  [[nodiscard]] Candidate apex(const FrontEdge& edge) const;
+  [[nodiscard]] Candidate apex(const FrontEdge& edge);
   void chain_up();
   void insert_row();
 
@@ -89,6 +93,7 @@ class Filler {
   std::vector<DegenerateEdge> degenerate_;
   std::vector<std::int32_t> degenerate_ends_;
   double strain_limit_;
+  bool looks_between_;  // where the metric turns much: small meshes cannot follow it anyway
   std::vector<FrontEdge> front_;
   std::vector<std::int32_t> leaving_;  // front edge by the vertex it leaves; -1 none, -2 several
   std::vector<std::int32_t> several_;  // front edges that leave such vertices
@@ -97,6 +102,7 @@ class Filler {
   std::vector<double> gaps_;
   std::vector<HalfEdge> long_edges_;
   long work_ = 0;
+  long apexes_ = 0, turning_apexes_ = 0;
 };
 
 }  // namespace carreau::plane

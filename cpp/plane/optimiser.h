@@ -14,7 +14,8 @@ namespace carreau::plane {
 /// removed triangles without vertices (-1) and removed vertices without a triangle.
 class Optimiser {
  public:
-  Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
+  /// `turning`: there are many places where the metric turns much from a vertex to the next.
+  Optimiser(Triangulation& mesh, int fixed, const Field& field, bool turning, Monitor& monitor);
   void run();
 
  private:
@@ -50,6 +51,7 @@ class Optimiser {
   Triangulation& mesh_;
   int fixed_;
   const Field& field_;
+  bool turning_;
   Monitor& monitor_;
   struct Proposal {
     double x = 0, y = 0;

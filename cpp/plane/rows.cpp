@@ -97,8 +97,9 @@ std::int32_t Filler::next_around(const FrontEdge& edge) const {
 }
 
 // Apex of the unit isosceles triangle on an edge, on the metric's normal, the metric being corrected once by that at
-// the apex.
-Filler::Candidate Filler::apex(const FrontEdge& edge) const {
+// the apex; where it turns much, it is that halfway.
+Filler::Candidate Filler::apex(const FrontEdge& edge) {
+  ++apexes_;
   const Vertex &A = mesh_.vertices[edge.a], &B = mesh_.vertices[edge.b];
   const double ex = B.x - A.x, ey = B.y - A.y;
   const Vec2 middle{0.5 * (A.x + B.x), 0.5 * (A.y + B.y)};
@@ -110,7 +111,12 @@ Filler::Candidate Filler::apex(const FrontEdge& edge) const {
   };
   const Metric2 at_ends = 0.5 * (A.metric() + B.metric());
   const Metric2 at_apex = field_.at(place(at_ends));
-  return {place(0.5 * (at_ends + at_apex)), at_apex, edge.edge, edge.a};
+  if (!looks_between_ || (!turns_much(A.metric(), B.metric()) && !turns_much(at_ends, at_apex)))
+    return {place(0.5 * (at_ends + at_apex)), at_apex, edge.edge, edge.a};
+  ++turning_apexes_;
+  Vec2 top = place(field_.at(middle));
+  for (int k = 0; k < 2; ++k) top = place(field_.at(0.5 * (middle + top)));
+  return {top, field_.at(top), edge.edge, edge.a};
 }
 
 void Filler::chain_up() {

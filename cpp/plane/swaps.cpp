@@ -20,7 +20,7 @@ constexpr int degree_passes = 2;
 
 }  // namespace
 
-// Opposite angles that sum to more than pi, in the mean metric of the four vertices.
+// Opposite angles that sum to more than pi, in the mean metric of the four vertices, or in that of the middle.
 bool Optimiser::wants_swap(int t, int i) const {
   const Triangle& A = mesh_.triangles[t];
   const HalfEdge o = A.n[i];
@@ -28,7 +28,9 @@ bool Optimiser::wants_swap(int t, int i) const {
   const Triangle& B = mesh_.triangles[o >> 2];
   const Vertex &c = mesh_.vertices[A.v[i]], &a = mesh_.vertices[A.v[next3[i]]], &b = mesh_.vertices[A.v[prev3[i]]],
                &d = mesh_.vertices[B.v[o & 3]];
-  const Metric2 m = a.metric() + b.metric() + c.metric() + d.metric();
+  Metric2 m = a.metric() + b.metric() + c.metric() + d.metric();
+  if (turning_ && (turns_much(a.metric(), b.metric()) || turns_much(c.metric(), d.metric())))
+    m = field_.at(0.25 * (a.point() + b.point() + c.point() + d.point()));
   const Vec2 ca = a.point() - c.point(), cb = b.point() - c.point(), da = a.point() - d.point(),
              db = b.point() - d.point();
   const double dot_c = dot(m, ca, cb), dot_d = dot(m, da, db), area_c = cross(ca, cb), area_d = cross(db, da);

@@ -29,7 +29,9 @@ void Optimiser::propose() {
         prefetch(&proposals_[v]);
       }
     const Vertex &P = mesh_.vertices[T.v[0]], &Q = mesh_.vertices[T.v[1]], &R = mesh_.vertices[T.v[2]];
-    const Metric2 m = P.metric() + Q.metric() + R.metric();
+    Metric2 m = P.metric() + Q.metric() + R.metric();
+    if (turning_ && (turns_much(P.metric(), Q.metric()) || turns_much(P.metric(), R.metric())))
+      m = field_.at((1.0 / 3) * (P.point() + Q.point() + R.point()));
     const double k = 0.5 * std::numbers::sqrt3 / std::sqrt(std::max(determinant(m), 1e-300));
     const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
       const double ex = to.x - from.x, ey = to.y - from.y;

@@ -23,6 +23,17 @@ struct Vertex {
   }
 };
 
+/// Whether the tensors of two neighbours differ by more than about twelve times the smaller eigenvalue of their mean:
+/// directions turn so fast that the mean is much too long in all of them, and the field itself must be asked in
+/// between.
+inline bool turns_much(Metric2 p, Metric2 q) noexcept {
+  const double a = p.a - q.a, b = p.b - q.b, c = p.c - q.c;
+  const Metric2 sum = p + q;
+  // det / trace is about the smaller eigenvalue of the sum.
+  const double trace = sum.a + sum.c, det = determinant(sum);
+  return (a * a + 2 * b * b + c * c) * trace * trace > 36 * det * det;
+}
+
 /// Half-edge i of triangle t lies opposite to its corner i and is written 4 t + i; -1: nothing beyond.
 using HalfEdge = std::int32_t;
 constexpr HalfEdge no_edge = -1;

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   for (int run = 0; run < runs; ++run) {
     mesh = {};
     double start = now();
-    space = control_space(c, 0.005);
+    space = control_space(c, ControlSpaceOptions{}.tolerance);
     sampling.push_back(now() - start);
     start = now();
     mesh = mesh_plane(c.domain, space, options, monitor);
