@@ -108,6 +108,11 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.angle_smo = std::min(parameters.real("angle_smo"), size.angle_mesh);  // RT-0232 sec. 3.3
   options.lss = parameters.real("LSS");
   options.gradation = parameters.real("gradation");
+  options.proximity = parameters.integer("proximity");
+  if (options.proximity > 0 && options.gradation == 0)
+    throw InvalidArgument(
+        "parameter proximity needs a gradation greater than 1 (1.3, say): sizes of narrow zones must "
+        "grow into those around");
   options.eps_ends = parameters.real("eps_ends", diag);
   options.check_close_edges = parameters.integer("CheckCloseEdges");
   options.check_adjacent_edges = parameters.integer("CheckAdjacentEdges");

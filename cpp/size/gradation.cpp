@@ -81,7 +81,11 @@ class Grading {
   [[nodiscard]] GradationFronts fronts() const {
     GradationFronts result;
     result.h.reserve(front_.size());
-    for (const Front& f : front_) result.h.push_back(f.h);
+    for (const Front& f : front_) {
+      result.h.push_back(f.h);
+      const bool is_vertex = std::isfinite(f.h) && f.source < static_cast<int>(front_.size());
+      result.source.push_back(is_vertex ? f.source : -1);
+    }
     result.front.resize(graph_.places.size());
     for (std::size_t p = 0; p < graph_.places.size(); ++p) {
       const int v = graph_.places[p].vertex;

@@ -39,6 +39,8 @@ struct GradationFront {
 struct GradationFronts {
   std::vector<double> h;              ///< of vertices; +infinity where no size arrives
   std::vector<GradationFront> front;  ///< of places
+  /// Of vertices: the vertex that their size comes from; -1: none, or a source that is no vertex.
+  std::vector<int> source;
 };
 
 /// ln(beta), the largest derivative of h along a path on the surface, for a ratio beta between sizes one unit edge

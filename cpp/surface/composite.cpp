@@ -86,7 +86,7 @@ class Pipeline {
 
   // One size everywhere obeys any gradation.
   void grade() {
-    if (options_.gradation == 0 || rules_.constant()) return;
+    if (options_.gradation == 0 || (rules_.constant() && options_.proximity == 0)) return;
     const auto start = std::chrono::steady_clock::now();
     monitor_.progress(Phase::gradation, 0, 0);
     graded_ = grade_model(curve_model_, rules_, options_, supports_.diag, monitor_);
@@ -130,15 +130,16 @@ class Pipeline {
       const FaceDomain& domain = *domains_.domain[f];
       // Sizes are cached where they are asked: each thread needs its own.
       if (reentrant) rules_of_job_.push_back(rules_);
-      jobs_.push_back(std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
-                                                           .ref = model_.faces[f].ref,
-                                                           .domain = &domain,
-                                                           .curve_xyz = positions_on_curves(domain, curves_, topology_),
-                                                           .constant_size = rules_.constant(),
-                                                           .isotropic = !rules_.uses_metrics(),
-                                                           .limits = limits(),
-                                                           .tolerance = tolerance()},
-                                                cad_, reentrant ? rules_of_job_.back() : rules_, options_, reentrant));
+      jobs_.push_back(
+          std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
+                                               .ref = model_.faces[f].ref,
+                                               .domain = &domain,
+                                               .curve_xyz = positions_on_curves(domain, curves_, topology_),
+                                               .constant_size = graded_.field ? std::nullopt : rules_.constant(),
+                                               .isotropic = !rules_.uses_metrics(),
+                                               .limits = limits(),
+                                               .tolerance = tolerance()},
+                                    cad_, reentrant ? rules_of_job_.back() : rules_, options_, reentrant));
       job(jobs_.size() - 1).limit_triangles(options_.max_triangles);
       face_of_job_.push_back(f);
     }

@@ -25,6 +25,9 @@ struct CompositeOptions {
   double coef_rectangle = 0.25;
   /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
   double gradation = 0;
+  /// Least number of layers of triangles between boundaries of a face that are near each other (> 0 needs a gradation);
+  /// 0: they are not looked for.
+  int proximity = 0;
   bool frontal = true;
   std::int64_t max_triangles = 0;  ///< 0: by memory
   /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called

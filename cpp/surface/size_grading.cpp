@@ -7,6 +7,7 @@
 #include <span>
 
 #include "curve/unit_discretisation.h"
+#include "size/proximity.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_mesher.h"
 
@@ -84,6 +85,8 @@ class Round {
         samples_[f].clear();
       }
     }
+    prescribed_ = metric_;
+    if (options_.proximity > 0) bound_narrow_zones();
     return metrics_ ? grade_by_direction(raw) : grade(raw);
   }
 
@@ -313,7 +316,9 @@ class Round {
       }
       face.smooth.push_back(1);
       face.on_curve.push_back(sides);
-      if (!flat) graph_.triangles.push_back({place(t[0]), place(t[1]), place(t[2])});
+      if (flat) continue;
+      graph_.triangles.push_back({place(t[0]), place(t[1]), place(t[2])});
+      sides_.push_back(sides);
     }
   }
 
@@ -355,10 +360,27 @@ class Round {
     return result;
   }
 
+  // So many layers between two boundaries: a size of the gap over their number, where sizes differ by direction across
+  // the gap only.
+  void bound_narrow_zones() {
+    if (metrics_) collect_places();
+    for (const NarrowPlace& n : find_narrow_places(graph_, sides_, monitor_)) {
+      const double h = n.gap / options_.proximity;
+      if (!metrics_) {
+        h_[n.vertex] = std::min(h_[n.vertex], h);
+        continue;
+      }
+      for (const int p : places_of_[n.vertex]) {
+        const Vec3 normal = graph_.places[p].normal, across = unit(n.across - dot(n.across, normal) * normal);
+        metric_[p].bound_along(across, h);
+      }
+    }
+  }
+
   GradedModel grade_by_direction(const std::vector<SizeSamples>& raw) {
     const double slope = slope_of_gradation(options_.gradation);
     collect_places();
-    const std::vector<TangentMetric> prescribed = metric_;
+    const std::vector<TangentMetric>& prescribed = prescribed_;
     for (std::size_t c = 0; c < raw.size(); ++c) bound_by_curve(c, raw[c]);
     bound_by_points(raw);
     metric_ = grade_metrics(graph_, std::move(metric_), metric_sources_, slope, monitor_);
@@ -381,6 +403,7 @@ class Round {
   }
 
   void collect_places() {
+    if (!places_of_.empty()) return;
     places_of_.resize(graph_.xyz.size());
     for (std::size_t p = 0; p < graph_.places.size(); ++p)
       places_of_[graph_.places[p].vertex].push_back(static_cast<int>(p));
@@ -527,8 +550,10 @@ class Round {
   std::vector<std::size_t> place_of_;  // first place of a face
   std::vector<std::vector<Sample>> samples_;
   std::vector<GradationSource> sources_;
-  std::vector<TangentMetric> metric_;  // of places, where sizes differ by direction
+  std::vector<TangentMetric> metric_;      // of places, where sizes differ by direction
+  std::vector<TangentMetric> prescribed_;  // before any bound
   std::vector<MetricSource> metric_sources_;
+  std::vector<std::uint8_t> sides_;          // of the graph's triangles: those on curves
   std::vector<std::vector<int>> places_of_;  // of vertices
   std::size_t long_edges_ = 0;
 };

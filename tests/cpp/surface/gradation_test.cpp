@@ -417,5 +417,63 @@ TEST(GradedMetrics, FieldsThatObeyAreLeftAsTheyAre) {
   }
 }
 
+// A plate [0, 4] x [-1, 1] with a disc of radius `radius` cut out at the origin of x = 2: gaps of 1 - radius.
+AnalyticCad plate_with_hole(double radius) {
+  AnalyticCad cad = square(1);
+  cad.faces[1].curves = testing::rectangle({0, -1}, {4, 1});
+  cad.faces[1].curves.push_back(testing::arc({2, 0}, radius, 2 * pi, pi));
+  cad.faces[1].curves.push_back(testing::arc({2, 0}, radius, pi, 0));
+  return cad;
+}
+
+TEST(Proximity, NarrowZonesHoldTheLayersAskedFor) {
+  for (const double radius : {0.8, 0.9, 0.95})
+    for (const int layers : {2, 4}) {
+      const GradedRun run(plate_with_hole(radius), 1.3, [&](Parameters& p) {
+        p.set("hphy_flag", 1);
+        p.set("hphydef", 0.3);
+        p.set("proximity", layers);
+      });
+      const double wanted = (1 - radius) / layers;
+      const SurfaceMesh& mesh = run.session->mesh();
+      const auto& h = run.session->vertex_sizes();
+      double narrowest = 1, widest = 0;
+      for (std::size_t v = 0; v < h.size(); ++v) {
+        const Vec3 x = mesh.vertices[v];
+        if (std::abs(x.x - 2) < 0.05 && std::abs(x.y) > radius - 1e-9)
+          narrowest = std::min(narrowest, h[v]), widest = std::max(widest, h[v]);
+      }
+      if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
+        std::printf("radius %g layers %d: wanted %.4f, sizes %.4f to %.4f; %zu triangles, %d rounds\n", radius, layers,
+                    wanted, narrowest, widest, mesh.triangle_count(), run.session->report().gradation_rounds);
+      EXPECT_LE(widest, 1.1 * wanted);
+      EXPECT_GE(narrowest, 0.9 * wanted);
+      EXPECT_LE(*std::max_element(h.begin(), h.end()), 0.3 + 1e-12);
+    }
+}
+
+TEST(Proximity, WideDomainsAreLeftAlone) {
+  for (const int layers : {0, 3}) {
+    const GradedRun run(square(1), 1.3, [&](Parameters& p) {
+      p.set("hphy_flag", 1);
+      p.set("hphydef", 0.2);
+      p.set("proximity", layers);
+    });
+    for (const double h : run.session->vertex_sizes()) EXPECT_EQ(h, 0.2);
+  }
+}
+
+TEST(Proximity, NeedsAGradation) {
+  Monitor monitor;
+  Session session(monitor);
+  session.set_cad(std::make_shared<AnalyticCad>(square(1)));
+  session.set_model(testing::unglued(square(1)));
+  session.parameters().set("proximity", 2);
+  EXPECT_THROW(session.make_mesh(), InvalidArgument);
+  EXPECT_THROW(session.parameters().set("gradation", 0.9), InvalidArgument);
+  EXPECT_THROW(session.parameters().set("gradation", 1.), InvalidArgument);
+  EXPECT_THROW(session.parameters().set("gradation", -1.), InvalidArgument);
+}
+
 }  // namespace
 }  // namespace carreau

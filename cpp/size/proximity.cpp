@@ -1,0 +1,129 @@
+#include "size/proximity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace carreau {
+
+namespace {
+
+// Fronts that meet within this angle of head on (cosine).
+constexpr double head_on = 0.8;
+// Angle of a corner whose sides are near each other because it is a corner; its reach in gaps.
+constexpr double sharp_corner = 100 * std::numbers::pi / 180, reach_of_corner = 2;
+constexpr std::size_t triangles_between_checks = 1 << 14;
+
+Vec3 unit(Vec3 v) noexcept {
+  const double l = norm(v);
+  return l > 0 ? (1 / l) * v : Vec3{};
+}
+
+class NarrowZones {
+ public:
+  NarrowZones(const GradationGraph& graph, const std::vector<std::uint8_t>& sides, Monitor& monitor)
+      : graph_(graph), sides_(sides), monitor_(monitor), on_boundary_(graph.xyz.size(), 0) {}
+
+  std::vector<NarrowPlace> run() {
+    mark_boundaries();
+    send_fronts();
+    for (std::size_t t = 0; t < graph_.triangles.size(); ++t) {
+      if (t % triangles_between_checks == 0) monitor_.checkpoint();
+      for (int i = 0; i < 3; ++i) {
+        const int a = graph_.triangles[t][i], b = graph_.triangles[t][(i + 1) % 3],
+                  c = graph_.triangles[t][(i + 2) % 3];
+        if ((sides_[t] >> ((i + 1) % 3) & 1) != 0) from_side(a, b, c);
+        if ((sides_[t] >> i & 1) == 0) along_edge(a, b);
+      }
+    }
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] int vertex(int place) const noexcept { return graph_.places[place].vertex; }
+  [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[vertex(place)]; }
+
+  void mark_boundaries() {
+    inward_.resize(graph_.places.size());
+    std::vector<double> angle(graph_.places.size(), 0);
+    for (std::size_t t = 0; t < graph_.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const int a = graph_.triangles[t][i], b = graph_.triangles[t][(i + 1) % 3],
+                  c = graph_.triangles[t][(i + 2) % 3];
+        const Vec3 p = unit(position(b) - position(a)), q = unit(position(c) - position(a));
+        inward_[a] = inward_[a] + p + q;
+        angle[a] += std::acos(std::clamp(dot(p, q), -1., 1.));
+        if ((sides_[t] >> i & 1) != 0) on_boundary_[vertex(a)] = on_boundary_[vertex(b)] = 1;
+      }
+    for (std::size_t p = 0; p < inward_.size(); ++p) {
+      inward_[p] = unit(inward_[p]);
+      if (on_boundary_[vertex(static_cast<int>(p))] != 0 && angle[p] < sharp_corner)
+        corners_.push_back(position(static_cast<int>(p)));
+    }
+  }
+
+  // Sizes that grow by one for each unit of length are distances.
+  void send_fronts() {
+    std::vector<double> start(graph_.xyz.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t v = 0; v < start.size(); ++v)
+      if (on_boundary_[v] != 0) start[v] = std::numeric_limits<double>::min();
+    fronts_ = grade_fronts(graph_, start, {}, 1, monitor_);
+  }
+
+  /// Whether what is at a place comes from its boundary along the unit vector u.
+  [[nodiscard]] bool comes_along(int place, Vec3 u) const noexcept {
+    const Vec3 line = fronts_.front[place].line;
+    return dot(dot(line, line) > 0 ? unit(line) : inward_[place], u) > head_on;
+  }
+
+  void report(double gap, Vec3 across, Vec3 middle, std::initializer_list<int> vertices) {
+    for (const Vec3 corner : corners_)
+      if (norm(corner - middle) < reach_of_corner * gap) return;
+    for (const int v : vertices)
+      if (v >= 0) found_.push_back({v, gap, across});
+  }
+  [[nodiscard]] int source(int place) const noexcept { return fronts_.source[vertex(place)]; }
+
+  // A side on the boundary, and what comes to the opposite corner from another one.
+  void from_side(int a, int b, int c) {
+    const Vec3 p = position(b), d = position(c) - p, e = position(a) - p;
+    const double l = dot(d, d);
+    if (!(l > 0)) return;
+    const double s = dot(e, d) / l;
+    if (s < 0 || s > 1) return;
+    const Vec3 way = s * d - e;
+    const Vec3 u = unit(way);
+    if (on_boundary_[vertex(a)] == 0 && source(a) == vertex(b)) return;
+    if (on_boundary_[vertex(a)] == 0 && source(a) == vertex(c)) return;
+    if (!comes_along(a, u)) return;
+    const double gap = norm(way) + norm(fronts_.front[a].line);
+    report(gap, u, position(a) + 0.5 * way, {vertex(a), source(a), vertex(b), vertex(c)});
+  }
+
+  void along_edge(int a, int b) {
+    if (source(a) == source(b)) return;
+    const Vec3 gap = position(b) - position(a) + fronts_.front[a].line - fronts_.front[b].line;
+    const Vec3 u = unit(gap);
+    if (!comes_along(a, u) || !comes_along(b, -1 * u)) return;
+    report(norm(gap), u, lerp(position(a), position(b), 0.5), {vertex(a), vertex(b), source(a), source(b)});
+  }
+
+  const GradationGraph& graph_;
+  const std::vector<std::uint8_t>& sides_;
+  Monitor& monitor_;
+  std::vector<char> on_boundary_;  // by vertex
+  std::vector<Vec3> inward_;       // by place
+  std::vector<Vec3> corners_;
+  GradationFronts fronts_;
+  std::vector<NarrowPlace> found_;
+};
+
+}  // namespace
+
+std::vector<NarrowPlace> find_narrow_places(const GradationGraph& graph, const std::vector<std::uint8_t>& sides,
+                                            Monitor& monitor) {
+  return NarrowZones(graph, sides, monitor).run();
+}
+
+}  // namespace carreau
