@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "surface/coincident_edges.h"
 #include "surface/face_metric.h"
 #include "surface/space_swaps.h"
 
@@ -58,15 +57,11 @@ PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const P
 }
 
 void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
-  const auto lift_rest = [&] {
-    const std::span<const Vec2> uv = mesh.plane.vertices;
-    const std::vector<Vec3> rest = lift(input.ref, uv.subspan(mesh.xyz.size()), cad, monitor);
-    mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
-  };
+  const std::span<const Vec2> uv = mesh.plane.vertices;
   mesh.xyz = input.curve_xyz;
-  lift_rest();
+  const std::vector<Vec3> rest = lift(input.ref, uv.subspan(input.curve_xyz.size()), cad, monitor);
+  mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
   if (input.isotropic) improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
-  if (divide_coincident_edges(*input.domain, mesh.plane) > 0) lift_rest();
 }
 
 }  // namespace carreau

@@ -55,8 +55,10 @@ class Separator {
       for (std::size_t from = 0, to = 0; from < chords_.size(); from = to) {
         while (to < chords_.size() && chords_[to].key == chords_[from].key) ++to;
         const Key key = chords_[from].key;
-        if (to - from > 1 || key[0] == key[1] || std::binary_search(curve_edges_.begin(), curve_edges_.end(), key))
-          for (std::size_t i = from; i < to; ++i) split_chord(chords_[i]);
+        const bool all =
+            to - from > 1 || key[0] == key[1] || std::binary_search(curve_edges_.begin(), curve_edges_.end(), key);
+        for (std::size_t i = from; i < to; ++i)
+          if (all || goes_round(chords_[i])) split_chord(chords_[i]);
       }
       if (added_ == before) break;
     }
@@ -94,6 +96,19 @@ class Separator {
         several_[f].push_back(high - low > 1);
       }
     }
+  }
+
+  // From one side of a seam to the other.
+  [[nodiscard]] bool goes_round(const Chord& chord) const {
+    const auto [a, b] = chord.local;
+    const std::vector<DomainVertexOrigin>& origin = domains_.domain[chord.face]->origin;
+    if (b >= on_curves_[chord.face] || !several_[chord.face][a] || !several_[chord.face][b]) return false;
+    if (origin[a].corner >= 0 || origin[b].corner >= 0 || origin[a].curve != origin[b].curve) return false;
+    const std::vector<std::int64_t>& identity = identity_[chord.face];
+    const auto is_first = [&](std::int32_t v) {
+      return std::find(identity.begin(), identity.end(), identity[v]) - identity.begin() == v;
+    };
+    return is_first(a) != is_first(b);
   }
 
   void collect_curve_edges() {
