@@ -421,6 +421,53 @@ TEST(GradedMetrics, FieldsThatObeyAreLeftAsTheyAre) {
   }
 }
 
+class Watcher : public Monitor {
+ public:
+  void progress(Phase phase, int, double fraction) override {
+    EXPECT_GE(fraction, last_);
+    EXPECT_LE(fraction, 1);
+    last_ = fraction;
+    seen_gradation = seen_gradation || phase == Phase::gradation;
+    if (stop_there && phase == Phase::gradation) request_stop();
+  }
+  bool seen_gradation = false, stop_there = false;
+
+ private:
+  double last_ = 0;
+};
+
+TEST(GradedModel, TellsItsProgressAndStops) {
+  for (const bool stop : {false, true}) {
+    Watcher watcher;
+    watcher.stop_there = stop;
+    Session session(watcher);
+    auto cad = std::make_shared<AnalyticCad>(with_point(two_squares()));
+    session.set_cad(cad);
+    session.set_model(testing::unglued(*cad));
+    session.parameters().set("hphy_flag", 2);
+    session.parameters().set("gradation", 1.3);
+    if (stop)
+      EXPECT_THROW(session.make_mesh(), Cancelled);
+    else
+      session.make_mesh();
+    EXPECT_TRUE(watcher.seen_gradation);
+    EXPECT_EQ(session.has_mesh(), !stop);
+  }
+}
+
+TEST(GradedModel, IsTheSameEachTime) {
+  for (const bool directions : {false, true}) {
+    CompositeOptions options = curvature(1.3);
+    options.size.geo_anisotropic = directions;
+    CompositeResult first, second;
+    AnalyticCad cad = testing::torus_patch();
+    measure_directions(cad, options, nullptr, &first);
+    measure_directions(cad, options, nullptr, &second);
+    EXPECT_EQ(first.mesh.vertices, second.mesh.vertices);
+    EXPECT_EQ(first.vertex_size, second.vertex_size);
+  }
+}
+
 // A plate [0, 4] x [-1, 1] with a disc of radius `radius` cut out at the origin of x = 2: gaps of 1 - radius.
 AnalyticCad plate_with_hole(double radius) {
   AnalyticCad cad = square(1);
