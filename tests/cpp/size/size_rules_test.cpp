@@ -232,7 +232,7 @@ TEST(SizeRules, PolesTakeTheRadiusBesideThem) {
   cad.curves[{1, 1}] = segment({0, 0}, {0, pi / 2});
   cad.curves[{1, 2}] = segment({0, pi / 2}, {1, pi / 2});
   Model model;
-  model.faces.push_back({1, 1, {{CurveType::boundary, 1, 1, 2, 0}, {CurveType::boundary, 2, 2, 2, 0}}, {}, 0});
+  model.faces.push_back({1, 1, {{CurveType::boundary, 1, 1, 2, 0}, {CurveType::boundary, 2, 2, 2, 0}}, {}});
   Topology topology;
   topology.curves = {{1, {{0, 0, false}}, 0, 1, false}, {2, {{0, 1, false}}, 1, 1, true}};
   topology.points = {{1, {2, 0, 0}, {0}}, {2, {0, 0, 2}, {0, 1}}};
