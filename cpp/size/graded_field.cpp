@@ -57,7 +57,8 @@ double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const n
   const auto& t = f.triangles[place.triangle];
   const bool smooth = f.smooth[place.triangle] != 0;
   std::array<Vec3, 3> way;
-  double h = smooth ? prescribed : infinity, linear = 0;
+  // Where prescribed sizes do not count here, they count at the corners.
+  double h = smooth ? prescribed : std::max({f.h[t[0]], f.h[t[1]], f.h[t[2]]}), linear = 0;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t v = t[i];
     way[i] = step_on_surface(f.normal[v], xyz - f.xyz[v]);

@@ -129,6 +129,8 @@ namespace carreau {
 namespace {
 
 constexpr int most_rounds = 5;
+// So many edges a triangle may be too long after the first round.
+constexpr double few_edges = 0.01;
 
 }  // namespace
 
@@ -146,9 +148,11 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
     detail::GradingRound next(model, rules, options, diag, monitor);
     graded = next.run(raw, graded);
     graded.rounds = round;
-    // Those of a pole stay.
+    if (next.long_edges() == 0) break;
+    // Those of a pole stay, and a few others change nothing.
     const double change = static_cast<double>(graded.triangles) / std::max(triangles_before, 1.) - 1;
-    if (next.long_edges() == 0 || (std::abs(change) < 0.1 && 2 * next.long_edges() > long_before)) break;
+    const bool few = static_cast<double>(next.long_edges()) < few_edges * static_cast<double>(graded.triangles);
+    if ((round > 1 && few) || (std::abs(change) < 0.1 && 2 * next.long_edges() > long_before)) break;
     long_before = next.long_edges();
     triangles_before = static_cast<double>(graded.triangles);
   }
