@@ -26,6 +26,7 @@ struct MeshOptions {
   std::vector<std::string> settings;    ///< "parameter=value"
   int threads = 0;                      ///< 0: all cores
   bool quiet = false;
+  bool json = false;  ///< a summary on the standard output
 };
 
 /// Meshes a CAD file. 0 all faces, 1 some faces have no mesh, 130 stopped by a signal.

@@ -73,6 +73,7 @@ CLI::App* add_mesh(CLI::App& app, command::MeshOptions& options) {
   mesh->add_option("--threads", options.threads, "Threads to use, 0: all cores; the mesh does not depend on it")
       ->check(CLI::Range(0, 1024));
   mesh->add_flag("-q,--quiet", options.quiet, "Tell errors only");
+  mesh->add_flag("--json", options.json, "Print a summary as JSON on the standard output");
   return mesh;
 }
 

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cad_input.h"
@@ -142,6 +144,72 @@ std::string failed_faces(carreau_mesh* mesh, const CadInput& input) {
          (failed.size() > 20 ? ", ..." : "");
 }
 
+const char* status_word(std::int32_t status) {
+  return status == CARREAU_FACE_MESHED ? "meshed" : status == CARREAU_FACE_MENDED ? "mended" : "failed";
+}
+
+nlohmann::json quality_json(carreau_mesh* mesh) {
+  carreau_quality q{};
+  q.struct_size = sizeof q;
+  require(mesh, carreau_mesh_quality(mesh, &q));
+  return {{"vertices", q.vertices},     {"triangles", q.triangles}, {"edges", q.edges},
+          {"open_edges", q.open_edges}, {"area", q.area},           {"q1_mean", q.q1_mean},
+          {"q1_p1", q.q1_p1},           {"q1_min", q.q1_min},       {"q2_mean", q.q2_mean},
+          {"q2_p1", q.q2_p1},           {"q2_min", q.q2_min},       {"angle_min", q.angle_min},
+          {"angle_max", q.angle_max},   {"edge_min", q.edge_min},   {"edge_mean", q.edge_mean},
+          {"edge_max", q.edge_max},     {"degree6", q.degree6}};
+}
+
+nlohmann::json faces_json(carreau_mesh* mesh, const CadInput& input) {
+  nlohmann::json faces = nlohmann::json::array();
+  std::int64_t count = 0;
+  require(mesh, carreau_mesh_count(mesh, nullptr, nullptr, nullptr, &count));
+  for (std::int64_t i = 0; i < count; ++i) {
+    carreau_face face{};
+    face.struct_size = sizeof face;
+    require(mesh, carreau_mesh_face(mesh, i, &face));
+    faces.push_back({{"reference", face.ref},
+                     {"name", face.name},
+                     {"status", status_word(face.status)},
+                     {"triangles", face.triangles},
+                     {"why", face.why}});
+  }
+  for (const auto& [number, why] : input.excluded())
+    faces.push_back({{"reference", number}, {"name", ""}, {"status", "failed"}, {"triangles", 0}, {"why", why}});
+  return faces;
+}
+
+/// Everything about a run that a program may want.
+void print_json(carreau_session* session, carreau_mesh* mesh, const MeshOptions& options, const CadInput& input,
+                double processor) {
+  carreau_report r{};
+  r.struct_size = sizeof r;
+  require(session, carreau_session_report(session, &r));
+  const nlohmann::json summary = {{"input", options.input},
+                                  {"outputs", options.outputs},
+                                  {"diagonal", input.diagonal()},
+                                  {"closed", input.is_closed()},
+                                  {"mesh", quality_json(mesh)},
+                                  {"faces", faces_json(mesh, input)},
+                                  {"calls",
+                                   {{"surf0", r.surf0_calls},
+                                    {"surf1", r.surf1_calls},
+                                    {"surf2", r.surf2_calls},
+                                    {"curv0", r.curv0_calls},
+                                    {"curv1", r.curv1_calls},
+                                    {"curv2", r.curv2_calls},
+                                    {"sizes", r.size_calls}}},
+                                  {"seconds",
+                                   {{"curves", r.seconds_curves},
+                                    {"sampling", r.seconds_sampling},
+                                    {"plane", r.seconds_plane},
+                                    {"lift", r.seconds_lift},
+                                    {"total", r.seconds_total},
+                                    {"processor", processor}}}};
+  // Names may be in any encoding: what is not UTF-8 is replaced.
+  std::puts(summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
 }  // namespace
 
 int mesh(const MeshOptions& options) {
@@ -163,7 +231,9 @@ int mesh(const MeshOptions& options) {
   progress.listen_to(session.get());
   set_parameters(session.get(), options, sizes_of(options, diagonal), diagonal);
   for (const auto& [face, why] : input->excluded()) progress.error("error: face " + std::to_string(face) + ": " + why);
+  const std::clock_t start = std::clock();
   const carreau_status status = generate(session.get(), *input, progress);
+  const double processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   if (status == CARREAU_ERR_CANCELLED) {
     progress.error("stopped; nothing was written");
     return interrupted;
@@ -172,6 +242,7 @@ int mesh(const MeshOptions& options) {
   require(session.get(), carreau_session_mesh(session.get(), &made));
   outputs.write(made);
   for (const std::string& path : options.outputs) progress.line("written " + path);
+  if (options.json) print_json(session.get(), made, options, *input, processor);
   const std::string failed = failed_faces(made, *input);
   if (failed.empty()) return all_faces;
   progress.error("error: " + failed);

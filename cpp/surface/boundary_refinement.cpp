@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -26,29 +27,34 @@ using Splits = std::map<int, std::set<int>>;
 /// Vertices in the order of the coordinate along which they are spread most.
 class NearVertices {
  public:
-  explicit NearVertices(std::vector<Vec3> points) : points_(std::move(points)) {
-    Vec3 low = points_.empty() ? Vec3{} : points_.front(), high = low;
-    for (const Vec3 p : points_) {
+  explicit NearVertices(const std::vector<Vec3>& points) : points_(points), order_(points.size()) {
+    Vec3 low = points.empty() ? Vec3{} : points.front(), high = low;
+    for (const Vec3 p : points) {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     const Vec3 extent = high - low;
     axis_ = extent.x >= extent.y && extent.x >= extent.z ? &Vec3::x : extent.y >= extent.z ? &Vec3::y : &Vec3::z;
-    std::sort(points_.begin(), points_.end(), [this](Vec3 p, Vec3 q) { return p.*axis_ < q.*axis_; });
+    std::iota(order_.begin(), order_.end(), 0);
+    std::sort(order_.begin(), order_.end(), [this](int v, int w) { return points_[v].*axis_ < points_[w].*axis_; });
   }
 
-  /// Is a vertex within `reach` of the segment (a, b), one that is at neither end of it?
-  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach) const {
+  /// Is a vertex that `counts` within `reach` of the segment (a, b), one that is at neither end of it?
+  template <typename Counts>
+  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach, Counts&& counts) const {
     const double low = std::min(a.*axis_, b.*axis_) - reach, high = std::max(a.*axis_, b.*axis_) + reach;
-    auto it = std::lower_bound(points_.begin(), points_.end(), low,
-                               [this](Vec3 p, double value) { return p.*axis_ < value; });
-    for (; it != points_.end() && (*it).*axis_ <= high; ++it)
-      if (!(*it == a) && !(*it == b) && distance_to_segment(*it, a, b) <= reach) return true;
+    auto it = std::lower_bound(order_.begin(), order_.end(), low,
+                               [this](int v, double value) { return points_[v].*axis_ < value; });
+    for (; it != order_.end() && points_[*it].*axis_ <= high; ++it) {
+      const Vec3 p = points_[*it];
+      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && counts(*it)) return true;
+    }
     return false;
   }
 
  private:
-  std::vector<Vec3> points_;
+  const std::vector<Vec3>& points_;
+  std::vector<int> order_;
   double Vec3::*axis_ = &Vec3::x;
 };
 
@@ -76,7 +82,11 @@ class Refiner {
     uncross();
     repeat(options_.check_close_edges, [this](int f) {
       if (!may_be_narrow(f)) return std::vector<int>{};
-      return edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
+      std::vector<int> edges =
+          edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
+      const std::vector<int> by_chord = edges_close_in_space(f);
+      edges.insert(edges.end(), by_chord.begin(), by_chord.end());
+      return edges;
     });
     repeat(options_.check_adjacent_edges,
            [this](int f) { return edges_to_split_for_balance(result_.domain[f]->plane, space_of(f)); });
@@ -212,9 +222,38 @@ class Refiner {
     for (const PlaneEdge& edge : domain.plane.edges) {
       if (edge.kind == PlaneEdgeKind::degenerate) continue;
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];
-      if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a))) return true;
+      if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a), [](int) { return true; }))
+        return true;
     }
     return false;
+  }
+
+  // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
+  // however far they are on the surface. Curves that meet at a corner are left to the check in the metric, which knows
+  // angles.
+  std::vector<int> edges_close_in_space(int f) {
+    std::vector<int> close;
+    const FaceDomain& domain = *result_.domain[f];
+    const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
+    if (xyz.size() < domain.origin.size()) return close;  // imposed points
+    const NearVertices near(xyz);
+    for (int e = 0; e < static_cast<int>(domain.plane.edges.size()); ++e) {
+      const PlaneEdge& edge = domain.plane.edges[e];
+      if (edge.kind == PlaneEdgeKind::degenerate) continue;
+      const Vec3 a = xyz[edge.a], b = xyz[edge.b];
+      const auto is_apart = [&](int v) { return !meet(edge.curve, domain.origin[v]); };
+      if (near.any_beside(a, b, options_.coef_rectangle * norm(b - a), is_apart)) close.push_back(e);
+    }
+    return close;
+  }
+
+  // Whether a vertex lies on a curve that has an end in common with another one, or on that one.
+  [[nodiscard]] bool meet(int curve, const DomainVertexOrigin& origin) const {
+    const Curve& one = topology_.curves[curve];
+    if (origin.corner >= 0) return origin.corner == one.end1 || origin.corner == one.end2;
+    const Curve& other = topology_.curves[origin.curve];
+    return origin.curve == curve || other.end1 == one.end1 || other.end1 == one.end2 || other.end2 == one.end1 ||
+           other.end2 == one.end2;
   }
 
   // Loose spaces are enough to compare edges with their neighbours; they are kept while the curves change.

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """command_mesh_test.py CARREAU MAKE_SHAPES: `carreau mesh` on files that OpenCASCADE makes."""
+import json
 import math
 import os
 import pty
@@ -199,6 +200,17 @@ class Mesh(unittest.TestCase):
         self.refused(cone, "-o", self.out("a.mesh"), "--min", "2", "--max", "1", sentence="--max")
         self.refused(cone, "-o", self.out("a.mesh"), "--face-size", "lid=1", sentence="lid")
         self.refused(cone, "-o", self.out("a.mesh"), "--size", "1e-9", sentence="edges")
+
+    def test_a_summary_is_printed_when_asked(self):
+        done = run("mesh", os.path.join(SHAPES, "named_faces.step"), "-o", self.out("a.mesh"), "--size", "0.2", "-q", "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        summary = json.loads(done.stdout)
+        self.assertEqual(sorted(face["name"] for face in summary["faces"]), ["bottom"] + 4 * ["side"] + ["top"])
+        self.assertEqual({face["status"] for face in summary["faces"]}, {"meshed"})
+        self.assertEqual(sum(face["triangles"] for face in summary["faces"]), summary["mesh"]["triangles"])
+        self.assertAlmostEqual(summary["mesh"]["area"], 6, delta=1e-9)
+        self.assertAlmostEqual(summary["diagonal"], math.sqrt(3), delta=1e-9)
+        self.assertTrue(summary["closed"])
 
     def test_a_log_has_plain_lines_and_a_terminal_a_bar(self):
         done = run("mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "--size", "1%")

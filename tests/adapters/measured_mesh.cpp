@@ -1,6 +1,7 @@
 #include "measured_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace adapters {
@@ -29,6 +30,39 @@ void count_edges(MeasuredMesh& m) {
     m.open_edges += to - from == 1 ? 1 : 0;
     m.crowded_edges += to - from > 2 ? 1 : 0;
     m.turned_edges += to - from == 2 && sides[from].forward == sides[from + 1].forward ? 1 : 0;
+  }
+}
+
+using Point = std::array<double, 3>;
+Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+
+double q2_of(const Point& a, const Point& b, const Point& c) {
+  const Point u = minus(b, a), v = minus(c, a), w = minus(c, b);
+  const double area = std::sqrt(std::max(0.0, dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v))) / 2;
+  return 4 * std::sqrt(3.0) * area / (dot(u, u) + dot(v, v) + dot(w, w));
+}
+
+// A triangle at a corner whose two sides are edges of curves has the angle that the input has there.
+void find_free_worst(carreau_mesh* mesh, std::int64_t n, std::int64_t k, MeasuredMesh& m) {
+  std::vector<std::array<std::int32_t, 2>> edges(static_cast<std::size_t>(k));
+  std::vector<std::int32_t> refs(static_cast<std::size_t>(n));
+  if (k > 0) carreau_mesh_edges(mesh, k, edges.front().data());
+  carreau_mesh_vertex_refs(mesh, n, refs.data());
+  for (auto& edge : edges) std::sort(edge.begin(), edge.end());
+  std::sort(edges.begin(), edges.end());
+  const auto on_curve = [&](std::int32_t a, std::int32_t b) {
+    return std::binary_search(edges.begin(), edges.end(), std::array{std::min(a, b), std::max(a, b)});
+  };
+  for (const auto& t : m.triangles) {
+    const double q2 = q2_of(m.vertices[static_cast<std::size_t>(t[0])], m.vertices[static_cast<std::size_t>(t[1])],
+                            m.vertices[static_cast<std::size_t>(t[2])]);
+    if (q2 >= m.free_q2_min) continue;
+    bool forced = false;
+    for (std::size_t i = 0; i < 3; ++i)
+      forced = forced || (refs[static_cast<std::size_t>(t[i])] > 0 && on_curve(t[i], t[(i + 1) % 3]) &&
+                          on_curve(t[i], t[(i + 2) % 3]));
+    if (!forced) m.free_q2_min = q2;
   }
 }
 
@@ -77,9 +111,12 @@ void fetch(carreau_session* session, MeasuredMesh& m) {
   m.defects = lines_of(text);
   count_edges(m);
   measure_volume(m);
+  find_free_worst(mesh, n, k, m);
   carreau_report report{};
   report.struct_size = sizeof report;
-  if (carreau_session_report(session, &report) == CARREAU_OK) m.seconds = report.seconds_total;
+  if (carreau_session_report(session, &report) != CARREAU_OK) return;
+  m.seconds = report.seconds_total;
+  m.surface_calls = report.surf0_calls + report.surf1_calls + report.surf2_calls;
 }
 
 }  // namespace

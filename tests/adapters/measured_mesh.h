@@ -24,8 +24,12 @@ struct MeasuredMesh {
   std::int64_t crowded_edges = 0;  ///< with more than two
   std::int64_t turned_edges = 0;   ///< of two triangles that run along it the same way
   carreau_quality quality{};
+  /// Worst Q2 of the triangles whose shape the input does not force: those that do not lie between two curves that meet
+  /// at a corner under the angle of the triangle.
+  double free_q2_min = 1;
   double volume = 0;  ///< enclosed, by the divergence theorem
   double seconds = 0;
+  std::int64_t surface_calls = 0;
 
   /// "" for a mesh of all faces without a defect; else what is wrong, short. `closed`: open edges are wrong.
   [[nodiscard]] std::string trouble(bool closed) const;

@@ -1,0 +1,109 @@
+// CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
+#include <gtest/gtest.h>
+
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepGProp.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRep_Builder.hxx>
+#include <GProp_GProps.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <cmath>
+
+#include "measured_mesh.h"
+#include "shape_report.h"
+#include "shapes.h"
+
+namespace {
+
+carreau_occ::ShapeFile file_of(const TopoDS_Shape& shape) { return {.shape = shape, .labels = {}, .unit = ""}; }
+
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties, 1e-10);
+  return properties.Mass();
+}
+
+class Torture : public testing::TestWithParam<std::string> {};
+
+// A curved surface that is meshed with edges of length h lies within O(h^2) of its mesh.
+TEST_P(Torture, VolumeConvergesAtSecondOrder) {
+  const TopoDS_Shape shape = shapes::make(GetParam());
+  carreau_occ::BrepHost host(file_of(shape));
+  const double exact = volume_of(shape), diagonal = host.diagonal();
+  ASSERT_TRUE(host.is_closed());
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, diagonal / (i == 0 ? 30 : 120));
+    ASSERT_EQ(m.trouble(true), "");
+    error[i] = std::abs(m.volume / exact - 1);
+  }
+  const double order = std::log(error[0] / error[1]) / std::log(4);
+  EXPECT_GT(order, 1.85);
+  EXPECT_LT(order, 2.15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Torture,
+                         testing::Values("sphere", "torus", "cone", "cylinder", "box_with_hole", "nurbs_sphere",
+                                         "nurbs_torus", "across_a_seam", "through_a_pole", "two_cylinders"),
+                         [](const auto& info) { return info.param; });
+
+TEST(BrepHost, EvaluatesTheSurfaceAboutOnceAVertexBesideTheSampling) {
+  for (const char* name : {"sphere", "nurbs_torus"}) {
+    SCOPED_TRACE(name);
+    carreau_occ::BrepHost host(file_of(shapes::make(name)));
+    const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, host.diagonal() / 200);
+    EXPECT_LT(static_cast<double>(m.surface_calls) / static_cast<double>(m.vertices.size()), 2);
+  }
+}
+
+TEST(BrepHost, AFaceLeftOutLeavesTheOthers) {
+  carreau_occ::BrepHost host(file_of(BRepPrimAPI_MakeBox(1, 1, 1).Shape()));
+  host.exclude(3, "a reason");
+  ASSERT_EQ(host.excluded(), (std::vector<std::pair<int, std::string>>{{3, "a reason"}}));
+  const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.2);
+  EXPECT_EQ(m.trouble(false), "");
+  EXPECT_NEAR(m.quality.area, 5, 1e-12);
+  EXPECT_EQ(m.open_edges, 4 * 5);
+}
+
+TEST(BrepHost, SizesOfFacesHoldOnTheirEdges) {
+  carreau_occ::BrepHost host(file_of(BRepPrimAPI_MakeBox(1, 1, 1).Shape()));
+  ASSERT_TRUE(host.set_face_size("1", 0.05));
+  EXPECT_FALSE(host.set_face_size("7", 0.05));
+  const adapters::MeasuredMesh m =
+      adapters::mesh_and_measure(host, 0.25, [](carreau_session* s) { carreau_set_integer(s, "hphy_flag", 2); });
+  EXPECT_EQ(m.trouble(true), "");
+  EXPECT_NEAR(m.volume, 1, 1e-12);
+  const auto fine = std::count(m.refs.begin(), m.refs.end(), 1);
+  EXPECT_NEAR(static_cast<double>(fine), 1 / (std::sqrt(3.0) / 4 * 0.05 * 0.05), 100);
+}
+
+TEST(ShapeReport, FindsWhatIsDangerous) {
+  const carreau_occ::ShapeReport sliver = carreau_occ::inspect(file_of(shapes::make("sliver")));
+  int narrow = 0, tiny = 0;
+  for (const carreau_occ::Danger& danger : sliver.dangers) {
+    narrow += danger.kind == "sliver face" ? 1 : 0;
+    tiny += danger.kind == "tiny edge" ? 1 : 0;
+    if (danger.kind == "tiny edge") EXPECT_NEAR(danger.value, 1e-4 * std::sqrt(3.0), 1e-9);
+  }
+  EXPECT_EQ(narrow, 1);
+  EXPECT_EQ(tiny, 2);
+  EXPECT_NEAR(sliver.volume, 1, 1e-7);
+  const carreau_occ::ShapeReport sphere = carreau_occ::inspect(file_of(BRepPrimAPI_MakeSphere(1).Shape()));
+  EXPECT_EQ(sphere.poles, 2);
+  EXPECT_EQ(sphere.seams, 1);
+  EXPECT_TRUE(sphere.dangers.empty());
+  EXPECT_NEAR(sphere.area, 4 * std::acos(-1.0), 1e-6);
+}
+
+TEST(ShapeReport, FindsFreeEdges) {
+  TopExp_Explorer faces(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), TopAbs_FACE);
+  const carreau_occ::ShapeReport report = carreau_occ::inspect(file_of(faces.Current()));
+  EXPECT_EQ(report.dangers.size(), 4u);
+  for (const carreau_occ::Danger& danger : report.dangers) EXPECT_EQ(danger.kind, "free edge");
+}
+
+}  // namespace
