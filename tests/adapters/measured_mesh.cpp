@@ -43,7 +43,8 @@ double q2_of(const Point& a, const Point& b, const Point& c) {
   return 4 * std::sqrt(3.0) * area / (dot(u, u) + dot(v, v) + dot(w, w));
 }
 
-// A triangle at a corner whose two sides are edges of curves has the angle that the input has there.
+// A triangle at a corner whose two sides are edges of curves has the angle that the input has there; so have the flat
+// ones that follow it between the same curves.
 void find_free_worst(carreau_mesh* mesh, std::int64_t n, std::int64_t k, MeasuredMesh& m) {
   std::vector<std::array<std::int32_t, 2>> edges(static_cast<std::size_t>(k));
   std::vector<std::int32_t> refs(static_cast<std::size_t>(n));
@@ -54,16 +55,43 @@ void find_free_worst(carreau_mesh* mesh, std::int64_t n, std::int64_t k, Measure
   const auto on_curve = [&](std::int32_t a, std::int32_t b) {
     return std::binary_search(edges.begin(), edges.end(), std::array{std::min(a, b), std::max(a, b)});
   };
+  // Flat triangles by their edges: what is forced at a corner is forced further on between the same two curves.
+  struct Flat {
+    std::array<std::int32_t, 3> corners;
+    double q2;
+    bool forced;
+  };
+  std::vector<Flat> flat;
   for (const auto& t : m.triangles) {
     const double q2 = q2_of(m.vertices[static_cast<std::size_t>(t[0])], m.vertices[static_cast<std::size_t>(t[1])],
                             m.vertices[static_cast<std::size_t>(t[2])]);
-    if (q2 >= m.free_q2_min) continue;
+    if (q2 >= 0.1) {
+      m.free_q2_min = std::min(m.free_q2_min, q2);
+      continue;
+    }
     bool forced = false;
     for (std::size_t i = 0; i < 3; ++i)
       forced = forced || (refs[static_cast<std::size_t>(t[i])] > 0 && on_curve(t[i], t[(i + 1) % 3]) &&
                           on_curve(t[i], t[(i + 2) % 3]));
-    if (!forced) m.free_q2_min = q2;
+    flat.push_back({t, q2, forced});
   }
+  const auto shared = [](const Flat& p, const Flat& q) {
+    return std::count_if(p.corners.begin(), p.corners.end(), [&](std::int32_t v) {
+             return std::find(q.corners.begin(), q.corners.end(), v) != q.corners.end();
+           }) == 2;
+  };
+  const auto has_curve_edge = [&](const Flat& f) {
+    return on_curve(f.corners[0], f.corners[1]) || on_curve(f.corners[1], f.corners[2]) ||
+           on_curve(f.corners[2], f.corners[0]);
+  };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Flat& f : flat)
+      for (const Flat& g : flat)
+        if (!f.forced && g.forced && shared(f, g) && has_curve_edge(f)) f.forced = changed = true;
+  }
+  for (const Flat& f : flat)
+    if (!f.forced) m.free_q2_min = std::min(m.free_q2_min, f.q2);
 }
 
 void measure_volume(MeasuredMesh& m) {

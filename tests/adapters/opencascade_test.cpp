@@ -87,7 +87,9 @@ TEST(ShapeReport, FindsWhatIsDangerous) {
   for (const carreau_occ::Danger& danger : sliver.dangers) {
     narrow += danger.kind == "sliver face" ? 1 : 0;
     tiny += danger.kind == "tiny edge" ? 1 : 0;
-    if (danger.kind == "tiny edge") EXPECT_NEAR(danger.value, 1e-4 * std::sqrt(3.0), 1e-9);
+    if (danger.kind == "tiny edge") {
+      EXPECT_NEAR(danger.value, 1e-4 * std::sqrt(3.0), 1e-9);
+    }
   }
   EXPECT_EQ(narrow, 1);
   EXPECT_EQ(tiny, 2);
