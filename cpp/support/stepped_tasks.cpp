@@ -229,7 +229,8 @@ void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const Step
   if (threads <= 1) {
     run_alone(tasks, run, monitor);
   } else {
-    ThreadedRun(tasks, run, threads, monitor).run();
+    // On the heap: on the stack the thread sanitizer takes what lay there before for a race.
+    std::make_unique<ThreadedRun>(tasks, run, threads, monitor)->run();
   }
 }
 
