@@ -8,6 +8,7 @@
 #include "curve/unit_discretisation.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/segment.h"
 
 namespace carreau {
 namespace {
@@ -57,9 +58,7 @@ bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double len
 double fraction_near(const CurveSupport& support, Vec2 place, double reach) noexcept {
   double best = reach * reach, fraction = -1;
   for (std::size_t i = 0; i + 1 < support.uv.size(); ++i) {
-    const Vec2 d = support.uv[i + 1] - support.uv[i];
-    const double squared = dot(d, d);
-    const double w = squared > 0 ? std::clamp(dot(place - support.uv[i], d) / squared, 0., 1.) : 0;
+    const double w = fraction_on_segment(place, support.uv[i], support.uv[i + 1]);
     const Vec2 away = place - lerp(support.uv[i], support.uv[i + 1], w);
     if (dot(away, away) > best) continue;
     best = dot(away, away);

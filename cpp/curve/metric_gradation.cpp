@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "curve/equal_parts.h"
 #include "curve/unit_discretisation.h"
 #include "support/error.h"
 #include "support/format.h"
@@ -125,17 +126,9 @@ CurveGradation measure_curve(const PieceSpeed& speed, std::span<const double> br
 std::vector<double> split_equally(const CurveGradation& gradation, int n) {
   if (n < 1) throw InvalidArgument("a curve has at least one edge; " + std::to_string(n) + " were asked for");
   const auto& [s, l, first, last] = gradation;
-  std::vector<double> cuts(static_cast<std::size_t>(n) + 1);
-  cuts.front() = s.front();
-  cuts.back() = s.back();
-  std::size_t i = 0;
-  for (int j = 1; j < n; ++j) {
-    const double target = l.back() * j / n;
-    while (i + 2 < l.size() && l[i + 1] < target) ++i;
-    const double cut = s[i] + distance_within(first[i], last[i], s[i + 1] - s[i], target - l[i]);
-    cuts[static_cast<std::size_t>(j)] = std::clamp(cut, cuts[static_cast<std::size_t>(j) - 1], s.back());
-  }
-  return cuts;
+  return equal_parts(s, l, n, [&, &first = first, &last = last, &s = s](std::size_t i, double length) {
+    return distance_within(first[i], last[i], s[i + 1] - s[i], length);
+  });
 }
 
 std::vector<double> split_by_metric(const std::function<double(double)>& speed, double total, double lss) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "curve/equal_parts.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -59,23 +60,6 @@ void check_sizes(std::span<const double> s, std::span<const double> h) {
       throw InvalidArgument("abscissae along a curve must be finite and ascending; one is " + format_number(s[i]));
     }
   }
-}
-
-/// Abscissae of n edges of equal length in a table of abscissae s and cumulated normalised lengths l; `within(i,
-/// length)` finds the distance from s[i] at which `length` is reached in interval i.
-template <typename Within>
-std::vector<double> equal_parts(std::span<const double> s, std::span<const double> l, int n, const Within& within) {
-  std::vector<double> cuts(static_cast<std::size_t>(n) + 1);
-  cuts.front() = s.front();
-  cuts.back() = s.back();
-  std::size_t i = 0;
-  for (int j = 1; j < n; ++j) {
-    const double target = l.back() * j / n;
-    while (i + 2 < l.size() && l[i + 1] < target) ++i;
-    const double cut = s[i] + within(i, target - l[i]);
-    cuts[static_cast<std::size_t>(j)] = std::clamp(cut, cuts[static_cast<std::size_t>(j) - 1], s.back());
-  }
-  return cuts;
 }
 
 }  // namespace

@@ -5,21 +5,17 @@
 #include <numeric>
 #include <utility>
 
+#include "support/segment.h"
+
 namespace carreau {
 
 namespace {
 
 constexpr std::int32_t leaf_size = 4;
+constexpr std::int64_t moved_between_checks = 1 << 16;
 
 double& coordinate(Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
-/// Fraction of the way from a to b at which the segment is nearest to p.
-double fraction_on_segment(Vec3 p, Vec3 a, Vec3 b) noexcept {
-  const Vec3 d = b - a;
-  const double squared = dot(d, d);
-  return squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
-}
 
 /// Weights of the point of a triangle that is nearest to p.
 std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner) noexcept {
@@ -93,7 +89,8 @@ struct TriangleSearch::Builder {
   }
 };
 
-TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles) {
+TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                               Monitor* monitor) {
   if (triangles.empty()) return;
   Builder builder{*this, {}};
   for (const auto& t : triangles) {
@@ -108,8 +105,15 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
   root.count = static_cast<std::int32_t>(order_.size());
   builder.enclose(root);
   boxes_.push_back(root);
-  for (std::size_t b = 0; b < boxes_.size(); ++b)
+  std::int64_t moved = 0, checked = 0;
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    if (monitor != nullptr && moved > checked) {
+      monitor->checkpoint();
+      checked = moved + moved_between_checks;
+    }
+    moved += boxes_[b].count;
     if (boxes_[b].count > leaf_size) builder.split(b);
+  }
 }
 
 double TriangleSearch::squared_distance(const Box& box, Vec3 p) noexcept {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "support/monitor.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -24,8 +25,10 @@ struct NearestOnMesh {
 class TriangleSearch {
  public:
   TriangleSearch() = default;
-  /// Indices lie in range, coordinates are finite. Flat triangles are segments or points.
-  TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles);
+  /// Indices lie in range, coordinates are finite. Flat triangles are segments or points. Throws Cancelled soon after
+  /// `monitor` was asked to stop; it may be null.
+  TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                 Monitor* monitor = nullptr);
 
   [[nodiscard]] bool empty() const noexcept { return corners_.empty(); }
   /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found

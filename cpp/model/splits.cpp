@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "model/near_points.h"
@@ -29,24 +28,6 @@ Box box_of(std::span<const Vec3> trace) {
     box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
   }
   return box;
-}
-
-struct Foot {
-  double arc = 0, distance = std::numeric_limits<double>::infinity();
-};
-
-Foot foot_on(std::span<const Vec3> trace, Vec3 p) {
-  Foot foot;
-  double before = 0;
-  for (std::size_t i = 1; i < trace.size(); ++i) {
-    const Vec3 d = trace[i] - trace[i - 1];
-    const double length = norm(d);
-    const double w = length > 0 ? std::clamp(dot(p - trace[i - 1], d) / (length * length), 0., 1.) : 0;
-    const double distance = norm(p - (trace[i - 1] + w * d));
-    if (distance < foot.distance) foot = {before + w * length, distance};
-    before += length;
-  }
-  return foot;
 }
 
 struct Entry {
@@ -91,7 +72,7 @@ class Splitter {
       if (other.face == entry.face || !box.holds(end, eps_)) continue;
       const std::size_t set = points_.find(i);
       if (set == points_.find(2 * k) || set == points_.find(2 * k + 1)) continue;
-      const Foot foot = foot_on(entry.trace, end);
+      const TracePlace foot = nearest_on_trace(entry.trace, end);
       if (foot.distance > eps_ || foot.arc <= eps_ || foot.arc >= length - eps_) continue;
       const auto [place, is_new] =
           by_set.try_emplace(set, CurveSplit{entry.face, entry.curve, foot.arc, end, foot.distance});

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "model/places.h"
+#include "support/segment.h"
 
 namespace carreau {
 
@@ -39,17 +40,18 @@ Vec3 trace_point(std::span<const Vec3> trace, double fraction) {
   return trace.back();
 }
 
-namespace {
-
-double squared_distance_to_segment(Vec3 p, Vec3 a, Vec3 b) {
-  const Vec3 d = b - a;
-  const double l2 = dot(d, d);
-  const double w = l2 > 0 ? std::clamp(dot(p - a, d) / l2, 0.0, 1.0) : 0;
-  const Vec3 gap = p - (a + w * d);
-  return dot(gap, gap);
+TracePlace nearest_on_trace(std::span<const Vec3> trace, Vec3 p) {
+  TracePlace nearest;
+  double before = 0;
+  for (std::size_t i = 1; i < trace.size(); ++i) {
+    const double length = norm(trace[i] - trace[i - 1]);
+    const double w = fraction_on_segment(p, trace[i - 1], trace[i]);
+    const double distance = norm(p - lerp(trace[i - 1], trace[i], w));
+    if (distance < nearest.distance) nearest = {before + w * length, distance};
+    before += length;
+  }
+  return nearest;
 }
-
-}  // namespace
 
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough) {
   double worst = 0;

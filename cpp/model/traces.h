@@ -1,6 +1,7 @@
 // Measures on polylines.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,12 @@ void check_traces(const Model& model, const CurveTraces& traces);
 double trace_length(std::span<const Vec3> trace);
 /// Point at a fraction of the length, from the start.
 Vec3 trace_point(std::span<const Vec3> trace, double fraction);
+/// The nearest point of a trace.
+struct TracePlace {
+  double arc = 0;  ///< usual length from its start
+  double distance = std::numeric_limits<double>::infinity();
+};
+TracePlace nearest_on_trace(std::span<const Vec3> trace, Vec3 p);
 /// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds
 /// `enough`.
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough);

@@ -160,11 +160,4 @@ void LineRaster::coverage(int first, int rows, std::span<float> out) const {
   }
 }
 
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept {
-  const Vec2 d = b - a;
-  const double squared = dot(d, d);
-  const double s = squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
-  return norm(p - a - s * d);
-}
-
 }  // namespace carreau

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/vec.h"
+#include "support/segment.h"
 
 namespace carreau {
 
@@ -99,8 +99,5 @@ class LineRaster {
   PixelGrid grid_;
   RowBands bands_;
 };
-
-/// Distance of a point from a segment.
-double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) noexcept;
 
 }  // namespace carreau

@@ -1,5 +1,4 @@
-// Background meshes: sizes or metrics at the vertices of a mesh, anywhere by interpolation (issue "metric fields" sec.
-// 2).
+// Background meshes: sizes or metrics at the vertices of a mesh, anywhere by interpolation.
 #pragma once
 
 #include <array>

@@ -38,7 +38,6 @@ class Grading {
   Grading(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor)
       : graph_(graph), slope_(slope), monitor_(monitor), fans_(graph), front_(graph.xyz.size()) {
     for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
-    collect_triangles();
     collect_segments();
   }
 
@@ -108,17 +107,6 @@ class Grading {
     bool settled = false;
   };
 
-  void collect_triangles() {
-    start_.assign(graph_.places.size() + 1, 0);
-    for (const auto& t : graph_.triangles)
-      for (const int p : t) ++start_[p + 1];
-    for (std::size_t p = 0; p < graph_.places.size(); ++p) start_[p + 1] += start_[p];
-    others_.resize(3 * graph_.triangles.size());
-    std::vector<int> fill(start_.begin(), start_.end() - 1);
-    for (const auto& t : graph_.triangles)
-      for (int i = 0; i < 3; ++i) others_[fill[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
-  }
-
   void collect_segments() {
     segment_start_.assign(graph_.xyz.size() + 1, 0);
     for (const auto& s : graph_.segments) ++segment_start_[s[0] + 1], ++segment_start_[s[1] + 1];
@@ -143,8 +131,7 @@ class Grading {
       Front from = front_[v];
       from.place = p;
       if (!carry(v, p, from.line)) from = restarted(v, p);
-      for (int k = start_[p]; k < start_[p + 1]; ++k) {
-        const auto [a, b] = others_[k];
+      for (const auto& [a, b] : fans_.triangles(p)) {
         along_edge(from, v, a);
         along_edge(from, v, b);
         through_triangle(from, b, a);
@@ -223,8 +210,6 @@ class Grading {
   Monitor& monitor_;
   detail::PlaceFans fans_;
   std::vector<Front> front_;
-  std::vector<int> start_;                   // by place, in others_
-  std::vector<std::pair<int, int>> others_;  // the other two places of each triangle
   std::vector<int> segment_start_, segment_end_;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;

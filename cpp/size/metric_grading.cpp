@@ -26,16 +26,7 @@ constexpr std::size_t steps_between_checks = 1 << 12;
 class MetricGrading {
  public:
   MetricGrading(const GradationGraph& graph, std::vector<TangentMetric> sizes, double slope, Monitor& monitor)
-      : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {
-    start_.assign(graph_.places.size() + 1, 0);
-    for (const auto& t : graph_.triangles)
-      for (const int p : t) ++start_[p + 1];
-    for (std::size_t p = 0; p < graph_.places.size(); ++p) start_[p + 1] += start_[p];
-    others_.resize(3 * graph_.triangles.size());
-    std::vector<int> fill(start_.begin(), start_.end() - 1);
-    for (const auto& t : graph_.triangles)
-      for (int i = 0; i < 3; ++i) others_[fill[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
-  }
+      : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {}
 
   void add(const MetricSource& s) {
     bound(s.place, graph_.places[s.place].normal, s.way, [&](Vec3 w) { return s.sizes.along(w); });
@@ -81,8 +72,7 @@ class MetricGrading {
 
   void leave(int p) {
     const Vec3 n = graph_.places[p].normal;
-    for (int k = start_[p]; k < start_[p + 1]; ++k) {
-      const auto [a, b] = others_[k];
+    for (const auto& [a, b] : fans_.triangles(p)) {
       if (graph_.places[a].vertex == graph_.places[p].vertex || graph_.places[b].vertex == graph_.places[p].vertex)
         continue;
       for (const auto& [q, r] : {std::pair{a, b}, std::pair{b, a}}) {
@@ -123,8 +113,6 @@ class MetricGrading {
   double slope_;
   Monitor& monitor_;
   detail::PlaceFans fans_;
-  std::vector<int> start_;
-  std::vector<std::pair<int, int>> others_;
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

@@ -28,6 +28,14 @@ PlaceFans::PlaceFans(const GradationGraph& graph)
         const double l = norm(e);
         if (l > 0) inward_[t[i]] = inward_[t[i]] + (1 / l) * e;
       }
+  start_.assign(graph.places.size() + 1, 0);
+  for (const auto& t : graph.triangles)
+    for (const int p : t) ++start_[p + 1];
+  for (std::size_t p = 0; p < graph.places.size(); ++p) start_[p + 1] += start_[p];
+  others_.resize(3 * graph.triangles.size());
+  std::vector<int> fill(start_.begin(), start_.end() - 1);
+  for (const auto& t : graph.triangles)
+    for (int i = 0; i < 3; ++i) others_[fill[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
 }
 
 bool PlaceFans::carry(int from, int to, Vec3& v) const noexcept {

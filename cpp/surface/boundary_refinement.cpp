@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "plane/domain_check.h"
-#include "surface/triangle_distance.h"
+#include "support/segment.h"
 
 namespace carreau {
 
@@ -188,16 +188,9 @@ class Refiner {
       const auto [low, high] = std::minmax(discrete.t_of_use[u][k], discrete.t_of_use[u][k + 1]);
       for (std::size_t i = 0; i < support.t.size(); ++i)
         if (low < support.t[i] && support.t[i] < high)
-          largest = std::max(largest, distance_to_chord(support.uv[i], p, q));
+          largest = std::max(largest, distance_to_segment(support.uv[i], p, q));
     }
     return largest;
-  }
-
-  static double distance_to_chord(Vec2 x, Vec2 p, Vec2 q) {
-    const Vec2 chord = q - p;
-    const double squared = dot(chord, chord);
-    const double s = squared > 0 ? std::clamp(dot(x - p, chord) / squared, 0.0, 1.0) : 0;
-    return norm(x - (p + s * chord));
   }
 
   bool split(int curve, int segment) {

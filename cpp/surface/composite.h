@@ -39,8 +39,8 @@ struct CompositeOptions {
 struct CompositeReport {
   CallCounts calls;
   double diag = 0;
-  int corrections =
-      0;  ///< patches meshed again because their lengths in space were not those that the sampling promised
+  /// Patches meshed again because their lengths in space were not those that the sampling promised.
+  int corrections = 0;
   int gradation_rounds = 0;             ///< graphs that the gradation has made
   std::size_t gradation_triangles = 0;  ///< of the last one
   double seconds_gradation = 0, seconds_curves = 0;

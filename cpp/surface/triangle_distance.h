@@ -3,17 +3,9 @@
 
 #include <algorithm>
 
-#include "support/vec.h"
+#include "support/segment.h"
 
 namespace carreau {
-
-/// Distance from p to the segment (a, b).
-inline double distance_to_segment(Vec3 p, Vec3 a, Vec3 b) noexcept {
-  const Vec3 d = b - a;
-  const double squared = dot(d, d);
-  const double s = squared > 0 ? std::clamp(dot(p - a, d) / squared, 0.0, 1.0) : 0;
-  return norm(p - (a + s * d));
-}
 
 /// Distance from p to the closed triangle (a, b, c); of a flat one, to its sides.
 inline double distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept {

@@ -178,7 +178,7 @@ TEST_F(SessionTest, DerivativesThatAreNotGivenAreFound) {
   EXPECT_NEAR(double(found.triangle_count()), double(exact.triangle_count()), 0.02 * double(exact.triangle_count()));
 }
 
-// The figures that issue and manual ask for: calls of surf0, surf1 and surf2 a vertex, on 10 000 triangles or more.
+// Calls of surf0, surf1 and surf2 a vertex, on 10 000 triangles or more.
 double calls_a_vertex(carreau_session* session) {
   carreau_mesh* mesh = nullptr;
   std::int64_t n = 0, m = 0;

@@ -1,8 +1,11 @@
 // What holds for every solution that was read: both forms give it back.
 #pragma once
 
+#include <cstdint>
+
 #include "fuzz_check.h"
 #include "io/sol_files.h"
+#include "support/error.h"
 
 namespace carreau {
 
@@ -10,6 +13,23 @@ inline void check_written_and_read(const Solution& solution) {
   FUZZ_CHECK(solution.values.size() % solution.components() == 0);
   FUZZ_CHECK(read_solution_text(solution_text(solution), "again") == solution);
   FUZZ_CHECK(read_solution_binary(solution_bytes(solution), "again") == solution);
+}
+
+/// Any bytes are a solution or a FileError that names the file. `read` is one of the two readers.
+template <typename Read>
+int fuzz_solution(const std::uint8_t* data, std::size_t size, Read&& read) {
+  const std::string_view content(reinterpret_cast<const char*>(data), size);
+  // The last byte, which no form needs, chooses what the values are read for.
+  const auto use = size > 0 && data[size - 1] % 2 == 0 ? SolutionUse::field : SolutionUse::prescription;
+  Solution solution;
+  try {
+    solution = read(content, "x.sol", use);
+  } catch (const FileError& error) {
+    FUZZ_CHECK(error.where().file == "x.sol");
+    return 0;
+  }
+  check_written_and_read(solution);
+  return 0;
 }
 
 }  // namespace carreau

@@ -1,4 +1,4 @@
-// Whole surfaces: conformity, the figures of the papers, quality, calls.
+// Whole surfaces: conformity, the papers' figures, quality, calls.
 #include <gtest/gtest.h>
 
 #include <memory>
