@@ -30,8 +30,8 @@ class CadInput {
   virtual bool exclude(int face, const std::string& why) = 0;
   /// Faces that are left out, with the reason.
   [[nodiscard]] virtual std::vector<std::pair<int, std::string>> excluded() const = 0;
-  /// What went wrong in a callback, with the face; "" when nothing did.
-  [[nodiscard]] virtual std::string failure() const = 0;
+  /// What went wrong in a callback on this face; "" when nothing did.
+  [[nodiscard]] virtual std::string failure(int face) const = 0;
 };
 
 /// Prints what a CAD file holds and what of it is hard to mesh, at most `limit` sentences a kind. Returns the exit

@@ -18,7 +18,7 @@ class OpenCascadeInput final : public CadInput {
   carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
   [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
   [[nodiscard]] bool is_closed() const override { return host_.is_closed(); }
-  [[nodiscard]] std::string failure() const override { return host_.failure(); }
+  [[nodiscard]] std::string failure(int face) const override { return host_.failure(face); }
   bool set_face_size(const std::string& face, double size) override { return host_.set_face_size(face, size); }
 
   bool exclude(int face, const std::string& why) override {

@@ -114,9 +114,10 @@ carreau_status generate(carreau_session* session, CadInput& input, Progress& pro
     running = nullptr;
     if (status == CARREAU_OK || status == CARREAU_ERR_PARTIAL || status == CARREAU_ERR_CANCELLED) return status;
     std::string sentence = carreau_last_error(session);
-    if (status == CARREAU_ERR_CALLBACK && !input.failure().empty()) sentence += " (" + input.failure() + ")";
     const bool of_a_face = status == CARREAU_ERR_CALLBACK || status == CARREAU_ERR_MODEL;
     const std::int32_t face = of_a_face ? face_of_error(session) : 0;
+    const std::string why = status == CARREAU_ERR_CALLBACK ? input.failure(face) : "";
+    if (!why.empty()) sentence += " (" + why + ")";
     if (!input.exclude(face, sentence)) throw Failure(sentence);
     progress.error("error: " + sentence);
     progress.line("meshing again without face " + std::to_string(face));

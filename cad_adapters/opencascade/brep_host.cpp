@@ -1,10 +1,8 @@
 #include "brep_host.h"
 
-#include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -20,15 +18,17 @@
 #include <gp_Pnt2d.hxx>
 #include <gp_Vec.hxx>
 #include <gp_Vec2d.hxx>
+#include <map>
+#include <mutex>
 #include <stdexcept>
+
+#include "evaluators.h"
 
 namespace carreau_occ {
 
 namespace {
 
 struct HostCurve {
-  Handle(Geom2d_Curve) curve;
-  Geom2dAdaptor_Curve adaptor;
   double first = 0, last = 1;
   int edge = 0;            // number of the edge
   int end1 = 0, end2 = 0;  // numbers of the vertices at first and last
@@ -37,7 +37,6 @@ struct HostCurve {
 };
 
 struct HostFace {
-  BRepAdaptor_Surface surface;
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
   std::string name;
@@ -56,7 +55,9 @@ struct BrepHost::State {
   std::vector<HostFace> host_faces;            // face number - 1
   std::vector<int> uses;                       // of each edge, by its number - 1
   std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
-  std::string failure;
+  Evaluators evaluators;
+  std::mutex mutex;                     // of what follows: callbacks come from several threads
+  std::map<int, std::string> failures;  // by face
 
   void collect();
   void collect_names(const ShapeFile& file);
@@ -81,6 +82,7 @@ void BrepHost::State::collect() {
   if (faces.IsEmpty()) throw std::runtime_error("the shape has no face");
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
+  evaluators.resize(host_faces.size());
   for (int f = 1; f <= faces.Extent(); ++f) {
     HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
     try {
@@ -100,14 +102,13 @@ void BrepHost::State::collect_face(int number) {
   host.swapped = face.Orientation() == TopAbs_REVERSED;
   // Wires are turned for the face taken forward.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
-  host.surface.Initialize(forward, Standard_False);
+  std::vector<Handle(Geom2d_Curve)> images;
   for (TopExp_Explorer e(forward, TopAbs_EDGE); e.More(); e.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());
     if (edge.Orientation() == TopAbs_EXTERNAL) continue;
     HostCurve curve;
-    curve.curve = BRep_Tool::CurveOnSurface(edge, forward, curve.first, curve.last);
-    if (curve.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
-    curve.adaptor.Load(curve.curve);
+    images.push_back(BRep_Tool::CurveOnSurface(edge, forward, curve.first, curve.last));
+    if (images.back().IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
     curve.edge = edges.FindIndex(edge);
     curve.end1 = vertices.FindIndex(TopExp::FirstVertex(edge, Standard_False));
     curve.end2 = vertices.FindIndex(TopExp::LastVertex(edge, Standard_False));
@@ -115,8 +116,9 @@ void BrepHost::State::collect_face(int number) {
     curve.internal = edge.Orientation() == TopAbs_INTERNAL;
     if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
     if (BRep_Tool::Degenerated(edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
-    host.curves.push_back(std::move(curve));
+    host.curves.push_back(curve);
   }
+  evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
 }
 
 // Wide parts first, so that the name of the narrowest part stays.
@@ -172,7 +174,8 @@ int32_t BrepHost::State::point_size(int32_t point, double* value, void* user) no
 
 int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
   try {
-    failure =
+    const std::scoped_lock lock(mutex);
+    failures[face] =
         "face " + std::to_string(face) + ": OpenCASCADE: " + why.DynamicType()->Name() + ": " + why.GetMessageString();
   } catch (...) {  // no memory for a sentence
   }
@@ -183,19 +186,20 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
                                        double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept {
   auto& state = *static_cast<State*>(user);
   try {
-    const HostFace& host = state.host_faces[static_cast<std::size_t>(face - 1)];
-    if (host.swapped) std::swap(Su, Sv), std::swap(Suu, Svv);
+    const bool swapped = state.host_faces[static_cast<std::size_t>(face - 1)].swapped;
+    const Evaluators::Surface surface = state.evaluators.surface(static_cast<std::size_t>(face - 1));
+    if (swapped) std::swap(Su, Sv), std::swap(Suu, Svv);
     gp_Pnt p;
     gp_Vec d1u, d1v, d2u, d2v, d2uv;
     for (int64_t i = 0; i < n; ++i) {
-      const double u = uv[2 * i + (host.swapped ? 1 : 0)], v = uv[2 * i + (host.swapped ? 0 : 1)];
+      const double u = uv[2 * i + (swapped ? 1 : 0)], v = uv[2 * i + (swapped ? 0 : 1)];
       if (order >= 2) {
-        host.surface.D2(u, v, p, d1u, d1v, d2u, d2v, d2uv);
+        surface.d2(u, v, p, d1u, d1v, d2u, d2v, d2uv);
         store(d2u, Suu + 3 * i), store(d2uv, Suv + 3 * i), store(d2v, Svv + 3 * i);
       } else if (order == 1) {
-        host.surface.D1(u, v, p, d1u, d1v);
+        surface.d1(u, v, p, d1u, d1v);
       } else {
-        host.surface.D0(u, v, p);
+        surface.d0(u, v, p);
       }
       store(p, S + 3 * i);
       if (order >= 1) store(d1u, Su + 3 * i), store(d1v, Sv + 3 * i);
@@ -220,17 +224,17 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
                                void* user) noexcept {
   auto& state = *static_cast<State*>(user);
   try {
-    const HostFace& host = state.host_faces[static_cast<std::size_t>(face - 1)];
-    const HostCurve& curve = host.curves[static_cast<std::size_t>(ic - 1)];
+    const Evaluators::Curve curve =
+        state.evaluators.curve(static_cast<std::size_t>(face - 1), static_cast<std::size_t>(ic - 1));
     gp_Pnt2d p;
     gp_Vec2d d1, d2;
     if (order >= 2)
-      curve.adaptor.D2(t, p, d1, d2);
+      curve.d2(t, p, d1, d2);
     else if (order == 1)
-      curve.adaptor.D1(t, p, d1);
+      curve.d1(t, p, d1);
     else
-      curve.adaptor.D0(t, p);
-    const int x = host.swapped ? 1 : 0, y = 1 - x;
+      curve.d0(t, p);
+    const int x = state.host_faces[static_cast<std::size_t>(face - 1)].swapped ? 1 : 0, y = 1 - x;
     C[x] = p.X(), C[y] = p.Y();
     if (order >= 1) Ct[x] = d1.X(), Ct[y] = d1.Y();
     if (order >= 2) Ctt[x] = d2.X(), Ctt[y] = d2.Y();
@@ -259,6 +263,7 @@ carreau_status BrepHost::give_to(carreau_session* session) {
   cad.struct_size = sizeof cad;
   cad.user = state_.get();
   cad.surface_order = cad.curve_order = 2;
+  cad.reentrant = 1;
   cad.surface_batch = State::surface_batch;
   cad.curve_interval = State::interval;
   cad.curve = State::curve;
@@ -327,6 +332,10 @@ bool BrepHost::is_closed() const noexcept {
   return true;
 }
 
-const std::string& BrepHost::failure() const noexcept { return state_->failure; }
+std::string BrepHost::failure(int face) const {
+  const std::scoped_lock lock(state_->mutex);
+  const auto found = state_->failures.find(face);
+  return found == state_->failures.end() ? std::string() : found->second;
+}
 
 }  // namespace carreau_occ

@@ -14,7 +14,7 @@ namespace carreau_occ {
 
 /// Faces, edges and vertices of a shape, numbered from 1 as OpenCASCADE's maps of the shape number them: those numbers
 /// are the references of faces, curves and points. A face that is reversed gets u and v exchanged, so that triangles,
-/// which are counterclockwise in (u, v), look outwards of a solid.
+/// which are counterclockwise in (u, v), look outwards of a solid. Callbacks may come from several threads at a time.
 class BrepHost {
  public:
   /// The shape and the names of its faces are kept. Throws std::runtime_error when it has no face.
@@ -45,8 +45,8 @@ class BrepHost {
   [[nodiscard]] double diagonal() const;
   /// Every edge belongs to two faces, or twice to one.
   [[nodiscard]] bool is_closed() const noexcept;
-  /// What failed in a callback, with the face; "" when nothing did.
-  [[nodiscard]] const std::string& failure() const noexcept;
+  /// What OpenCASCADE said when a callback failed on this face; "" when none did.
+  [[nodiscard]] std::string failure(int face) const;
 
  private:
   struct State;

@@ -1,5 +1,6 @@
 // CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepGProp.hxx>
@@ -56,6 +57,29 @@ TEST(BrepHost, EvaluatesTheSurfaceAboutOnceAVertexBesideTheSampling) {
     carreau_occ::BrepHost host(file_of(shapes::make(name)));
     const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, host.diagonal() / 200);
     EXPECT_LT(static_cast<double>(m.surface_calls) / static_cast<double>(m.vertices.size()), 2);
+  }
+}
+
+// Every shape whose surfaces are of several polynomials or of one; bit for bit.
+TEST(BrepHost, ThreadsDoNotChangeTheMesh) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  for (const char* name : {"nurbs_torus", "across_a_seam", "two_cylinders"}) {
+    SCOPED_TRACE(name);
+    const carreau_occ::ShapeFile file = file_of(shapes::make(name));
+    adapters::MeasuredMesh one;
+    for (const int threads : {1, 2, 8}) {
+      carreau_occ::BrepHost host(file);
+      const adapters::MeasuredMesh m =
+          adapters::mesh_and_measure(host, host.diagonal() / 60, [threads](carreau_session* s) {
+            carreau_set_integer(s, "threads", threads);
+            carreau_set_integer(s, "hgeo_flag", 1);
+          });
+      ASSERT_EQ(m.trouble(true), "");
+      if (threads == 1) one = m;
+      EXPECT_EQ(m.vertices, one.vertices);
+      EXPECT_EQ(m.triangles, one.triangles);
+      EXPECT_EQ(m.surface_calls, one.surface_calls);
+    }
   }
 }
 

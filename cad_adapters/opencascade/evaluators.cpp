@@ -1,0 +1,80 @@
+#include "evaluators.h"
+
+#include <TColStd_Array1OfReal.hxx>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carreau_occ {
+namespace {
+
+std::vector<double> values_of(const TColStd_Array1OfReal& array) { return {array.begin(), array.end()}; }
+
+Breaks breaks_in_u(const BRepAdaptor_Surface& surface) {
+  const int n = surface.NbUIntervals(GeomAbs_CN);
+  TColStd_Array1OfReal at(1, n + 1);
+  surface.UIntervals(at, GeomAbs_CN);
+  return {values_of(at), surface.IsUPeriodic() == Standard_True, surface.IsUPeriodic() ? surface.UPeriod() : 0};
+}
+
+Breaks breaks_in_v(const BRepAdaptor_Surface& surface) {
+  const int n = surface.NbVIntervals(GeomAbs_CN);
+  TColStd_Array1OfReal at(1, n + 1);
+  surface.VIntervals(at, GeomAbs_CN);
+  return {values_of(at), surface.IsVPeriodic() == Standard_True, surface.IsVPeriodic() ? surface.VPeriod() : 0};
+}
+
+Breaks breaks_of(const Geom2dAdaptor_Curve& curve) {
+  const int n = curve.NbIntervals(GeomAbs_CN);
+  TColStd_Array1OfReal at(1, n + 1);
+  curve.Intervals(at, GeomAbs_CN);
+  return {values_of(at), curve.IsPeriodic() == Standard_True, curve.IsPeriodic() ? curve.Period() : 0};
+}
+
+}  // namespace
+
+Breaks::Breaks(std::vector<double> breaks, bool periodic, double period) : periodic_(periodic), period_(period) {
+  // Planes, cylinders and single spans have only their ends: there is no other polynomial.
+  if (breaks.size() > 2) breaks_ = std::move(breaks);
+}
+
+double Breaks::settle(double t) const noexcept {
+  if (breaks_.empty()) return t;
+  if (periodic_ && (t < breaks_.front() || t > breaks_.back()))
+    t -= period_ * std::floor((t - breaks_.front()) / period_);
+  const auto next = std::lower_bound(breaks_.begin(), breaks_.end(), t);
+  // OpenCASCADE's search takes a parameter within one unit in the last place of a knot for the knot.
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(t);
+  return next != breaks_.end() && *next - t <= rounding ? *next : t;
+}
+
+void Evaluators::set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves) {
+  Face entry{face, std::move(curves), {}, {}, {}};
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  entry.u = breaks_in_u(surface), entry.v = breaks_in_v(surface);
+  for (const Handle(Geom2d_Curve) & curve : entry.curves) entry.t.push_back(breaks_of(Geom2dAdaptor_Curve(curve)));
+  faces_[number] = std::move(entry);
+}
+
+const Evaluators::Adaptors& Evaluators::mine(std::size_t face) {
+  auto& all = of_thread_.local();
+  if (all.size() < faces_.size()) all.resize(faces_.size());
+  if (!all[face]) {
+    auto made = std::make_unique<Adaptors>();
+    made->surface.Initialize(faces_[face].face, Standard_False);
+    made->curves.reserve(faces_[face].curves.size());
+    for (const Handle(Geom2d_Curve) & curve : faces_[face].curves) made->curves.emplace_back(curve);
+    all[face] = std::move(made);
+  }
+  return *all[face];
+}
+
+Evaluators::Surface Evaluators::surface(std::size_t face) {
+  return {mine(face).surface, faces_[face].u, faces_[face].v};
+}
+
+Evaluators::Curve Evaluators::curve(std::size_t face, std::size_t curve) {
+  return {mine(face).curves[curve], faces_[face].t[curve]};
+}
+
+}  // namespace carreau_occ

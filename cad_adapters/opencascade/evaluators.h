@@ -1,0 +1,91 @@
+// Positions and derivatives of faces and of the curves in their parameter planes, from any thread.
+#pragma once
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <BRepAdaptor_Surface.hxx>
+#include <Geom2dAdaptor_Curve.hxx>
+#include <Geom2d_Curve.hxx>
+#include <TopoDS_Face.hxx>
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace carreau_occ {
+
+/// Where a parameter enters the next polynomial. An adaptor keeps the polynomial that it used last, and takes it again
+/// for a parameter that lies a rounding error before its end, where a new search would take the next one: results would
+/// depend on what was asked before. So such parameters are moved onto the end.
+class Breaks {
+ public:
+  Breaks() = default;
+  /// Of an adaptor's direction. `breaks` ascend, with both ends.
+  Breaks(std::vector<double> breaks, bool periodic, double period);
+  [[nodiscard]] double settle(double t) const noexcept;
+
+ private:
+  std::vector<double> breaks_;  // empty: one polynomial, or none
+  bool periodic_ = false;
+  double period_ = 0;
+};
+
+/// Every thread has its own adaptors, since these keep the polynomial of the span that they evaluated last. What is
+/// returned does not depend on the thread or on what was asked before.
+class Evaluators {
+ public:
+  /// Room for `n` faces, counted from 0.
+  void resize(std::size_t n) { faces_.resize(n); }
+  /// Gives a face, which must be forward, with its curves. Not while others evaluate. Throws Standard_Failure.
+  void set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves);
+
+  /// Of the calling thread, and for it alone. Throw Standard_Failure.
+  class Surface {
+   public:
+    void d0(double u, double v, gp_Pnt& p) const { adaptor_.D0(u_.settle(u), v_.settle(v), p); }
+    void d1(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv) const {
+      adaptor_.D1(u_.settle(u), v_.settle(v), p, su, sv);
+    }
+    void d2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const {
+      adaptor_.D2(u_.settle(u), v_.settle(v), p, su, sv, suu, svv, suv);
+    }
+
+   private:
+    friend class Evaluators;
+    Surface(const BRepAdaptor_Surface& adaptor, const Breaks& u, const Breaks& v) : adaptor_(adaptor), u_(u), v_(v) {}
+    const BRepAdaptor_Surface& adaptor_;
+    const Breaks &u_, &v_;
+  };
+  [[nodiscard]] Surface surface(std::size_t face);
+
+  class Curve {
+   public:
+    void d0(double t, gp_Pnt2d& p) const { adaptor_.D0(breaks_.settle(t), p); }
+    void d1(double t, gp_Pnt2d& p, gp_Vec2d& ct) const { adaptor_.D1(breaks_.settle(t), p, ct); }
+    void d2(double t, gp_Pnt2d& p, gp_Vec2d& ct, gp_Vec2d& ctt) const { adaptor_.D2(breaks_.settle(t), p, ct, ctt); }
+
+   private:
+    friend class Evaluators;
+    Curve(const Geom2dAdaptor_Curve& adaptor, const Breaks& breaks) : adaptor_(adaptor), breaks_(breaks) {}
+    const Geom2dAdaptor_Curve& adaptor_;
+    const Breaks& breaks_;
+  };
+  [[nodiscard]] Curve curve(std::size_t face, std::size_t curve);
+
+ private:
+  struct Face {
+    TopoDS_Face face;
+    std::vector<Handle(Geom2d_Curve)> curves;
+    Breaks u, v;
+    std::vector<Breaks> t;
+  };
+  struct Adaptors {
+    BRepAdaptor_Surface surface;
+    std::vector<Geom2dAdaptor_Curve> curves;
+  };
+  const Adaptors& mine(std::size_t face);
+
+  std::vector<Face> faces_;
+  tbb::enumerable_thread_specific<std::vector<std::unique_ptr<Adaptors>>> of_thread_;
+};
+
+}  // namespace carreau_occ
