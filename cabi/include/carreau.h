@@ -22,9 +22,10 @@
  *              may be called from anywhere at any time. There is no global state.
  *   Callbacks  come from the thread that called carreau_mesh_generate, carreau_run_env, carreau_write_exr or, when what
  *              was delivered is measured, carreau_session_delivered and its like, one after another, unless
- *              carreau_cad.reentrant says otherwise. A callback must return: no C++ exception, longjmp or Fortran stop
- *              may leave it. From inside one, carreau_stop is the only call allowed on its session and mesh; any other
- *              returns CARREAU_ERR_BUSY.
+ *              carreau_cad.reentrant says otherwise. A callback must return: no longjmp or Fortran stop may leave it,
+ *              and no C++ exception (one that does all the same is CARREAU_ERR_CALLBACK, where compilers agree). From
+ *              inside one, carreau_stop is the only call allowed on its session and mesh; any other returns
+ *              CARREAU_ERR_BUSY.
  *   Silence    Nothing is printed, no signal is raised or caught, and no call ends the process. The floating-point
  *              environment (rounding, traps, flags) of the caller is given back as it was; callbacks run in the
  *              default one.

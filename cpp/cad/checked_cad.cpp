@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "cad/host_exceptions.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -10,8 +11,24 @@ namespace carreau {
 
 namespace {
 
+// Squares of lengths, and their products, must not overflow.
+constexpr double largest = 1e75;
+
 [[noreturn]] void not_finite(const Where& where, const char* routine) {
   throw CallbackError(where, std::string(routine) + " returned a value that is not finite");
+}
+
+void check_number(double x, const Where& where, const char* routine) {
+  if (std::abs(x) <= largest) return;
+  if (!std::isfinite(x)) not_finite(where, routine);
+  throw CallbackError(where, std::string(routine) + " returned " + format_number(x) +
+                                 ", which is too large to compute with (beyond " + format_number(largest) + ")");
+}
+void check_vector(Vec3 v, const Where& where, const char* routine) {
+  for (const double x : {v.x, v.y, v.z}) check_number(x, where, routine);
+}
+void check_vector(Vec2 v, const Where& where, const char* routine) {
+  for (const double x : {v.x, v.y}) check_number(x, where, routine);
 }
 
 [[noreturn]] void not_a_number(const Where& where, const char* routine) {
@@ -22,19 +39,23 @@ namespace {
 
 void CheckedCad::surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) {
   counter_.add_surface(want, uv.size());
-  host_.surface(face, want, uv, out);
+  if (uv.empty()) return;
+  const char* const asked = (want & want_second) != 0 ? "surf2" : (want & want_first) != 0 ? "surf1" : "surf0";
+  ask_host({.face = face, .uv = uv.front()}, asked, [&] { host_.surface(face, want, uv, out); });
   for (std::size_t i = 0; i < uv.size(); ++i) {
     const SurfaceJet& jet = out[i];
     const Where where{.face = face, .uv = uv[i]};
-    if ((want & want_position) != 0 && !is_finite(jet.s)) not_finite(where, "surf0");
-    if ((want & want_first) != 0 && !(is_finite(jet.su) && is_finite(jet.sv))) not_finite(where, "surf1");
-    if ((want & want_second) != 0 && !(is_finite(jet.suu) && is_finite(jet.suv) && is_finite(jet.svv)))
-      not_finite(where, "surf2");
+    if ((want & want_position) != 0) check_vector(jet.s, where, "surf0");
+    if ((want & want_first) != 0)
+      for (const Vec3 v : {jet.su, jet.sv}) check_vector(v, where, "surf1");
+    if ((want & want_second) != 0)
+      for (const Vec3 v : {jet.suu, jet.suv, jet.svv}) check_vector(v, where, "surf2");
   }
 }
 
 Interval CheckedCad::curve_interval(int face, int ic) {
-  const Interval interval = host_.curve_interval(face, ic);
+  const Interval interval =
+      ask_host({.face = face, .curve_index = ic}, "curv_int", [&] { return host_.curve_interval(face, ic); });
   if (std::isfinite(interval.a) && std::isfinite(interval.b) && interval.a < interval.b) return interval;
   throw CallbackError(Where{.face = face, .curve_index = ic},
                       "curv_int returned the interval [" + format_number(interval.a) + ", " +
@@ -44,47 +65,53 @@ Interval CheckedCad::curve_interval(int face, int ic) {
 
 CurveJet CheckedCad::curve(int face, int ic, unsigned want, double t) {
   counter_.add_curve(want);
-  const CurveJet jet = host_.curve(face, ic, want, t);
   const Where where{.face = face, .curve_index = ic, .t = t};
-  if ((want & want_position) != 0 && !is_finite(jet.c)) not_finite(where, "curv0");
-  if ((want & want_first) != 0 && !is_finite(jet.ct)) not_finite(where, "curv1");
-  if ((want & want_second) != 0 && !is_finite(jet.ctt)) not_finite(where, "curv2");
+  const char* const asked = (want & want_second) != 0 ? "curv2" : (want & want_first) != 0 ? "curv1" : "curv0";
+  const CurveJet jet = ask_host(where, asked, [&] { return host_.curve(face, ic, want, t); });
+  if ((want & want_position) != 0) check_vector(jet.c, where, "curv0");
+  if ((want & want_first) != 0) check_vector(jet.ct, where, "curv1");
+  if ((want & want_second) != 0) check_vector(jet.ctt, where, "curv2");
   return jet;
 }
 
 // Only an infinite radius has a meaning (a plane, a straight line: RT-0232 sec. 3.1.3 b).
 std::optional<double> CheckedCad::surface_size(int face, Vec2 uv) {
   counter_.add_size();
-  const std::optional<double> h = host_.surface_size(face, uv);
-  if (h && !std::isfinite(*h)) not_finite({.face = face, .uv = uv}, "cad_hphys");
+  const Where where{.face = face, .uv = uv};
+  const std::optional<double> h = ask_host(where, "cad_hphys", [&] { return host_.surface_size(face, uv); });
+  if (h) check_number(*h, where, "cad_hphys");
   return h;
 }
 
 std::optional<double> CheckedCad::curve_size(int face, int ic, double t) {
   counter_.add_size();
-  const std::optional<double> h = host_.curve_size(face, ic, t);
-  if (h && !std::isfinite(*h)) not_finite({.face = face, .curve_index = ic, .t = t}, "cad_hphyc");
+  const Where where{.face = face, .curve_index = ic, .t = t};
+  const std::optional<double> h = ask_host(where, "cad_hphyc", [&] { return host_.curve_size(face, ic, t); });
+  if (h) check_number(*h, where, "cad_hphyc");
   return h;
 }
 
 std::optional<double> CheckedCad::point_size(int point) {
   counter_.add_size();
-  const std::optional<double> h = host_.point_size(point);
-  if (h && !std::isfinite(*h)) not_finite({.point = point}, "cad_hphyp");
+  const Where where{.point = point};
+  const std::optional<double> h = ask_host(where, "cad_hphyp", [&] { return host_.point_size(point); });
+  if (h) check_number(*h, where, "cad_hphyp");
   return h;
 }
 
 std::optional<double> CheckedCad::surface_radius(int face, Vec2 uv) {
   counter_.add_size();
-  const std::optional<double> rho = host_.surface_radius(face, uv);
-  if (rho && std::isnan(*rho)) not_a_number({.face = face, .uv = uv}, "cad_rads");
+  const Where where{.face = face, .uv = uv};
+  const std::optional<double> rho = ask_host(where, "cad_rads", [&] { return host_.surface_radius(face, uv); });
+  if (rho && std::isnan(*rho)) not_a_number(where, "cad_rads");
   return rho;
 }
 
 std::optional<double> CheckedCad::curve_radius(int face, int ic, double t) {
   counter_.add_size();
-  const std::optional<double> rho = host_.curve_radius(face, ic, t);
-  if (rho && std::isnan(*rho)) not_a_number({.face = face, .curve_index = ic, .t = t}, "cad_radc");
+  const Where where{.face = face, .curve_index = ic, .t = t};
+  const std::optional<double> rho = ask_host(where, "cad_radc", [&] { return host_.curve_radius(face, ic, t); });
+  if (rho && std::isnan(*rho)) not_a_number(where, "cad_radc");
   return rho;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cad/host_cad.h"
+#include "cad/host_exceptions.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"
 
@@ -58,22 +59,28 @@ Prescription prescription_of(std::int32_t status, const Answer& answer, const Wh
 Prescription HostMetrics::on_surface(int face, Vec2 uv, Vec3 /*xyz*/) {
   if (table_.surface_metric == nullptr) return {};
   Answer a;
-  const std::int32_t status = table_.surface_metric(face, uv.x, uv.y, &a.kind, a.value, table_.user);
-  return prescription_of(status, a, {.face = face, .uv = uv}, "surface_metric");
+  const Where where{.face = face, .uv = uv};
+  const std::int32_t status = ask_host(
+      where, "surface_metric", [&] { return table_.surface_metric(face, uv.x, uv.y, &a.kind, a.value, table_.user); });
+  return prescription_of(status, a, where, "surface_metric");
 }
 
 Prescription HostMetrics::on_curve(int face, int ic, double t, Vec2 /*uv*/, Vec3 /*xyz*/) {
   if (table_.curve_metric == nullptr) return {};
   Answer a;
-  const std::int32_t status = table_.curve_metric(face, ic, t, &a.kind, a.value, table_.user);
-  return prescription_of(status, a, {.face = face, .curve_index = ic, .t = t}, "curve_metric");
+  const Where where{.face = face, .curve_index = ic, .t = t};
+  const std::int32_t status =
+      ask_host(where, "curve_metric", [&] { return table_.curve_metric(face, ic, t, &a.kind, a.value, table_.user); });
+  return prescription_of(status, a, where, "curve_metric");
 }
 
 Prescription HostMetrics::at_point(int point, Vec3 /*xyz*/) {
   if (table_.point_metric == nullptr) return {};
   Answer a;
-  const std::int32_t status = table_.point_metric(point, &a.kind, a.value, table_.user);
-  return prescription_of(status, a, {.point = point}, "point_metric");
+  const Where where{.point = point};
+  const std::int32_t status =
+      ask_host(where, "point_metric", [&] { return table_.point_metric(point, &a.kind, a.value, table_.user); });
+  return prescription_of(status, a, where, "point_metric");
 }
 
 }  // namespace carreau

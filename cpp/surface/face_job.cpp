@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "support/format.h"
 #include "surface/verification.h"
 
 namespace carreau {
@@ -9,6 +10,10 @@ namespace {
 
 // Times that a patch is meshed again because the lift disagrees.
 constexpr int most_corrections = 3;
+// An edge that is so many times longer than promised, whatever was sampled, does not lie on a surface that is
+// continuous. Sizes of the finest features that are met in practice are off by some tens; anisotropy in the mean by the
+// root of its ratio.
+constexpr double torn = 1000;
 
 /// Adds the time of its life.
 class Stopwatch {
@@ -81,16 +86,24 @@ void FaceJob::lift(Monitor& monitor) {
     places = verify_lift(input_, *space_, cad_, rules_, *mesh_, monitor);
   }
   next_ = Step::none;
-  if (places.empty() || corrections_ == most_corrections) return;
+  if (places.empty() || corrections_ == most_corrections) return refuse_torn();
   // What the vertices have found is sampled, and the patch meshed again if that was news.
   const Stopwatch watch(report_.seconds_sampling);
   suspects_.insert(suspects_.end(), places.begin(), places.end());
   ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor);
-  if (!differ_at(places, *space_, finer)) return;
+  if (!differ_at(places, *space_, finer)) return refuse_torn();
   refuse_beyond_limit(finer.measure());
   space_ = std::move(finer);
   report_.corrections = ++corrections_;
   next_ = Step::mesh;
+}
+
+void FaceJob::refuse_torn() const {
+  const EdgeExcess& longest = mesh_->longest;
+  if (!(longest.ratio > torn)) return;
+  throw DomainError(Where{.face = input_.ref, .uv = longest.place},
+                    "the surface jumps: an edge of its mesh is " + format_number(longest.ratio) +
+                        " times as long as the derivatives say; it may not be continuous there");
 }
 
 void FaceJob::refuse_beyond_limit(double expected) const {

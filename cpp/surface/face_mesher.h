@@ -13,11 +13,18 @@
 
 namespace carreau {
 
+/// An edge inside a patch: its length in space over what the control space promises, and its middle in (u, v).
+struct EdgeExcess {
+  double ratio = 0;
+  Vec2 place;
+};
+
 /// A meshed patch. Vertices are those of the domain first, unmoved, then new ones.
 struct PatchMesh {
   PlaneMesh plane;
   std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
   std::vector<double> size;  ///< prescribed size at every vertex
+  EdgeExcess longest;        ///< the edge that exceeds its promise most
 };
 
 /// What meshing a patch needs to know.

@@ -30,6 +30,7 @@ class LiftCheck {
     if (rules_.uses_metrics()) {
       compare_lengths();
       compare_metrics();
+      find_places(false);  // a mean size says nothing of an edge that is short by its direction
       thin_out();
       return std::move(places_);
     }
@@ -39,7 +40,7 @@ class LiftCheck {
       compare_lengths();
       ask_host();
     }
-    find_places();
+    find_places(true);
     thin_out();
     return std::move(places_);
   }
@@ -126,7 +127,7 @@ class LiftCheck {
     }
   }
 
-  void find_places() {
+  void find_places(bool report) {
     const PlaneDomain& domain = input_.domain->plane;
     std::vector<char> at_apex(mesh_.xyz.size(), 0);
     for (const PlaneEdge& e : domain.edges)
@@ -137,9 +138,11 @@ class LiftCheck {
       // Between two imposed vertices the domain decides; at a degenerate side the metric is clamped.
       if (static_cast<std::size_t>(b) < domain.vertices.size() || at_apex[a] != 0 || at_apex[b] != 0) return;
       const double h = std::sqrt(mesh_.size[a] * mesh_.size[b]), l = in_space(a, b);
-      if (!(h > 0) || !(l > 0)) return;
-      if (l <= too_long * h * m && l >= too_short * h * m) return;
-      places_.push_back(0.5 * (mesh_.plane.vertices[a] + mesh_.plane.vertices[b]));
+      if (!(h > 0) || !(l > 0) || !(m > 0)) return;
+      const Vec2 place = 0.5 * (mesh_.plane.vertices[a] + mesh_.plane.vertices[b]);
+      if (l > mesh_.longest.ratio * h * m) mesh_.longest = {l / (h * m), place};
+      if (!report || (l <= too_long * h * m && l >= too_short * h * m)) return;
+      places_.push_back(place);
     });
   }
 

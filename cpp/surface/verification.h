@@ -9,13 +9,13 @@
 
 namespace carreau {
 
-/// Fills mesh.size and returns places in (u, v) where an edge's length in space over the prescribed size disagrees with
-/// its length in the control space: the sampling has missed something there. The prescribed size is the one size of the
-/// model, or what the host answers at the ends (asked once a vertex) within the graded field, or, where sizes come from
-/// curvature or from interpolation, what the control space says around. Chords shorter than their arcs are no
-/// disagreement. Empty on surfaces that the control space knows. At most 500 places. Where metrics govern, the
-/// prescribed metric is evaluated at each vertex inside and compared with the control space's; mesh.size is then the
-/// size in the mean, sqrt(h1 h2).
+/// Fills mesh.size and mesh.longest and returns places in (u, v) where an edge's length in space over the prescribed
+/// size disagrees with its length in the control space: the sampling has missed something there. The prescribed size is
+/// the one size of the model, or what the host answers at the ends (asked once a vertex) within the graded field, or,
+/// where sizes come from curvature or from interpolation, what the control space says around. Chords shorter than their
+/// arcs are no disagreement. Empty on surfaces that the control space knows. At most 500 places. Where metrics govern,
+/// the prescribed metric is evaluated at each vertex inside and compared with the control space's; mesh.size is then
+/// the size in the mean, sqrt(h1 h2).
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules,
                               PatchMesh& mesh, Monitor& monitor);
 
