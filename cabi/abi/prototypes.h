@@ -267,6 +267,7 @@ int carreau_model_read_pardom (void *session, const char *path);
 int carreau_model_write_pardom (void *session, const char *path);
 int carreau_parameter_count ();
 int carreau_parameter_info (int index, c_parameter *parameter);
+int carreau_read_env (void *session, const char *path);
 int carreau_reset_parameter (void *session, const char *name);
 int carreau_reset_parameters (void *session);
 int carreau_run_env (void *session, const char *path);

@@ -29,7 +29,7 @@ module carreau
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
   public :: carreau_parameter_count, carreau_parameter_info
-  public :: carreau_set_integer, carreau_set_real, carreau_set_text, carreau_set_word
+  public :: carreau_set_integer, carreau_set_real, carreau_set_text, carreau_set_word, carreau_read_env
   public :: carreau_get_integer, carreau_get_real, carreau_get_text, carreau_reset_parameter, carreau_reset_parameters
   public :: carreau_set_message_callback, carreau_set_progress_callback, carreau_stop
   public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
@@ -785,6 +785,13 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_mesh_generate(session%handle)
   end subroutine carreau_mesh_generate
+
+  subroutine carreau_read_env(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_read_env(session%handle, c_text(path))
+  end subroutine carreau_read_env
 
   subroutine carreau_run_env(session, path, status)
     type(carreau_session), intent(in) :: session

@@ -443,6 +443,14 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_generate
 
+    function c_read_env(session, path) result(status) bind(c, name="carreau_read_env")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_read_env
+
     function c_run_env(session, path) result(status) bind(c, name="carreau_run_env")
       import :: c_char, c_int32_t, c_ptr
       implicit none

@@ -333,6 +333,9 @@ CARREAU_API carreau_status carreau_set_real(carreau_session* session, const char
 CARREAU_API carreau_status carreau_set_text(carreau_session* session, const char* name, const char* value);
 /* From a word, as blsurf.env would ("hphydef", "1.5d-1"). Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_set_word(carreau_session* session, const char* name, const char* word);
+/* Those that a blsurf.env has before its first action; no action is run. Others keep their values; all do on an error.
+ * Names of background meshes are those of files beside it. Errors: FILE, ARGUMENT (both with the line). */
+CARREAU_API carreau_status carreau_read_env(carreau_session* session, const char* path);
 
 /* Value that is set, or the default. Errors: ARGUMENT (unknown name, other type); SEQUENCE (the default is relative to
  * diag, and no mesh has been made yet). */

@@ -54,6 +54,10 @@ carreau_status carreau_set_word(carreau_session* session, const char* name, cons
   });
 }
 
+carreau_status carreau_read_env(carreau_session* session, const char* path) {
+  return guarded(session, [&] { session->session.read_env(required(path, "path")); });
+}
+
 carreau_status carreau_get_integer(carreau_session* session, const char* name, int32_t* out_value) {
   return guarded(session, [&] {
     required(out_value, "out_value");

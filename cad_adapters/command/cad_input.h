@@ -3,14 +3,18 @@
 
 #include <carreau.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "lengths.h"
-
 namespace command {
+
+/// A point of a face: in space, and the parameters that the file gives it.
+struct Place {
+  double x = 0, y = 0, z = 0, u = 0, v = 0;
+};
 
 /// Geometry and model of a file. Sessions that were given it must not outlive it.
 class CadInput {
@@ -20,12 +24,17 @@ class CadInput {
   virtual carreau_status give_to(carreau_session* session) = 0;
   /// Diagonal of the box of the geometry.
   [[nodiscard]] virtual double diagonal() const = 0;
-  /// Whether every edge has a face on both sides.
-  [[nodiscard]] virtual bool is_closed() const = 0;
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.
   virtual bool set_face_size(const std::string& face, double size) = 0;
+  /// Whether the geometry answers with the sizes of set_face_size() itself, when hphy_flag = 2.
+  [[nodiscard]] virtual bool answers_face_sizes() const = 0;
+  /// The size of set_face_size() where it does not; 0: none.
+  [[nodiscard]] virtual double face_size(std::int32_t face) const = 0;
+  /// The point at (u, v), as callbacks of the session get them. May be called from several threads when the geometry
+  /// may. False: the geometry fails there.
+  [[nodiscard]] virtual bool locate(std::int32_t face, double u, double v, Place& place) const noexcept = 0;
   /// Leaves a face out of what give_to hands over. False: it is not there, or left out already.
   virtual bool exclude(int face, const std::string& why) = 0;
   /// Faces that are left out, with the reason.
@@ -34,11 +43,18 @@ class CadInput {
   [[nodiscard]] virtual std::string failure(int face) const = 0;
 };
 
-/// Prints what a CAD file holds and what of it is hard to mesh, at most `limit` sentences a kind. Returns the exit
-/// code; throws Failure.
-int print_cad_info(const std::string& path, int limit);
+/// Whether the name says that the file has no geometry of its own (.pardom): a shared library gives it.
+bool needs_host(const std::string& path);
+
+/// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; or
+/// what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use.
+std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host);
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path);
+
+/// Prints what a CAD file holds and what of it is hard to mesh, at most `limit` sentences a kind. Returns the exit
+/// code; throws Failure.
+int print_cad_info(const std::string& path, int limit);
 
 }  // namespace command

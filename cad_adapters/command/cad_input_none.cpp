@@ -1,11 +1,12 @@
 // In place of cad_input_opencascade.cpp where OpenCASCADE is not built in.
 #include "cad_input.h"
-#include "mesh_file.h"
+#include "failure.h"
 
 namespace command {
 
 std::unique_ptr<CadInput> open_cad(const std::string& path) {
-  throw Failure("'" + path + "' cannot be read: this program was built without OpenCASCADE.");
+  throw Failure("'" + path +
+                "' cannot be read: this program was built without OpenCASCADE, which STEP, IGES and BREP files need.");
 }
 
 int print_cad_info(const std::string& path, int) {

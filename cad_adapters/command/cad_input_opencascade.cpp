@@ -17,9 +17,17 @@ class OpenCascadeInput final : public CadInput {
 
   carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
   [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
-  [[nodiscard]] bool is_closed() const override { return host_.is_closed(); }
+  [[nodiscard]] bool answers_face_sizes() const override { return true; }
+  [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   [[nodiscard]] std::string failure(int face) const override { return host_.failure(face); }
   bool set_face_size(const std::string& face, double size) override { return host_.set_face_size(face, size); }
+
+  [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
+    double xyz[3], uv[2];
+    if (!host_.locate(face, u, v, xyz, uv)) return false;
+    place = {xyz[0], xyz[1], xyz[2], uv[0], uv[1]};
+    return true;
+  }
 
   bool exclude(int face, const std::string& why) override {
     if (face < 1 || face > host_.face_count()) return false;

@@ -19,17 +19,22 @@ int picture(const PictureOptions& options);
 
 struct MeshOptions {
   std::string input;
+  std::string host;  ///< shared library, of a .pardom
   std::vector<std::string> outputs;
-  std::string size, minimum, maximum;   ///< lengths as typed; empty: not given
-  double angle = 0;                     ///< degrees; 0: not given
-  std::vector<std::string> face_sizes;  ///< "face=length", the face by number or name
-  std::vector<std::string> settings;    ///< "parameter=value"
-  int threads = 0;                      ///< 0: all cores
+  std::string env;                            ///< blsurf.env; empty: none
+  std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
+  std::string size_map;                       ///< formula or file; empty: none
+  double angle = 0;                           ///< degrees; 0: not given
+  double gradation = 0;                       ///< 0: not given
+  double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
+  std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
+  std::vector<std::string> settings;          ///< "parameter=value"
+  int threads = 0;                            ///< 0: all cores
   bool quiet = false;
   bool json = false;  ///< a summary on the standard output
 };
 
-/// Meshes a CAD file. 0 all faces, 1 some faces have no mesh, 130 stopped by a signal.
+/// Meshes a file of geometry. 0 all faces, 1 some faces have no mesh; throws Failure when none has one.
 int mesh(const MeshOptions& options);
 
 /// Prints counts, quality and defects. 1 when there are defects.

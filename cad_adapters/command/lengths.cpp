@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "mesh_file.h"
+#include "failure.h"
 
 namespace command {
 

@@ -53,10 +53,14 @@ CLI::App* add_fields(CLI::App& app, command::FieldsOptions& options, std::string
 }
 
 CLI::App* add_mesh(CLI::App& app, command::MeshOptions& options) {
-  CLI::App* mesh = app.add_subcommand("mesh", "Mesh the faces of a CAD file");
-  mesh->add_option("INPUT", options.input, "File .step, .stp, .iges, .igs, .brep or .brp")->required();
+  CLI::App* mesh = app.add_subcommand("mesh", "Mesh the faces of a CAD file, Bezier patches, or a .pardom");
+  mesh->add_option("INPUT", options.input,
+                   "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom (with --host)")
+      ->required();
+  mesh->add_option("--host", options.host, "Geometry of a .pardom: a shared library with the routines of cad_m");
   mesh->add_option("-o,--output", options.outputs,
-                   "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1) or .msh2 (2.2); may be repeated")
+                   "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2) or .exr (fields); may be "
+                   "repeated")
       ->required()
       ->allow_extra_args(false);
   mesh->add_option("--size", options.size,
@@ -64,6 +68,16 @@ CLI::App* add_mesh(CLI::App& app, command::MeshOptions& options) {
                    "neither a size nor an angle is given");
   mesh->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
       ->check(CLI::Range(0.01, 89.0));
+  mesh->add_option("--chord", options.chord,
+                   "Distance between the mesh and its surfaces, a length or a share: sizes follow the curvature");
+  mesh->add_flag("--anisotropic{1000}", options.anisotropy,
+                 "Sizes that follow the curvature differ by direction, by at most =RATIO (1000)")
+      ->check(CLI::Range(1.0, 1e9));
+  mesh->add_option("--gradation", options.gradation, "Sizes grow by at most this ratio from one edge to the next")
+      ->check(CLI::Range(1.0001, 1e9));
+  mesh->add_option("--size-map", options.size_map,
+                   "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside");
+  mesh->add_option("--env", options.env, "Parameters from a blsurf.env, up to its first action; options win");
   mesh->add_option("--min", options.minimum, "Smallest size, a length or a share");
   mesh->add_option("--max", options.maximum, "Largest size, a length or a share");
   mesh->add_option("--face-size", options.face_sizes, "FACE=LENGTH, the size on a face given by number or name")

@@ -6,17 +6,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace command {
+#include "failure.h"
 
-/// Ends the program with exit code 2 and the sentence.
-class Failure : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+namespace command {
 
 struct FreeMesh {
   void operator()(carreau_mesh* mesh) const noexcept { carreau_mesh_free(mesh); }

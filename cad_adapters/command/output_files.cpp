@@ -10,26 +10,30 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "mesh_file.h"
+#include "session_handle.h"
+#include "text_file.h"
 
 namespace command {
 namespace {
 
-constexpr const char* suffixes[] = {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"};
+constexpr const char* suffixes[] = {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"};
 
 /// What a signal handler removes: fixed before `active` becomes true, and only read after that.
 struct Staged {
   std::string folder, file, temporary;
 };
 std::vector<Staged> staged;
-volatile std::sig_atomic_t active = 0;
+volatile std::sig_atomic_t active = 0, written = 0;
 
 void remove_staged() noexcept {
-  for (const Staged& s : staged) {
-    unlink(s.file.c_str());
-    unlink(s.temporary.c_str());
-    rmdir(s.folder.c_str());
-  }
+  // Another thread may open a file between its removal and that of its folder, but only once.
+  constexpr int tries = 3;
+  for (const Staged& s : staged)
+    for (int i = 0; i < tries; ++i) {
+      unlink(s.file.c_str());
+      unlink(s.temporary.c_str());
+      if (rmdir(s.folder.c_str()) == 0) break;
+    }
 }
 
 std::string folder_of(const std::string& path) {
@@ -60,8 +64,7 @@ class SignalsBlocked {
 };
 
 void check(const std::string& path) {
-  std::string suffix = path.find('.') == std::string::npos ? "" : path.substr(path.find_last_of('.'));
-  for (char& c : suffix) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  const std::string suffix = suffix_of(path);
   if (std::find(std::begin(suffixes), std::end(suffixes), suffix) == std::end(suffixes)) {
     std::string known;
     for (const char* each : suffixes) known += std::string(known.empty() ? "" : ", ") + each;
@@ -91,7 +94,11 @@ OutputFiles::~OutputFiles() {
   staged.clear();
 }
 
-void OutputFiles::write(carreau_mesh* mesh) {
+void OutputFiles::write(carreau_session* session, carreau_mesh* mesh) {
+  carreau_exr_options fields{};
+  fields.struct_size = sizeof fields;
+  fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
+  fields.multi_part = 1;
   {
     const SignalsBlocked blocked;  // a folder exists only once the handler knows of it
     staged.clear();
@@ -104,7 +111,11 @@ void OutputFiles::write(carreau_mesh* mesh) {
       staged.push_back({folder, file, file + ".0.tmp"});
     }
   }
-  for (const Staged& s : staged) require(mesh, carreau_mesh_write(mesh, s.file.c_str()));
+  for (const Staged& s : staged)
+    if (suffix_of(s.file) == ".exr")
+      require(session, carreau_write_exr(session, s.file.c_str(), &fields));
+    else
+      require(mesh, carreau_mesh_write(mesh, s.file.c_str()));
   const SignalsBlocked blocked;
   for (std::size_t i = 0; i < staged.size(); ++i) {
     struct stat old {};
@@ -115,12 +126,14 @@ void OutputFiles::write(carreau_mesh* mesh) {
     if (std::rename(staged[i].file.c_str(), target.c_str()) != 0) refuse(paths_[i], std::strerror(errno));
   }
   active = 0;
+  written = 1;
   remove_staged();  // the folders
   staged.clear();
 }
 
-void OutputFiles::remove_in_handler() noexcept {
+bool OutputFiles::remove_in_handler() noexcept {
   if (active != 0) remove_staged();
+  return written != 0;
 }
 
 }  // namespace command

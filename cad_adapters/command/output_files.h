@@ -19,11 +19,11 @@ class OutputFiles {
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
-  /// Throws Failure with the library's sentence.
-  void write(carreau_mesh* mesh);
+  /// The mesh of `session`, and its fields into .exr files. Throws Failure with the library's sentence.
+  void write(carreau_session* session, carreau_mesh* mesh);
 
-  /// Removes the files of a write() under way; for signal handlers.
-  static void remove_in_handler() noexcept;
+  /// Removes the files of a write() under way; for signal handlers. Whether a write() has succeeded before.
+  static bool remove_in_handler() noexcept;
 
  private:
   std::vector<std::string> paths_;

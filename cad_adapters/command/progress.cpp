@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "signals.h"
+
 namespace command {
 namespace {
 
@@ -23,8 +25,12 @@ const char* phase_name(std::int32_t phase) {
       return "assembly";
     case CARREAU_PHASE_WRITING:
       return "writing";
+    case CARREAU_PHASE_MEASURE:
+      return "measure";
+    case CARREAU_PHASE_GRADATION:
+      return "gradation";
     default:
-      return "done";
+      return "at work";
   }
 }
 
@@ -48,6 +54,7 @@ void Progress::listen_to(carreau_session* session) {
 void Progress::clear() {
   if (bar_) std::fputs("\r\033[K", stderr);
   bar_ = false;
+  bar_is_shown(false);
 }
 
 void Progress::line(const std::string& text) {
@@ -76,7 +83,9 @@ void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
   if (quiet_ || phase == CARREAU_PHASE_IDLE) return;
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
   if (!terminal_) {
-    if (percent / 10 == tenth_ && phase == phase_) return;
+    // Files are written image by image, each from 0 to 100 %: a log needs to know only that it has begun.
+    const bool of_files = phase == CARREAU_PHASE_WRITING || phase == CARREAU_PHASE_MEASURE;
+    if (phase == phase_ && (of_files || percent / 10 == tenth_)) return;
     tenth_ = percent / 10, phase_ = phase;
     std::fprintf(stderr, "%3d %% %s%s\n", percent, phase_name(phase), entity_name(phase, entity).c_str());
     return;
@@ -84,6 +93,7 @@ void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
   const auto now = Clock::now();
   if (bar_ && phase == phase_ && now - drawn_ < redraw) return;
   drawn_ = now, phase_ = phase, bar_ = true;
+  bar_is_shown(true);
   std::string bar(static_cast<std::size_t>(bar_width * percent / 100), '#');
   bar.resize(bar_width, '.');
   std::fprintf(stderr, "\r\033[K[%s] %3d %% %s%s", bar.c_str(), percent, phase_name(phase),

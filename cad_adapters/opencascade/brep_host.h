@@ -45,6 +45,9 @@ class BrepHost {
   [[nodiscard]] double diagonal() const;
   /// Every edge belongs to two faces, or twice to one.
   [[nodiscard]] bool is_closed() const noexcept;
+  /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has
+  /// there (uv[2]; exchanged when the face is reversed). False: OpenCASCADE fails.
+  bool locate(int face, double u, double v, double* xyz, double* uv) const noexcept;
   /// What OpenCASCADE said when a callback failed on this face; "" when none did.
   [[nodiscard]] std::string failure(int face) const;
 

@@ -48,6 +48,15 @@ class EnvRunner {
     }
   }
 
+  /// The parameters before the first action.
+  void read() {
+    for (const EnvPair& pair : carreau::read_env(path_)) {
+      if (pair.name == "call") break;
+      set(pair);
+    }
+    find_beside_env({"background_mesh", "background_sol"});
+  }
+
  private:
   [[nodiscard]] Where at(const EnvPair& pair) const { return {.file = path_, .line = pair.line}; }
 
@@ -103,6 +112,16 @@ void Session::run_env(const std::string& path) {
   std::function<void(const std::string&)> load;
   if (!has_model_from_host()) load = [this](const std::string& pardom) { load_pardom_of_env(pardom); };
   EnvRunner(*this, path, std::move(load)).run();
+}
+
+void Session::read_env(const std::string& path) {
+  const Parameters before = parameters();
+  try {
+    EnvRunner(*this, path, {}).read();
+  } catch (...) {
+    parameters() = before;
+    throw;
+  }
 }
 
 }  // namespace carreau

@@ -94,6 +94,11 @@ class Session {
   /// write() throw.
   void run_env(const std::string& path);
 
+  /// Sets the parameters that a blsurf.env has before its first action, and runs none; names of background meshes are
+  /// made those of files beside it. Parameters that it does not name keep their values; all do when this throws:
+  /// FileError or InvalidArgument with file and line.
+  void read_env(const std::string& path);
+
  private:
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
   std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);

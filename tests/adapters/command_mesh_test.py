@@ -251,7 +251,7 @@ class Mesh(unittest.TestCase):
         with open(self.out("a.mesh"), "w") as old:
             old.write("old")
         status, _ = self.interrupt("--size", "0.08%", after="patches")
-        self.assertEqual(status, 130)
+        self.assertEqual(status, -signal.SIGINT)
         self.assertEqual(os.listdir(self.folder), ["a.mesh"])
         self.assertEqual(content(self.out("a.mesh")), "old")
 

@@ -57,6 +57,7 @@ TEST(Handles, MayBeNull) {
   EXPECT_EQ(carreau_mesh_create(nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_mesh_generate(nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_run_env(nullptr, "blsurf.env"), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_read_env(nullptr, "blsurf.env"), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_model_add_face(nullptr, 1, 1), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_set_real(nullptr, "hphydef", 1), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_mesh_count(nullptr, nullptr, nullptr, nullptr, nullptr), CARREAU_ERR_ARGUMENT);

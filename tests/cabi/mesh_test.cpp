@@ -399,6 +399,40 @@ TEST_F(SessionTest, RunsABlsurfEnv) {
   std::remove(out.c_str());
 }
 
+TEST_F(SessionTest, TheParametersOfAnEnvFileCanBeTakenWithoutItsActions) {
+  const std::string env = testing::TempDir() + "carreau_abi_read.env";
+  const auto write = [&](const char* text) {
+    std::FILE* file = std::fopen(env.c_str(), "w");
+    ASSERT_NE(file, nullptr);
+    std::fputs(text, file);
+    std::fclose(file);
+  };
+  write("hphydef 0.5 ! coarse\nflag 1\nbackground_mesh bg.mesh\ncall inimesh\nhphydef 7\ncall export\n");
+  ASSERT_EQ(carreau_set_real(session, "hphymax", 3), CARREAU_OK);
+  ASSERT_EQ(carreau_read_env(session, env.c_str()), CARREAU_OK) << error();
+  double hphydef = 0, hphymax = 0;
+  int32_t flag = 0;
+  const char* background = nullptr;
+  EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
+  EXPECT_EQ(carreau_get_real(session, "hphymax", &hphymax), CARREAU_OK);
+  EXPECT_EQ(carreau_get_integer(session, "flag", &flag), CARREAU_OK);
+  EXPECT_EQ(hphydef, 0.5);
+  EXPECT_EQ(hphymax, 3);  // not named in the file
+  EXPECT_EQ(flag, 1);
+  ASSERT_EQ(carreau_get_text(session, "background_mesh", &background), CARREAU_OK);
+  EXPECT_EQ(background, testing::TempDir() + "bg.mesh");
+  carreau_mesh* none = nullptr;
+  EXPECT_EQ(carreau_session_mesh(session, &none), CARREAU_ERR_SEQUENCE);
+
+  write("hphydef 0.25\nhphymmin 0.1\n");
+  EXPECT_EQ(carreau_read_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(error(), env + ", line 2: there is no parameter 'hphymmin'; did you mean 'hphymin'?");
+  EXPECT_EQ(carreau_read_env(session, "/nonexistent/blsurf.env"), CARREAU_ERR_FILE);
+  EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
+  EXPECT_EQ(hphydef, 0.5);  // as before
+  std::remove(env.c_str());
+}
+
 // A model that the host has given, built or read, is the model of every `call inimesh`; else each reads its own.
 TEST_F(SessionTest, ABlsurfEnvReadsAPardomUnlessTheHostHasDone) {
   const std::string folder = testing::TempDir() + "carreau_abi_pardom_";

@@ -1,0 +1,42 @@
+// A model in memory: what a session is told of faces, and what it should not be told.
+#pragma once
+
+#include <carreau.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace command {
+
+/// Faces with their curves and imposed points, as carreau_model_add_face and its like take them.
+struct FaceModel {
+  struct Curve {
+    std::int32_t type = CARREAU_BOUNDARY, ref = 0, end1 = 0, end2 = 0;
+  };
+  struct Point {
+    std::int32_t ref = 0;
+    double u = 0, v = 0;
+  };
+  struct Face {
+    std::int32_t ref = 0, orientation = 1;
+    std::vector<Curve> curves;
+    std::vector<Point> points;
+    double size = 0;       ///< wanted on this face; 0: none of its own
+    std::string excluded;  ///< why it is left out; "": it is not
+  };
+  std::vector<Face> faces;
+
+  /// The face of this reference, or nullptr.
+  [[nodiscard]] Face* find(std::int32_t ref);
+  [[nodiscard]] const Face* find(std::int32_t ref) const;
+};
+
+/// The model in a file x.pardom. Throws Failure with the library's sentence.
+FaceModel read_pardom(const std::string& path);
+
+/// Replaces the model of a session by the faces that are not left out.
+carreau_status give_model(const FaceModel& model, carreau_session* session);
+
+}  // namespace command

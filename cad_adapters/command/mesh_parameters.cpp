@@ -1,0 +1,154 @@
+#include "mesh_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <thread>
+
+#include "lengths.h"
+#include "session_handle.h"
+
+namespace command {
+namespace {
+
+void set(carreau_session* session, const char* name, double value) {
+  require(session, carreau_set_real(session, name, value));
+}
+void set(carreau_session* session, const char* name, std::int32_t value) {
+  require(session, carreau_set_integer(session, name, value));
+}
+
+/// Lengths of the command line in model units.
+struct Lengths {
+  std::optional<double> size, minimum, maximum, chord;
+};
+
+Lengths lengths_of(const MeshOptions& options, double diagonal) {
+  const auto length = [&](const std::string& text, const char* name) -> std::optional<double> {
+    if (text.empty()) return std::nullopt;
+    return parse_length(text, name).of(diagonal);
+  };
+  Lengths lengths{length(options.size, "--size"), length(options.minimum, "--min"), length(options.maximum, "--max"),
+                  length(options.chord, "--chord")};
+  if (lengths.minimum && lengths.maximum && *lengths.minimum > *lengths.maximum)
+    throw Failure("--min " + options.minimum + " is above --max " + options.maximum + ".");
+  return lengths;
+}
+
+/// A length parameter that is neither set nor known before the first mesh has no value yet.
+bool is_set(carreau_session* session, const char* name) {
+  double value = 0;
+  return carreau_get_real(session, name, &value) == CARREAU_OK;
+}
+
+void set_physical_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths,
+                        const CadInput& input) {
+  const double diagonal = input.diagonal();
+  const bool by_face = !options.face_sizes.empty() && input.answers_face_sizes();
+  set(session, "hphy_flag", by_face ? 2 : 1);
+  if (lengths.size || !is_set(session, "hphydef")) set(session, "hphydef", lengths.size.value_or(0.02 * diagonal));
+  double size = 0;
+  require(session, carreau_get_real(session, "hphydef", &size));
+  // The bounds of the library are for sizes that a formula gives, not for what a person has typed.
+  if (!is_set(session, "hphymin")) set(session, "hphymin", std::min(size, diagonal) * 1e-6);
+  // Beside a map, a size that was typed is an upper bound.
+  const bool bounds_map = lengths.size && !options.size_map.empty();
+  if (bounds_map && (!lengths.maximum || *lengths.maximum > size))
+    set(session, "hphymax", size);
+  else if (!is_set(session, "hphymax"))
+    set(session, "hphymax", std::max(size, diagonal));
+}
+
+void set_geometric_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths,
+                         double diagonal) {
+  set(session, "hgeo_flag", 1);
+  if (options.angle > 0) set(session, "angle_mesh", options.angle);
+  if (lengths.chord) {
+    set(session, "eps_chord", *lengths.chord);
+    set(session, "geo_guarantee", 1);  // a distance that was typed is a bound, not an aim
+    require(session, carreau_set_text(session, "geo_rule", options.angle > 0 ? "both" : "chord"));
+  }
+  if (!is_set(session, "hgeomin")) set(session, "hgeomin", diagonal / 500);
+  if (!is_set(session, "hgeomax")) set(session, "hgeomax", diagonal / 5);
+}
+
+void set_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths, const CadInput& input) {
+  for (const auto& [bound, names] : {std::pair{lengths.minimum, std::array{"hphymin", "hgeomin"}},
+                                     std::pair{lengths.maximum, std::array{"hphymax", "hgeomax"}}})
+    for (const char* name : names)
+      if (bound) set(session, name, *bound);
+  const bool by_curvature = options.angle > 0 || lengths.chord;
+  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.size_map.empty();
+  if (sizes_typed || (options.env.empty() && !by_curvature))
+    set_physical_sizes(session, options, lengths, input);
+  else if (options.env.empty())
+    set(session, "hphy_flag", 0);  // the curvature alone governs
+  if (by_curvature) set_geometric_sizes(session, options, lengths, input.diagonal());
+  if (options.anisotropy > 0) {
+    std::int32_t by_geometry = 0;
+    require(session, carreau_get_integer(session, "hgeo_flag", &by_geometry));
+    if (by_geometry == 0)
+      throw Failure("--anisotropic stretches sizes that follow the curvature: it goes with --angle or --chord.");
+    set(session, "geo_metric", 1);
+    set(session, "anisotropy_max", options.anisotropy);
+  }
+  if (options.gradation > 0) set(session, "gradation", options.gradation);
+}
+
+/// "1%" of a parameter that is a model length.
+bool is_share(const std::string& name, const std::string& value) {
+  if (value.empty() || value.back() != '%') return false;
+  for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
+    carreau_parameter info{};
+    info.struct_size = sizeof info;
+    if (carreau_parameter_info(i, &info) == CARREAU_OK && name == info.name)
+      return info.diag_relative != 0 || std::strstr(info.help, "model length") != nullptr;
+  }
+  return false;
+}
+
+void set_by_name(carreau_session* session, const std::string& setting, double diagonal) {
+  const auto [name, value] = parse_assignment(setting, "--set");
+  if (is_share(name, value))
+    set(session, name.c_str(), parse_length(value, "--set " + name).of(diagonal));
+  else
+    require(session, carreau_set_word(session, name.c_str(), value.c_str()));
+}
+
+int threads_of(const MeshOptions& options) {
+  return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+void check_words(const MeshOptions& options) {
+  lengths_of(options, 1);
+  for (const std::string& each : options.face_sizes)
+    parse_length(parse_assignment(each, "--face-size").second, "--face-size");
+  for (const std::string& each : options.settings) parse_assignment(each, "--set");
+}
+
+void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map) {
+  const double diagonal = input.diagonal();
+  for (const std::string& each : options.face_sizes) {
+    const auto [face, size] = parse_assignment(each, "--face-size");
+    if (!input.set_face_size(face, parse_length(size, "--face-size").of(diagonal)))
+      throw Failure("--face-size: there is no face '" + face + "'.");
+  }
+  const bool sizes_by_face = !options.face_sizes.empty() && !input.answers_face_sizes();
+  set(session, "threads", threads_of(options));
+  // Zones narrower than a twentieth of their edges would have triangles of no shape.
+  set(session, "CheckCloseEdges", 20);
+  set(session, "CoefRectangle", 0.05);
+  set(session, "flag", 1);
+  // A curve has the smallest size of the faces beside it.
+  if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);
+  if (!options.env.empty()) require(session, carreau_read_env(session, options.env.c_str()));
+  if (options.threads > 0) set(session, "threads", options.threads);
+  set_sizes(session, options, lengths_of(options, diagonal), input);
+  for (const std::string& setting : options.settings) set_by_name(session, setting, diagonal);
+  if (sizes_by_face || !map.is_empty()) map.give_to(session, input);
+}
+
+}  // namespace command

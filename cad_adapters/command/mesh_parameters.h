@@ -1,0 +1,19 @@
+// From the options of `carreau mesh` to the parameters of a session.
+#pragma once
+
+#include <carreau.h>
+
+#include "cad_input.h"
+#include "commands.h"
+#include "size_map.h"
+
+namespace command {
+
+/// Throws Failure for words that mean nothing, before the input is read.
+void check_words(const MeshOptions& options);
+
+/// Gives face sizes to the input, and parameters and the size map to the session: first what this command chooses
+/// itself, then the env file, then the options, --set last. Throws Failure.
+void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map);
+
+}  // namespace command

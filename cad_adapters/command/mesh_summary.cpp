@@ -1,0 +1,144 @@
+#include "mesh_summary.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "session_handle.h"
+
+namespace command {
+namespace {
+
+const char* status_word(std::int32_t status) {
+  return status == CARREAU_FACE_MESHED ? "meshed" : status == CARREAU_FACE_MENDED ? "mended" : "failed";
+}
+
+carreau_quality quality_of(carreau_mesh* mesh) {
+  carreau_quality q{};
+  q.struct_size = sizeof q;
+  require(mesh, carreau_mesh_quality(mesh, &q));
+  return q;
+}
+
+carreau_report report_of(carreau_session* session) {
+  carreau_report r{};
+  r.struct_size = sizeof r;
+  require(session, carreau_session_report(session, &r));
+  return r;
+}
+
+std::int32_t threads_of(carreau_session* session) {
+  std::int32_t threads = 1;
+  require(session, carreau_get_integer(session, "threads", &threads));
+  return threads;
+}
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char line[240];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+long long whole(std::int64_t n) { return static_cast<long long>(n); }
+
+nlohmann::json quality_json(const carreau_quality& q) {
+  return {{"vertices", q.vertices},     {"triangles", q.triangles}, {"edges", q.edges},
+          {"open_edges", q.open_edges}, {"area", q.area},           {"q1_mean", q.q1_mean},
+          {"q1_p1", q.q1_p1},           {"q1_min", q.q1_min},       {"q2_mean", q.q2_mean},
+          {"q2_p1", q.q2_p1},           {"q2_min", q.q2_min},       {"angle_min", q.angle_min},
+          {"angle_max", q.angle_max},   {"edge_min", q.edge_min},   {"edge_mean", q.edge_mean},
+          {"edge_max", q.edge_max},     {"degree6", q.degree6}};
+}
+
+std::int64_t count(const std::vector<FaceResult>& faces, std::int32_t status) {
+  return std::count_if(faces.begin(), faces.end(), [&](const FaceResult& f) { return f.status == status; });
+}
+
+}  // namespace
+
+std::vector<FaceResult> collect_faces(carreau_mesh* mesh, const CadInput& input) {
+  std::vector<FaceResult> faces;
+  std::int64_t n = 0;
+  require(mesh, carreau_mesh_count(mesh, nullptr, nullptr, nullptr, &n));
+  for (std::int64_t i = 0; i < n; ++i) {
+    carreau_face face{};
+    face.struct_size = sizeof face;
+    require(mesh, carreau_mesh_face(mesh, i, &face));
+    faces.push_back({face.ref, face.status, face.triangles, face.name, face.why});
+  }
+  for (const auto& [ref, why] : input.excluded())
+    faces.push_back({.ref = ref, .status = CARREAU_FACE_FAILED, .name = {}, .why = why});
+  std::stable_sort(faces.begin(), faces.end(), [](const FaceResult& a, const FaceResult& b) { return a.ref < b.ref; });
+  return faces;
+}
+
+std::string failed_faces(const std::vector<FaceResult>& faces) {
+  constexpr int listed = 20;
+  const std::int64_t failed = count(faces, CARREAU_FACE_FAILED);
+  if (failed == 0) return "";
+  std::string list;
+  int told = 0;
+  for (const FaceResult& face : faces)
+    if (face.status == CARREAU_FACE_FAILED && told++ < listed)
+      list += (list.empty() ? "" : ", ") + std::to_string(face.ref);
+  return std::to_string(failed) + " of " + std::to_string(faces.size()) + " faces have no mesh: " + list +
+         (failed > listed ? ", ..." : "");
+}
+
+std::vector<std::string> summary_lines(const MeshRun& run) {
+  const carreau_quality q = quality_of(run.mesh);
+  const carreau_report r = report_of(run.session);
+  const auto& faces = run.faces;
+  std::vector<std::string> lines{
+      text("faces      %lld meshed, %lld mended, %lld failed", whole(count(faces, CARREAU_FACE_MESHED)),
+           whole(count(faces, CARREAU_FACE_MENDED)), whole(count(faces, CARREAU_FACE_FAILED))),
+      text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
+           q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str())};
+  const std::int32_t threads = threads_of(run.session);
+  lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,
+                       r.seconds_total, static_cast<int>(threads), threads == 1 ? "thread" : "threads",
+                       run.seconds_writing));
+  for (const std::string& path : run.options.outputs) lines.push_back("written    " + path);
+  return lines;
+}
+
+void print_json(const MeshRun& run) {
+  const carreau_report r = report_of(run.session);
+  const carreau_quality q = quality_of(run.mesh);
+  nlohmann::json faces = nlohmann::json::array();
+  for (const FaceResult& face : run.faces)
+    faces.push_back({{"reference", face.ref},
+                     {"name", face.name},
+                     {"status", status_word(face.status)},
+                     {"triangles", face.triangles},
+                     {"why", face.why}});
+  const nlohmann::json summary = {{"input", run.options.input},
+                                  {"outputs", run.options.outputs},
+                                  {"diagonal", run.input.diagonal()},
+                                  {"closed", q.open_edges == 0},
+                                  {"threads", threads_of(run.session)},
+                                  {"mesh", quality_json(q)},
+                                  {"faces", faces},
+                                  {"calls",
+                                   {{"surf0", r.surf0_calls},
+                                    {"surf1", r.surf1_calls},
+                                    {"surf2", r.surf2_calls},
+                                    {"curv0", r.curv0_calls},
+                                    {"curv1", r.curv1_calls},
+                                    {"curv2", r.curv2_calls},
+                                    {"sizes", r.size_calls}}},
+                                  {"seconds",
+                                   {{"reading", run.seconds_reading},
+                                    {"curves", r.seconds_curves},
+                                    {"sampling", r.seconds_sampling},
+                                    {"plane", r.seconds_plane},
+                                    {"lift", r.seconds_lift},
+                                    {"total", r.seconds_total},
+                                    {"writing", run.seconds_writing},
+                                    {"processor", run.seconds_processor}}}};
+  // Names may be in any encoding: what is not UTF-8 is replaced.
+  std::puts(summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+}
+
+}  // namespace command

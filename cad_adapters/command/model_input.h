@@ -1,0 +1,44 @@
+// What inputs have in common whose model is in memory: Bezier patches, and faces with a shared library.
+#pragma once
+
+#include "cad_input.h"
+#include "face_model.h"
+
+namespace command {
+
+class ModelInput : public CadInput {
+ public:
+  carreau_status give_to(carreau_session* session) final;
+  /// Of the box of the curves, sampled: the `diag` of parameters.
+  [[nodiscard]] double diagonal() const final { return diagonal_; }
+  [[nodiscard]] std::string summary() const final;
+  bool set_face_size(const std::string& face, double size) final;
+  [[nodiscard]] bool answers_face_sizes() const final { return false; }
+  [[nodiscard]] double face_size(std::int32_t face) const final;
+  bool exclude(int face, const std::string& why) final;
+  [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const final;
+  [[nodiscard]] std::string failure(int) const final { return ""; }
+
+ protected:
+  explicit ModelInput(FaceModel model) : model_(std::move(model)) {}
+  /// To be called by constructors once geometry answers. Throws Failure when the curves have no extent.
+  void measure(const std::string& path);
+
+  [[nodiscard]] const FaceModel& model() const noexcept { return model_; }
+  virtual carreau_status give_geometry(carreau_session* session) = 0;
+  /// (u, v) at a share of curve number ic, from 1.
+  [[nodiscard]] virtual bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
+                                      double& v) const noexcept = 0;
+
+ private:
+  FaceModel model_;
+  double diagonal_ = 0;
+};
+
+/// Patches of a .bpt file: faces 1, 2, ...; sides that meet become one curve by gluing. Throws Failure.
+std::unique_ptr<CadInput> open_bezier(const std::string& path);
+
+/// Faces of a .pardom file, with the routines of cad_m in a shared library. Throws Failure.
+std::unique_ptr<CadInput> open_pardom(const std::string& path, const std::string& host);
+
+}  // namespace command

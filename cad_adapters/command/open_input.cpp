@@ -1,0 +1,19 @@
+#include "cad_input.h"
+#include "failure.h"
+#include "model_input.h"
+#include "text_file.h"
+
+namespace command {
+
+bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; }
+
+std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host) {
+  if (needs_host(path)) {
+    if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
+    return open_pardom(path, host);
+  }
+  if (!host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
+  return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path);
+}
+
+}  // namespace command

@@ -1,0 +1,14 @@
+// Small text files as a whole.
+#pragma once
+
+#include <string>
+
+namespace command {
+
+/// Content of an ordinary file of at most 64 MB. Throws Failure with the file and the reason.
+std::string read_text(const std::string& path);
+
+/// ".bpt" of "a/b.BPT": what follows the last dot of the name, small letters; "" without one.
+std::string suffix_of(const std::string& path);
+
+}  // namespace command

@@ -1,0 +1,308 @@
+#!/usr/bin/env python3
+"""mesh_test.py CARREAU FORMULAS TEAPOT HOST...: `carreau mesh` without OpenCASCADE: Bezier patches, and hosts in shared libraries. FORMULAS:
+1 when the program has them. Each host is the paraboloid z = (x^2 + y^2) / 2 over [-2.5, 2.5]^2; face 2 of the first one fails."""
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import mesh_files
+
+PROGRAM, FORMULAS, TEAPOT, HOSTS = sys.argv[1], sys.argv[2] == "1", sys.argv[3], sys.argv[4:]
+FACE = "{0} 1 4  1 0 0 0  1 0 0 0  1 0 0 0  1 0 0 0  0\n"  # reference, orientation, four curves, no point
+
+# A square of side 2 in the plane z = 0, from (-1, -1), as one patch of degrees 1 and 1; a second one beside it, from x = 1.
+SQUARE = "1\n1 1\n-1 -1 0\n-1 1 0\n1 -1 0\n1 1 0\n"
+TWO_SQUARES = SQUARE.replace("1\n", "2\n", 1) + "1 1\n1 -1 0\n1 1 0\n3 -1 0\n3 1 0\n"
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau mesh ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "wb" if isinstance(text, bytes) else "w") as file:
+            file.write(text)
+        return self.path(name)
+
+    def run_mesh(self, *arguments, code=0, **options):
+        done = subprocess.run([PROGRAM, "mesh", *arguments], capture_output=True, text=True, timeout=120, cwd=self.folder, **options)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def mesh(self, *arguments, code=0):
+        """Of the mesh that these arguments give."""
+        done = self.run_mesh(*arguments, "-o", "out.mesh", code=code)
+        self.assertEqual(done.stdout, "")
+        return mesh_files.read_mesh(self.path("out.mesh"))
+
+    def refused(self, *arguments, sentence):
+        before = sorted(os.listdir(self.folder))
+        done = self.run_mesh(*arguments, code=2)
+        self.assertIn(sentence, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        return done
+
+
+def mean(values):
+    return sum(values) / len(values)
+
+
+def lengths_near(mesh, inside):
+    """Lengths of the edges whose middle satisfies `inside`."""
+    edges = {tuple(sorted((t[k], t[k - 1]))) for t in mesh.triangles for k in range(3)}
+    ends = [(mesh.vertices[i], mesh.vertices[j]) for i, j in edges]
+    return [math.dist(a, b) for a, b in ends if inside(*((x + y) / 2 for x, y in zip(a, b)))]
+
+
+class Inputs(Folder):
+    def test_bezier_patches_of_the_teapot_are_one_conforming_mesh(self):
+        mesh = self.mesh(TEAPOT, "--size", "0.1")
+        self.assertEqual(set(mesh.refs), set(range(1, 33)))
+        # The spout is open where it meets the body, and the body under the lid: HDR's teapot is 52.5 with these.
+        self.assertAlmostEqual(len(mesh.triangles) / 12282, 1, delta=0.02)
+        self.assertAlmostEqual(mean(mesh.lengths()) / 0.1, 1, delta=0.02)
+        # Every place is one vertex: no border along the sides that patches share.
+        self.assertEqual(len(set(mesh.vertices)), len(mesh.vertices))
+
+    def test_degrees_of_patches_may_be_any_up_to_15(self):
+        # z = u^15 / 15 v^2 as a patch of degrees 15 and 2, over the unit square: S(1, 1).z = 1 / 15.
+        rows = "".join(f"{i / 15!r} {j / 2!r} {1 / 15 if i == 15 and j == 2 else 0!r}\n" for i in range(16) for j in range(3))
+        mesh = self.mesh(self.write("steep.bpt", "1\n15 2\n" + rows), "--size", "0.02")
+        for x, y, z in mesh.vertices:
+            self.assertAlmostEqual(z, x ** 15 * y ** 2 / 15, delta=1e-14)
+        for words in ("0 2", "16 2", "-1 2", "3 99999999"):
+            self.refused(self.write("wrong.bpt", f"1\n{words}\n" + rows), "-o", "a.mesh", sentence="line 2: the degree")
+
+    def test_hosts_in_c_and_fortran_give_the_same_mesh(self):
+        pardom = self.write("x.pardom", "1\n" + FACE.format(1))
+        meshes = [self.mesh(pardom, "--host", host, "--size", "0.2") for host in HOSTS]
+        for mesh in meshes:
+            for x, y, z in mesh.vertices:
+                self.assertAlmostEqual(z, (x * x + y * y) / 2, delta=1e-12)
+            self.assertEqual(mesh.triangles, meshes[0].triangles)
+        self.assertAlmostEqual(mean(meshes[0].lengths()) / 0.2, 1, delta=0.03)
+        # No file of references beside the input: the command does not change what it reads.
+        self.assertEqual(sorted(os.listdir(self.folder)), ["out.mesh", "x.pardom"])
+
+    def test_a_face_that_fails_leaves_the_other_one_and_the_status_is_1(self):
+        both = self.write("both.pardom", "2\n" + FACE.format(1) + FACE.format(2))
+        done = self.run_mesh(both, "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3", "--json", code=1)
+        self.assertIn("1 of 2 faces have no mesh: 2", done.stderr)
+        self.assertEqual(set(mesh_files.read_mesh(self.path("out.mesh")).refs), {1})
+        faces = json.loads(done.stdout)["faces"]
+        self.assertEqual([(face["reference"], face["status"]) for face in faces], [(1, "meshed"), (2, "failed")])
+        self.assertIn("face 2", faces[1]["why"])
+        self.assertGreater(faces[0]["triangles"], 100)
+
+    def test_no_face_with_a_mesh_is_status_2_and_no_file(self):
+        self.refused(self.write("bad.pardom", "1\n" + FACE.format(2)), "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3",
+                     sentence="face 2")
+
+    def test_what_cannot_be_read_is_told(self):
+        cases = (("empty.bpt", "", "empty.bpt', line 1: the file ends"),
+                 ("none.bpt", "0\n", "no face"), ("cut.bpt", SQUARE[:-4], "line 6: the file ends where a coordinate should be"),
+                 ("words.bpt", SQUARE.replace("-1 1 0", "-1 one 0"), "line 4: a coordinate should be where 'one' stands"),
+                 ("more.bpt", SQUARE + "7\n", "line 7: there is more than the 1 patches"),
+                 ("nan.bpt", SQUARE.replace("-1 1 0", "-1 nan 0"), "line 4"), ("huge.bpt", SQUARE.replace("-1 1 0", "-1 1e300 0"), "line 4"),
+                 ("flat.bpt", "1\n1 1\n" + 4 * "2 3 4\n", "extent"),
+                 ("png.bpt", b"\x89PNG\r\n\x1a\n" * 40, "png.bpt', line 1: the number of patches should be where '?PNG' stands"),
+                 ("million.bpt", "1000000000\n1 1\n", "line 3: the file ends"))
+        for name, text, sentence in cases:
+            with self.subTest(name=name):
+                self.refused(self.write(name, text), "-o", "a.mesh", sentence=sentence)
+        self.refused("missing.bpt", "-o", "a.mesh", sentence="'missing.bpt' cannot be read: No such file")
+        os.mkdir(self.path("folder.bpt"))
+        self.refused("folder.bpt", "-o", "a.mesh", sentence="not an ordinary file")
+        self.refused(self.write("a.pardom", "1\n"), "-o", "a.mesh", sentence="--host names the shared library")
+        self.refused(self.write("a.pardom", "1\n"), "-o", "a.mesh", "--host", HOSTS[0], sentence="a.pardom")
+        self.refused(self.write("b.pardom", "1\n" + FACE.format(1)), "-o", "a.mesh", "--host", "no.so", sentence="no.so")
+        self.refused(TEAPOT, "-o", "a.mesh", "--host", HOSTS[0], sentence="--host goes with a .pardom file")
+
+
+class Sizes(Folder):
+    def setUp(self):
+        super().setUp()
+        self.square = self.write("square.bpt", SQUARE)
+        self.two = self.write("two.bpt", TWO_SQUARES)
+
+    def test_lengths_may_be_shares_of_the_diagonal(self):
+        share = 100 * 0.1 / math.sqrt(8)
+        as_length = self.mesh(self.square, "--size", "0.1")
+        for options in (("--size", f"{share!r}%"), ("--max", f"{share!r}%", "--size", "1"), ("--min", f"{share!r}%", "--size", "1e-3"),
+                        ("--face-size", f"1={share!r}%"), ("--set", f"hphydef={share!r}%", "--set", "hphymax=9")):
+            mesh = self.mesh(self.square, *options)
+            self.assertAlmostEqual(len(mesh.triangles) / len(as_length.triangles), 1, delta=0.02, msg=options)
+        self.refused(self.square, "-o", "a.mesh", "--set", "angle_mesh=1%", sentence="angle_mesh")
+
+    def test_a_face_can_have_a_size_of_its_own(self):
+        mesh = self.mesh(self.two, "--size", "0.3", "--face-size", "2=0.05")
+        for face, size in ((1, 0.3), (2, 0.05)):
+            inside = lengths_near(mesh, lambda x, y, z: (x > 1.1 if face == 2 else x < 0) and abs(y) < 0.9)
+            self.assertAlmostEqual(mean(inside) / size, 1, delta=0.15)
+        # The curve between takes the smaller one.
+        between = [math.dist(mesh.vertices[i], mesh.vertices[j]) for i, j, _ in mesh.edges
+                   if mesh.vertices[i][0] == mesh.vertices[j][0] == 1]
+        self.assertAlmostEqual(mean(between), 0.05, delta=0.005)
+        self.refused(self.two, "-o", "a.mesh", "--face-size", "3=1", sentence="there is no face '3'")
+        self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="name=value")
+        self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is no length")
+
+    @unittest.skipUnless(FORMULAS, "built without muParser")
+    def test_a_formula_gives_the_size_at_each_place(self):
+        mesh = self.mesh(self.square, "--size-map", "x < 0 ? 0.02 : 0.02 + x / 5")
+        left, right = (mean(lengths_near(mesh, test)) for test in (lambda x, y, z: x < -0.1, lambda x, y, z: x > 0.9))
+        self.assertAlmostEqual(left / 0.02, 1, delta=0.05)
+        self.assertAlmostEqual(right / 0.21, 1, delta=0.15)
+        # u runs along x here, from 0 to 1.
+        for formula in ("0.05 + u / 10", "0.05 + (x + 1) / 20", "0.05+min(u,2)/10+0*pi*sin(v)"):
+            self.assertEqual(self.mesh(self.square, "--size-map", formula).triangles,
+                             self.mesh(self.square, "--size-map", "0.05 + u / 10").triangles, formula)
+        # A size beside it is an upper bound, as is that of a face.
+        bounded = self.mesh(self.square, "--size-map", "x < 0 ? 0.05 : 1", "--size", "0.1")
+        self.assertAlmostEqual(mean(lengths_near(bounded, lambda x, y, z: x > 0.3)) / 0.1, 1, delta=0.05)
+        both = self.mesh(self.two, "--size-map", "0.2", "--face-size", "2=0.05")
+        self.assertAlmostEqual(mean(lengths_near(both, lambda x, y, z: x > 1.2)) / 0.05, 1, delta=0.05)
+        self.assertAlmostEqual(mean(lengths_near(both, lambda x, y, z: x < 0)) / 0.2, 1, delta=0.2)
+
+    @unittest.skipUnless(FORMULAS, "built without muParser")
+    def test_the_mesh_of_a_formula_does_not_depend_on_threads(self):
+        meshes = [self.mesh(TEAPOT, "--size-map", "0.1 + z / 20", "--threads", str(n)) for n in (1, 2, 8)]
+        for mesh in meshes[1:]:
+            self.assertEqual((mesh.vertices, mesh.triangles), (meshes[0].vertices, meshes[0].triangles))
+
+    @unittest.skipUnless(FORMULAS, "built without muParser")
+    def test_a_formula_that_is_wrong_is_told_with_the_position(self):
+        for formula, sentence in (("x + * 2", "position 5"), ("x +", "position 4"), ("(x", "position 3"), ("0.1 + size", "position 7"),
+                                  ("x y", "position 3"), ("x = 2", "'=' assigns"), ("1, 2", "more than one value"), ("  ", "empty"),
+                                  ('"a"', "strings"), ("0.1 + \u00e9", "not plain text"), ("x" * 5000, "4096")):
+            with self.subTest(formula=formula):
+                self.refused(self.square, "-o", "a.mesh", "--size-map", formula, sentence=sentence)
+        done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is no size, on face 1 at x = ")
+        self.assertIn("the size map 'x' gives -", done.stderr)
+        self.refused(self.square, "-o", "a.mesh", "--size-map", "sqrt(x)", sentence="gives nan")
+        self.refused(self.square, "-o", "a.mesh", "--size-map", "1/(x - x)", sentence="gives inf")
+
+    @unittest.skipIf(FORMULAS, "built with muParser")
+    def test_without_muparser_a_formula_is_refused(self):
+        self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="built without muParser")
+
+    def test_a_background_mesh_gives_the_sizes_at_its_vertices(self):
+        self.write("bg.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 4\n-1 -1 0 0\n1 -1 0 0\n1 1 0 0\n-1 1 0 0\nTriangles 2\n"
+                   "1 2 3 0\n1 3 4 0\nEnd\n")
+        self.write("bg.sol", "MeshVersionFormatted 2\nDimension 3\nSolAtVertices 4\n1 1\n0.05\n0.25\n0.25\n0.05\nEnd\n")
+        meshes = [self.mesh(self.square, "--size-map", name) for name in ("bg.mesh", "bg.sol")]
+        self.assertEqual(meshes[0].triangles, meshes[1].triangles)
+        # h = 0.15 + x / 10: the number of edges across is the integral of 1 / h = 10 ln 5, in a strip along y.
+        for low, high in ((-1, -0.5), (0, 0.5)):
+            edges = lengths_near(meshes[0], lambda x, y, z: low < x < high)
+            self.assertAlmostEqual(mean(edges) / (0.15 + (low + high) / 20), 1, delta=0.12)
+        bounded = self.mesh(self.square, "--size-map", "bg.mesh", "--size", "0.1")
+        self.assertAlmostEqual(mean(lengths_near(bounded, lambda x, y, z: x > 0)) / 0.1, 1, delta=0.05)
+        self.refused(self.square, "-o", "a.mesh", "--size-map", "no.mesh", sentence="there is no such file")
+        self.write("lone.mesh", "MeshVersionFormatted 2\n")
+        self.refused(self.square, "-o", "a.mesh", "--size-map", "lone.mesh", sentence="neither 'lone.sol' nor 'lone.solb'")
+        self.write("lone.sol", "MeshVersionFormatted 2\n")
+        self.refused(self.square, "-o", "a.mesh", "--size-map", "lone.mesh", sentence="lone.mesh")
+
+    def test_a_chord_bounds_the_distance_of_the_mesh_from_its_surface(self):
+        pardom = self.write("x.pardom", "1\n" + FACE.format(1))
+        counts = []
+        for chord in ("0.02", "0.005", "0.1%"):
+            mesh = self.mesh(pardom, "--host", HOSTS[0], "--chord", chord)
+            counts.append(len(mesh.triangles))
+            bound = float(chord) if "%" not in chord else 0.001 * math.sqrt(25 + 25 + 6.25 ** 2)
+            # The surface above the middle of a triangle, along z: not above 1.3 times the chord, as README promises.
+            heights = []
+            for t in mesh.triangles:
+                x, y, z = (sum(c) / 3 for c in zip(*(mesh.vertices[v] for v in t)))
+                heights.append(abs(z - (x * x + y * y) / 2) / math.sqrt(1 + x * x + y * y))
+            self.assertLess(max(heights), 1.3 * bound)
+            self.assertGreater(max(heights), bound / 4)
+        self.assertAlmostEqual(counts[1] / counts[0], 4, delta=1)  # size goes with the root of the chord
+
+    def test_anisotropic_sizes_need_fewer_triangles_and_the_ratio_is_bounded(self):
+        # A quarter of a cylinder nearly: bent along u only, radius 1, length 4.
+        k = 4 / 3 * (math.sqrt(2) - 1)
+        rows = "".join(f"{x!r} {y!r} {z}\n" for x, y in ((1, 0), (1, k), (k, 1), (0, 1)) for z in (0, 4))
+        bent = self.write("bent.bpt", "1\n3 1\n" + rows)
+        counts = [len(self.mesh(bent, "--angle", "3", *options).triangles)
+                  for options in ((), ("--anisotropic=2",), ("--anisotropic=5",), ("--anisotropic",))]
+        self.assertGreater(counts[0] / counts[1], 1.4)
+        self.assertGreater(counts[1] / counts[2], 1.5)
+        self.assertGreaterEqual(counts[2], counts[3])
+        self.refused(bent, "-o", "a.mesh", "--anisotropic", sentence="--angle or --chord")
+        self.refused(bent, "-o", "a.mesh", "--angle", "3", "--anisotropic=0.5", sentence="--anisotropic")
+        self.refused(bent, "-o", "a.mesh", "--angle", "3", "--anisotropic=x", sentence="--anisotropic")
+
+    def test_a_gradation_lets_sizes_grow_gently(self):
+        sharp = self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02")
+        soft = self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02", "--gradation", "1.2")
+        self.assertGreater(len(soft.triangles), len(sharp.triangles))
+        # ln(1.2) per edge: at the distance d from the small face sizes are at most 0.02 + ln(1.2) d.
+        near = lengths_near(soft, lambda x, y, z: 0.6 < x < 0.9)
+        self.assertLess(mean(near), 0.02 + math.log(1.2) * 0.4)
+        self.refused(self.two, "-o", "a.mesh", "--gradation", "0.9", sentence="--gradation")
+
+    def test_an_env_file_sets_parameters_and_the_command_line_wins(self):
+        env = self.write("blsurf.env", "hphydef 0.1 ! edges\nhphymax 1\nangle_mesh 4\ncall inimesh\nhphydef 7\npref other\ncall export\ncall exit\n")
+        by_env = self.mesh(self.square, "--env", env)
+        self.assertAlmostEqual(mean(by_env.lengths()) / 0.1, 1, delta=0.03)
+        wins = self.mesh(self.square, "--env", env, "--size", "0.2")
+        self.assertAlmostEqual(mean(wins.lengths()) / 0.2, 1, delta=0.05)
+        last = self.mesh(self.square, "--env", env, "--size", "0.2", "--set", "hphydef=0.15")
+        self.assertAlmostEqual(mean(last.lengths()) / 0.15, 1, delta=0.05)
+        bounded = self.mesh(self.square, "--env", env, "--max", "0.05")
+        self.assertAlmostEqual(mean(bounded.lengths()) / 0.05, 1, delta=0.03)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["blsurf.env", "out.mesh", "square.bpt", "two.bpt"])  # no action was run
+        curved = self.write("curved.env", "hphy_flag 0 hgeo_flag 1 angle_mesh 4\n")
+        pardom = self.write("x.pardom", "1\n" + FACE.format(1))
+        same = [self.mesh(pardom, "--host", HOSTS[0], *options).triangles
+                for options in (("--env", curved), ("--angle", "4"), ("--env", curved, "--set", "angle_mesh=4"))]
+        self.assertEqual(same[0], same[2])
+        self.assertAlmostEqual(len(same[0]) / len(same[1]), 1, delta=0.02)
+        self.refused(self.square, "-o", "a.mesh", "--env", self.write("bad.env", "hphydef 1\nhphydeff 2\n"),
+                     sentence="bad.env, line 2: there is no parameter 'hphydeff'; did you mean 'hphydef'?")
+        self.refused(self.square, "-o", "a.mesh", "--env", "no.env", sentence="no.env")
+
+
+class Results(Folder):
+    def test_exr_holds_the_fields_of_the_mesh(self):
+        self.run_mesh(self.write("two.bpt", TWO_SQUARES), "-o", "f.exr", "-o", "out.mesh", "--size", "0.2")
+        with open(self.path("f.exr"), "rb") as file:
+            head = file.read(20000)
+        self.assertEqual(head[:4], b"\x76\x2f\x31\x01")
+        for word in (b"face.1", b"face.2", b"size.h\0", b"triangle\0"):
+            self.assertTrue(word in head, word)
+
+    def test_all_cores_are_used_by_default(self):
+        square = self.write("square.bpt", SQUARE)
+        summary = json.loads(self.run_mesh(square, "-o", "a.mesh", "-q", "--json").stdout)
+        self.assertEqual(summary["threads"], len(os.sched_getaffinity(0)))
+        summary = json.loads(self.run_mesh(square, "-o", "a.mesh", "-q", "--json", "--threads", "3").stdout)
+        self.assertEqual(summary["threads"], 3)
+
+    def test_a_summary_ends_the_run_and_a_quiet_one_says_nothing(self):
+        done = self.run_mesh(TEAPOT, "-o", "a.mesh", "-o", "a.vtu", "--size", "0.3")
+        for pattern in (r"(?m)^faces +32 meshed, 0 mended, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
+                        r"(?m)^written +a\.vtu$", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
+                        r"\d+ triangles"):
+            self.assertRegex(done.stderr, pattern)
+        self.assertEqual(done.stdout, "")
+        quiet = self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.3", "-q")
+        self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
