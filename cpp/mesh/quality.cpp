@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+
+#include "support/stepped_tasks.h"
 
 namespace carreau {
 
@@ -27,6 +30,45 @@ Distribution distribution(std::vector<double>& values) {
 }
 
 double angle_between(Vec3 p, Vec3 q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
+
+// Of this many triangles: sums do not depend on the number of threads.
+constexpr std::size_t part_size = 4096;
+
+/// Sum of areas, and extreme angles, of some triangles.
+struct Part {
+  struct Corner {
+    Vec3 p, q;             // the sides
+    double cotangent = 0;  // of the angle between them: falls from 0 to 180 degrees, and costs less than the angle
+  };
+  double area = 0;
+  Corner sharpest{.p = {}, .q = {}, .cotangent = -std::numeric_limits<double>::infinity()};
+  Corner bluntest{.p = {}, .q = {}, .cotangent = std::numeric_limits<double>::infinity()};
+
+  void measure(const FlatMesh& mesh, std::size_t triangle, double& q1, double& q2) {
+    const auto& t = mesh.triangles[triangle];
+    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    q1 = quality_q1(a, b, c);
+    q2 = quality_q2(a, b, c);
+    area += 0.5 * double_area(a, b, c);
+    for (const auto& [p, q] : {std::pair{b - a, c - a}, std::pair{c - b, a - b}, std::pair{a - c, b - c}})
+      see({p, q, 0});
+  }
+  void see(Corner corner) {
+    const double sine = norm(cross(corner.p, corner.q)), cosine = dot(corner.p, corner.q);
+    // Sides of a flat triangle: 0 or 180 degrees; as atan2 has it, 0 where a side has no length.
+    corner.cotangent = sine > 0 ? cosine / sine : std::copysign(std::numeric_limits<double>::max(), cosine);
+    keep(corner);
+  }
+  void keep(const Corner& corner) {
+    if (corner.cotangent > sharpest.cotangent) sharpest = corner;
+    if (corner.cotangent < bluntest.cotangent) bluntest = corner;
+  }
+  void add(const Part& other) {
+    area += other.area;
+    keep(other.sharpest);
+    keep(other.bluntest);
+  }
+};
 
 void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
   std::vector<std::uint64_t> keys;
@@ -85,30 +127,35 @@ double quality_q2(Vec3 a, Vec3 b, Vec3 c) noexcept {
   return squares > 0 ? 2 * std::numbers::sqrt3 * double_area(a, b, c) / squares : 0;
 }
 
-QualitySummary summarise_quality(const FlatMesh& mesh) {
+QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
   QualitySummary summary;
   summary.vertices = mesh.vertices.size();
   summary.triangles = mesh.triangles.size();
-  std::vector<double> q1, q2;
-  q1.reserve(mesh.triangles.size());
-  q2.reserve(mesh.triangles.size());
-  double smallest = std::numbers::pi, largest = 0;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-    q1.push_back(quality_q1(a, b, c));
-    q2.push_back(quality_q2(a, b, c));
-    summary.area += 0.5 * double_area(a, b, c);
-    for (const double angle : {angle_between(b - a, c - a), angle_between(c - b, a - b), angle_between(a - c, b - c)}) {
-      smallest = std::min(smallest, angle);
-      largest = std::max(largest, angle);
-    }
-  }
+  std::vector<double> q1(mesh.triangles.size()), q2(mesh.triangles.size());
+  std::vector<Part> parts((mesh.triangles.size() + part_size - 1) / part_size);
+  Monitor silent;
+  run_each(
+      parts.size(), false, threads,
+      [&](std::size_t i, Monitor&) {
+        const std::size_t begin = i * part_size, end = std::min(begin + part_size, mesh.triangles.size());
+        for (std::size_t t = begin; t < end; ++t) parts[i].measure(mesh, t, q1[t], q2[t]);
+      },
+      silent);
+  Part all;
+  for (const Part& part : parts) all.add(part);
+  summary.area = all.area;
   if (!mesh.triangles.empty()) {
-    summary.angle_min_deg = smallest * 180 / std::numbers::pi;
-    summary.angle_max_deg = largest * 180 / std::numbers::pi;
+    summary.angle_min_deg = angle_between(all.sharpest.p, all.sharpest.q) * 180 / std::numbers::pi;
+    summary.angle_max_deg = angle_between(all.bluntest.p, all.bluntest.q) * 180 / std::numbers::pi;
   }
-  summary.q1 = distribution(q1);
-  summary.q2 = distribution(q2);
+  run_each(
+      2, false, threads,
+      [&](std::size_t i, Monitor&) { (i == 0 ? summary.q1 : summary.q2) = distribution(i == 0 ? q1 : q2); }, silent);
+  return summary;
+}
+
+QualitySummary summarise_quality(const FlatMesh& mesh) {
+  QualitySummary summary = summarise_shapes(mesh, 1);
   measure_edges(mesh, summary);
   return summary;
 }

@@ -25,5 +25,7 @@ struct QualitySummary {
   double degree6 = 0;  ///< share of interior vertices of degree 6
 };
 QualitySummary summarise_quality(const FlatMesh& mesh);
+/// The same without what is known of edges only. It does not depend on the number of threads.
+QualitySummary summarise_shapes(const FlatMesh& mesh, int threads);
 
 }  // namespace carreau

@@ -143,7 +143,7 @@ class TopologyBuilder {
 
   void check_gap(const Curve& shape, const CurveUse& use) const {
     const std::span<const Vec3> first = trace(shape.uses.front()), other = trace(use);
-    if (hausdorff_distance(first, other, eps_) <= eps_) return;
+    if (hausdorff_distance(first, other, eps_, eps_) <= eps_) return;
     throw InvalidModel(where(use), "the curve is up to " + format_number(hausdorff_distance(first, other, infinity)) +
                                        " away from " + name(shape.uses.front()) +
                                        ", which has the same reference (tolerance " + format_number(eps_) + ")");

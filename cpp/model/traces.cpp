@@ -8,6 +8,11 @@
 
 namespace carreau {
 
+namespace {
+// Segments on either side of the nearest one of a point, among which that of the next point is looked for first.
+constexpr std::size_t beside = 2;
+}  // namespace
+
 void check_traces(const Model& model, const CurveTraces& traces) {
   if (traces.size() != model.faces.size())
     throw InvalidArgument("the model has " + std::to_string(model.faces.size()) + " faces, its traces " +
@@ -53,21 +58,29 @@ TracePlace nearest_on_trace(std::span<const Vec3> trace, Vec3 p) {
   return nearest;
 }
 
-double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough) {
-  double worst = 0;
+double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough, double negligible) {
+  double worst = negligible;
+  std::size_t nearest = 1;  // segment that ends there: near the next point too, as a rule
   for (const Vec3& p : from) {
     double best = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 1; i < to.size() && best > worst * worst; ++i)
-      best = std::min(best, squared_distance_to_segment(p, to[i - 1], to[i]));
+    // A point that is no farther than another one was does not matter.
+    const auto look = [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last && best > worst * worst; ++i) {
+        const double distance = squared_distance_to_segment(p, to[i - 1], to[i]);
+        if (distance < best) best = distance, nearest = i;
+      }
+    };
+    look(std::max(nearest, beside + 1) - beside, std::min(nearest + beside, to.size()));
+    look(1, to.size());
     worst = std::max(worst, std::sqrt(best));
     if (worst > enough) return worst;
   }
   return worst;
 }
 
-double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough) {
-  const double first = one_sided_distance(p, q, enough);
-  return first > enough ? first : std::max(first, one_sided_distance(q, p, enough));
+double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough, double negligible) {
+  const double first = one_sided_distance(p, q, enough, negligible);
+  return first > enough ? first : std::max(first, one_sided_distance(q, p, enough, negligible));
 }
 
 double trace_deviation(std::span<const Vec3> trace) {

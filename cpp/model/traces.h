@@ -23,10 +23,10 @@ struct TracePlace {
 };
 TracePlace nearest_on_trace(std::span<const Vec3> trace, Vec3 p);
 /// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds
-/// `enough`.
-double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough);
+/// `enough`. Distances up to `negligible` may come out as that.
+double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough, double negligible = 0);
 /// Both sides (HDR sec. 4.5.1).
-double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough);
+double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, double enough, double negligible = 0);
 /// How far the polyline may be off the curve that it samples, about: the largest distance of a vertex to the chord of
 /// its neighbours. 0 for straight ones.
 double trace_deviation(std::span<const Vec3> trace);

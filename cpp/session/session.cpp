@@ -86,6 +86,11 @@ GeometricCriterion criterion_of(const std::string& rule) {
   return rule == "radii" ? GeometricCriterion::radii : GeometricCriterion::angle;
 }
 
+int threads_of(const Parameters& parameters) {
+  const int threads = parameters.integer("threads");
+  return threads != 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 CompositeOptions composite_options(const Parameters& parameters, double diag) {
   CompositeOptions options;
   SizeParameters& size = options.size;
@@ -120,8 +125,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.coef_rectangle = parameters.real("CoefRectangle");
   options.frontal = parameters.integer("frontal") != 0;
   options.max_triangles = parameters.integer("max_triangles");
-  options.threads = parameters.integer("threads");
-  if (options.threads == 0) options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  options.threads = threads_of(parameters);
   return options;
 }
 
@@ -184,7 +188,7 @@ void write_glued(const Model& model, std::vector<std::string>& remarks) {
 }
 
 // The few lines that a person wants after a run.
-void describe_result(const CompositeResult& result, Monitor& monitor) {
+void describe_result(const CompositeResult& result, int threads, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
   const auto whole = [](std::int64_t n) { return std::to_string(n); };
   const auto count = [&](FaceStatus status) {
@@ -199,7 +203,7 @@ void describe_result(const CompositeResult& result, Monitor& monitor) {
                                       " vertices, " + whole(static_cast<std::int64_t>(mesh.triangle_count())) +
                                       " triangles, " + whole(static_cast<std::int64_t>(mesh.edge_count())) +
                                       " edges on curves");
-  const QualitySummary q = summarise_quality(flatten(mesh, false));
+  const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
   const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
   monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
                                       short_text(q.q2.p1) + ", worst " + short_text(q.q2.min) + "; angles " +
@@ -299,7 +303,7 @@ void Session::make_mesh() {
   s.monitor.progress(Phase::model, 0, 0);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   PartCad known_cad(whole_cad, parts_of(s.model));
-  ModelSupports supports = build_supports(s.model, known_cad, angle_smo, s.monitor);
+  ModelSupports supports = build_supports(s.model, known_cad, angle_smo, threads_of(s.parameters), s.monitor);
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
   set_parameter_boxes(s.model, supports, whole_cad);
@@ -356,7 +360,7 @@ void Session::make_mesh() {
   s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;
   s.last_failed = false;
-  describe_result(s.result, s.monitor);
+  describe_result(s.result, s.meshed.options.threads, s.monitor);
   if (s.delivered) describe_delivered(*s.delivered, s.monitor);
   s.monitor.progress(Phase::idle, 0, 1);
 }
@@ -383,7 +387,7 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   const FieldRun run{meshed.model, meshed.topology,     &meshed.supports,
                      &s.result,    meshed.options.size, s.meshed_parameters,
                      diag,         delivered_here};
-  if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, diag).threads;
+  if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 
@@ -399,7 +403,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   std::shared_ptr<BackgroundField> background;
   try {
     background = background_of_run(parameters, s.background);
-    supports = build_supports(s.model, cad, parameters.real("angle_smo"), s.monitor);
+    supports = build_supports(s.model, cad, parameters.real("angle_smo"), threads_of(s.parameters), s.monitor);
     set_parameter_boxes(s.model, *supports, cad);
   } catch (const Cancelled&) {
     throw;
@@ -413,7 +417,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   run.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : run.size.sources)
     source->begin_run(static_cast<MetricLaw>(run.size.hinterpol_flag));
-  if (options.file.threads == 0) options.file.threads = composite_options(s.parameters, run.diag).threads;
+  if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 

@@ -105,7 +105,7 @@ std::vector<Vec2> SizeRules::steep_places(int face) const {
 
 // ---- what is answered ----
 
-SizeRules::Answers SizeRules::answers_on_surface(int face, Vec2 uv, Vec3 xyz) {
+SizeRules::Answers SizeRules::answers_on_surface(int face, Vec2 uv, Vec3 xyz) const {
   Answers answers;
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   if (asks_sources()) {
@@ -229,7 +229,7 @@ Metric2 SizeRules::degenerate_metric(const Answers& answers, const SurfaceJet& j
 }
 
 /// Clamped. Empty where the parametrisation is degenerate.
-std::optional<DirectedSizes> SizeRules::directed_sizes(int face, Vec2 uv, const SurfaceJet& jet) {
+std::optional<DirectedSizes> SizeRules::directed_sizes(int face, Vec2 uv, const SurfaceJet& jet) const {
   const auto clamped = [&](double h) { return std::clamp(h, parameters_.hgeomin, parameters_.hgeomax); };
   if (const auto radius = host_radius_of_surface(face, uv)) {
     const double h = clamped_geometric(*radius);
@@ -245,7 +245,7 @@ std::optional<DirectedSizes> SizeRules::directed_sizes(int face, Vec2 uv, const 
 // ---- inside faces ----
 
 void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                                   const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) {
+                                   const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
   const bool geometric = uses_curvature(), physical = parameters_.hphy_flag != 0;
   const auto answers_at = [&](std::size_t i) {
     Answers answers;

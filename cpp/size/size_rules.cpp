@@ -158,7 +158,7 @@ Where SizeRules::where_of(const CurveUse& use, double t) const {
 
 // ---- physical sizes (RT-0232 sec. 3.1.3 a) ----
 
-std::optional<double> SizeRules::ask_surface(int face, Vec2 uv) {
+std::optional<double> SizeRules::ask_surface(int face, Vec2 uv) const {
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   const auto answer = checked_size(cad_.surface_size(ref, uv), "cad_hphys", Where{.face = ref, .uv = uv});
   if (!answer) return {};
@@ -285,7 +285,7 @@ double SizeRules::physical_on_curve(int curve, std::span<const double> t, double
 
 // ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
 
-std::optional<double> SizeRules::host_radius_of_surface(int face, Vec2 uv) {
+std::optional<double> SizeRules::host_radius_of_surface(int face, Vec2 uv) const {
   if (parameters_.hgeo_flag != 2) return {};
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   return checked_radius(cad_.surface_radius(ref, uv), "cad_rads", Where{.face = ref, .uv = uv});
@@ -304,7 +304,7 @@ std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const
 
 /// `jet` with both derivatives when known, else nullptr. Where a host that was to give its own radius is silent, the
 /// curvature is computed.
-std::optional<double> SizeRules::radius_in_face(int face, Vec2 uv, const SurfaceJet* jet) {
+std::optional<double> SizeRules::radius_in_face(int face, Vec2 uv, const SurfaceJet* jet) const {
   if (const auto radius = host_radius_of_surface(face, uv)) return radius;
   if (jet != nullptr) return smallest_radius(*jet);
   return smallest_radius(surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, both_derivatives, uv));
@@ -378,7 +378,7 @@ CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t, double 
 double SizeRules::on_curve(int curve, std::span<const double> t, double r) { return ask_on_curve(curve, t, r).h; }
 
 void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                                     std::span<double> h) {
+                                     std::span<double> h) const {
   std::vector<std::size_t> sound, degenerate;
   std::vector<double> radius(uv.size(), infinity);
   for (std::size_t i = 0; i < uv.size(); ++i) {
@@ -399,7 +399,7 @@ void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::sp
 }
 
 void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                           const std::function<double(Vec2)>& fallback, std::span<double> h) {
+                           const std::function<double(Vec2)>& fallback, std::span<double> h) const {
   for (std::size_t i = 0; i < uv.size(); ++i) {
     switch (parameters_.hphy_flag) {
       case 0:

@@ -65,6 +65,7 @@ struct CurveSizes {
 /// faces ask metrics_on_surface() in place of on_surface(). What sources and size routines answer at one place is
 /// intersected, then combined with the geometric metric as metric_combination says. Where nobody answers the size is
 /// hphydef (hphy_flag = 1) or interpolated as the manual has it (hphy_flag = 2).
+/// Where the host is re-entrant and no source is asked, several threads may call what is const at a time.
 class SizeRules {
  public:
   /// Throws InvalidArgument when a flag is unknown, both sizes are ignored, bounds are not positive and ascending,
@@ -101,11 +102,11 @@ class SizeRules {
   /// and clamped. Where the parametrisation is degenerate the geometric size is that of the nearest point of the same
   /// batch where it is not.
   void on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                  const std::function<double(Vec2)>& fallback, std::span<double> h);
+                  const std::function<double(Vec2)>& fallback, std::span<double> h) const;
 
   /// The metric of the parameter plane inside a face; arguments as for on_surface.
   void metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
-                          const std::function<double(Vec2)>& fallback, std::span<Metric2> metric);
+                          const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
 
   /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped. +infinity when
   /// hphy_flag = 0.
@@ -132,18 +133,19 @@ class SizeRules {
   [[nodiscard]] double clamped_physical(double h) const noexcept;
   [[nodiscard]] double clamped_geometric(double radius) const noexcept;
   [[nodiscard]] Where where_of(const CurveUse& use, double t) const;
-  std::optional<double> ask_surface(int face, Vec2 uv);
+  std::optional<double> ask_surface(int face, Vec2 uv) const;
   std::optional<double> ask_curve(int curve, std::span<const double> t);
   std::optional<double> ask_surfaces_beside(int curve, std::span<const double> t);
   std::optional<double> mean_of(const std::vector<double>& answers) const;
   double compute_physical_at_point(int point);
   double compute_geometric_at_point(int point);
   double geometric_on_curve(int curve, std::span<const double> t);
-  std::optional<double> host_radius_of_surface(int face, Vec2 uv);
+  std::optional<double> host_radius_of_surface(int face, Vec2 uv) const;
   std::optional<double> host_radius_of_curve(int curve, std::span<const double> t);
   std::optional<double> radius_beside(const CurveUse& use, double t, const SurfaceJet* jet);
-  std::optional<double> radius_in_face(int face, Vec2 uv, const SurfaceJet* jet);
-  void geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<double> h);
+  std::optional<double> radius_in_face(int face, Vec2 uv, const SurfaceJet* jet) const;
+  void geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                            std::span<double> h) const;
   std::vector<CurveEnd> ends_at(int point);
   std::vector<Corner> corners_of(const std::vector<CurveEnd>& ends);
   double radius_of_curve(int curve, std::span<const double> t, std::optional<SurfaceJet>& jet);
@@ -156,13 +158,13 @@ class SizeRules {
     return parameters_.hphy_flag != 0 && !parameters_.sources.empty();
   }
   [[nodiscard]] bool needs_positions() const noexcept;
-  Answers answers_on_surface(int face, Vec2 uv, Vec3 xyz);
+  Answers answers_on_surface(int face, Vec2 uv, Vec3 xyz) const;
   Answers answers_on_curve(int curve, std::span<const double> t);
   Answers answers_at_point(int point);
   [[nodiscard]] Metric2 clamped_in_plane(Metric2 tangent) const noexcept;
   [[nodiscard]] Metric2 physical_in_plane(const Answers& answers, const TangentFrame& frame) const;
   [[nodiscard]] Metric2 degenerate_metric(const Answers& answers, const SurfaceJet& jet, double geometric) const;
-  std::optional<DirectedSizes> directed_sizes(int face, Vec2 uv, const SurfaceJet& jet);
+  std::optional<DirectedSizes> directed_sizes(int face, Vec2 uv, const SurfaceJet& jet) const;
   CurvePlace place_on(const CurveUse& use, double t);
   AlongCurve along_curve(int curve, std::span<const double> t, const Answers* given, double silent);
   CurveSizes metric_sizes_on_curve(int curve, std::span<const double> t, double r);

@@ -219,6 +219,28 @@ class ThreadedRun {
   tbb::task_arena arena_;
 };
 
+// Enough that one long range does not keep the others waiting.
+constexpr std::size_t ranges_per_thread = 16;
+
+/// One step for several indices: most of them are cheap.
+class Range final : public SteppedTask {
+ public:
+  Range(std::size_t begin, std::size_t end, const std::function<void(std::size_t, Monitor&)>& work)
+      : next_(begin), end_(end), work_(work) {}
+  [[nodiscard]] bool finished() const override { return next_ == end_; }
+  [[nodiscard]] bool bound() const override { return false; }
+  void step(Monitor& monitor) override {
+    for (; next_ < end_; ++next_) {
+      monitor.checkpoint();
+      work_(next_, monitor);
+    }
+  }
+
+ private:
+  std::size_t next_, end_;
+  const std::function<void(std::size_t, Monitor&)>& work_;
+};
+
 }  // namespace
 
 void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor) {
@@ -232,6 +254,22 @@ void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const Step
     // On the heap: on the stack the thread sanitizer takes what lay there before for a race.
     std::make_unique<ThreadedRun>(tasks, run, threads, monitor)->run();
   }
+}
+
+void run_each(std::size_t n, bool bound, int threads, const std::function<void(std::size_t, Monitor&)>& work,
+              Monitor& monitor) {
+  if (bound || threads <= 1) {
+    for (std::size_t i = 0; i < n; ++i) {
+      monitor.checkpoint();
+      work(i, monitor);
+    }
+    return;
+  }
+  const std::size_t ranges = std::min(n, ranges_per_thread * static_cast<std::size_t>(threads));
+  std::vector<std::unique_ptr<SteppedTask>> tasks;
+  for (std::size_t r = 0; r < ranges; ++r)
+    tasks.push_back(std::make_unique<Range>(r * n / ranges, (r + 1) * n / ranges, work));
+  run_stepped(tasks, {.threads = threads}, monitor);
 }
 
 }  // namespace carreau

@@ -37,4 +37,9 @@ struct SteppedRun {
 /// asked. No thread works when it returns.
 void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor);
 
+/// Calls work(i, monitor) for each i below n. `bound`: from the calling thread only, in order. Exceptions and messages
+/// come out as those of tasks do.
+void run_each(std::size_t n, bool bound, int threads, const std::function<void(std::size_t, Monitor&)>& work,
+              Monitor& monitor);
+
 }  // namespace carreau

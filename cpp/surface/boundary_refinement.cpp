@@ -8,6 +8,7 @@
 
 #include "plane/domain_check.h"
 #include "support/segment.h"
+#include "support/stepped_tasks.h"
 
 namespace carreau {
 
@@ -60,7 +61,7 @@ class NearVertices {
 
 class Refiner {
  public:
-  Refiner(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
+  Refiner(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
           std::vector<DiscreteCurve>& curves, Monitor& monitor)
       : curve_model_(model),
         model_(model.model),
@@ -76,20 +77,24 @@ class Refiner {
     result_.mended.resize(n, 0);
     stale_.assign(n, 1);
     changed_.assign(n, 1);
+    crossable_.assign(n, 1);
   }
 
   RefinedDomains run() {
     uncross();
-    repeat(options_.check_close_edges, [this](int f) {
-      if (!may_be_narrow(f)) return std::vector<int>{};
-      std::vector<int> edges =
-          edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
-      const std::vector<int> by_chord = edges_close_in_space(f);
-      edges.insert(edges.end(), by_chord.begin(), by_chord.end());
-      return edges;
-    });
-    repeat(options_.check_adjacent_edges,
-           [this](int f) { return edges_to_split_for_balance(result_.domain[f]->plane, space_of(f)); });
+    repeat(
+        options_.check_close_edges, [this](int f) { return look_for_closeness(f); },
+        [this](int f, Found& found) {
+          if (!found.ask_metric) return;
+          const std::vector<int> close =
+              edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
+          found.edges.insert(found.edges.end(), close.begin(), close.end());
+        });
+    repeat(
+        options_.check_adjacent_edges, [](int) { return Found{}; },
+        [this](int f, Found& found) {
+          found.edges = edges_to_split_for_balance(result_.domain[f]->plane, space_of(f));
+        });
     for (int i = 0; i < options_.check_well_defined; ++i) uncross();
     uncross();
     report_what_still_crosses();
@@ -97,50 +102,74 @@ class Refiner {
   }
 
  private:
+  /// What a check says of one face.
+  struct Found {
+    std::vector<int> edges = {};  // to be split
+    bool ask_metric = false;
+  };
+
   [[nodiscard]] int face_count() const { return static_cast<int>(model_.faces.size()); }
 
   void rebuild_stale() {
+    std::vector<int> stale;
     for (int f = 0; f < face_count(); ++f) {
       if (stale_[f] == 0 || !result_.failure[f].empty()) continue;
-      monitor_.checkpoint();
       stale_[f] = 0;
-      changed_[f] = 1;
+      changed_[f] = crossable_[f] = 1;
       result_.domain[f].reset();
+      stale.push_back(f);
+    }
+    std::vector<char> turned(stale.size(), 0);  // mended by refine(), or reported at the end
+    std::vector<std::string> failure(stale.size());
+    const auto build = [&](std::size_t i, Monitor&) {
       try {
-        result_.domain[f] = build_face_domain(model_, topology_, curves_, f);
+        result_.domain[stale[i]] = build_face_domain(model_, topology_, curves_, stale[i]);
       } catch (const TurnedDomain& error) {
-        turned_.insert(f);  // mended by refine(), or reported at the end
-        unbuilt_[f] = error.what();
-        continue;
+        turned[i] = 1;
+        failure[i] = error.what();
       } catch (const DomainError& error) {
-        unbuilt_[f] = error.what();
-        continue;
+        failure[i] = error.what();
       }
-      unbuilt_.erase(f);
-      turned_.erase(f);
+    };
+    run_each(stale.size(), false, options_.threads, build, monitor_);
+    for (std::size_t i = 0; i < stale.size(); ++i) {
+      const int f = stale[i];
+      if (failure[i].empty()) {
+        unbuilt_.erase(f);
+        turned_.erase(f);
+      } else {
+        unbuilt_[f] = failure[i];
+        if (turned[i] != 0) turned_.insert(f);
+      }
     }
   }
 
   // Rounds of one check, until nothing more is split; only faces that have changed are looked at again.
-  template <typename FindEdges>
-  void repeat(int rounds, FindEdges&& find_edges) {
+  template <typename Find, typename FindAlone>
+  void repeat(int rounds, Find&& find, FindAlone&& find_alone) {
     rebuild_stale();
     changed_.assign(changed_.size(), 1);
-    for (int i = 0; i < rounds; ++i) {
-      const std::vector<char> look = std::exchange(changed_, std::vector<char>(changed_.size(), 0));
-      if (!refine([&](int f) { return look[f] != 0 ? find_edges(f) : std::vector<int>{}; })) return;
-    }
+    for (int i = 0; i < rounds; ++i)
+      if (!refine(std::exchange(changed_, std::vector<char>(changed_.size(), 0)), find, find_alone)) return;
   }
 
-  // One round: asks every face which edges to split, splits them in every face that holds the curve.
-  template <typename FindEdges>
-  bool refine(FindEdges&& find_edges) {
+  // One round: asks the faces in `look` which edges to split, splits them in every face that holds the curve. `find`
+  // asks no host and is called from several threads; then `find_alone` may change what it has found.
+  template <typename Find, typename FindAlone>
+  bool refine(const std::vector<char>& look, Find&& find, FindAlone&& find_alone) {
     rebuild_stale();
     Splits splits;
     add_loose_edges(splits);
-    for (int f = 0; f < face_count(); ++f) {
-      if (!result_.domain[f]) continue;
-      for (const int e : find_edges(f)) {
+    std::vector<int> asked;
+    for (int f = 0; f < face_count(); ++f)
+      if (result_.domain[f] && look[f] != 0) asked.push_back(f);
+    std::vector<Found> found(asked.size());
+    run_each(
+        asked.size(), false, options_.threads, [&](std::size_t i, Monitor&) { found[i] = find(asked[i]); }, monitor_);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      const int f = asked[i];
+      find_alone(f, found[i]);
+      for (const int e : found[i].edges) {
         const PlaneEdge& edge = result_.domain[f]->plane.edges[e];
         if (topology_.curves[edge.curve].degenerate) continue;
         if (splits[edge.curve].insert(edge.segment).second) result_.mended[f] = 1;
@@ -199,14 +228,23 @@ class Refiner {
     return true;
   }
 
+  // What was found free of crossings stays so until it changes.
   void uncross() {
     for (int i = 0; i < most_halvings; ++i)
-      if (!refine([this](int f) { return edges_to_split_for_crossings(result_.domain[f]->plane); })) return;
+      if (!refine(
+              crossable_, [this](int f) { return Found{edges_to_split_for_crossings(result_.domain[f]->plane)}; },
+              [this](int f, Found& found) { crossable_[f] = found.edges.empty() ? 0 : 1; }))
+        return;
+  }
+
+  [[nodiscard]] Found look_for_closeness(int f) const {
+    if (!may_be_narrow(f)) return {};
+    return {.edges = edges_close_in_space(f), .ask_metric = true};
   }
 
   // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
   // Costs no callback. Where metrics have directions, distances in space say nothing.
-  bool may_be_narrow(int f) {
+  [[nodiscard]] bool may_be_narrow(int f) const {
     if (rules_.uses_metrics()) return true;
     const FaceDomain& domain = *result_.domain[f];
     const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
@@ -224,7 +262,7 @@ class Refiner {
   // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
   // however far they are on the surface. Curves that meet at a corner are left to the check in the metric, which knows
   // angles.
-  std::vector<int> edges_close_in_space(int f) {
+  [[nodiscard]] std::vector<int> edges_close_in_space(int f) const {
     std::vector<int> close;
     const FaceDomain& domain = *result_.domain[f];
     const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
@@ -261,24 +299,25 @@ class Refiner {
   }
 
   void report_what_still_crosses() {
-    for (int f = 0; f < face_count(); ++f) {
-      if (const auto it = unbuilt_.find(f); it != unbuilt_.end()) result_.failure[f] = it->second;
-      if (!result_.domain[f]) continue;
-      const PlaneDomain& plane = result_.domain[f]->plane;
-      const std::optional<EdgeConflict> conflict = find_a_crossing(plane);
-      std::string why;
-      if (conflict) {
-        const Where where{.face = model_.faces[f].ref, .uv = conflict->uv};
-        why = where.prefix() + "the discretised boundary meets itself: " + name_of(plane.edges[conflict->first], f) +
-              " and " + name_of(plane.edges[conflict->second], f);
-      } else if (const auto defects = find_loop_defects(plane, [&](const PlaneEdge& edge) { return name_of(edge, f); });
-                 !defects.empty()) {
-        why = Where{.face = model_.faces[f].ref}.prefix() + defects.front();
-      }
-      if (why.empty()) continue;
-      result_.failure[f] = why;
-      result_.domain[f].reset();
-    }
+    const auto look = [&](std::size_t f, Monitor&) {
+      if (!result_.domain[f]) return;
+      result_.failure[f] = why_not(static_cast<int>(f));
+      if (!result_.failure[f].empty()) result_.domain[f].reset();
+    };
+    run_each(result_.domain.size(), false, options_.threads, look, monitor_);
+    for (const auto& [f, why] : unbuilt_) result_.failure[f] = why;
+  }
+
+  // Why a domain cannot be meshed; empty when it can.
+  [[nodiscard]] std::string why_not(int f) const {
+    const PlaneDomain& plane = result_.domain[f]->plane;
+    if (const std::optional<EdgeConflict> conflict = find_a_crossing(plane))
+      return Where{.face = model_.faces[f].ref, .uv = conflict->uv}.prefix() +
+             "the discretised boundary meets itself: " + name_of(plane.edges[conflict->first], f) + " and " +
+             name_of(plane.edges[conflict->second], f);
+    const std::vector<std::string> defects =
+        find_loop_defects(plane, [&](const PlaneEdge& edge) { return name_of(edge, f); });
+    return defects.empty() ? std::string() : Where{.face = model_.faces[f].ref}.prefix() + defects.front();
   }
 
   [[nodiscard]] std::string name_of(const PlaneEdge& edge, int face) const {
@@ -288,14 +327,15 @@ class Refiner {
   const CurveModel& curve_model_;
   const Model& model_;
   const Topology& topology_;
-  SizeRules& rules_;
+  const SizeRules& rules_;
   const CompositeOptions& options_;
   SizeLimits limits_;
   std::vector<DiscreteCurve>& curves_;
   Monitor& monitor_;
   RefinedDomains result_;
   std::vector<char> stale_;
-  std::vector<char> changed_;  // since the last round of a check
+  std::vector<char> changed_;    // since the last round of a check
+  std::vector<char> crossable_;  // since no crossing was found
   std::map<int, std::string> unbuilt_;
   std::set<int> turned_;  // of those
   std::map<int, int> turned_rounds_;
@@ -304,7 +344,7 @@ class Refiner {
 
 }  // namespace
 
-RefinedDomains refine_domains(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
+RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor) {
   return Refiner(model, rules, options, limits, curves, monitor).run();
 }

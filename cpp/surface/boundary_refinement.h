@@ -21,7 +21,7 @@ struct RefinedDomains {
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
 /// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
 /// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in.
-RefinedDomains refine_domains(const CurveModel& model, SizeRules& rules, const CompositeOptions& options,
+RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor);
 
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.

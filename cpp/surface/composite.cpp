@@ -124,12 +124,9 @@ class Pipeline {
   /// Jobs of the faces whose domains could be made.
   void make_jobs() {
     const bool reentrant = options_.threads > 1 && cad_.reentrant() && options_.size.sources.empty();
-    if (reentrant) rules_of_job_.reserve(model_.faces.size());
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       if (!domains_.domain[f]) continue;
       const FaceDomain& domain = *domains_.domain[f];
-      // Sizes are cached where they are asked: each thread needs its own.
-      if (reentrant) rules_of_job_.push_back(rules_);
       jobs_.push_back(
           std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
                                                .ref = model_.faces[f].ref,
@@ -139,7 +136,7 @@ class Pipeline {
                                                .isotropic = !rules_.uses_metrics(),
                                                .limits = limits(),
                                                .tolerance = tolerance()},
-                                    cad_, reentrant ? rules_of_job_.back() : rules_, options_, reentrant));
+                                    cad_, rules_, options_, reentrant));
       job(jobs_.size() - 1).limit_triangles(options_.max_triangles);
       face_of_job_.push_back(f);
     }
@@ -228,7 +225,6 @@ class Pipeline {
   double begin_ = 0;  // share of the run that was over before the curves
   std::vector<DiscreteCurve> curves_;
   RefinedDomains domains_;
-  std::vector<SizeRules> rules_of_job_;
   std::vector<std::unique_ptr<SteppedTask>> jobs_;
   std::vector<std::size_t> face_of_job_;
   std::vector<std::optional<PatchMesh>> patches_;

@@ -64,7 +64,8 @@ struct ModelSupports {
   std::vector<std::vector<CurveSupport>> of_face;  ///< [face][curve]
   double diag = 0;
 };
-ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, Monitor& monitor);
+/// `threads`: at most; a host that is not re-entrant is called from the caller's thread only.
+ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int threads, Monitor& monitor);
 CurveTraces traces_of(const ModelSupports& supports);
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,

@@ -14,9 +14,9 @@ namespace carreau {
 /// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
 class FaceJob final : public SteppedTask {
  public:
-  /// Keeps references to `cad` and `options`. Where the host is re-entrant `rules` must be the job's own.
+  /// Keeps references to `cad` and `options`.
   /// `max_triangles` may change until the job starts.
-  FaceJob(PatchInput input, Cad& cad, SizeRules& rules, const CompositeOptions& options, bool reentrant)
+  FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
       : input_(std::move(input)), cad_(cad), rules_(rules), options_(options), reentrant_(reentrant) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
@@ -44,7 +44,7 @@ class FaceJob final : public SteppedTask {
 
   PatchInput input_;
   Cad& cad_;
-  SizeRules& rules_;
+  const SizeRules& rules_;
   const CompositeOptions& options_;
   bool reentrant_;
   std::int64_t most_triangles_ = 0;

@@ -34,7 +34,7 @@ SampledDomain sampled_domain(const PlaneDomain& domain) {
   return sampled;
 }
 
-ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
+ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor) {
   FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
   std::vector<SurfaceJet> jets;

@@ -48,7 +48,7 @@ struct PatchInput {
 SampledDomain sampled_domain(const PlaneDomain& domain);
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
-ControlSpace sample_face(const PatchInput& input, Cad& cad, SizeRules& rules, std::span<const Vec2> suspects,
+ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor);
 
 /// Plane mesh in the sampled metric; asks no host.

@@ -22,7 +22,7 @@ struct FaceInterfaces {
 class FaceMetric {
  public:
   /// `face` is an index in Model::faces.
-  FaceMetric(int face, SizeRules& rules, const PlaneDomain& plane, const std::vector<double>& physical,
+  FaceMetric(int face, const SizeRules& rules, const PlaneDomain& plane, const std::vector<double>& physical,
              Monitor& monitor, const SizeLimits& limits = {})
       : face_(face), rules_(rules), plane_(plane), physical_(physical), monitor_(monitor), limits_(limits) {}
 
@@ -37,7 +37,7 @@ class FaceMetric {
 
  private:
   int face_;
-  SizeRules& rules_;
+  const SizeRules& rules_;
   const PlaneDomain& plane_;
   const std::vector<double>& physical_;
   Monitor& monitor_;

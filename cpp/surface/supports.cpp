@@ -1,25 +1,29 @@
 #include <algorithm>
 #include <limits>
 
+#include "support/stepped_tasks.h"
 #include "surface/composite.h"
 
 namespace carreau {
 
-ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, Monitor& monitor) {
+ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int threads, Monitor& monitor) {
   ModelSupports supports;
+  supports.of_face.resize(model.faces.size());
+  const auto build = [&](std::size_t f, Monitor& of_task) {
+    for (int c = 0; c < static_cast<int>(model.faces[f].curves.size()); ++c) {
+      of_task.checkpoint();
+      supports.of_face[f].push_back(build_support(cad, model.faces[f].ref, c + 1, {.angle_deg = angle_smo}));
+    }
+  };
+  run_each(model.faces.size(), !cad.reentrant(), threads, build, monitor);
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec3 low{far, far, far}, high{-far, -far, -far};
-  for (const Face& face : model.faces) {
-    auto& of_face = supports.of_face.emplace_back();
-    for (int c = 0; c < static_cast<int>(face.curves.size()); ++c) {
-      monitor.checkpoint();
-      of_face.push_back(build_support(cad, face.ref, c + 1, {.angle_deg = angle_smo}));
-      for (const Vec3& p : of_face.back().xyz) {
+  for (const auto& of_face : supports.of_face)
+    for (const CurveSupport& support : of_face)
+      for (const Vec3& p : support.xyz) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
       }
-    }
-  }
   supports.diag = low.x <= high.x ? norm(high - low) : 0;
   return supports;
 }

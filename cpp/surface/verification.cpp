@@ -22,7 +22,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class LiftCheck {
  public:
-  LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules, PatchMesh& mesh,
+  LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
             Monitor& monitor)
       : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor) {}
 
@@ -149,7 +149,7 @@ class LiftCheck {
   const PatchInput& input_;
   const ControlSpace& space_;
   Cad& cad_;
-  SizeRules& rules_;
+  const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
   std::vector<float> promised_;  // by edge, where sizes vary
@@ -158,7 +158,7 @@ class LiftCheck {
 
 }  // namespace
 
-std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules,
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
                               PatchMesh& mesh, Monitor& monitor) {
   return LiftCheck(input, space, cad, rules, mesh, monitor).run();
 }

@@ -16,7 +16,7 @@ namespace carreau {
 /// arcs are no disagreement. Empty on surfaces that the control space knows. At most 500 places. Where metrics govern,
 /// the prescribed metric is evaluated at each vertex inside and compared with the control space's; mesh.size is then
 /// the size in the mean, sqrt(h1 h2).
-std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, SizeRules& rules,
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
                               PatchMesh& mesh, Monitor& monitor);
 
 /// Whether two control spaces differ at one of these places by more than their tolerance explains.

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace carreau {
 namespace {
@@ -42,6 +44,35 @@ TEST(QualitySummary, CountsOfATetrahedron) {
   EXPECT_NEAR(q.angle_max_deg, 60, 1e-12);
   EXPECT_NEAR(q.edge_mean, 2 * std::numbers::sqrt2, 1e-14);
   EXPECT_EQ(q.degree6, 0);
+}
+
+// Triangles of many shapes, also flat ones and such with corners that coincide, against one at a time.
+TEST(QualitySummary, OfAnyNumberOfThreadsIsThatOfEachTriangle) {
+  FlatMesh mesh;
+  double area = 0, smallest = 180, largest = 0, sum = 0;
+  const auto angle = [](Vec3 p, Vec3 q) { return std::atan2(norm(cross(p, q)), dot(p, q)) * 180 / std::numbers::pi; };
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 a{0, 0, 0}, b{1. + i % 3, 0, 0}, c{std::cos(i), std::sin(i) * std::pow(i % 101, 2), 0.1 * (i % 7)};
+    for (const Vec3 p : {a, b, c}) mesh.vertices.push_back(p);
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    area += norm(cross(b - a, c - a)) / 2;
+    sum += quality_q2(a, b, c);
+    for (const auto& [p, q] : {std::pair{b - a, c - a}, std::pair{c - b, a - b}, std::pair{a - c, b - c}})
+      smallest = std::min(smallest, angle(p, q)), largest = std::max(largest, angle(p, q));
+  }
+  for (const int threads : {1, 2, 8}) {
+    const QualitySummary q = summarise_shapes(mesh, threads);
+    EXPECT_NEAR(q.area, area, 1e-12 * area);
+    EXPECT_EQ(q.area, summarise_shapes(mesh, 1).area);
+    EXPECT_NEAR(q.q2.mean, sum / 20000, 1e-13);
+    EXPECT_NEAR(q.angle_min_deg, smallest, 1e-12);
+    EXPECT_NEAR(q.angle_max_deg, largest, 1e-12);
+  }
+  mesh.vertices = {{0, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_EQ(summarise_shapes(mesh, 2).angle_min_deg, 0);
+  mesh.vertices[1] = {0.5, 0, 0};
+  EXPECT_NEAR(summarise_shapes(mesh, 2).angle_max_deg, 180, 1e-12);
 }
 
 }  // namespace

@@ -150,4 +150,45 @@ TEST(SteppedTasks, NoneAreNothing) {
   EXPECT_NO_THROW(carreau::run_stepped({}, {.threads = 4}, monitor));
 }
 
+TEST(RunEach, CallsEveryIndexOnceAndThrowsWhatTheFirstDoes) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  for (const int threads : {1, 2, 8})
+    for (const std::size_t n : {0U, 1U, 7U, 1000U}) {
+      std::vector<int> calls(n, 0);
+      Recorder monitor;
+      const auto work = [&](std::size_t i, Monitor& of_task) {
+        ++calls[i];
+        of_task.message(Level::detail, std::to_string(i));
+      };
+      carreau::run_each(n, false, threads, work, monitor);
+      EXPECT_EQ(calls, std::vector<int>(n, 1));
+      ASSERT_EQ(monitor.texts.size(), n);
+      for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(monitor.texts[i], std::to_string(i));
+      const auto failing = [&](std::size_t i, Monitor&) {
+        if (i >= 3) throw std::runtime_error(std::to_string(i));
+      };
+      std::string error;
+      try {
+        carreau::run_each(n, false, threads, failing, monitor);
+      } catch (const std::runtime_error& e) {
+        error = e.what();
+      }
+      EXPECT_EQ(error, n > 3 ? "3" : "");
+    }
+}
+
+TEST(RunEach, IsOfTheCallingThreadWhenItIsBound) {
+  std::vector<std::size_t> seen;
+  Monitor monitor;
+  const auto caller = std::this_thread::get_id();
+  carreau::run_each(
+      50, true, 8,
+      [&](std::size_t i, Monitor&) {
+        EXPECT_EQ(std::this_thread::get_id(), caller);
+        seen.push_back(i);
+      },
+      monitor);
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(seen[i], i);
+}
+
 }  // namespace

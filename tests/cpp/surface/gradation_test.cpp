@@ -212,7 +212,7 @@ TEST(GradedModel, ASmallCurveIsLeftGently) {
 // The largest gradation of the mesh's edges in the control spaces that they were made from.
 double steepest_in_control_spaces(AnalyticCad& cad, CompositeOptions options, double* share_over) {
   Monitor monitor;
-  ModelSupports supports = build_supports(testing::unglued(cad), cad, 1, monitor);
+  ModelSupports supports = build_supports(testing::unglued(cad), cad, 1, 1, monitor);
   const Model model = glue(testing::unglued(cad), traces_of(supports), supports.diag / 500);
   const Topology topology = build_topology(model, traces_of(supports), supports.diag / 100);
   if (options.size.hgeomax == 0) options.size.hgeomax = supports.diag / 5, options.size.hgeomin = supports.diag / 500;
@@ -328,7 +328,7 @@ struct Anisotropic {
 Anisotropic measure_directions(AnalyticCad& cad, CompositeOptions options, SpaceMetric* source, CompositeResult* kept) {
   Monitor monitor;
   if (source != nullptr) options.size.sources = {source};
-  ModelSupports supports = build_supports(testing::unglued(cad), cad, 1, monitor);
+  ModelSupports supports = build_supports(testing::unglued(cad), cad, 1, 1, monitor);
   const Model model = glue(testing::unglued(cad), traces_of(supports), supports.diag / 500);
   const Topology topology = build_topology(model, traces_of(supports), supports.diag / 100);
   if (options.size.hgeomax == 0) options.size.hgeomax = supports.diag / 5, options.size.hgeomin = supports.diag / 500;
