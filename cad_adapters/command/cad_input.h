@@ -53,8 +53,8 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const std::string&
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path);
 
-/// Prints what a CAD file holds and what of it is hard to mesh, at most `limit` sentences a kind. Returns the exit
-/// code; throws Failure.
-int print_cad_info(const std::string& path, int limit);
+struct InfoOptions;
+/// `carreau info` on STEP, IGES and BREP files. Returns the exit code; throws Failure.
+int print_cad_info(const InfoOptions& options);
 
 }  // namespace command

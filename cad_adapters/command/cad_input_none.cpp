@@ -1,5 +1,6 @@
 // In place of cad_input_opencascade.cpp where OpenCASCADE is not built in.
 #include "cad_input.h"
+#include "commands.h"
 #include "failure.h"
 
 namespace command {
@@ -9,8 +10,8 @@ std::unique_ptr<CadInput> open_cad(const std::string& path) {
                 "' cannot be read: this program was built without OpenCASCADE, which STEP, IGES and BREP files need.");
 }
 
-int print_cad_info(const std::string& path, int) {
-  open_cad(path);
+int print_cad_info(const InfoOptions& options) {
+  open_cad(options.input);
   return 0;
 }
 

@@ -4,9 +4,12 @@
 
 #include <cstdio>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "cad_input.h"
-#include "mesh_file.h"
+#include "commands.h"
+#include "failure.h"
+#include "json_output.h"
 
 namespace command {
 namespace {
@@ -69,12 +72,8 @@ std::string sentence(const carreau_occ::Danger& danger, const carreau_occ::BrepH
   return text + ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
 }
 
-}  // namespace
-
-int print_cad_info(const std::string& path, int limit) try {
-  const carreau_occ::ShapeFile file = carreau_occ::read_shape(path);
-  const carreau_occ::BrepHost host(file);
-  const carreau_occ::ShapeReport r = carreau_occ::inspect(file);
+void print_report(const carreau_occ::ShapeReport& r, const carreau_occ::ShapeFile& file,
+                  const carreau_occ::BrepHost& host, int limit) {
   std::printf("solids      %d\nshells      %d\nfaces       %d\nedges       %d\nvertices    %d\n", r.solids, r.shells,
               r.faces, r.edges, r.vertices);
   std::printf("unit        %s\n", file.unit.empty() ? "not said" : file.unit.c_str());
@@ -97,8 +96,55 @@ int print_cad_info(const std::string& path, int limit) try {
     if (++n <= limit) std::printf("  %s\n", sentence(danger, host).c_str());
     if (n == limit + 1) std::puts("  ...");
   }
+}
+
+nlohmann::ordered_json json_of(const carreau_occ::ShapeReport& r, const carreau_occ::ShapeFile& file,
+                               const carreau_occ::BrepHost& host, const InfoOptions& options) {
+  nlohmann::ordered_json surfaces = nlohmann::ordered_json::object(), dangers = nlohmann::ordered_json::array();
+  for (const auto& [name, n] : r.surfaces) surfaces[name] = n;
+  for (const carreau_occ::Danger& d : r.dangers)
+    dangers.push_back({{"kind", d.kind},
+                       {"face", d.face},
+                       {"edge", d.edge},
+                       {"name", d.face > 0 ? host.face_name(d.face) : ""},
+                       {"value", d.value},
+                       {"text", sentence(d, host)}});
+  return {{"input", options.input},
+          {"solids", r.solids},
+          {"shells", r.shells},
+          {"faces", r.faces},
+          {"edges", r.edges},
+          {"vertices", r.vertices},
+          {"unit", file.unit},
+          {"diagonal", r.diagonal},
+          {"area", r.area},
+          {"volume", r.volume},
+          {"surfaces", surfaces},
+          {"seams", r.seams},
+          {"poles", r.poles},
+          {"closed_edges", r.closed_edges},
+          {"inner_wires", r.inner_wires},
+          {"internal_edges", r.internal_edges},
+          {"shortest_edge", r.shortest_edge},
+          {"largest_tolerance", r.largest_tolerance},
+          {"largest_gap", r.largest_gap},
+          {"dangers", dangers}};
+}
+
+}  // namespace
+
+int print_cad_info(const InfoOptions& options) try {
+  const carreau_occ::ShapeFile file = carreau_occ::read_shape(options.input);
+  const carreau_occ::BrepHost host(file);
+  const carreau_occ::ShapeReport report = carreau_occ::inspect(file);
+  if (options.json)
+    print_json(json_of(report, file, host, options));
+  else
+    print_report(report, file, host, options.limit);
   return 0;
 } catch (const Failure&) {
+  throw;
+} catch (const std::bad_alloc&) {
   throw;
 } catch (const std::exception& error) {
   throw Failure(error.what());

@@ -37,8 +37,24 @@ struct MeshOptions {
 /// Meshes a file of geometry. 0 all faces, 1 some faces have no mesh; throws Failure when none has one.
 int mesh(const MeshOptions& options);
 
+struct InfoOptions {
+  std::string input;
+  std::string host;  ///< shared library, of a .pardom
+  int limit = 10;    ///< sentences of each kind
+  bool json = false;
+};
+
+/// Prints what a file of geometry holds, and what of it is hard to mesh. 0; throws Failure.
+int info(const InfoOptions& options);
+
+struct CheckOptions {
+  std::string mesh;
+  bool closed = false, faces = false, json = false;
+  int limit = 20, worst = 3;
+};
+
 /// Prints counts, quality and defects. 1 when there are defects.
-int check(const std::string& path, bool closed, int limit);
+int check(const CheckOptions& options);
 
 struct FieldsOptions {
   std::string input;  ///< .pardom, .env or a CAD file

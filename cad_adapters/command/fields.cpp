@@ -5,8 +5,10 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "lengths.h"
 #include "session_handle.h"
 #include "shared_host.h"
+#include "text_file.h"
 
 namespace command {
 
@@ -22,15 +24,11 @@ constexpr std::array groups{Group{"size", CARREAU_EXR_SIZE},           Group{"in
                             Group{"deviation", CARREAU_EXR_DEVIATION}, Group{"triangle", CARREAU_EXR_TRIANGLE},
                             Group{"mask", CARREAU_EXR_MASK},           Group{"preview", CARREAU_EXR_PREVIEW}};
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-bool is_env(const FieldsOptions& options) { return ends_with(options.input, ".env"); }
-bool is_pardom(const FieldsOptions& options) { return ends_with(options.input, ".pardom"); }
+bool is_env(const FieldsOptions& options) { return suffix_of(options.input) == ".env"; }
+bool is_pardom(const FieldsOptions& options) { return suffix_of(options.input) == ".pardom"; }
 
 void check(const FieldsOptions& options) {
-  if (!ends_with(options.out, ".exr")) throw Failure("The output '" + options.out + "' does not end in .exr.");
+  if (suffix_of(options.out) != ".exr") throw Failure("The output '" + options.out + "' does not end in .exr.");
   const bool needs_host = is_env(options) || is_pardom(options);
   if (needs_host && options.host.empty())
     throw Failure("'" + options.input + "' has no geometry: --host names the shared library that has.");
@@ -61,9 +59,8 @@ carreau_exr_options exr_options(const FieldsOptions& options) {
 }
 
 void set(carreau_session* session, const std::string& setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string::npos) throw Failure("The setting '" + setting + "' is not NAME=VALUE.");
-  require(session, carreau_set_word(session, setting.substr(0, equals).c_str(), setting.substr(equals + 1).c_str()));
+  const auto [name, value] = parse_assignment(setting, "--set");
+  require(session, carreau_set_word(session, name.c_str(), value.c_str()));
 }
 
 carreau_status make_mesh(carreau_session* session, const FieldsOptions& options) {
@@ -101,7 +98,7 @@ int fields(const FieldsOptions& options) {
   const SessionHandle handle = make_session();
   carreau_session* session = handle.get();
   if (options.host.empty()) {
-    shape = open_cad(options.input);
+    shape = open_input(options.input, "");
     require(session, shape->give_to(session));
   } else {
     const SharedHost host(options.host);

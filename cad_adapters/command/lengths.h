@@ -1,6 +1,7 @@
-// Lengths on the command line: numbers, or shares of the model's extent.
+// Numbers and words on the command line.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,5 +21,11 @@ Length parse_length(const std::string& text, const std::string& option);
 
 /// "left=right" at the last '='. Throws Failure when there is none, or nothing on one side.
 std::pair<std::string, std::string> parse_assignment(const std::string& text, const std::string& option);
+
+/// "1024": a number above 0. nullopt: it is none.
+std::optional<int> parse_count(const std::string& text);
+
+/// "800x600". nullopt: not two numbers above 0 with an x between.
+std::optional<std::pair<int, int>> parse_pixels(const std::string& text);
 
 }  // namespace command

@@ -47,7 +47,7 @@ void generate(carreau_session* session, CadInput& input, const SizeMap& map, Pro
     const std::string why = status == CARREAU_ERR_CALLBACK ? input.failure(face) : "";
     if (!why.empty()) sentence += " (" + why + ")";
     if (!input.exclude(face, sentence)) throw Failure(sentence);
-    progress.error("error: " + sentence);
+    progress.error(sentence);
     progress.line("meshing again without face " + std::to_string(face));
   }
 }
@@ -55,7 +55,7 @@ void generate(carreau_session* session, CadInput& input, const SizeMap& map, Pro
 void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, Progress& progress) {
   progress.listen_to(run.session);
   set_parameters(run.session, options, input, map);
-  for (const auto& [face, why] : input.excluded()) progress.error("error: face " + std::to_string(face) + ": " + why);
+  for (const auto& [face, why] : input.excluded()) progress.error("face " + std::to_string(face) + ": " + why);
   const std::clock_t start = std::clock();
   generate(run.session, input, map, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -89,7 +89,7 @@ int mesh(const MeshOptions& options) {
   for (const std::string& line : summary_lines(run)) progress.line(line);
   if (options.json) print_json(run);
   if (failed.empty()) return all_faces;
-  progress.error("error: " + failed);
+  progress.error(failed);
   return some_faces;
 }
 

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "json_output.h"
+#include "quality_json.h"
 #include "session_handle.h"
 
 namespace command {
@@ -41,15 +43,6 @@ std::string text(const char* format, Values... values) {
 }
 
 long long whole(std::int64_t n) { return static_cast<long long>(n); }
-
-nlohmann::json quality_json(const carreau_quality& q) {
-  return {{"vertices", q.vertices},     {"triangles", q.triangles}, {"edges", q.edges},
-          {"open_edges", q.open_edges}, {"area", q.area},           {"q1_mean", q.q1_mean},
-          {"q1_p1", q.q1_p1},           {"q1_min", q.q1_min},       {"q2_mean", q.q2_mean},
-          {"q2_p1", q.q2_p1},           {"q2_min", q.q2_min},       {"angle_min", q.angle_min},
-          {"angle_max", q.angle_max},   {"edge_min", q.edge_min},   {"edge_mean", q.edge_mean},
-          {"edge_max", q.edge_max},     {"degree6", q.degree6}};
-}
 
 std::int64_t count(const std::vector<FaceResult>& faces, std::int32_t status) {
   return std::count_if(faces.begin(), faces.end(), [&](const FaceResult& f) { return f.status == status; });
@@ -106,39 +99,38 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
 void print_json(const MeshRun& run) {
   const carreau_report r = report_of(run.session);
   const carreau_quality q = quality_of(run.mesh);
-  nlohmann::json faces = nlohmann::json::array();
+  nlohmann::ordered_json faces = nlohmann::ordered_json::array();
   for (const FaceResult& face : run.faces)
     faces.push_back({{"reference", face.ref},
                      {"name", face.name},
                      {"status", status_word(face.status)},
                      {"triangles", face.triangles},
                      {"why", face.why}});
-  const nlohmann::json summary = {{"input", run.options.input},
-                                  {"outputs", run.options.outputs},
-                                  {"diagonal", run.input.diagonal()},
-                                  {"closed", q.open_edges == 0},
-                                  {"threads", threads_of(run.session)},
-                                  {"mesh", quality_json(q)},
-                                  {"faces", faces},
-                                  {"calls",
-                                   {{"surf0", r.surf0_calls},
-                                    {"surf1", r.surf1_calls},
-                                    {"surf2", r.surf2_calls},
-                                    {"curv0", r.curv0_calls},
-                                    {"curv1", r.curv1_calls},
-                                    {"curv2", r.curv2_calls},
-                                    {"sizes", r.size_calls}}},
-                                  {"seconds",
-                                   {{"reading", run.seconds_reading},
-                                    {"curves", r.seconds_curves},
-                                    {"sampling", r.seconds_sampling},
-                                    {"plane", r.seconds_plane},
-                                    {"lift", r.seconds_lift},
-                                    {"total", r.seconds_total},
-                                    {"writing", run.seconds_writing},
-                                    {"processor", run.seconds_processor}}}};
-  // Names may be in any encoding: what is not UTF-8 is replaced.
-  std::puts(summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  const nlohmann::ordered_json summary = {{"input", run.options.input},
+                                          {"outputs", run.options.outputs},
+                                          {"diagonal", run.input.diagonal()},
+                                          {"closed", q.open_edges == 0},
+                                          {"threads", threads_of(run.session)},
+                                          {"mesh", quality_json(q)},
+                                          {"faces", faces},
+                                          {"calls",
+                                           {{"surf0", r.surf0_calls},
+                                            {"surf1", r.surf1_calls},
+                                            {"surf2", r.surf2_calls},
+                                            {"curv0", r.curv0_calls},
+                                            {"curv1", r.curv1_calls},
+                                            {"curv2", r.curv2_calls},
+                                            {"sizes", r.size_calls}}},
+                                          {"seconds",
+                                           {{"reading", run.seconds_reading},
+                                            {"curves", r.seconds_curves},
+                                            {"sampling", r.seconds_sampling},
+                                            {"plane", r.seconds_plane},
+                                            {"lift", r.seconds_lift},
+                                            {"total", r.seconds_total},
+                                            {"writing", run.seconds_writing},
+                                            {"processor", run.seconds_processor}}}};
+  print_json(summary);
 }
 
 }  // namespace command

@@ -3,29 +3,79 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "failure.h"
 
 namespace command {
 
+namespace {
+constexpr int samples = 32;  // of each curve: a circle's box and length are then known within 0.5 %
+}
+
+template <typename Visit, typename Failed>
+void ModelInput::walk(std::int32_t face, std::int32_t ic, Visit&& visit, Failed&& failed) const {
+  for (int i = 0; i <= samples; ++i) {
+    double u = 0, v = 0;
+    Place p;
+    if (on_curve(face, ic, static_cast<double>(i) / samples, u, v) && locate(face, u, v, p))
+      visit(p);
+    else
+      failed();
+  }
+}
+
 void ModelInput::measure(const std::string& path) {
-  constexpr int samples = 32;  // a circle's box is then known within 0.5 %
   Place low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
   for (const FaceModel::Face& face : model_.faces)
     for (std::size_t c = 0; c < face.curves.size(); ++c)
-      for (int i = 0; i <= samples; ++i) {
-        double u = 0, v = 0;
-        Place p;
-        // What the geometry fails on is told with its place when the mesh is made.
-        if (!on_curve(face.ref, static_cast<std::int32_t>(c + 1), static_cast<double>(i) / samples, u, v) ||
-            !locate(face.ref, u, v, p))
-          continue;
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-      }
+      walk(
+          face.ref, static_cast<std::int32_t>(c + 1),
+          [&](const Place& p) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+          },
+          [] {});  // told with the place when the mesh is made
   diagonal_ = std::hypot(high.x - low.x, high.y - low.y, high.z - low.z);
   if (!(diagonal_ > 0) || !std::isfinite(diagonal_) || low.x > high.x)
     throw Failure("'" + path + "': its curves have no extent in space.");
+}
+
+ModelFigures ModelInput::look_at() const {
+  constexpr double pole = 1e-9, tiny = 1e-3;  // shares of the diagonal; the latter is that of CAD files
+  ModelFigures figures;
+  std::vector<ModelDanger> tiny_sides, failures;
+  figures.faces = static_cast<int>(model_.faces.size());
+  for (const FaceModel::Face& face : model_.faces) {
+    figures.points += static_cast<int>(face.points.size());
+    for (std::size_t c = 0; c < face.curves.size(); ++c) {
+      ++figures.sides;
+      const auto ic = static_cast<std::int32_t>(c + 1);
+      double length = 0;
+      bool first = true, failed = false;
+      Place before;
+      walk(
+          face.ref, ic,
+          [&](const Place& p) {
+            if (!first) length += std::hypot(p.x - before.x, p.y - before.y, p.z - before.z);
+            first = false, before = p;
+          },
+          [&] { failed = true; });
+      char text[64];
+      std::snprintf(text, sizeof text, "%.6g long", length);
+      if (failed) {
+        failures.push_back({"the geometry fails", face.ref, ic, "no point in space at some of its places"});
+      } else if (length <= pole * diagonal_) {
+        ++figures.poles;
+      } else {
+        figures.shortest = figures.shortest > 0 ? std::min(figures.shortest, length) : length;
+        if (length < tiny * diagonal_) tiny_sides.push_back({"tiny sides", face.ref, ic, text});
+      }
+    }
+  }
+  figures.dangers = std::move(tiny_sides);
+  figures.dangers.insert(figures.dangers.end(), failures.begin(), failures.end());
+  return figures;
 }
 
 carreau_status ModelInput::give_to(carreau_session* session) {

@@ -6,11 +6,28 @@
 
 namespace command {
 
+/// A thing that a mesher may stumble over: a face, or one of its sides.
+struct ModelDanger {
+  std::string kind;
+  std::int32_t face = 0, ic = 0;  ///< ic: 0: the face as a whole
+  std::string text;
+};
+
+struct ModelFigures {
+  int faces = 0, sides = 0, points = 0;
+  int poles = 0;                     ///< sides that are one point in space
+  double shortest = 0;               ///< length of the shortest other side
+  std::vector<ModelDanger> dangers;  ///< by kind
+};
+
 class ModelInput : public CadInput {
  public:
   carreau_status give_to(carreau_session* session) final;
   /// Of the box of the curves, sampled: the `diag` of parameters.
   [[nodiscard]] double diagonal() const final { return diagonal_; }
+  /// What the sides look like, sampled: poles, tiny sides (below a thousandth of the diagonal), places where the
+  /// geometry fails.
+  [[nodiscard]] ModelFigures look_at() const;
   [[nodiscard]] std::string summary() const final;
   bool set_face_size(const std::string& face, double size) final;
   [[nodiscard]] bool answers_face_sizes() const final { return false; }
@@ -31,6 +48,10 @@ class ModelInput : public CadInput {
                                       double& v) const noexcept = 0;
 
  private:
+  /// Places of `samples` + 1 points of a curve; calls visit(place), or failed() where the geometry fails.
+  template <typename Visit, typename Failed>
+  void walk(std::int32_t face, std::int32_t ic, Visit&& visit, Failed&& failed) const;
+
   FaceModel model_;
   double diagonal_ = 0;
 };

@@ -1,11 +1,10 @@
 #include "progress.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 
 #include "signals.h"
+#include "terminal.h"
 
 namespace command {
 namespace {
@@ -43,7 +42,7 @@ std::string entity_name(std::int32_t phase, std::int32_t entity) {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(is_terminal()), colours_(shows_colours()) {}
 Progress::~Progress() { clear(); }
 
 void Progress::listen_to(carreau_session* session) {
@@ -58,20 +57,30 @@ void Progress::clear() {
 }
 
 void Progress::line(const std::string& text) {
-  if (!quiet_) error(text);
+  if (quiet_) return;
+  clear();
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void Progress::warning(const std::string& text) {
+  if (quiet_) return;
+  clear();
+  print_marked("warning", colour::yellow, text.c_str());
 }
 
 void Progress::error(const std::string& text) {
   clear();
-  std::fprintf(stderr, "%s\n", text.c_str());
+  print_marked("error", colour::red, text.c_str());
 }
 
 void Progress::on_message(std::int32_t level, const char* text, void* user) {
   auto& self = *static_cast<Progress*>(user);
   if (level <= CARREAU_LEVEL_ERROR)
-    self.error(std::string("error: ") + text);
+    self.error(text);
+  else if (level <= CARREAU_LEVEL_WARNING)
+    self.warning(text);
   else
-    self.line((level <= CARREAU_LEVEL_WARNING ? "warning: " : "") + std::string(text));
+    self.line(text);
 }
 
 std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user) {
@@ -96,8 +105,8 @@ void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
   bar_is_shown(true);
   std::string bar(static_cast<std::size_t>(bar_width * percent / 100), '#');
   bar.resize(bar_width, '.');
-  std::fprintf(stderr, "\r\033[K[%s] %3d %% %s%s", bar.c_str(), percent, phase_name(phase),
-               entity_name(phase, entity).c_str());
+  std::fprintf(stderr, "\r\033[K[%s%s%s] %3d %% %s%s", colours_ ? colour::green : "", bar.c_str(),
+               colours_ ? colour::plain : "", percent, phase_name(phase), entity_name(phase, entity).c_str());
   std::fflush(stderr);
 }
 

@@ -10,6 +10,7 @@
 namespace command {
 
 /// A bar on a terminal, a line a tenth of the way in a log, nothing when quiet (errors are always told).
+/// Errors are red, warnings yellow and the bar green on a terminal, unless NO_COLOR is set or TERM is dumb.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -21,7 +22,9 @@ class Progress {
   void listen_to(carreau_session* session);
   /// A line of its own: what has begun, or a result.
   void line(const std::string& text);
-  /// A line that a quiet run shows as well.
+  /// Something that may be wrong.
+  void warning(const std::string& text);
+  /// What a quiet run shows as well.
   void error(const std::string& text);
   /// Takes the bar away.
   void clear();
@@ -32,7 +35,7 @@ class Progress {
   void show(std::int32_t phase, std::int32_t entity, double fraction);
 
   using Clock = std::chrono::steady_clock;
-  bool quiet_, terminal_, bar_ = false;
+  bool quiet_, terminal_, colours_, bar_ = false;
   int tenth_ = -1, phase_ = -1;
   Clock::time_point drawn_;
 };

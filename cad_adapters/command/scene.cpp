@@ -88,7 +88,28 @@ std::map<std::int32_t, std::size_t> ranks_of(const std::vector<std::int32_t>& re
   return ranks;
 }
 
+/// Side of the equilateral triangle of the same area.
+double size_of(const Point& a, const Point& b, const Point& c) {
+  const Point n = cross(minus(b, a), minus(c, a));
+  return std::sqrt(2 / std::sqrt(3.0)) * std::pow(dot(n, n), 0.25);
+}
+
 }  // namespace
+
+SizeScale::SizeScale(const MeshArrays& mesh) {
+  for (const auto& t : mesh.triangles) {
+    const double size = size_of(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    if (!(size > 0) || !std::isfinite(size)) continue;
+    smallest = largest > 0 ? std::min(smallest, size) : size;
+    largest = std::max(largest, size);
+  }
+}
+
+double SizeScale::share(const Point& a, const Point& b, const Point& c) const {
+  const double size = size_of(a, b, c);
+  if (!(size > 0) || !(largest > smallest)) return 0.5;
+  return std::log(size / smallest) / std::log(largest / smallest);
+}
 
 double shape_quality(const Point& a, const Point& b, const Point& c) {
   const Point ab = minus(b, a), ac = minus(c, a), bc = minus(c, b), n = cross(ab, ac);
@@ -106,6 +127,7 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
   const Projection projection(view, used, x0, y0, width, height);
   const auto curves = sides_on_curves(mesh);
   const auto ranks = ranks_of(mesh.triangle_refs);
+  const SizeScale sizes(mesh);
 
   std::vector<ScreenTriangle> triangles;
   triangles.reserve(mesh.triangles.size());
@@ -115,6 +137,7 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
     if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) continue;
     Colour colour = srgb(0xbcc6d2);
     if (options.paint == Paint::face) colour = face_colour(ranks.at(mesh.triangle_refs[i]));
+    if (options.paint == Paint::size) colour = quality_colour(sizes.share(p[0], p[1], p[2]));
     if (options.paint == Paint::quality) colour = quality_colour(shape_quality(p[0], p[1], p[2]));
     const Point a = projection.in_camera(p[0]);
     Point normal = cross(minus(projection.in_camera(p[1]), a), minus(projection.in_camera(p[2]), a));

@@ -10,7 +10,7 @@
 
 namespace command {
 
-enum class Paint { face, quality, none };
+enum class Paint { face, quality, size, none };
 
 struct SceneOptions {
   Paint paint = Paint::face;
@@ -19,6 +19,15 @@ struct SceneOptions {
 
 /// 4 sqrt(3) area / sum of squared edges (Q2 of HDR eq. 1.6): 1 for an equilateral triangle, 0 for a flat one.
 double shape_quality(const Point& a, const Point& b, const Point& c);
+
+/// Sizes of the triangles of a mesh: sides of equilateral triangles of the same area.
+struct SizeScale {
+  double smallest = 0, largest = 0;
+
+  explicit SizeScale(const MeshArrays& mesh);
+  /// 0 for the smallest triangle to 1 for the largest, by the logarithm; 1/2 when all have one size.
+  [[nodiscard]] double share(const Point& a, const Point& b, const Point& c) const;
+};
 
 /// The triangles of `mesh` as `view` shows them in the rectangle [x0, x0 + width] x [y0, y0 + height], in pixels.
 /// Triangles whose vertices are not finite are left out.

@@ -233,7 +233,7 @@ class Mesh(unittest.TestCase):
                 break
             text += block
         self.assertEqual(process.wait(timeout=60), 0)
-        self.assertRegex(text, rb"\r\033\[K\[#*\.*\] +\d+ % patches, face 1")
+        self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % patches, face 1")
 
     def interrupt(self, *options, after):
         process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), *options],

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """command_test.py CARREAU: the program `carreau`: pictures, checks, parameters, exit codes."""
+import json
 import math
 import os
 import shutil
@@ -148,6 +149,88 @@ class Command(unittest.TestCase):
         q2 = 4 * math.sqrt(3) * 0.5 / 4
         self.assertEqual(values["shape Q2"], f"mean {q2:.4f}, first percentile {q2:.4f}, worst {q2:.4f}")
 
+    def test_sizes_of_triangles_have_colours_from_red_to_green(self):
+        # Beside a large triangle a small one, by 100 in area: red the small one.
+        two = self.write("two.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n10 0 0 0\n5 8.66 0 0\n12 0 0 0\n13 0 0 0\n"
+                         "12.5 .866 0 0\nTriangles 2\n1 2 3 1\n4 5 6 1\nEnd\n")
+        rows = self.picture("--view", "top", "--size", "320x220", "--color", "size", "--no-edges", mesh=two)
+        colours = {pixel for row in rows for pixel in row}
+        self.assertTrue(any(r > 2 * g and r > 2 * b and g < 60 for r, g, b in colours))  # dark red
+        self.assertTrue(any(g > 1.3 * r and b > r for r, g, b in colours))               # green-blue
+
+    def check_json(self, name, vertices, triangles, *options, code=0):
+        text = (f"MeshVersionFormatted 2\nDimension 3\nVertices {len(vertices)}\n" + "".join(f"{x} {y} {z} 0\n" for x, y, z in vertices) +
+                f"Triangles {len(triangles)}\n" + "".join(f"{i} {j} {k} {ref}\n" for i, j, k, ref in triangles) + "End\n")
+        done = run("check", self.write(name, text), "--json", *options)
+        self.assertEqual((done.returncode, done.stderr), (code, ""))
+        return json.loads(done.stdout)
+
+    TETRAHEDRON = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(1, 3, 2, 1), (1, 2, 4, 2), (1, 4, 3, 3), (2, 3, 4, 4)]
+
+    def test_check_of_a_closed_mesh_as_json(self):
+        result = self.check_json("t.mesh", *self.TETRAHEDRON, "--closed")
+        report, quality = result["report"], result["quality"]
+        self.assertEqual((result["defects"], report["borders"], report["parts"], report["euler"]), ([], [], 1, 2))
+        self.assertEqual([report[name]["count"] for name in ("shared_edges", "turned_triangles", "folds", "double_points")], 4 * [0])
+        right, even = 2 * math.sqrt(3) / 4, 1  # Q2 of the three right triangles and of the equilateral one
+        self.assertEqual((sum(report["q2_classes"]), report["q2_classes"][8], report["q2_classes"][9]), (4, 3, 1))
+        self.assertEqual((sum(report["q1_classes"]), report["q1_classes"][7], report["q1_classes"][9]), (4, 3, 1))  # 0.717
+        self.assertAlmostEqual(quality["q2_mean"], (3 * right + even) / 4)
+        self.assertEqual([face["reference"] for face in report["faces"]], [1, 2, 3, 4])
+        self.assertAlmostEqual(report["faces"][3]["area"], math.sqrt(3) / 2)
+        self.assertAlmostEqual(report["faces"][0]["edge_mean"], (2 + math.sqrt(2)) / 3)
+        self.assertEqual(len(report["worst"]), 3)
+        self.assertAlmostEqual(report["worst"][0]["q2"], right)
+        self.assertEqual(len(self.check_json("t.mesh", *self.TETRAHEDRON, "--worst", "0")["report"]["worst"]), 0)
+
+    def test_check_finds_borders_and_their_lengths(self):
+        vertices, triangles = self.TETRAHEDRON
+        report = self.check_json("open.mesh", vertices, triangles[:3])["report"]
+        border, = report["borders"]
+        self.assertEqual((border["edges"], border["loop"], report["euler"]), (3, True, 1))
+        self.assertAlmostEqual(border["length"], 3 * math.sqrt(2))
+        two = self.check_json("two.mesh", vertices, [triangles[0], (1, 2, 4, 1)])["report"]
+        self.assertEqual([b["edges"] for b in two["borders"]], [4])
+        apart = self.check_json("apart.mesh", vertices + [(5 + x, y, z) for x, y, z in vertices[:3]], triangles + [(5, 6, 7, 9)])["report"]
+        self.assertEqual(([b["edges"] for b in apart["borders"]], apart["parts"], apart["euler"]), ([3], 2, 3))
+
+    def test_check_finds_what_is_turned_shared_folded_and_double(self):
+        vertices, triangles = self.TETRAHEDRON
+        turned = self.check_json("turned.mesh", vertices, triangles[:3] + [(2, 4, 3, 4)])["report"]
+        self.assertEqual(turned["turned_triangles"]["count"], 1)
+        self.assertEqual([round(3 * x, 9) for x in turned["turned_triangles"]["at"][0]], [1, 1, 1])
+        fin = self.check_json("fin.mesh", vertices + [(0.5, -1, 0)], triangles + [(1, 2, 5, 5)])["report"]
+        self.assertEqual((fin["shared_edges"]["count"], fin["shared_edges"]["at"]), (1, [[0.5, 0, 0]]))
+        # The second triangle lies back on the first one.
+        folded = self.check_json("folded.mesh", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.2, 0.9, 0.01)], [(1, 2, 3, 1), (1, 4, 2, 1)])["report"]
+        self.assertEqual((folded["folds"]["count"], folded["folds"]["at"]), (1, [[0.5, 0, 0]]))
+        crease = self.check_json("crease.mesh", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.2, 0.9, 0.01)], [(1, 2, 3, 1), (1, 4, 2, 2)])["report"]
+        self.assertEqual(crease["folds"]["count"], 0)  # faces may meet like that
+        apart = self.check_json("double.mesh", [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 1e-10), (1, 1, 0), (0, 1, 1e-7)],
+                                [(1, 2, 3, 1), (4, 5, 6, 1)])["report"]
+        self.assertEqual(apart["double_points"]["count"], 1)  # the third is 1e-7 away: another place
+
+    def test_check_prints_places_and_faces_for_a_person(self):
+        text = run("check", self.mesh, "--faces").stdout
+        self.assertRegex(text, r"(?m)^worst +Q2 0\.8660: triangle [12] of face [12] at \(0\.\d+, 0\.\d+, 1\)$")
+        self.assertRegex(text, r"(?m)^  loop of 4 edges, length 4, at \(")
+        self.assertRegex(text, r"(?m)^Q2 classes   from 0 to 1 by tenths: 0 0 0 0 0 0 0 0 2 0 \(0.0 % below 0.5\)$")
+        self.assertRegex(text, r"(?m)^ +1 +1 +0\.5 +0\.8660 +0\.8660 +1 +1\.13807 +1\.41421$")
+
+    def test_check_of_indices_that_do_not_exist_or_of_no_triangle_is_told(self):
+        wrong = run("check", self.write("wrong.mesh", SQUARE.replace("1 3 4 2", "1 3 9 2")), "--json")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("wrong.mesh", wrong.stderr)
+        none = run("check", self.write("none.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 0\nEnd\n"))
+        self.assertEqual(none.returncode, 1)
+        self.assertIn("no triangle", none.stdout)
+
+    def test_output_that_cannot_be_written_is_told(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([PROGRAM, "check", self.mesh], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("standard output cannot be written: No space left", done.stderr)
+
     def test_defects_give_exit_code_1(self):
         line = self.write("line.mesh", SQUARE.replace("1 1 1 0", "2 0 1 0"))
         done = run("check", line)
@@ -159,7 +242,8 @@ class Command(unittest.TestCase):
         self.fails(sentence="subcommand")
         self.fails("draw", sentence="draw")
         self.fails("picture", self.mesh, sentence="--output")
-        self.fails("picture", self.mesh, "-o", self.png, "--size", "12", sentence="WIDTHxHEIGHT")
+        for size in ("12", "x", "12x", "x12", "15x200", "99999999999x20", "20001x20", "100x100x100", "-20x20", "100 x100"):
+            self.fails("picture", self.mesh, "-o", self.png, "--size=" + size, sentence="WIDTHxHEIGHT")
         self.fails("picture", self.mesh, "-o", self.png, "--view", "0,0,0", sentence="direction")
         self.fails("picture", self.mesh, "-o", self.png, "--color", "red", sentence="red")
         self.fails("check", self.mesh + "x", sentence="square.meshx")

@@ -156,7 +156,7 @@ class Sizes(Folder):
                    if mesh.vertices[i][0] == mesh.vertices[j][0] == 1]
         self.assertAlmostEqual(mean(between), 0.05, delta=0.005)
         self.refused(self.two, "-o", "a.mesh", "--face-size", "3=1", sentence="there is no face '3'")
-        self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="name=value")
+        self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="NAME=VALUE")
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is no length")
 
     @unittest.skipUnless(FORMULAS, "built without muParser")

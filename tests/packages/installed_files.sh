@@ -16,7 +16,9 @@ if [ "$fortran" = 1 ]; then
     lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1
 fi
 if [ "$command" = 1 ]; then
-  need bin/carreau
+  need bin/carreau share/bash-completion/completions/carreau share/zsh/site-functions/_carreau \
+    share/fish/vendor_completions.d/carreau.fish
+  for command in mesh info check picture fields params completion; do need share/man/man1/carreau-$command.1; done
   ./bin/carreau --version # finds its library in the tree
 fi
 # A manual page for each program.

@@ -1,0 +1,229 @@
+#include "command_line.h"
+
+#include <carreau.h>
+
+#include <algorithm>
+
+#include "completion.h"
+#include "failure.h"
+#include "lengths.h"
+
+namespace command {
+namespace {
+
+constexpr const char* geometry_files = "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom";
+
+void parse_picture_size(const std::string& text, PictureOptions& options) {
+  const auto size = parse_pixels(text);
+  if (!size || std::min(size->first, size->second) < 16 || std::max(size->first, size->second) > 20000)
+    throw Failure("The size '" + text + "' is not WIDTHxHEIGHT with numbers from 16 to 20000.");
+  options.width = size->first, options.height = size->second;
+}
+
+/// "800x600", or the longer side alone.
+void parse_field_size(const std::string& text, FieldsOptions& options) {
+  if (const auto size = parse_pixels(text)) {
+    options.width = size->first, options.height = size->second;
+    return;
+  }
+  const auto longest = parse_count(text);
+  if (!longest) throw Failure("The size '" + text + "' is neither a number of pixels nor WIDTHxHEIGHT.");
+  options.longest = *longest;
+}
+
+/// `--set`, and options like it, take one value each time they are given.
+CLI::Option* repeated(CLI::Option* option) { return option->allow_extra_args(false); }
+
+CLI::Option* threads(CLI::App* app, int& value) {
+  return app->add_option("--threads", value, "Threads at work, 0: all cores; results do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->type_name(kind::number)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches.", "carreau") {
+  app_.set_version_flag("--version", std::string("carreau ") + carreau_version());
+  app_.require_subcommand(1);
+  app_.footer(
+      "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Manual: "
+      "man carreau");
+  add_mesh();
+  add_info();
+  add_check();
+  add_picture();
+  add_fields();
+  add_params();
+  add_completion();
+}
+
+CLI::App* CommandLine::add(const char* name, const char* description) {
+  CLI::App* sub = app_.add_subcommand(name, description);
+  sub->footer("Manual: man carreau-" + std::string(name));
+  return sub;
+}
+
+void CommandLine::add_mesh() {
+  CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, or a .pardom");
+  mesh->add_option("INPUT", mesh_.input, geometry_files)->required()->type_name(kind::file);
+  mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
+      ->type_name(kind::file);
+  repeated(mesh->add_option("-o,--output", mesh_.outputs,
+                            "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2) or .exr (fields); "
+                            "may be repeated"))
+      ->required()
+      ->type_name(kind::file);
+  mesh->add_option("--size", mesh_.size,
+                   "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")
+      ->type_name(kind::length);
+  mesh->add_option("--size-map", mesh_.size_map,
+                   "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
+      ->type_name(kind::file);
+  mesh->add_option("--angle", mesh_.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
+      ->check(CLI::Range(0.01, 89.0))
+      ->type_name("DEGREES");
+  mesh->add_option("--chord", mesh_.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
+      ->type_name(kind::length);
+  mesh->add_option("--gradation", mesh_.gradation, "Sizes grow by at most this ratio from one edge to the next")
+      ->check(CLI::Range(1.0001, 1e9))
+      ->type_name("RATIO");
+  mesh->add_flag("--anisotropic{1000}", mesh_.anisotropy,
+                 "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them")
+      ->check(CLI::Range(1.0, 1e9));
+  mesh->add_option("--min", mesh_.minimum, "Smallest size")->type_name(kind::length);
+  mesh->add_option("--max", mesh_.maximum, "Largest size")->type_name(kind::length);
+  repeated(mesh->add_option("--face-size", mesh_.face_sizes,
+                            "Size on a face given by number, or on all faces of a name; may be repeated"))
+      ->type_name("FACE=LENGTH");
+  mesh->add_option("--env", mesh_.env, "Parameters from a blsurf.env, up to its first action; options win")
+      ->type_name(kind::file);
+  repeated(mesh->add_option("--set", mesh_.settings, "Any parameter that `carreau params` lists; may be repeated"))
+      ->type_name(kind::setting);
+  threads(mesh, mesh_.threads);
+  mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
+  mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
+}
+
+void CommandLine::add_info() {
+  CLI::App* info = add("info", "Print what a file of geometry holds and what of it is hard to mesh");
+  info->add_option("INPUT", info_.input, geometry_files)->required()->type_name(kind::file);
+  info->add_option("--host", info_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
+      ->type_name(kind::file);
+  info->add_option("--limit", info_.limit, "Sentences of each kind")
+      ->check(CLI::PositiveNumber)
+      ->type_name(kind::number)
+      ->capture_default_str();
+  info->add_flag("--json", info_.json, "Print JSON");
+}
+
+void CommandLine::add_check() {
+  CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
+  check->add_option("MESH", check_.mesh, "File .mesh or .meshb")->required()->type_name(kind::file);
+  check->add_flag("--closed", check_.closed, "An edge with one triangle is a defect too");
+  check->add_option("--limit", check_.limit, "Defects to look for")
+      ->check(CLI::PositiveNumber)
+      ->type_name(kind::number)
+      ->capture_default_str();
+  check->add_option("--worst", check_.worst, "Worst triangles to list")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name(kind::number)
+      ->capture_default_str();
+  check->add_flag("--faces", check_.faces, "Print a line for each face");
+  check->add_flag("--json", check_.json, "Print JSON");
+}
+
+void CommandLine::add_picture() {
+  CLI::App* picture = add("picture", "Draw a mesh into a PNG file");
+  picture->add_option("MESH", picture_.mesh, "File .mesh or .meshb")->required()->type_name(kind::file);
+  picture->add_option("-o,--output", picture_.out, "File to write")->required()->type_name(kind::file);
+  picture->add_option("--size", picture_size_, "Pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  repeated(picture->add_option("--view", picture_.views,
+                               "iso, front, back, left, right, top, bottom, or a direction x,y,z from the mesh to the "
+                               "eye; may be repeated"))
+      ->type_name(kind::view);
+  picture
+      ->add_option("--color", paint_,
+                   "face: a colour a reference; quality: red 0 to green 1; size: red the smallest triangles, blue the "
+                   "largest; none: grey")
+      ->check(CLI::IsMember({"face", "quality", "size", "none"}))
+      ->capture_default_str();
+  picture->add_flag("--edges,!--no-edges", picture_.scene.edges,
+                    "Draw the sides of triangles or not; they are by default");
+  picture->add_option("--samples", picture_.samples, "Points a pixel in each direction")
+      ->check(CLI::Range(1, 8))
+      ->type_name(kind::number)
+      ->capture_default_str();
+}
+
+void CommandLine::add_fields() {
+  CLI::App* fields = add("fields", "Mesh, and write what governed the mesh as OpenEXR images");
+  fields->add_option("INPUT", fields_.input, "CAD file, .bpt, .pardom, or .env whose actions are run")
+      ->required()
+      ->type_name(kind::file);
+  fields
+      ->add_option("--host", fields_.host, "Geometry of a .pardom or .env: a shared library with the routines of cad_m")
+      ->type_name(kind::file);
+  fields->add_option("-o,--output", fields_.out, "File .exr; a file a face: NAME.face.REF.exr")
+      ->required()
+      ->type_name(kind::file);
+  fields->add_option("--size", field_size_, "Pixels of the longer side, or WIDTHxHEIGHT")
+      ->type_name("PIXELS")
+      ->capture_default_str();
+  fields->add_option("--face", fields_.face, "Only this face, into the file as it is named")
+      ->check(CLI::PositiveNumber)
+      ->type_name("REF");
+  fields->add_flag("--multi-part", fields_.multi_part, "All faces into one file, a part each");
+  repeated(fields->add_option("--channels", fields_.channels, "Groups of channels, separated by commas; all by default")
+               ->delimiter(',')
+               ->check(CLI::IsMember(field_groups())));
+  fields->add_flag("--piz", fields_.piz, "PIZ in place of ZIP; both are lossless");
+  fields->add_flag("--raw", fields_.raw, "What the geometry answers, without a mesh");
+  repeated(fields->add_option("--set", fields_.settings, "A parameter; may be repeated"))->type_name(kind::setting);
+  threads(fields, fields_.threads);
+}
+
+void CommandLine::add_params() {
+  CLI::App* params = add("params", "List the parameters with types, defaults, ranges and a line of help");
+  params->add_option("NAME", parameter_, "One parameter only")->type_name(kind::parameter);
+}
+
+void CommandLine::add_completion() {
+  CLI::App* completion = add("completion", "Print a script with which a shell completes this command");
+  completion->add_option("SHELL", shell_, "The shell")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+}
+
+int CommandLine::run(int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "-";
+  std::string known;
+  bool found = first[0] == '-';
+  for (const CLI::App* sub : app_.get_subcommands({})) {
+    known += (known.empty() ? "" : ", ") + sub->get_name();
+    found = found || sub->get_name() == first;
+  }
+  if (!found) throw Failure("There is no command '" + first + "'; there are " + known + ".");
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app_.exit(error) == 0 ? 0 : 2;
+  }
+  if (app_.got_subcommand("mesh")) return mesh(mesh_);
+  if (app_.got_subcommand("info")) return info(info_);
+  if (app_.got_subcommand("check")) return check(check_);
+  if (app_.got_subcommand("picture")) {
+    parse_picture_size(picture_size_, picture_);
+    picture_.scene.paint = paint_ == "face"      ? Paint::face
+                           : paint_ == "quality" ? Paint::quality
+                           : paint_ == "size"    ? Paint::size
+                                                 : Paint::none;
+    return picture(picture_);
+  }
+  if (app_.got_subcommand("fields")) {
+    parse_field_size(field_size_, fields_);
+    return fields(fields_);
+  }
+  if (app_.got_subcommand("completion")) return print_completion(app_, shell_);
+  return params(parameter_);
+}
+
+}  // namespace command

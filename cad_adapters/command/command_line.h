@@ -1,0 +1,54 @@
+// The command line: sub-commands and their options. Help, completion of shells and the check of the manual pages are
+// made from it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "commands.h"
+
+namespace command {
+
+/// Kinds of values, as help shows them; completion of shells knows the first four.
+namespace kind {
+inline constexpr const char* file = "FILE";
+inline constexpr const char* parameter = "NAME";
+inline constexpr const char* setting = "NAME=VALUE";
+inline constexpr const char* view = "VIEW";
+inline constexpr const char* length = "LENGTH";
+inline constexpr const char* number = "N";
+}  // namespace kind
+
+/// The parser and what it fills.
+class CommandLine {
+ public:
+  CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  /// Parses and runs. The exit code; throws Failure.
+  int run(int argc, char** argv);
+
+  [[nodiscard]] const CLI::App& app() const noexcept { return app_; }
+
+ private:
+  CLI::App* add(const char* name, const char* description);
+  void add_mesh();
+  void add_info();
+  void add_picture();
+  void add_check();
+  void add_fields();
+  void add_params();
+  void add_completion();
+
+  CLI::App app_;
+  MeshOptions mesh_;
+  InfoOptions info_;
+  PictureOptions picture_;
+  std::string picture_size_ = "1200x900", paint_ = "face";
+  CheckOptions check_;
+  FieldsOptions fields_;
+  std::string field_size_ = "1024", parameter_, shell_;
+};
+
+}  // namespace command

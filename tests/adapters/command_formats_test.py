@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""command_formats_test.py CARREAU MAKE_SHAPES READERS: names and references of `carreau mesh` survive in all formats that can hold them.
+The files are read by readers of the folder READERS, which share no code with the library; Gmsh, if it is there, reads its own."""
+import collections
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, MAKE_SHAPES, READERS = sys.argv[1:4]
+sys.path.insert(0, READERS)
+import mesh_files  # noqa: E402
+
+SHAPES = tempfile.mkdtemp(prefix="carreau shapes ")
+
+
+class Formats(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau formats ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def files(self, shape, *options):
+        paths = {name: os.path.join(self.folder, "out." + name) for name in ("mesh", "meshb", "vtu", "stl", "msh", "msh2")}
+        arguments = [word for path in paths.values() for word in ("-o", path)]
+        subprocess.run([PROGRAM, "mesh", os.path.join(SHAPES, shape), "-q", *arguments, *options], check=True, timeout=120)
+        return paths
+
+    def test_each_file_holds_the_same_triangles_and_faces(self):
+        for shape in ("named_faces.step", "assembly.step", "cylinder.step"):
+            with self.subTest(shape=shape):
+                paths = self.files(shape, "--size", "0.4")
+                medit = mesh_files.read_mesh(paths["mesh"])
+                self.assertGreater(len(medit.triangles), 50)
+                others = {"meshb": mesh_files.read_meshb(paths["meshb"]), "msh": mesh_files.read_msh(paths["msh"]),
+                          "msh2": mesh_files.read_msh(paths["msh2"]), "vtu": mesh_files.read_vtu(paths["vtu"])}
+                curves = collections.Counter(ref for _, _, ref in medit.edges)
+                for name, mesh in others.items():
+                    self.assertEqual(mesh.corners(), medit.corners(), name)
+                    for ref in set(medit.refs):
+                        self.assertEqual(mesh.corners_of(ref), medit.corners_of(ref), (name, ref))
+                    self.assertEqual(collections.Counter(ref for _, _, ref in mesh.edges), curves, name)
+                # Text of numbers with nine digits or more, and a solid a face in the order of the references.
+                stl = mesh_files.read_stl(paths["stl"])
+                self.assertEqual(len(stl.triangles), len(medit.triangles))
+                self.assertEqual(len(stl.names), len(set(medit.refs)))
+                for solid, ref in enumerate(sorted(set(medit.refs)), 1):
+                    for p, q in zip(stl.corners_of(solid), medit.corners_of(ref)):
+                        for a, b in zip(p, q):
+                            for x, y in zip(a, b):
+                                self.assertAlmostEqual(x, y, delta=1e-7)
+
+    def test_names_of_faces_survive(self):
+        paths = self.files("named_faces.step", "--size", "0.4")
+        medit = mesh_files.read_mesh(paths["mesh"])
+        # The unit cube: the names tell where its faces are.
+        for name, read in (("msh", mesh_files.read_msh), ("msh2", mesh_files.read_msh), ("vtu", mesh_files.read_vtu)):
+            mesh = read(paths[name])
+            self.assertEqual(sorted(mesh.names.values()), ["bottom"] + 4 * ["side"] + ["top"], name)
+            for ref, label in mesh.names.items():
+                heights = {p[2] for corners in mesh.corners_of(ref) for p in corners}
+                if label != "side":
+                    self.assertEqual(heights, {0.0} if label == "bottom" else {1.0}, name)
+                self.assertEqual(mesh.corners_of(ref), medit.corners_of(ref), name)
+        solids = mesh_files.read_stl(paths["stl"]).names
+        self.assertEqual(sorted(solids.values()), ["bottom"] + 4 * ["side"] + ["top"])
+
+    def test_statuses_of_faces_are_in_vtu(self):
+        arrays = mesh_files.read_vtu(self.files("named_faces.step", "--size", "0.4")["vtu"]).arrays
+        self.assertEqual(arrays["FieldData", "face_status"], 6 * [1])
+
+    def test_gmsh_reads_both_of_its_formats(self):
+        try:
+            import gmsh
+        except ImportError:
+            self.skipTest("no module gmsh")
+        paths = self.files("named_faces.step", "--size", "0.4")
+        medit = mesh_files.read_mesh(paths["mesh"])
+        gmsh.initialize()
+        try:
+            gmsh.option.setNumber("General.Terminal", 0)
+            for name in ("msh", "msh2"):
+                path = os.path.join(self.folder, f"of_{name}.msh")  # Gmsh knows one suffix
+                os.rename(paths[name], path)
+                gmsh.open(path)
+                kinds, tags, _ = gmsh.model.mesh.getElements(2)
+                self.assertEqual((list(kinds), sum(len(t) for t in tags)), ([2], len(medit.triangles)))
+                groups = {gmsh.model.getPhysicalName(2, tag): sorted(gmsh.model.getEntitiesForPhysicalGroup(2, tag))
+                          for _, tag in gmsh.model.getPhysicalGroups(2)}
+                self.assertEqual({label: len(faces) for label, faces in groups.items()}, {"bottom": 1, "top": 1, "side": 4})
+                gmsh.clear()
+        finally:
+            gmsh.finalize()
+
+
+if __name__ == "__main__":
+    try:
+        subprocess.run([MAKE_SHAPES, SHAPES], check=True, timeout=120, stdout=subprocess.DEVNULL)
+        unittest.main(argv=sys.argv[:1])
+    finally:
+        shutil.rmtree(SHAPES)
