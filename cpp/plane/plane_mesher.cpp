@@ -4,6 +4,7 @@
 
 #include "plane/boundary.h"
 #include "plane/filler.h"
+#include "plane/metric_delaunay.h"
 #include "plane/optimiser.h"
 
 namespace carreau {
@@ -47,6 +48,7 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
   bool turning = false;
   {
     plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);
+    make_delaunay_in_metric(boundary.mesh, monitor);
     fixed = filler.surround_degenerate_edges(domain);
     if (options.frontal)
       filler.march();

@@ -65,6 +65,29 @@ TEST(MeshPlane, IsTheSameBitForBit) {
   EXPECT_EQ(first.triangles, second.triangles);
 }
 
+// A strip ninety times as long as wide in the metric, in parameters that make it a square, with a cut end: the points
+// of that end are Delaunay neighbours of half the strip in (u, v), and of a few edges in the metric.
+TEST(MeshPlane, LongStripsAreDelaunayInTheMetric) {
+  constexpr int along = 130;
+  const double h = 1.0 / along, cut = 0.004;
+  PlaneCase c;
+  std::vector<Vec2>& p = c.domain.vertices;
+  for (int i = 0; i <= along; ++i) p.push_back({i * h, 0});
+  for (int i = 1; i < 6; ++i) p.push_back({1 - cut * i / 6, i / 6.0});
+  for (int i = along; i >= 0; --i) p.push_back({i * h - cut * i * h, 1});
+  for (int i = 0; i < static_cast<int>(p.size()); ++i)
+    c.domain.edges.push_back({i, (i + 1) % static_cast<int>(p.size()), PlaneEdgeKind::boundary, 0, i});
+  const ControlSpace space = ControlSpace::constant({along * along, 0, 0.7 * 0.7});
+  Monitor monitor;
+  const PlaneMesh mesh = mesh_plane(c.domain, space, {}, monitor);
+  EXPECT_EQ(find_plane_defects(c.domain, mesh), Defects{});
+  double longest = 0;
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      longest = std::max(longest, std::abs(mesh.vertices[t[i]].x - mesh.vertices[t[(i + 1) % 3]].x) / h);
+  EXPECT_LT(longest, 1.5);
+}
+
 TEST(MeshPlane, DoesNotDependOnTheUnitOfTheParameters) {
   // The same patch in parameters multiplied by powers of two: the same triangles.
   const PlaneCase c = paraboloid(0.3);

@@ -1,0 +1,14 @@
+// A triangulation of imposed points made Delaunay in the metric of its vertices, before points are placed in it.
+#pragma once
+
+#include "plane/triangulation.h"
+#include "support/monitor.h"
+
+namespace carreau::plane {
+
+/// Swaps until no swap makes the flatter of two triangles less flat, flatness being judged by the smallest angle in the
+/// mean metric of a triangle's own corners: where the metric is constant that is Delaunay's criterion, and where it
+/// varies swaps cannot run in circles. Needs the metrics at the vertices; imposed edges stay.
+void make_delaunay_in_metric(Triangulation& mesh, Monitor& monitor);
+
+}  // namespace carreau::plane
