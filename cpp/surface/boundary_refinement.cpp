@@ -1,12 +1,15 @@
 #include "surface/boundary_refinement.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "plane/domain_check.h"
+#include "plane/domain_graph.h"
+#include "predicates/polygon_locator.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
 
@@ -16,6 +19,12 @@ namespace {
 
 // Each iteration halves the edges that cross: 2^-16 of an edge is below the accuracy of any support.
 constexpr int most_halvings = 16;
+
+// Around a true crossing the edges that cross get shorter with every halving, and where curves only come near each
+// other they stop crossing: after this many halvings that changed nothing the curves lie on each other, and would be
+// cut for ever.
+constexpr int most_fruitless_halvings = 6;
+constexpr double fruitless_share = 0.75;  // of the length that crossed before
 
 // And those of a boundary that is inside out: a model that is wrong stays so.
 constexpr int most_turned_rounds = 6;
@@ -40,17 +49,22 @@ class NearVertices {
     std::sort(order_.begin(), order_.end(), [this](int v, int w) { return points_[v].*axis_ < points_[w].*axis_; });
   }
 
-  /// Is a vertex that `counts` within `reach` of the segment (a, b), one that is at neither end of it?
-  template <typename Counts>
-  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach, Counts&& counts) const {
+  /// Vertices within `reach` of the segment (a, b) that are at neither end of it, until `visit` says false.
+  template <typename Visit>
+  void each_beside(Vec3 a, Vec3 b, double reach, Visit&& visit) const {
     const double low = std::min(a.*axis_, b.*axis_) - reach, high = std::max(a.*axis_, b.*axis_) + reach;
     auto it = std::lower_bound(order_.begin(), order_.end(), low,
                                [this](int v, double value) { return points_[v].*axis_ < value; });
     for (; it != order_.end() && points_[*it].*axis_ <= high; ++it) {
       const Vec3 p = points_[*it];
-      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && counts(*it)) return true;
+      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && !visit(*it)) return;
     }
-    return false;
+  }
+
+  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach) const {
+    bool any = false;
+    each_beside(a, b, reach, [&](int) { return any = true, false; });
+    return any;
   }
 
  private:
@@ -62,7 +76,7 @@ class NearVertices {
 class Refiner {
  public:
   Refiner(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
-          std::vector<DiscreteCurve>& curves, Monitor& monitor)
+          std::vector<DiscreteCurve>& curves, std::set<int>& given_up, Monitor& monitor)
       : curve_model_(model),
         model_(model.model),
         topology_(model.topology),
@@ -70,6 +84,7 @@ class Refiner {
         options_(options),
         limits_(limits),
         curves_(curves),
+        given_up_(given_up),
         monitor_(monitor) {
     const std::size_t n = model_.faces.size();
     result_.domain.resize(n);
@@ -86,6 +101,8 @@ class Refiner {
         options_.check_close_edges, [this](int f) { return look_for_closeness(f); },
         [this](int f, Found& found) {
           if (!found.ask_metric) return;
+          for (const Strip& strip : found.strips)
+            if (lies_between(f, strip)) found.edges.push_back(strip.edge);
           const std::vector<int> close =
               edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
           found.edges.insert(found.edges.end(), close.begin(), close.end());
@@ -102,9 +119,16 @@ class Refiner {
   }
 
  private:
+  /// An edge, a vertex close to it in space, and the point halfway between them in (u, v), which is in the domain.
+  struct Strip {
+    int edge = -1, vertex = -1;
+    Vec2 middle;
+  };
+
   /// What a check says of one face.
   struct Found {
     std::vector<int> edges = {};  // to be split
+    std::vector<Strip> strips = {};
     bool ask_metric = false;
   };
 
@@ -162,7 +186,7 @@ class Refiner {
     add_loose_edges(splits);
     std::vector<int> asked;
     for (int f = 0; f < face_count(); ++f)
-      if (result_.domain[f] && look[f] != 0) asked.push_back(f);
+      if (result_.domain[f] && look[f] != 0 && !given_up_.contains(f)) asked.push_back(f);
     std::vector<Found> found(asked.size());
     run_each(
         asked.size(), false, options_.threads, [&](std::size_t i, Monitor&) { found[i] = find(asked[i]); }, monitor_);
@@ -186,7 +210,7 @@ class Refiner {
   // split.
   void add_loose_edges(Splits& splits) {
     for (const int face : turned_) {
-      if (turned_rounds_[face]++ >= most_turned_rounds) continue;
+      if (given_up_.contains(face) || turned_rounds_[face]++ >= most_turned_rounds) continue;
       struct Candidate {
         int curve, segment;
         double deviation;
@@ -223,6 +247,7 @@ class Refiner {
   }
 
   bool split(int curve, int segment) {
+    monitor_.checkpoint();
     if (!split_segment(curves_[curve], segment, curve_model_)) return false;
     for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
     return true;
@@ -233,13 +258,27 @@ class Refiner {
     for (int i = 0; i < most_halvings; ++i)
       if (!refine(
               crossable_, [this](int f) { return Found{edges_to_split_for_crossings(result_.domain[f]->plane)}; },
-              [this](int f, Found& found) { crossable_[f] = found.edges.empty() ? 0 : 1; }))
+              [this](int f, Found& found) { give_up_if_fruitless(f, found); }))
         return;
+  }
+
+  void give_up_if_fruitless(int f, Found& found) {
+    const PlaneDomain& plane = result_.domain[f]->plane;
+    double length = 0;
+    for (const int e : found.edges) length += norm(plane.vertices[plane.edges[e].b] - plane.vertices[plane.edges[e].a]);
+    Crossing& before = crossings_[f];
+    before.fruitless = length > fruitless_share * before.length ? before.fruitless + 1 : 0;
+    before.length = length;
+    if (before.fruitless > most_fruitless_halvings) {
+      given_up_.insert(f);
+      found.edges.clear();
+    }
+    crossable_[f] = found.edges.empty() ? 0 : 1;
   }
 
   [[nodiscard]] Found look_for_closeness(int f) const {
     if (!may_be_narrow(f)) return {};
-    return {.edges = edges_close_in_space(f), .ask_metric = true};
+    return {.strips = strips_in_space(f), .ask_metric = true};
   }
 
   // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
@@ -253,8 +292,7 @@ class Refiner {
     for (const PlaneEdge& edge : domain.plane.edges) {
       if (edge.kind == PlaneEdgeKind::degenerate) continue;
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];
-      if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a), [](int) { return true; }))
-        return true;
+      if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a))) return true;
     }
     return false;
   }
@@ -262,20 +300,39 @@ class Refiner {
   // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
   // however far they are on the surface. Curves that meet at a corner are left to the check in the metric, which knows
   // angles.
-  [[nodiscard]] std::vector<int> edges_close_in_space(int f) const {
-    std::vector<int> close;
+  [[nodiscard]] std::vector<Strip> strips_in_space(int f) const {
+    std::vector<Strip> strips;
     const FaceDomain& domain = *result_.domain[f];
+    const PlaneDomain& plane = domain.plane;
     const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
-    if (xyz.size() < domain.origin.size()) return close;  // imposed points
+    if (xyz.size() < domain.origin.size()) return strips;  // imposed points
     const NearVertices near(xyz);
-    for (int e = 0; e < static_cast<int>(domain.plane.edges.size()); ++e) {
-      const PlaneEdge& edge = domain.plane.edges[e];
+    const PolygonLocator inside(plane.vertices, bounding_edges(plane));
+    for (int e = 0; e < static_cast<int>(plane.edges.size()); ++e) {
+      const PlaneEdge& edge = plane.edges[e];
       if (edge.kind == PlaneEdgeKind::degenerate) continue;
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];
-      const auto is_apart = [&](int v) { return !meet(edge.curve, domain.origin[v]); };
-      if (near.any_beside(a, b, options_.coef_rectangle * norm(b - a), is_apart)) close.push_back(e);
+      const auto note_strip = [&](int v) {
+        if (meet(edge.curve, domain.origin[v])) return true;
+        const double s = fraction_on_segment(xyz[v], a, b);
+        const Vec2 nearest = lerp(plane.vertices[edge.a], plane.vertices[edge.b], s);
+        const Vec2 middle = lerp(plane.vertices[v], nearest, 0.5);
+        if (inside.contains(middle)) strips.push_back({e, v, middle});
+        return true;
+      };
+      near.each_beside(a, b, options_.coef_rectangle * norm(b - a), note_strip);
     }
-    return close;
+    return strips;
+  }
+
+  // The two borders of a slit, or of a seam that is two curves, are close in space with the outside or the whole
+  // surface between them: no strip, and no number of cuts would part them.
+  [[nodiscard]] bool lies_between(int f, const Strip& strip) {
+    const FaceDomain& domain = *result_.domain[f];
+    const PlaneEdge& edge = domain.plane.edges[strip.edge];
+    const auto at = [&](Vec2 uv) { return surface_at(curve_model_.cad, model_.faces[f].ref, want_position, uv).s; };
+    const std::vector<Vec2>& uv = domain.plane.vertices;
+    return norm(at(strip.middle) - at(uv[strip.vertex])) <= norm(at(uv[edge.a]) - at(uv[edge.b]));
   }
 
   // Whether a vertex lies on a curve that has an end in common with another one, or on that one.
@@ -331,6 +388,7 @@ class Refiner {
   const CompositeOptions& options_;
   SizeLimits limits_;
   std::vector<DiscreteCurve>& curves_;
+  std::set<int>& given_up_;  // faces for which nothing is cut any more
   Monitor& monitor_;
   RefinedDomains result_;
   std::vector<char> stale_;
@@ -339,6 +397,11 @@ class Refiner {
   std::map<int, std::string> unbuilt_;
   std::set<int> turned_;  // of those
   std::map<int, int> turned_rounds_;
+  struct Crossing {
+    double length = std::numeric_limits<double>::infinity();  // of the edges that cross others, in (u, v)
+    int fruitless = 0;                                        // halvings in a row that left it as it was
+  };
+  std::map<int, Crossing> crossings_;
   std::map<int, std::optional<ControlSpace>> spaces_;
 };
 
@@ -346,7 +409,20 @@ class Refiner {
 
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
                               const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor) {
-  return Refiner(model, rules, options, limits, curves, monitor).run();
+  const std::vector<DiscreteCurve> unrefined = curves;
+  std::set<int> given_up;
+  std::map<int, std::string> why;
+  for (;;) {
+    RefinedDomains result = Refiner(model, rules, options, limits, curves, given_up, monitor).run();
+    const std::size_t known = why.size();
+    for (int f = 0; f < static_cast<int>(result.failure.size()); ++f)
+      if (!result.failure[f].empty() && result.mended[f] != 0) why.emplace(f, result.failure[f]), given_up.insert(f);
+    if (why.size() == known) {
+      for (const auto& [f, sentence] : why) result.failure[f] = sentence;
+      return result;
+    }
+    curves = unrefined;  // cut for a face that has no mesh anyway, they would make the meshes of its neighbours finer
+  }
 }
 
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves) {

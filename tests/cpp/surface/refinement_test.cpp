@@ -1,0 +1,114 @@
+// Boundaries that no refinement can mend, or that need none: curves are not cut for ever, and not for nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <numbers>
+
+#include "common/analytic_cad.h"
+#include "mesh/quality.h"
+#include "session/session.h"
+
+namespace carreau {
+namespace {
+
+using testing::AnalyticCad;
+constexpr double pi = std::numbers::pi;
+
+SurfaceJet flat(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+
+std::unique_ptr<Session> meshed(const AnalyticCad& cad, const Model& model, int passes, Monitor& monitor) {
+  auto session = std::make_unique<Session>(monitor);
+  session->set_cad(std::make_shared<AnalyticCad>(cad));
+  session->set_model(model);
+  session->parameters().set("hphydef", 0.1);
+  session->parameters().set("hphymin", 1e-9);
+  session->parameters().set("CheckCloseEdges", passes);
+  session->make_mesh();
+  return session;
+}
+
+/// Face `ref` with boundary curves of the given references that join the points in turn, loop by loop.
+Face face_of(int ref, const std::vector<std::vector<std::array<int, 2>>>& loops) {
+  Face face{.ref = ref, .orientation = 1, .curves = {}, .points = {}};
+  for (const auto& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      face.curves.push_back(
+          {.type = CurveType::boundary, .ref = loop[i][0], .end1 = loop[i][1], .end2 = loop[(i + 1) % loop.size()][1]});
+  return face;
+}
+
+std::vector<testing::AnalyticCurve> with_hole(std::vector<testing::AnalyticCurve> outer,
+                                              std::vector<testing::AnalyticCurve> hole) {
+  outer.insert(outer.end(), hole.begin(), hole.end());
+  return outer;
+}
+
+std::vector<testing::AnalyticCurve> rectangular_hole(Vec2 low, Vec2 high) {
+  return {testing::segment(low, {low.x, high.y}), testing::segment({low.x, high.y}, high),
+          testing::segment(high, {high.x, low.y}), testing::segment({high.x, low.y}, low)};
+}
+
+// A hole lies on the side that face 2 shares with face 1: its edges cross however short they are.
+TEST(Refinement, CurvesThatLieOnEachOtherAreNotCutForEverNorForTheNeighbour) {
+  AnalyticCad cad;
+  cad.faces[1] = {flat, testing::rectangle({-1, 0}, {0, 1})};
+  cad.faces[2] = {flat, with_hole(testing::rectangle({0, 0}, {1, 1}), rectangular_hole({0, 0.3}, {0.5, 0.6}))};
+  Model model;
+  model.faces.push_back(face_of(1, {{{1, 1}, {2, 2}, {3, 3}, {4, 4}}}));
+  Monitor monitor;
+  const auto alone = meshed(cad, model, 20, monitor);
+  model.faces.push_back(face_of(2, {{{5, 2}, {6, 5}, {7, 6}, {2, 3}}, {{11, 11}, {12, 12}, {13, 13}, {14, 14}}}));
+  const auto both = meshed(cad, model, 20, monitor);
+  EXPECT_EQ(find_defects(both->mesh()), std::vector<std::string>{});
+  EXPECT_EQ(both->exported().triangles.size(), alone->exported().triangles.size());
+  EXPECT_NE(both->mesh().faces.at(1).why.find("meets itself"), std::string::npos) << both->mesh().faces.at(1).why;
+}
+
+// Close in space, but nothing of the face lies between: the two borders of a slit in a tube, and of one in a plane.
+TEST(Refinement, BordersWithTheOutsideBetweenThemAreNoNarrowZone) {
+  for (const double gap : {1e-3, 1e-5}) {
+    SCOPED_TRACE(gap);
+    AnalyticCad tube, plane;
+    tube.faces[1] = {[](Vec2 p) {
+                       const double c = std::cos(p.x), s = std::sin(p.x);
+                       return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+                     },
+                     testing::rectangle({gap, 0}, {2 * pi - gap, 2})};
+    plane.faces[1] = {flat,
+                      with_hole(testing::rectangle({0, 0}, {1, 1}), rectangular_hole({0.3, 0.5}, {0.7, 0.5 + gap}))};
+    Model one_loop, two_loops;
+    one_loop.faces.push_back(face_of(1, {{{1, 1}, {2, 2}, {3, 3}, {4, 4}}}));
+    two_loops.faces.push_back(face_of(1, {{{1, 1}, {2, 2}, {3, 3}, {4, 4}}, {{5, 5}, {6, 6}, {7, 7}, {8, 8}}}));
+    Monitor monitor;
+    EXPECT_EQ(meshed(tube, one_loop, 20, monitor)->exported().triangles.size(),
+              meshed(tube, one_loop, 0, monitor)->exported().triangles.size());
+    // Away from the slit's ends: these are short, and refine what is next to them.
+    const auto on_slit = [&](int passes) {
+      const FlatMesh mesh = meshed(plane, two_loops, passes, monitor)->exported();
+      return std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
+                           [&](Vec3 p) { return 0.4 < p.x && p.x < 0.6 && (p.y == 0.5 || p.y == 0.5 + gap); });
+    };
+    EXPECT_GE(on_slit(0), 2);
+    EXPECT_EQ(on_slit(20), on_slit(0));
+  }
+}
+
+// And where the face does lie between them, edges are no longer than four times the width, in as many passes as that
+// takes.
+TEST(Refinement, NarrowZonesAreRefinedOnBothSides) {
+  const double width = 0.004;
+  AnalyticCad cad;
+  cad.faces[1] = {flat, testing::rectangle({0, 0}, {1, width})};
+  Model model;
+  model.faces.push_back(face_of(1, {{{1, 1}, {2, 2}, {3, 3}, {4, 4}}}));
+  Monitor monitor;
+  const auto session = meshed(cad, model, 20, monitor);
+  const FlatMesh mesh = session->exported();
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      EXPECT_LE(norm(mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]), 4 * width * (1 + 1e-9) + width);
+}
+
+}  // namespace
+}  // namespace carreau
