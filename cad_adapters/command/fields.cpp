@@ -6,8 +6,10 @@
 #include "cad_input.h"
 #include "commands.h"
 #include "lengths.h"
+#include "output_files.h"
 #include "session_handle.h"
 #include "shared_host.h"
+#include "signals.h"
 #include "text_file.h"
 
 namespace command {
@@ -71,17 +73,29 @@ carreau_status make_mesh(carreau_session* session, const FieldsOptions& options)
   return options.raw ? CARREAU_OK : carreau_mesh_generate(session);
 }
 
-void print_files(carreau_session* session, const FieldsOptions& options) {
-  if (options.face != 0 || options.multi_part) {
-    std::printf("%s\n", options.out.c_str());
-    return;
-  }
+/// The files that the library makes of options.out.
+std::vector<std::string> names_of_files(carreau_session* session, const FieldsOptions& options) {
+  if (options.face != 0 || options.multi_part) return {options.out};
   std::int64_t count = 0;
   require(session, carreau_model_count(session, &count, nullptr, nullptr));
   std::vector<std::int32_t> refs(static_cast<std::size_t>(count));
   require(session, carreau_model_faces(session, count, refs.data(), nullptr));
   const std::string stem = options.out.substr(0, options.out.size() - 4);
-  for (const std::int32_t ref : refs) std::printf("%s.face.%d.exr\n", stem.c_str(), static_cast<int>(ref));
+  std::vector<std::string> names;
+  for (const std::int32_t ref : refs) names.push_back(stem + ".face." + std::to_string(ref) + ".exr");
+  return names;
+}
+
+void write_files(carreau_session* session, const FieldsOptions& options) {
+  const carreau_exr_options exr = exr_options(options);
+  const std::vector<std::string> names = names_of_files(session, options);
+  if (names.empty()) throw Failure("'" + options.input + "' has no face.");
+  const std::string name = options.out.substr(options.out.find_last_of('/') + 1);
+  OutputFiles(names, {".exr"}).write([&](const std::vector<std::string>& hidden) {
+    const std::string folder = hidden.front().substr(0, hidden.front().find_last_of('/') + 1);
+    require(session, carreau_write_exr(session, (folder + name).c_str(), &exr));
+  });
+  for (const std::string& each : names) std::printf("%s\n", each.c_str());
 }
 
 }  // namespace
@@ -93,6 +107,7 @@ std::vector<std::string> field_groups() {
 }
 
 int fields(const FieldsOptions& options) {
+  catch_signals();
   check(options);
   std::unique_ptr<CadInput> shape;  // outlives the session
   const SessionHandle handle = make_session();
@@ -111,9 +126,7 @@ int fields(const FieldsOptions& options) {
     if (carreau_model_count(session, &faces, nullptr, nullptr) != CARREAU_OK || faces == 0) throw Failure(sentence);
     std::fprintf(stderr, "carreau: %s\n", sentence.c_str());
   }
-  const carreau_exr_options exr = exr_options(options);
-  require(session, carreau_write_exr(session, options.out.c_str(), &exr));
-  print_files(session, options);
+  write_files(session, options);
   return status == CARREAU_OK ? 0 : 1;
 }
 

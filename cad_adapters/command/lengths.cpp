@@ -12,10 +12,10 @@ Length parse_length(const std::string& text, const std::string& option) {
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, length.value);
   length.relative = error == std::errc{} && rest + 1 == end && *rest == '%';
+  if (length.relative) length.value /= 100;
   if (error != std::errc{} || (rest != end && !length.relative) || !std::isfinite(length.value) || length.value <= 0)
     throw Failure(option + " '" + text +
                   "' is no length: a number above 0, or a share of the model's diagonal such as 1%.");
-  if (length.relative) length.value /= 100;
   return length;
 }
 

@@ -11,6 +11,7 @@
 #include "progress.h"
 #include "session_handle.h"
 #include "signals.h"
+#include "text_file.h"
 
 namespace command {
 namespace {
@@ -63,13 +64,25 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   run.faces = collect_faces(run.mesh, input);
 }
 
+void write_all(const MeshRun& run, const std::vector<std::string>& paths) {
+  carreau_exr_options fields{};
+  fields.struct_size = sizeof fields;
+  fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
+  fields.multi_part = 1;
+  for (const std::string& path : paths)
+    if (suffix_of(path) == ".exr")
+      require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
+    else
+      require(run.mesh, carreau_mesh_write(run.mesh, path.c_str()));
+}
+
 }  // namespace
 
 int mesh(const MeshOptions& options) {
   catch_signals();
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
-  OutputFiles outputs(options.outputs);
+  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"});
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
   const Stopwatch reading;
@@ -84,7 +97,7 @@ int mesh(const MeshOptions& options) {
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
   const Stopwatch writing;
-  outputs.write(run.session, run.mesh);
+  outputs.write([&](const std::vector<std::string>& paths) { write_all(run, paths); });
   run.seconds_writing = writing.seconds();
   for (const std::string& line : summary_lines(run)) progress.line(line);
   if (options.json) print_json(run);

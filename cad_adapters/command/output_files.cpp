@@ -9,14 +9,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <set>
 
-#include "session_handle.h"
+#include "failure.h"
 #include "text_file.h"
 
 namespace command {
 namespace {
-
-constexpr const char* suffixes[] = {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"};
 
 /// What a signal handler removes: fixed before `active` becomes true, and only read after that.
 struct Staged {
@@ -28,12 +28,10 @@ volatile std::sig_atomic_t active = 0, written = 0;
 void remove_staged() noexcept {
   // Another thread may open a file between its removal and that of its folder, but only once.
   constexpr int tries = 3;
-  for (const Staged& s : staged)
-    for (int i = 0; i < tries; ++i) {
-      unlink(s.file.c_str());
-      unlink(s.temporary.c_str());
-      if (rmdir(s.folder.c_str()) == 0) break;
-    }
+  for (int i = 0; i < tries; ++i) {
+    for (const Staged& s : staged) unlink(s.file.c_str()), unlink(s.temporary.c_str());
+    for (const Staged& s : staged) rmdir(s.folder.c_str());
+  }
 }
 
 std::string folder_of(const std::string& path) {
@@ -63,12 +61,11 @@ class SignalsBlocked {
   sigset_t old_;
 };
 
-void check(const std::string& path) {
-  const std::string suffix = suffix_of(path);
-  if (std::find(std::begin(suffixes), std::end(suffixes), suffix) == std::end(suffixes)) {
+void check(const std::string& path, const std::vector<std::string>& suffixes) {
+  if (std::find(suffixes.begin(), suffixes.end(), suffix_of(path)) == suffixes.end()) {
     std::string known;
-    for (const char* each : suffixes) known += std::string(known.empty() ? "" : ", ") + each;
-    refuse(path, "its suffix is none of " + known);
+    for (const std::string& each : suffixes) known += (known.empty() ? "" : ", ") + each;
+    refuse(path, "its suffix is " + std::string(suffixes.size() > 1 ? "none of " : "not ") + known);
   }
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) refuse(path, "it is not an ordinary file");
@@ -78,12 +75,12 @@ void check(const std::string& path) {
 
 }  // namespace
 
-OutputFiles::OutputFiles(std::vector<std::string> paths) : paths_(std::move(paths)) {
-  for (std::size_t i = 0; i < paths_.size(); ++i) {
-    check(paths_[i]);
-    if (std::find(paths_.begin(), paths_.begin() + static_cast<std::ptrdiff_t>(i), paths_[i]) !=
-        paths_.begin() + static_cast<std::ptrdiff_t>(i))
-      refuse(paths_[i], "it is named twice");
+OutputFiles::OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes)
+    : paths_(std::move(paths)) {
+  std::set<std::string> names;
+  for (const std::string& path : paths_) {
+    check(path, suffixes);
+    if (!names.insert(path).second) refuse(path, "it is named twice");
   }
 }
 
@@ -94,28 +91,25 @@ OutputFiles::~OutputFiles() {
   staged.clear();
 }
 
-void OutputFiles::write(carreau_session* session, carreau_mesh* mesh) {
-  carreau_exr_options fields{};
-  fields.struct_size = sizeof fields;
-  fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
-  fields.multi_part = 1;
+void OutputFiles::write(const std::function<void(const std::vector<std::string>& hidden)>& make) {
+  std::vector<std::string> hidden;
   {
     const SignalsBlocked blocked;  // a folder exists only once the handler knows of it
     staged.clear();
     staged.reserve(paths_.size());
     active = 1;
+    std::map<std::string, std::string> folders;
     for (const std::string& path : paths_) {
-      std::string folder = folder_of(path) + "/.carreau-XXXXXX";
-      if (mkdtemp(folder.data()) == nullptr) refuse(path, std::strerror(errno));
-      const std::string file = folder + "/" + name_of(path);
-      staged.push_back({folder, file, file + ".0.tmp"});
+      std::string& folder = folders[folder_of(path)];
+      if (folder.empty()) {
+        folder = folder_of(path) + "/.carreau-XXXXXX";
+        if (mkdtemp(folder.data()) == nullptr) refuse(path, std::strerror(errno));
+      }
+      hidden.push_back(folder + "/" + name_of(path));
+      staged.push_back({folder, hidden.back(), hidden.back() + ".0.tmp"});
     }
   }
-  for (const Staged& s : staged)
-    if (suffix_of(s.file) == ".exr")
-      require(session, carreau_write_exr(session, s.file.c_str(), &fields));
-    else
-      require(mesh, carreau_mesh_write(mesh, s.file.c_str()));
+  make(hidden);
   const SignalsBlocked blocked;
   for (std::size_t i = 0; i < staged.size(); ++i) {
     struct stat old {};

@@ -1,8 +1,7 @@
 // Several files that appear together, whole, or not at all.
 #pragma once
 
-#include <carreau.h>
-
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,15 +11,16 @@ namespace command {
 /// between removes what was written.
 class OutputFiles {
  public:
-  /// Throws Failure for a suffix that cannot be written, a name that comes twice, or a folder that cannot be written
-  /// in.
-  explicit OutputFiles(std::vector<std::string> paths);
+  /// Throws Failure for a suffix that is none of `suffixes`, a name that comes twice, or a folder that cannot be
+  /// written in.
+  OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes);
   ~OutputFiles();
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
-  /// The mesh of `session`, and its fields into .exr files. Throws Failure with the library's sentence.
-  void write(carreau_session* session, carreau_mesh* mesh);
+  /// Calls make(hidden) with a name to write to for each path: the same name in a hidden folder, one folder for all
+  /// that have one folder. Then the files get their own names. Throws Failure, and what `make` throws.
+  void write(const std::function<void(const std::vector<std::string>& hidden)>& make);
 
   /// Removes the files of a write() under way; for signal handlers. Whether a write() has succeeded before.
   static bool remove_in_handler() noexcept;

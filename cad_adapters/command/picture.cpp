@@ -2,11 +2,15 @@
 #include <cstdio>
 
 #include "commands.h"
+#include "output_files.h"
 #include "png_file.h"
+#include "signals.h"
 
 namespace command {
 
 int picture(const PictureOptions& options) {
+  catch_signals();
+  OutputFiles output({options.out}, {".png"});
   const MeshHandle handle = read_mesh(options.mesh);
   const MeshArrays mesh = arrays_of(handle.get());
   if (mesh.triangles.empty()) throw Failure("The mesh '" + options.mesh + "' has no triangles to draw.");
@@ -26,7 +30,8 @@ int picture(const PictureOptions& options) {
         project(mesh, view_from(views[k]), options.scene, k % columns * width, k / columns * height, width, height);
     triangles.insert(triangles.end(), part.begin(), part.end());
   }
-  write_png(draw(triangles, options.width, options.height, options.samples), options.out);
+  const Image image = draw(triangles, options.width, options.height, options.samples);
+  output.write([&](const std::vector<std::string>& hidden) { write_png(image, hidden.front()); });
   return 0;
 }
 

@@ -7,7 +7,7 @@
 
 namespace command {
 
-/// The file is complete, or as it was before. Throws Failure.
+/// Throws Failure.
 void write_png(const Image& image, const std::string& path);
 
 }  // namespace command

@@ -5,6 +5,7 @@ import math
 import os
 import pty
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -235,25 +236,87 @@ class Mesh(unittest.TestCase):
         self.assertEqual(process.wait(timeout=60), 0)
         self.assertRegex(text, rb"\r\033\[K\[(\033\[32m)?#*\.*(\033\[0m)?\] +\d+ % patches, face 1")
 
-    def interrupt(self, *options, after):
-        process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), *options],
+    def interrupt(self, *options, after="", delay=0.05, number=signal.SIGINT):
+        """Exit code, and what was told after the line with `after` ("": at once)."""
+        process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "-o", self.out("a.msh"), *options],
                                    stderr=subprocess.PIPE, text=True)
-        for line in process.stderr:
+        for line in process.stderr if after else ():
             if after in line:
                 break
-        time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
-        start = time.monotonic()
-        process.communicate(timeout=60)
-        return process.returncode, time.monotonic() - start
+        time.sleep(delay)
+        process.send_signal(number)
+        _, rest = process.communicate(timeout=60)
+        return process.returncode, rest
 
-    def test_an_interrupt_stops_and_leaves_no_file(self):
+    def test_a_signal_stops_and_leaves_no_file(self):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with open(self.out("a.mesh"), "w") as old:
+                old.write("old")
+            status, rest = self.interrupt("--size", "0.08%", after="patches", number=number)
+            self.assertEqual(status, -number)  # as a shell expects that goes on, or not, with its script
+            self.assertIn("stopped; nothing was written", rest)
+            self.assertEqual(os.listdir(self.folder), ["a.mesh"])
+            self.assertEqual(content(self.out("a.mesh")), "old")
+
+    def test_files_are_whole_or_not_there_whenever_a_signal_comes(self):
+        names = ["a.mesh", "a.msh"]
+        whole = None
+        for moment in range(24):
+            # From the start of the program over reading, meshing and writing to its end.
+            status, rest = self.interrupt("--size", "0.25%", delay=0.02 + 0.05 * moment, number=(signal.SIGINT, signal.SIGTERM)[moment % 2])
+            found = sorted(os.listdir(self.folder))
+            self.assertIn(found, ([], names))
+            if found:
+                self.assertTrue(status == 0 or "the files are written" in rest, (status, rest))
+                texts = [content(self.out(name)) for name in names]
+                whole = whole or texts
+                self.assertEqual(texts, whole)
+                for name in names:
+                    os.remove(self.out(name))
+            else:
+                self.assertIn(status, (-signal.SIGINT, -signal.SIGTERM))
+
+    def test_a_disk_that_is_full_is_told_and_old_files_stay(self):
+        def small_files():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        cone = os.path.join(SHAPES, "cone.step")
         with open(self.out("a.mesh"), "w") as old:
             old.write("old")
-        status, _ = self.interrupt("--size", "0.08%", after="patches")
-        self.assertEqual(status, -signal.SIGINT)
-        self.assertEqual(os.listdir(self.folder), ["a.mesh"])
-        self.assertEqual(content(self.out("a.mesh")), "old")
+        for suffix in (".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"):
+            done = run("mesh", cone, "-o", self.out("a.mesh"), "-o", self.out("b" + suffix), "--size", "1%", preexec_fn=small_files)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("File too large", done.stderr)
+            self.assertEqual(os.listdir(self.folder), ["a.mesh"])
+            self.assertEqual(content(self.out("a.mesh")), "old")
+
+    def test_colours_are_for_terminals_and_can_be_refused(self):
+        def terminal_text(environment):
+            master, slave = pty.openpty()
+            process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("no/a.mesh")], stderr=slave,
+                                       stdout=subprocess.DEVNULL, env=os.environ | {"TERM": "xterm", "NO_COLOR": ""} | environment)
+            os.close(slave)
+            text = b""
+            try:
+                while block := os.read(master, 65536):
+                    text += block
+            except OSError:
+                pass
+            os.close(master)
+            self.assertEqual(process.wait(timeout=60), 2)
+            return text
+        self.assertIn(b"\033[31mcarreau:\033[0m", terminal_text({}))
+        self.assertNotIn(b"\033", terminal_text({"NO_COLOR": "1"}))
+        self.assertNotIn(b"\033", terminal_text({"TERM": "dumb"}))
+
+    def test_what_looks_dangerous_is_printed_as_json_too(self):
+        result = json.loads(run("info", os.path.join(SHAPES, "sliver.step"), "--json").stdout)
+        text = run("info", os.path.join(SHAPES, "sliver.step"), "--limit", "1000").stdout
+        self.assertTrue(result["dangers"])
+        for danger in result["dangers"]:
+            self.assertIn("  " + danger["text"] + "\n", text)
+            self.assertIn(danger["kind"] + ": ", text)
+        self.assertIn(f"faces       {result['faces']}\n", text)
+        self.assertEqual(json.loads(run("info", os.path.join(SHAPES, "sphere.step"), "--json").stdout)["surfaces"], {"sphere": 1})
 
 
 if __name__ == "__main__":
