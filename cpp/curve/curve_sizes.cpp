@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
+#include <optional>
 
 #include "curve/unit_discretisation.h"
 #include "support/error.h"
@@ -21,6 +23,11 @@ constexpr std::size_t most_samples = 20'000;
 constexpr double narrowest = 1e-7;  ///< of the curve's length
 /// Steep places of a source this near to a curve, over its extent, are looked at on the curve; and how far apart.
 constexpr double beside_curve = 0.01, steep_spacing = 0.002;
+
+/// Two samples of sizes from curvature may lie on two inflections. An interval is halved where the curve turns by more
+/// than this between them, down to a share of the curve at kinks.
+constexpr double most_turning = 90 * std::numbers::pi / 180;
+constexpr double least_bent = 1. / 256;
 
 struct Sample {
   double r = 0;
@@ -88,6 +95,42 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
   return apart;
 }
 
+/// How much a curve turns, by the support of its first use.
+class Turning {
+ public:
+  Turning(const CurveModel& model, int curve) {
+    const CurveUse& use = model.curve(curve).uses.front();
+    const CurveSupport& support = model.support(use);
+    r_ = {0};
+    angle_ = {0};
+    for (std::size_t i = 1; i + 1 < support.xyz.size(); ++i) {
+      const Vec3 p = support.xyz[i] - support.xyz[i - 1], q = support.xyz[i + 1] - support.xyz[i];
+      const double fraction = support.arc[i] / support.length();
+      r_.push_back(fraction);
+      angle_.push_back(angle_.back() + std::atan2(norm(cross(p, q)), dot(p, q)));
+    }
+    r_.push_back(1);
+    angle_.push_back(angle_.back());
+    if (!use.reversed) return;
+    std::reverse(r_.begin(), r_.end());
+    std::reverse(angle_.begin(), angle_.end());
+    for (double& r : r_) r = 1 - r;
+    const double whole = angle_.front();
+    for (double& a : angle_) a = whole - a;
+  }
+  [[nodiscard]] bool too_bent(const Sample& left, const Sample& right) const {
+    return right.r - left.r > least_bent && up_to(right.r) - up_to(left.r) > most_turning;
+  }
+
+ private:
+  [[nodiscard]] double up_to(double r) const {
+    const auto after = std::upper_bound(r_.begin(), r_.end(), r);
+    return angle_[static_cast<std::size_t>(after - r_.begin()) - 1];
+  }
+
+  std::vector<double> r_, angle_;  // angle_[i]: of all corners up to r_[i]
+};
+
 std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules, double lss) {
   const double length = model.length(curve);
   std::vector<double> starts = steep_fractions(model, curve, rules);
@@ -96,16 +139,18 @@ std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules,
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   std::vector<Sample> samples;
   for (const double r : starts) samples.push_back(ask(model, curve, rules, r));
+  const std::optional<Turning> turning = rules.uses_curvature() ? std::optional<Turning>({model, curve}) : std::nullopt;
   for (bool again = true; again;) {
     again = false;
     std::vector<Sample> finer{samples.front()};
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
       const bool room = samples.size() + finer.size() < most_samples + i;
-      if (room && too_coarse(samples[i], samples[i + 1], rules.law(), length, lss)) {
-        finer.push_back(ask(model, curve, rules, (samples[i].r + samples[i + 1].r) / 2));
+      const Sample &left = samples[i], &right = samples[i + 1];
+      if (room && (too_coarse(left, right, rules.law(), length, lss) || (turning && turning->too_bent(left, right)))) {
+        finer.push_back(ask(model, curve, rules, (left.r + right.r) / 2));
         again = true;
       }
-      finer.push_back(samples[i + 1]);
+      finer.push_back(right);
     }
     samples = std::move(finer);
   }

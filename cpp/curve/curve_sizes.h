@@ -42,7 +42,8 @@ struct SizeSamples {
 /// Samples the sizes of a curve. Two samples and no callback when the size is constant; two samples when nobody
 /// answers along the curve and curvature is ignored (the interpolation law is then exact). Otherwise intervals are
 /// halved until each is at most 4 lss unit edges long and its ends differ by at most 15 %, or it is shorter than
-/// lss / 2. Throws InvalidArgument unless lss is positive.
+/// lss / 2; where sizes come from curvature also until the curve turns by at most 90 degrees in each. Throws
+/// InvalidArgument unless lss is positive.
 SizeSamples sample_sizes(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 
 }  // namespace carreau

@@ -49,6 +49,18 @@ std::optional<double> checked_radius(std::optional<double> answer, const char* r
 
 }  // namespace
 
+// Edges keep the angle, triangles the distance.
+GeometricLimits geometric_limits(const SizeParameters& size) noexcept {
+  GeometricLimits limits;
+  if (size.hgeo_flag == 0) return limits;
+  const GeometricCriterion rule = size.geo_rule;
+  const bool by_radius = rule == GeometricCriterion::radii && !size.geo_anisotropic;  // the angle's equation
+  if (rule == GeometricCriterion::angle || rule == GeometricCriterion::both || by_radius)
+    limits.edge_angle_deg = size.angle_mesh;
+  if (rule == GeometricCriterion::chord || rule == GeometricCriterion::both) limits.deviation = size.eps_chord;
+  return limits;
+}
+
 double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
 
 namespace {

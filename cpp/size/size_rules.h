@@ -1,7 +1,9 @@
 // Wanted sizes at points, on curves and on surfaces (RT-0232 sec. 3.1.3).
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -34,6 +36,15 @@ struct SizeParameters {
   /// Asked in this order unless hphy_flag = 0; their answers all count. Not owned.
   std::vector<PrescriptionSource*> sources = {};
 };
+
+/// What a geometric rule asks of a mesh (HDR sec. 4.3); infinity: nothing.
+struct GeometricLimits {
+  double edge_angle_deg = std::numeric_limits<double>::infinity();  ///< of edges with tangent planes at their ends
+  double deviation = std::numeric_limits<double>::infinity();       ///< A0 of triangles, model length
+
+  [[nodiscard]] bool any() const noexcept { return std::isfinite(edge_angle_deg) || std::isfinite(deviation); }
+};
+GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
 
 /// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
 double size_per_radius(double angle_deg) noexcept;

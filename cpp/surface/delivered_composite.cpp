@@ -9,16 +9,6 @@ namespace {
 // Edges of a unit mesh differ, by what the gradation allows and as much again as this.
 constexpr double adjacent_lengths = 1.6;
 
-// Edges keep the angle, triangles the distance (HDR sec. 4.3).
-void set_geometric_limits(const SizeParameters& size, DeliveredOptions& options) {
-  if (size.hgeo_flag == 0) return;
-  const GeometricCriterion rule = size.geo_rule;
-  const bool by_radius = rule == GeometricCriterion::radii && !size.geo_anisotropic;  // the angle's equation
-  if (rule == GeometricCriterion::angle || rule == GeometricCriterion::both || by_radius)
-    options.edge_angle_limit = size.angle_mesh;
-  if (rule == GeometricCriterion::chord || rule == GeometricCriterion::both) options.deviation_limit = size.eps_chord;
-}
-
 }  // namespace
 
 Delivered measure_composite(const Model& model, const Topology& topology, Cad& cad, const CompositeOptions& options,
@@ -42,7 +32,9 @@ Delivered measure_composite(const Model& model, const Topology& topology, Cad& c
   DeliveredOptions measure;
   measure.curve_size = result.curve_size;
   measure.law = rules.law();
-  set_geometric_limits(options.size, measure);
+  const GeometricLimits geometric = geometric_limits(options.size);
+  measure.edge_angle_limit = geometric.edge_angle_deg;
+  measure.deviation_limit = geometric.deviation;
   if (options.gradation > 0) {
     measure.gradation_limit = options.gradation;
     measure.length_ratio_limit = adjacent_lengths * options.gradation;

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "support/format.h"
+#include "surface/space_refinement.h"
 #include "surface/verification.h"
 
 namespace carreau {
@@ -85,17 +86,27 @@ void FaceJob::lift(Monitor& monitor) {
     lift_patch(input_, cad_, *mesh_, monitor);
     places = verify_lift(input_, *space_, cad_, rules_, *mesh_, monitor);
   }
+  if (!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) {
+    next_ = Step::mesh;
+    return;
+  }
+  refuse_torn();
+  const Stopwatch watch(report_.seconds_lift);
+  const bool kept = options_.size.geo_guarantee && rules_.uses_metrics();
+  refine_in_space(input_, cad_, rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
   next_ = Step::none;
-  if (places.empty() || corrections_ == most_corrections) return refuse_torn();
-  // What the vertices have found is sampled, and the patch meshed again if that was news.
+}
+
+// What the vertices have found is sampled; whether that was news.
+bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
   suspects_.insert(suspects_.end(), places.begin(), places.end());
   ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor);
-  if (!differ_at(places, *space_, finer)) return refuse_torn();
+  if (!differ_at(places, *space_, finer)) return false;
   refuse_beyond_limit(finer.measure());
   space_ = std::move(finer);
   report_.corrections = ++corrections_;
-  next_ = Step::mesh;
+  return true;
 }
 
 void FaceJob::refuse_torn() const {

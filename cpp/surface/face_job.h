@@ -40,6 +40,7 @@ class FaceJob final : public SteppedTask {
   void mesh(Monitor& monitor);
   void lift(Monitor& monitor);
   void refuse_torn() const;
+  bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
 
   PatchInput input_;

@@ -25,6 +25,8 @@ struct PatchMesh {
   std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
   std::vector<double> size;  ///< prescribed size at every vertex
   EdgeExcess longest;        ///< the edge that exceeds its promise most
+  /// Where metrics govern: unit normal of the surface at every vertex that is not imposed, zero at singular ones.
+  std::vector<Vec3> normal;
 };
 
 /// What meshing a patch needs to know.

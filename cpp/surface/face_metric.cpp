@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metric/metric2_algebra.h"
+
 namespace carreau {
 
 void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric) {
@@ -24,6 +26,11 @@ void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, 
 double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept {
   const double first = dot(jet.su, jet.su) + dot(jet.sv, jet.sv), second = metric.a + metric.c;
   return first > 0 && second > 0 ? std::sqrt(first / second) : 0;
+}
+
+double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
+  const double density = accurate_determinant(metric), area = norm(cross(jet.su, jet.sv));
+  return density > 0 && area > 0 ? std::sqrt(area / std::sqrt(density)) : 0;
 }
 
 void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,

@@ -49,6 +49,9 @@ class FaceMetric {
 /// The size h of an isotropic metric J^T J / h^2; 0 where both derivatives vanish.
 double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;
 
+/// sqrt(h1 h2) of a metric of any kind; 0 where the parametrisation is degenerate.
+double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept;
+
 /// Bounds isotropic metrics of a face in place. The jets hold first derivatives, and positions where there is a field.
 void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                   std::span<Metric2> metric) noexcept;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cad/fundamental_forms.h"
 #include "metric/metric2_algebra.h"
 #include "surface/face_metric.h"
 
@@ -59,6 +60,7 @@ class LiftCheck {
     std::vector<SurfaceJet> jets(batch);
     std::vector<Metric2> metric(batch);
     const std::span<const Vec2> uv = mesh_.plane.vertices;
+    mesh_.normal.assign(uv.size(), {});
     for (std::size_t first = input_.domain->size.size(); first < uv.size(); first += batch) {
       monitor_.checkpoint();
       const std::size_t n = std::min(batch, uv.size() - first);
@@ -68,9 +70,10 @@ class LiftCheck {
     }
   }
   void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
-    const double density = accurate_determinant(metric), area = norm(cross(jet.su, jet.sv));
-    if (!(density > 0) || !(area > 0)) return;
-    mesh_.size[v] = std::sqrt(area / std::sqrt(density));
+    mesh_.normal[v] = unit_normal(jet).value_or(Vec3{});
+    const double h = mean_size(jet, metric);
+    if (!(h > 0)) return;
+    mesh_.size[v] = h;
     const Vec2 p = mesh_.plane.vertices[v];
     const LengthRatios ratios = length_ratios(metric, space_.at(p));
     if (!(ratios.largest <= too_long) || !(ratios.smallest >= too_short)) places_.push_back(p);

@@ -15,7 +15,7 @@ namespace carreau {
 /// where sizes come from curvature or from interpolation, what the control space says around. Chords shorter than their
 /// arcs are no disagreement. Empty on surfaces that the control space knows. At most 500 places. Where metrics govern,
 /// the prescribed metric is evaluated at each vertex inside and compared with the control space's; mesh.size is then
-/// the size in the mean, sqrt(h1 h2).
+/// the size in the mean, sqrt(h1 h2), and mesh.normal is filled.
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
                               PatchMesh& mesh, Monitor& monitor);
 

@@ -1,0 +1,109 @@
+// No triangle of a mesh turns its back on the surface, whatever rule its sizes come from.
+#include <gtest/gtest.h>
+
+#include "cad/fundamental_forms.h"
+#include "geometric_run.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+/// z = f(x, y) from f and its derivatives fx, fy, fxx, fxy, fyy.
+AnalyticCad graph(std::function<std::array<double, 6>(double, double)> f, Vec2 low, Vec2 high) {
+  return one_face(
+      [f = std::move(f)](Vec2 p) {
+        const auto [z, x, y, xx, xy, yy] = f(p.x, p.y);
+        return SurfaceJet{{p.x, p.y, z}, {1, 0, x}, {0, 1, y}, {0, 0, xx}, {0, 0, xy}, {0, 0, yy}};
+      },
+      rectangle(low, high));
+}
+
+// Lines of inflections that cross, an umbilic of index -1/2 that is flat, a cylinder that bends both ways, and a torus
+// whose tube is nearly as wide as its hole.
+AnalyticCad waves() {
+  return graph(
+      [](double x, double y) {
+        const double sx = std::sin(3 * x), cx = std::cos(3 * x), sy = std::sin(2 * y), cy = std::cos(2 * y);
+        return std::array{0.4 * sx * sy, 1.2 * cx * sy, 0.8 * sx * cy, -3.6 * sx * sy, 2.4 * cx * cy, -1.6 * sx * sy};
+      },
+      {-1, -1}, {2, 2});
+}
+AnalyticCad monkey_saddle() {
+  return graph(
+      [](double x, double y) {
+        return std::array{x * x * x - 3 * x * y * y, 3 * (x * x - y * y), -6 * x * y, 6 * x, -6 * y, -6 * x};
+      },
+      {-1, -1}, {1, 1});
+}
+AnalyticCad gutter() {
+  return graph(
+      [](double x, double) {
+        return std::array{0.5 * std::sin(4 * x), 2 * std::cos(4 * x), 0., -8 * std::sin(4 * x), 0., 0.};
+      },
+      {0, 0}, {3, 1});
+}
+AnalyticCad thick_torus() {
+  return one_face([](Vec2 p) { return torus_jet(p, 1, 0.9); }, rectangle({0, 0}, {2 * pi, 2 * pi}));
+}
+
+const Surface surfaces_that_bend[] = {
+    {"sphere", sphere}, {"torus", torus},   {"paraboloid", wide_paraboloid},       {"ellipsoid", ellipsoid},
+    {"waves", waves},   {"gutter", gutter}, {"monkey_saddle", monkey_saddle}, {"thick_torus", thick_torus}};
+
+void expect_upright(const GeometricRun& run, const AnalyticCad& cad) {
+  const SurfaceMesh& mesh = run.session->mesh();
+  const FaceMesh& face = mesh.faces[0];
+  ASSERT_FALSE(face.triangles.empty());
+  for (const auto& t : face.triangles) {
+    std::array<Vec3, 3> p;
+    for (int i = 0; i < 3; ++i) p[i] = mesh.vertices[face.vertex[t[i]]];
+    const Vec2 centre = (1. / 3) * (face.uv[t[0]] + face.uv[t[1]] + face.uv[t[2]]);
+    const auto normal = unit_normal(cad.faces.at(1).at(centre));
+    ASSERT_TRUE(normal);
+    ASSERT_GT(dot(cross(p[1] - p[0], p[2] - p[0]), *normal), 0) << "at " << centre.x << ", " << centre.y;
+  }
+  EXPECT_EQ(run.session->delivered().folded_triangles, 0);
+}
+
+class Upright : public ::testing::TestWithParam<Surface> {};
+
+TEST_P(Upright, WhateverTheGeometricRule) {
+  const AnalyticCad cad = GetParam().make();
+  for (const char* rule : {"angle", "chord", "both", "radii"})
+    for (const int by_direction : {0, 1})
+      for (const int guarantee : {0, 1})
+        for (const double scale : {0.5, 1., 4.}) {
+          SCOPED_TRACE(std::string(rule) + (by_direction != 0 ? " by direction, " : ", ") +
+                       (guarantee != 0 ? "guaranteed, " : "") + "scale " + std::to_string(scale));
+          const GeometricRun run(GetParam().make(), [&](Parameters& p) {
+            p.set("geo_rule", rule);
+            p.set("geo_metric", by_direction);
+            p.set("geo_guarantee", guarantee);
+            p.set("angle_mesh", 8 * scale);
+            p.set("eps_chord", 2e-3 * scale * scale);
+            p.set("hgeomin", 1e-2);
+          });
+          expect_upright(run, cad);
+        }
+}
+
+TEST_P(Upright, OfOneSize) {
+  const AnalyticCad cad = GetParam().make();
+  for (const double h : {0.05, 0.2, 0.4, 0.8}) {
+    SCOPED_TRACE(h);
+    const GeometricRun run(GetParam().make(), [&](Parameters& p) {
+      p.set("hgeo_flag", 0);
+      p.set("hphy_flag", 1);
+      p.set("hphydef", h);
+    });
+    expect_upright(run, cad);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Surfaces, Upright, ::testing::ValuesIn(surfaces_that_bend),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+}  // namespace
+}  // namespace carreau
