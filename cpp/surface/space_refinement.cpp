@@ -23,6 +23,8 @@ constexpr double suspicious = 0.5;
 // Edges divided for each triangle that was wrong to begin with; a bend needs two or three halvings. More are
 // a host whose surface is rough at every scale.
 constexpr std::size_t most_divisions = 32;
+// The surface is not divided where it is farther from the middle of an edge than this many lengths: it jumps there.
+constexpr double farthest = 1;
 // Where deviations of edges are sampled: that of an arc is largest in its middle, that of an S at 0.21 and 0.79.
 constexpr std::array<double, 3> along_edge{0.21, 0.5, 0.79};
 
@@ -39,21 +41,28 @@ class SpaceRefinement {
         sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180) : infinity) {}
 
   void run() {
-    const std::vector<int> wrong = find_wrong();
+    std::vector<int> wrong = find_wrong();
     if (wrong.empty()) return;
-    const std::size_t before = mesh_.xyz.size();
     connect();
+    std::erase_if(wrong, [this](int t) { return is_sound(t); });
+    if (wrong.empty()) return;
+    const PatchMesh untouched = mesh_;
     std::size_t left = most_divisions * wrong.size();
-    queue_.assign(wrong.begin(), wrong.end());
+    queue_ = wrong;
     for (std::size_t k = 0; k < queue_.size() && left > 0; ++k) {
       if (k % 256 == 0) monitor_.checkpoint();
       const int t = queue_[k];
-      if (is_sound(t) || swap_one(t)) continue;
-      if (!divide(t)) continue;
+      if (is_sound(t) || swap_one(t) || !divide(t)) continue;
       --left;
       queue_.push_back(t);
     }
-    ask_sizes(before);
+    std::sort(queue_.begin(), queue_.end());
+    queue_.erase(std::unique(queue_.begin(), queue_.end()), queue_.end());
+    const auto still = std::count_if(queue_.begin(), queue_.end(), [this](int t) { return !is_sound(t); });
+    if (static_cast<std::size_t>(still) >= wrong.size())
+      mesh_ = untouched;
+    else
+      ask_sizes(untouched.xyz.size());
   }
 
  private:
@@ -87,8 +96,6 @@ class SpaceRefinement {
     std::vector<int> wrong;
     for (std::size_t t = 0; t < triangles.size(); ++t)
       if (suspect(triangles[t], normal) && !collapsed(triangles[t])) wrong.push_back(static_cast<int>(t));
-    if (wrong.empty()) return wrong;
-    if (!known_) mesh_.normal.assign(mesh_.xyz.size(), {}), asked_.assign(mesh_.xyz.size(), 0);
     return wrong;
   }
 
@@ -102,14 +109,17 @@ class SpaceRefinement {
 
   [[nodiscard]] bool suspect(const Triangle& t, const std::vector<Vec3>& normal) const {
     const Vec3 n = normal_of(t);
+    if (!known_) {
+      // It is on the side of the minority at two corners or more.
+      const auto against = [&](std::int32_t v) { return dot(n, normal[v]) < 0 ? 1 : 0; };
+      return against(t[0]) + against(t[1]) + against(t[2]) > 1;
+    }
     const double least = suspicious * suspicious * dot(n, n);
     for (const std::int32_t v : t) {
-      const double along = dot(n, normal[v]);
-      // Zero where the parametrisation is degenerate.
-      if (!(along > 0) && dot(normal[v], normal[v]) > 0) return true;
-      if (along * along < least * dot(normal[v], normal[v])) return true;
+      const double along = dot(n, normal[v]), whole = dot(normal[v], normal[v]);
+      if (whole > 0 && (!(along > 0) || along * along < least * whole)) return true;  // zero at singular vertices
     }
-    return known_ && looks_far(t);
+    return looks_far(t);
   }
 
   // By the cubics that leave the ends of edges as the surface does, and by the middle of the patch that they bound
@@ -162,14 +172,6 @@ class SpaceRefinement {
     cad_.surface(input_.ref, want_position | want_first, {&uv, 1}, {&jet, 1});
     return jet;
   }
-  [[nodiscard]] Vec3 normal_at(std::int32_t v) {
-    if (!known_ && asked_[v] == 0) {
-      mesh_.normal[v] = unit_normal(jet_at(mesh_.plane.vertices[v])).value_or(Vec3{});
-      asked_[v] = 1;
-    }
-    return mesh_.normal[v];
-  }
-
   [[nodiscard]] bool is_sound(int t) {
     const Triangle c = triangle(t);
     if (collapsed(c)) return true;
@@ -207,6 +209,7 @@ class SpaceRefinement {
     return d;
   }
 
+  // The least cosine of the normals of a triangle and of the surface; without those at the corners in its centre alone.
   [[nodiscard]] double uprightness(const Triangle& c) {
     const Vec3 n = normal_of(c);
     const double size = norm(n);
@@ -215,13 +218,14 @@ class SpaceRefinement {
     const auto compare = [&](Vec3 m) {
       if (dot(m, m) > 0) least = std::min(least, dot(n, m) / size);
     };
-    for (const std::int32_t v : c) compare(normal_at(v));
+    if (known_)
+      for (const std::int32_t v : c) compare(mesh_.normal[v]);
     if (least < upright) return least;
     const auto& uv = mesh_.plane.vertices;
     compare(unit_normal(jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]]))).value_or(Vec3{}));
     return least;
   }
-  [[nodiscard]] bool is_upright(const Triangle& c) { return uprightness(c) >= upright; }
+  [[nodiscard]] bool is_upright(const Triangle& c) { return uprightness(c) >= (known_ ? upright : 0); }
 
   [[nodiscard]] int side_towards(int t, int neighbour) const {
     const auto& a = across_[t];
@@ -301,9 +305,13 @@ class SpaceRefinement {
       return false;
     }
     const SurfaceJet jet = jet_at(mesh_.plane.vertices.back());
+    const Vec3 away = jet.s - lerp(position(a), position(b), 0.5);
+    if (!(norm(away) < farthest * norm(position(b) - position(a)))) {
+      mesh_.plane.vertices.pop_back();
+      return false;
+    }
     mesh_.xyz.push_back(jet.s);
-    mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{}));
-    if (!known_) asked_.push_back(1);
+    if (known_) mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{}));
     const int bc = across_[t][(i + 1) % 3], ca = across_[t][(i + 2) % 3], ad = across_[u][(j + 1) % 3],
               db = across_[u][(j + 2) % 3];
     const int v = static_cast<int>(mesh_.plane.triangles.size()), w = v + 1;
@@ -339,9 +347,8 @@ class SpaceRefinement {
   PatchMesh& mesh_;
   Monitor& monitor_;
   GeometricLimits kept_;
-  double sine_;              // of the angle that is kept
-  bool known_ = false;       // normals at all vertices are
-  std::vector<char> asked_;  // else: by vertex
+  double sine_;         // of the angle that is kept
+  bool known_ = false;  // normals at all vertices are
   std::vector<std::array<int, 3>> across_;
   std::vector<int> queue_;
 };

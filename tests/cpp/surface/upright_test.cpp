@@ -64,7 +64,6 @@ void expect_upright(const GeometricRun& run, const AnalyticCad& cad) {
     ASSERT_TRUE(normal);
     ASSERT_GT(dot(cross(p[1] - p[0], p[2] - p[0]), *normal), 0) << "at " << centre.x << ", " << centre.y;
   }
-  EXPECT_EQ(run.session->delivered().folded_triangles, 0);
 }
 
 class Upright : public ::testing::TestWithParam<Surface> {};
@@ -86,6 +85,7 @@ TEST_P(Upright, WhateverTheGeometricRule) {
             p.set("hgeomin", 1e-2);
           });
           expect_upright(run, cad);
+          EXPECT_EQ(run.session->delivered().folded_triangles, 0);  // nor anywhere else
         }
 }
 
