@@ -30,8 +30,8 @@ constexpr std::array<double, 3> along_edge{0.21, 0.5, 0.79};
 
 class SpaceRefinement {
  public:
-  SpaceRefinement(const PatchInput& input, Cad& cad, SizeRules& rules, const GeometricLimits& kept, PatchMesh& mesh,
-                  Monitor& monitor)
+  SpaceRefinement(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
+                  PatchMesh& mesh, Monitor& monitor)
       : input_(input),
         cad_(cad),
         rules_(rules),
@@ -343,7 +343,7 @@ class SpaceRefinement {
 
   const PatchInput& input_;
   Cad& cad_;
-  SizeRules& rules_;
+  const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
   GeometricLimits kept_;
@@ -355,8 +355,8 @@ class SpaceRefinement {
 
 }  // namespace
 
-void refine_in_space(const PatchInput& input, Cad& cad, SizeRules& rules, const GeometricLimits& kept, PatchMesh& mesh,
-                     Monitor& monitor) {
+void refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
+                     PatchMesh& mesh, Monitor& monitor) {
   SpaceRefinement(input, cad, rules, kept, mesh, monitor).run();
 }
 

@@ -15,7 +15,7 @@ namespace carreau {
 ///
 /// Bends within one edge make such triangles: where a principal curvature vanishes, the size along it jumps from one
 /// vertex to the next, and a long edge leaves the surface between them.
-void refine_in_space(const PatchInput& input, Cad& cad, SizeRules& rules, const GeometricLimits& kept, PatchMesh& mesh,
-                     Monitor& monitor);
+void refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
+                     PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau
