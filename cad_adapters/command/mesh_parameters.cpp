@@ -141,6 +141,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // Zones narrower than a twentieth of their edges would have triangles of no shape.
   set(session, "CheckCloseEdges", 20);
   set(session, "CoefRectangle", 0.05);
+  // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
+  set(session, "CheckAdjacentEdges", 20);
   set(session, "flag", 1);
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);

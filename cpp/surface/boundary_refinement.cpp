@@ -30,6 +30,9 @@ constexpr double fruitless_share = 0.75;  // of the length that crossed before
 constexpr int most_turned_rounds = 6;
 // Straight distances in space are taken this much shorter than lengths in the metric of a curved surface.
 constexpr double straight_reserve = 2;
+// Ratio of lengths from which the balance of edges is looked at in the metric, whose chords are not the curves'
+// lengths; there it may be 2.
+constexpr double balance_to_look_at = 1.6;
 
 /// Segments to split, by curve.
 using Splits = std::map<int, std::set<int>>;
@@ -108,9 +111,9 @@ class Refiner {
           found.edges.insert(found.edges.end(), close.begin(), close.end());
         });
     repeat(
-        options_.check_adjacent_edges, [](int) { return Found{}; },
+        options_.check_adjacent_edges, [this](int f) { return Found{.ask_metric = may_be_unbalanced(f)}; },
         [this](int f, Found& found) {
-          found.edges = edges_to_split_for_balance(result_.domain[f]->plane, space_of(f));
+          if (found.ask_metric) found.edges = edges_to_split_for_balance(result_.domain[f]->plane, space_of(f));
         });
     for (int i = 0; i < options_.check_well_defined; ++i) uncross();
     uncross();
@@ -295,6 +298,26 @@ class Refiner {
       if (near.any_beside(a, b, straight_reserve * options_.coef_rectangle * norm(b - a))) return true;
     }
     return false;
+  }
+
+  // Whether edges at a vertex differ so much that the balance needs a look. With one size everywhere lengths on curves
+  // say so, without a callback.
+  [[nodiscard]] bool may_be_unbalanced(int f) const {
+    if (!rules_.constant()) return true;
+    const FaceDomain& domain = *result_.domain[f];
+    struct Range {
+      double low = std::numeric_limits<double>::infinity(), high = 0;
+    };
+    std::vector<Range> at(domain.plane.vertices.size());
+    for (const PlaneEdge& edge : domain.plane.edges) {
+      if (edge.kind == PlaneEdgeKind::degenerate) continue;
+      const std::vector<double>& r = curves_[edge.curve].r;
+      const double length = (r[edge.segment + 1] - r[edge.segment]) * curve_model_.length(edge.curve);
+      for (const int v : {edge.a, edge.b})
+        at[v] = {.low = std::min(at[v].low, length), .high = std::max(at[v].high, length)};
+    }
+    return std::any_of(at.begin(), at.end(),
+                       [](const Range& range) { return range.high > balance_to_look_at * range.low; });
   }
 
   // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side

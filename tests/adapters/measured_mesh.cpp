@@ -168,6 +168,7 @@ void use_command_parameters(carreau_session* session, double size, double diagon
   carreau_set_real(session, "hphymax", std::max(size, diagonal));
   carreau_set_integer(session, "CheckCloseEdges", 20);
   carreau_set_real(session, "CoefRectangle", 0.05);
+  carreau_set_integer(session, "CheckAdjacentEdges", 20);
 }
 
 MeasuredMesh mesh_and_measure(carreau_occ::BrepHost& host, double size,
