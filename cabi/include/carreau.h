@@ -582,15 +582,22 @@ CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t ca
 CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
 CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
 
-/* Status of a face. `mended`: meshed, after something was repaired; `failed`: without triangles. */
-enum { CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3 };
+/* Status of a face. `mended`: meshed, after something was repaired; `failed`: without triangles; `collapsed`: a narrow
+ * face (parameter narrow_faces) that has vanished between its neighbours, which share one curve in its place. */
+enum {
+  CARREAU_FACE_NOT_MESHED = 0,
+  CARREAU_FACE_MESHED = 1,
+  CARREAU_FACE_MENDED = 2,
+  CARREAU_FACE_FAILED = 3,
+  CARREAU_FACE_COLLAPSED = 4
+};
 
 typedef struct carreau_face {
   size_t struct_size;
   int32_t ref;       /* reference of the face */
   int32_t status;    /* CARREAU_FACE_... */
   int64_t triangles; /* their number; they follow those of the faces before */
-  const char* why;   /* sentence for `mended` and `failed`, else ""; lives until the next call on the mesh */
+  const char* why;   /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
   const char* name;  /* given by carreau_model_name_face, else ""; lives as `why` does */
 } carreau_face;
 

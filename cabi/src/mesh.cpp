@@ -17,6 +17,7 @@ static_assert(int(carreau::FaceStatus::not_meshed) == CARREAU_FACE_NOT_MESHED);
 static_assert(int(carreau::FaceStatus::meshed) == CARREAU_FACE_MESHED);
 static_assert(int(carreau::FaceStatus::mended) == CARREAU_FACE_MENDED);
 static_assert(int(carreau::FaceStatus::failed) == CARREAU_FACE_FAILED);
+static_assert(int(carreau::FaceStatus::collapsed) == CARREAU_FACE_COLLAPSED);
 
 namespace {
 

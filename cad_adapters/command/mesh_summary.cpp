@@ -12,7 +12,16 @@ namespace command {
 namespace {
 
 const char* status_word(std::int32_t status) {
-  return status == CARREAU_FACE_MESHED ? "meshed" : status == CARREAU_FACE_MENDED ? "mended" : "failed";
+  switch (status) {
+    case CARREAU_FACE_MESHED:
+      return "meshed";
+    case CARREAU_FACE_MENDED:
+      return "mended";
+    case CARREAU_FACE_COLLAPSED:
+      return "collapsed";
+    default:
+      return "failed";
+  }
 }
 
 carreau_quality quality_of(carreau_mesh* mesh) {

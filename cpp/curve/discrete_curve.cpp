@@ -136,6 +136,19 @@ std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double
   return cuts;
 }
 
+/// Images of all vertices in all uses, and those inside in space.
+void carry(DiscreteCurve& d, const CurveModel& model, double tolerance) {
+  const std::vector<CurveUse>& uses = model.curve(d.curve).uses;
+  carry_ends(d, model);
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    for (std::size_t k = 1; k + 1 < d.r.size(); ++k) {
+      carry_vertex(d, model, u, k, parameter_at(model, uses[u], d.r[k]));
+    }
+  }
+  place_in_space(d, model);
+  for (std::size_t u = 1; u < uses.size(); ++u) check_use(d, model, u, tolerance);
+}
+
 }  // namespace
 
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options) {
@@ -150,15 +163,28 @@ DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& ru
   d.xyz.resize(d.r.size());
   d.xyz.front() = corner(model, c.end1);
   d.xyz.back() = corner(model, c.end2);
-  carry_ends(d, model);
-  for (std::size_t u = 0; u < c.uses.size(); ++u) {
-    for (std::size_t k = 1; k + 1 < d.r.size(); ++k) {
-      carry_vertex(d, model, u, k, parameter_at(model, c.uses[u], d.r[k]));
-    }
-  }
-  place_in_space(d, model);
-  for (std::size_t u = 1; u < c.uses.size(); ++u) check_use(d, model, u, options.carry_tolerance);
+  carry(d, model, options.carry_tolerance);
   return d;
+}
+
+void place_vertices(DiscreteCurve& d, const std::vector<double>& inside, const CurveModel& model) {
+  if (d.indivisible) return;
+  const auto keep_ends = [&](auto& values) {
+    const auto first = values.front(), last = values.back();
+    values.assign(inside.size() + 2, first);
+    values.back() = last;
+  };
+  keep_ends(d.r);
+  keep_ends(d.size);
+  keep_ends(d.physical);
+  keep_ends(d.xyz);
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    d.r[i + 1] = inside[i];
+    d.size[i + 1] = d.sizes.size_at(inside[i]);
+    d.physical[i + 1] = d.sizes.physical_at(inside[i]);
+  }
+  d.gap = 0;
+  carry(d, model, CurveOptions{}.carry_tolerance);
 }
 
 bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model) {

@@ -36,4 +36,8 @@ DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& ru
 /// curve is one point of space or the segment cannot be divided in floating-point numbers.
 bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model);
 
+/// Puts the vertices inside a curve at other fractions of its length, ascending, strictly between 0 and 1, in every
+/// use. Nothing is done to a curve that is one point of space.
+void place_vertices(DiscreteCurve& discrete, const std::vector<double>& inside, const CurveModel& model);
+
 }  // namespace carreau

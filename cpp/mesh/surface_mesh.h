@@ -10,8 +10,8 @@
 
 namespace carreau {
 
-/// Status of a face. Values are part of the C ABI.
-enum class FaceStatus : int { not_meshed = 0, meshed = 1, mended = 2, failed = 3 };
+/// Status of a face. Values are part of the C ABI. `collapsed`: a narrow face that has vanished between its neighbours.
+enum class FaceStatus : int { not_meshed = 0, meshed = 1, mended = 2, failed = 3, collapsed = 4 };
 
 /// The part of the mesh that lies on one face. Local vertices carry (u, v): a vertex of space on a seam or at a pole
 /// has several.
@@ -19,7 +19,7 @@ struct FaceMesh {
   int ref = 0;
   std::string name = {};  ///< given by the host; empty: none
   FaceStatus status = FaceStatus::not_meshed;
-  std::string why;                                     ///< sentence for `mended` and `failed`
+  std::string why;                                     ///< sentence for `mended`, `failed` and `collapsed`
   std::vector<Vec2> uv;                                ///< of local vertices
   std::vector<std::int32_t> vertex;                    ///< local -> index in SurfaceMesh::vertices
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< local indices; counterclockwise in (u, v)

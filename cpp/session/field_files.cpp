@@ -19,6 +19,8 @@ const char* word_of(FaceStatus status) {
       return "meshed";
     case FaceStatus::mended:
       return "mended";
+    case FaceStatus::collapsed:
+      return "collapsed";
     case FaceStatus::failed:
       return "failed";
     default:

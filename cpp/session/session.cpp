@@ -91,6 +91,10 @@ int threads_of(const Parameters& parameters) {
   return threads != 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+NarrowFaces narrow_faces_of(const std::string& word) {
+  return word == "collapse" ? NarrowFaces::collapse : word == "one_layer" ? NarrowFaces::one_layer : NarrowFaces::keep;
+}
+
 CompositeOptions composite_options(const Parameters& parameters, double diag) {
   CompositeOptions options;
   SizeParameters& size = options.size;
@@ -123,6 +127,8 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.check_adjacent_edges = parameters.integer("CheckAdjacentEdges");
   options.check_well_defined = parameters.integer("CheckWellDefined");
   options.coef_rectangle = parameters.real("CoefRectangle");
+  options.narrow_faces = narrow_faces_of(parameters.text("narrow_faces"));
+  options.narrow_ratio = parameters.real("narrow_ratio");
   options.frontal = parameters.integer("frontal") != 0;
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);
@@ -197,7 +203,8 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
   };
   std::string faces =
       whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
-  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them with curves refined";
+  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them mended";
+  if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
   monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
                                       " vertices, " + whole(static_cast<std::int64_t>(mesh.triangle_count())) +

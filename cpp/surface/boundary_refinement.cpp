@@ -79,13 +79,14 @@ class NearVertices {
 class Refiner {
  public:
   Refiner(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options, const SizeLimits& limits,
-          std::vector<DiscreteCurve>& curves, std::set<int>& given_up, Monitor& monitor)
+          const NarrowModel& narrow, std::vector<DiscreteCurve>& curves, std::set<int>& given_up, Monitor& monitor)
       : curve_model_(model),
         model_(model.model),
         topology_(model.topology),
         rules_(rules),
         options_(options),
         limits_(limits),
+        narrow_(narrow),
         curves_(curves),
         given_up_(given_up),
         monitor_(monitor) {
@@ -96,6 +97,10 @@ class Refiner {
     stale_.assign(n, 1);
     changed_.assign(n, 1);
     crossable_.assign(n, 1);
+    left_out_.assign(n, 0);
+    for (const NarrowFace& face : narrow_.strips) left_out_[face.face] = 1;
+    if (!narrow_.vanishing.curve.empty())
+      for (const NarrowFace& face : narrow_.points) left_out_[face.face] = 1;
   }
 
   RefinedDomains run() {
@@ -140,7 +145,7 @@ class Refiner {
   void rebuild_stale() {
     std::vector<int> stale;
     for (int f = 0; f < face_count(); ++f) {
-      if (stale_[f] == 0 || !result_.failure[f].empty()) continue;
+      if (stale_[f] == 0 || left_out_[f] != 0 || !result_.failure[f].empty()) continue;
       stale_[f] = 0;
       changed_[f] = crossable_[f] = 1;
       result_.domain[f].reset();
@@ -150,7 +155,7 @@ class Refiner {
     std::vector<std::string> failure(stale.size());
     const auto build = [&](std::size_t i, Monitor&) {
       try {
-        result_.domain[stale[i]] = build_face_domain(model_, topology_, curves_, stale[i]);
+        result_.domain[stale[i]] = build_face_domain(model_, topology_, curves_, stale[i], narrow_.vanishing);
       } catch (const TurnedDomain& error) {
         turned[i] = 1;
         failure[i] = error.what();
@@ -205,6 +210,8 @@ class Refiner {
     bool any = false;
     for (const auto& [curve, segments] : splits)
       for (auto segment = segments.rbegin(); segment != segments.rend(); ++segment) any |= split(curve, *segment);
+    if (any && !narrow_.strips.empty())
+      for (const int curve : complete_sides(curve_model_, narrow_.strips, curves_)) mark_stale(curve);
     rebuild_stale();
     return any;
   }
@@ -252,8 +259,11 @@ class Refiner {
   bool split(int curve, int segment) {
     monitor_.checkpoint();
     if (!split_segment(curves_[curve], segment, curve_model_)) return false;
-    for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
+    mark_stale(curve);
     return true;
+  }
+  void mark_stale(int curve) {
+    for (const CurveUse& use : topology_.curves[curve].uses) stale_[use.face] = 1;
   }
 
   // What was found free of crossings stays so until it changes.
@@ -410,6 +420,8 @@ class Refiner {
   const SizeRules& rules_;
   const CompositeOptions& options_;
   SizeLimits limits_;
+  const NarrowModel& narrow_;
+  std::vector<char> left_out_;  // by face
   std::vector<DiscreteCurve>& curves_;
   std::set<int>& given_up_;  // faces for which nothing is cut any more
   Monitor& monitor_;
@@ -431,12 +443,13 @@ class Refiner {
 }  // namespace
 
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
-                              const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor) {
+                              const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
+                              Monitor& monitor) {
   const std::vector<DiscreteCurve> unrefined = curves;
   std::set<int> given_up;
   std::map<int, std::string> why;
   for (;;) {
-    RefinedDomains result = Refiner(model, rules, options, limits, curves, given_up, monitor).run();
+    RefinedDomains result = Refiner(model, rules, options, limits, narrow, curves, given_up, monitor).run();
     const std::size_t known = why.size();
     for (int f = 0; f < static_cast<int>(result.failure.size()); ++f)
       if (!result.failure[f].empty() && result.mended[f] != 0) why.emplace(f, result.failure[f]), given_up.insert(f);

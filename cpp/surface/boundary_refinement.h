@@ -8,6 +8,7 @@
 #include "surface/composite.h"
 #include "surface/domain_builder.h"
 #include "surface/face_mesher.h"
+#include "surface/narrow_faces.h"
 
 namespace carreau {
 
@@ -20,9 +21,12 @@ struct RefinedDomains {
 
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
 /// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
-/// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in.
+/// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in. Strips in `narrow`, and
+/// points whose curves vanish, are not looked at and get no domain; the two sides of strips keep vertices at the same
+/// places.
 RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
-                              const SizeLimits& limits, std::vector<DiscreteCurve>& curves, Monitor& monitor);
+                              const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
+                              Monitor& monitor);
 
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);

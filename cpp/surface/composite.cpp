@@ -7,9 +7,12 @@
 #include <numeric>
 #include <utility>
 
+#include "support/format.h"
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_job.h"
+#include "surface/narrow_collapse.h"
+#include "surface/narrow_faces.h"
 #include "surface/shared_chords.h"
 #include "surface/size_grading.h"
 
@@ -63,25 +66,50 @@ class Pipeline {
   CompositeResult run() {
     const auto start = std::chrono::steady_clock::now();
     result_.report.diag = supports_.diag;
-    result_.mesh.faces.resize(model_.faces.size());
-    result_.spaces.resize(model_.faces.size());
-    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-      result_.mesh.faces[f].ref = model_.faces[f].ref;
-      result_.mesh.faces[f].name = model_.faces[f].name;
-    }
     grade();
     discretise();
-    mesh_faces();
-    tell(Phase::assembly, 0, curves_share + patches_share);
-    separate_chords(model_, topology_, domains_, curves_, cad_, patches_, monitor_);
-    assemble(model_, topology_, domains_, curves_, patches_, result_);
-    keep_prescriptions();
+    if (!narrow_.vanishing.curve.empty()) {
+      const std::vector<DiscreteCurve> before = curves_;
+      refine();
+      mesh_and_assemble();
+      if (!collapse_narrow_faces()) {
+        // Some face cannot vanish: all are meshed, tips and all, and as many vanish as can.
+        begin_ += (1 - begin_) * (curves_share + patches_share);
+        narrow_.vanishing = {};
+        curves_ = before;
+        refine();
+        mesh_and_assemble();
+        collapse_some_narrow_faces();
+      }
+    } else {
+      refine();
+      mesh_and_assemble();
+    }
     result_.report.calls = cad_.counts();
     result_.report.seconds_total = seconds_since(start);
     return std::move(result_);
   }
 
  private:
+  void mesh_and_assemble() {
+    result_.mesh = {};
+    result_.mesh.faces.resize(model_.faces.size());
+    result_.spaces.assign(model_.faces.size(), std::nullopt);
+    result_.vertex_size.clear();
+    result_.curve_size.clear();
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+      result_.mesh.faces[f].ref = model_.faces[f].ref;
+      result_.mesh.faces[f].name = model_.faces[f].name;
+    }
+    left_ = options_.max_triangles;
+    mesh_faces();
+    tell(Phase::assembly, 0, curves_share + patches_share);
+    separate_chords(model_, topology_, domains_, curves_, cad_, patches_, monitor_);
+    assemble(model_, topology_, domains_, curves_, patches_, result_);
+    keep_prescriptions();
+    say_what_is_narrow();
+  }
+
   void tell(Phase phase, int entity, double share) { monitor_.progress(phase, entity, begin_ + (1 - begin_) * share); }
 
   // One size everywhere obeys any gradation.
@@ -117,15 +145,88 @@ class Pipeline {
         refuse_triangles(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges), options_.max_triangles);
     }
     separate_coincident_curves(curve_model_, curves_);
-    domains_ = refine_domains(curve_model_, rules_, options_, limits(), curves_, monitor_);
+    find_narrow();
     result_.report.seconds_curves = seconds_since(start);
+  }
+
+  void find_narrow() {
+    if (options_.narrow_faces == NarrowFaces::keep) return;
+    const bool collapse = options_.narrow_faces == NarrowFaces::collapse;
+    for (NarrowFace& face : find_narrow_faces(curve_model_, curves_, options_.narrow_ratio))
+      if (!face.point || collapse) (face.point ? narrow_.points : narrow_.strips).push_back(std::move(face));
+    if (narrow_.empty()) return;
+    if (collapse) let_tips_vanish(curve_model_, narrow_);
+    match_sides(curve_model_, narrow_.strips, curves_);
+  }
+
+  // A narrow face that is to stay and cannot be meshed between its sides is one like others, and all is refined again.
+  void refine() {
+    const auto start = std::chrono::steady_clock::now();
+    for (;;) {
+      domains_ = refine_domains(curve_model_, rules_, options_, limits(), narrow_, curves_, monitor_);
+      between_.clear();
+      for (const NarrowFace& face : narrow_.strips) between_.push_back(mesh_between_sides(curve_model_, face, curves_));
+      std::vector<NarrowFace> sound;
+      for (std::size_t i = 0; i < between_.size(); ++i)
+        if (between_[i].sound) sound.push_back(narrow_.strips[i]);
+      if (sound.size() == between_.size() || !narrow_.vanishing.curve.empty()) break;
+      narrow_.strips.swap(sound);
+    }
+    result_.report.seconds_curves += seconds_since(start);
+  }
+
+  void place_narrow_patches() {
+    for (std::size_t i = 0; i < between_.size(); ++i) {
+      const int f = narrow_.strips[i].face;
+      domains_.domain[f] = std::move(between_[i].domain);
+      patches_[f] = std::move(between_[i].mesh);
+    }
+  }
+
+  void say_what_is_narrow() {
+    for (const NarrowFace& face : narrow_.strips) {
+      FaceMesh& mesh = result_.mesh.faces[face.face];
+      mesh.status = FaceStatus::mended;
+      mesh.why = Where{.face = mesh.ref}.prefix() + "the face is narrow (" + format_number(face.width) +
+                 " where the size is " + format_number(face.size) + "): one layer of triangles";
+    }
+  }
+
+  std::vector<FaceCollapse> collapses() {
+    std::vector<FaceCollapse> all;
+    for (std::size_t i = 0; i < between_.size(); ++i) {
+      const NarrowFace& face = narrow_.strips[i];
+      all.push_back({face.face, face.width, face.size, std::move(between_[i].one), {}});
+    }
+    for (const NarrowFace& face : narrow_.points)
+      all.push_back({face.face, face.width, face.size, {}, topology_.curve_of[face.face]});
+    return all;
+  }
+  [[nodiscard]] bool collapse_narrow_faces() {
+    const std::vector<char>& gone = narrow_.vanishing.curve;
+    for (std::size_t c = 0; c < gone.size(); ++c)
+      if (gone[c] != 0)
+        for (const CurveUse& use : topology_.curves[c].uses)
+          if (result_.mesh.faces[use.face].status == FaceStatus::failed) return false;
+    return collapse_together(collapses(), result_);
+  }
+  void collapse_some_narrow_faces() {
+    std::vector<FaceCollapse> all = collapses();
+    for (FaceCollapse& face : all) {  // those near a point have been meshed
+      const FaceMesh& mesh = result_.mesh.faces[face.face];
+      if (!face.one.empty() || mesh.triangles.empty()) continue;
+      face.one.emplace_back(mesh.vertex.size());
+      std::iota(face.one.front().begin(), face.one.front().end(), 0);
+    }
+    collapse_one_by_one(all, result_, monitor_);
   }
 
   /// Jobs of the faces whose domains could be made.
   void make_jobs() {
     const bool reentrant = options_.threads > 1 && cad_.reentrant() && options_.size.sources.empty();
+    face_of_job_.clear();
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-      if (!domains_.domain[f]) continue;
+      if (!domains_.domain[f] || patches_[f]) continue;
       const FaceDomain& domain = *domains_.domain[f];
       jobs_.push_back(
           std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
@@ -155,9 +256,10 @@ class Pipeline {
   }
 
   void mesh_faces() {
-    patches_.resize(model_.faces.size());
+    patches_.assign(model_.faces.size(), std::nullopt);
+    place_narrow_patches();
     for (std::size_t f = 0; f < model_.faces.size(); ++f)
-      if (!domains_.domain[f]) fail(f, domains_.failure[f]);
+      if (!domains_.domain[f] && !domains_.failure[f].empty()) fail(f, domains_.failure[f]);
     make_jobs();
     tell_progress(0);
     run_stepped(
@@ -224,6 +326,8 @@ class Pipeline {
   GradedModel graded_;
   double begin_ = 0;  // share of the run that was over before the curves
   std::vector<DiscreteCurve> curves_;
+  NarrowModel narrow_;
+  std::vector<NarrowPatch> between_;  // of narrow_.strips
   RefinedDomains domains_;
   std::vector<std::unique_ptr<SteppedTask>> jobs_;
   std::vector<std::size_t> face_of_job_;

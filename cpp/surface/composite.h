@@ -16,6 +16,13 @@
 
 namespace carreau {
 
+/// What becomes of faces whose two long sides are nearer to each other than a share of the prescribed size.
+enum class NarrowFaces : int {
+  keep,       ///< nothing special
+  one_layer,  ///< vertices face to face on both sides, one layer of triangles between
+  collapse    ///< the face vanishes: its two sides become one curve for all neighbours
+};
+
 struct CompositeOptions {
   SizeParameters size;
   double angle_smo = 1;  ///< degrees
@@ -23,6 +30,9 @@ struct CompositeOptions {
   double eps_ends = 0;  ///< model length; shorter curves are reported
   int check_close_edges = 0, check_adjacent_edges = 0, check_well_defined = 0;  ///< iterations
   double coef_rectangle = 0.25;
+  /// What becomes of faces narrower than narrow_ratio times the size prescribed on their curves.
+  NarrowFaces narrow_faces = NarrowFaces::keep;
+  double narrow_ratio = 0.1;
   /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
   double gradation = 0;
   /// Least number of layers of triangles between boundaries of a face that are near each other (> 0 needs a gradation);

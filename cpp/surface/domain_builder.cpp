@@ -24,17 +24,28 @@ struct CurveEnd {
 
 class Builder {
  public:
-  Builder(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves, int face)
-      : face_(model.faces[face]),
+  Builder(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves, int face,
+          const VanishingCurves& vanishing)
+      : model_(model),
+        face_(model.faces[face]),
+        vanishing_(vanishing),
         curve_of_(topology.curve_of[face]),
         topology_(topology),
         curves_(curves),
-        index_(face) {}
+        index_(face),
+        seed_curve_(std::abs(face_.orientation)),
+        seed_left_of_curve_(face_.orientation > 0) {}
 
-  FaceDomain run() {
+  FaceDomain run(bool turn) {
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
+      if (vanishes(curve_of_[c])) {
+        const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
+        for (std::size_t i = 1; i < uv.size(); ++i) joining_reach_ += norm(uv[i] - uv[i - 1]);
+      }
+    if (turn && vanishes(curve_of_[seed_curve_ - 1])) choose_another_seed();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) add_curve(c);
     for (int p = 0; p < static_cast<int>(face_.points.size()); ++p) add_vertex(face_.points[p].uv, {.point = p}, {});
-    orient();
+    if (turn) orient();
     return std::move(domain_);
   }
 
@@ -61,12 +72,36 @@ class Builder {
 
   int join_end(int corner, Vec2 uv, double reach, const DomainVertexOrigin& origin, Sizes size) {
     for (CurveEnd& end : ends_) {
-      if (end.corner != corner || norm(end.uv - uv) > joining_share * std::min(end.reach, reach)) continue;
+      if (stand_in(end.corner) != stand_in(corner)) continue;
+      if (norm(end.uv - uv) > std::max(joining_share * std::min(end.reach, reach), joining_reach_)) continue;
       end.reach = std::min(end.reach, reach);
       return end.vertex;
     }
     ends_.push_back({corner, uv, reach, add_vertex(uv, origin, size)});
     return ends_.back().vertex;
+  }
+
+  // The curve that gives the orientation is gone: another one tells, as it is turned in the whole domain.
+  void choose_another_seed() {
+    const VanishingCurves none;
+    const PlaneDomain whole = Builder(model_, topology_, curves_, index_, none).run(true).plane;
+    const PlaneDomain plain = collect_face_domain(model_, topology_, curves_, index_).plane;
+    std::size_t edge = 0;
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      const int curve = curve_of_[c];
+      if (!vanishes(curve) && whole.edges[edge].kind != PlaneEdgeKind::internal) {
+        seed_curve_ = c + 1;
+        seed_left_of_curve_ =
+            (whole.edges[edge].a == plain.edges[edge].a) != topology_.curves[curve].uses[use_of(c)].reversed;
+        return;
+      }
+      edge += static_cast<std::size_t>(curves_[curve].segments());
+    }
+  }
+
+  [[nodiscard]] bool vanishes(int curve) const { return !vanishing_.curve.empty() && vanishing_.curve[curve] != 0; }
+  [[nodiscard]] int stand_in(int corner) const {
+    return vanishing_.corner.empty() ? corner : vanishing_.corner[corner];
   }
 
   // An apex needs three triangles (HDR sec. 4.5.4), shared out among the faces that have a side there.
@@ -79,6 +114,7 @@ class Builder {
 
   void add_curve(int c) {
     const int curve = curve_of_[c];
+    if (vanishes(curve)) return;
     const Curve& shape = topology_.curves[curve];
     const int use = use_of(c);
     const DiscreteCurve& discrete = curves_[curve];
@@ -102,10 +138,10 @@ class Builder {
       }
       if (i > 0)
         domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1, shape.degenerate ? least_fan(shape) : 1});
-      if (i == 1 && c + 1 == std::abs(face_.orientation)) {
+      if (i == 1 && c + 1 == seed_curve_) {
         seed_ = static_cast<int>(domain_.plane.edges.size()) - 1;
         // The sign of the orientation is for the face's own direction of the curve.
-        seed_left_ = (face_.orientation > 0) != shape.uses[use].reversed;
+        seed_left_ = seed_left_of_curve_ != shape.uses[use].reversed;
       }
       previous = vertex;
     }
@@ -122,13 +158,18 @@ class Builder {
         "the boundary is turned the wrong way: the side given by the orientation is not the inside of the domain");
   }
 
+  const Model& model_;
   const Face& face_;
+  const VanishingCurves& vanishing_;
   const std::vector<int>& curve_of_;
   const Topology& topology_;
   std::span<const DiscreteCurve> curves_;
   int index_;
+  double joining_reach_ = 0;  // length in (u, v) of the curves that vanish
   FaceDomain domain_;
   std::vector<CurveEnd> ends_;
+  int seed_curve_;  // rank, from 1
+  bool seed_left_of_curve_;
   int seed_ = 0;
   bool seed_left_ = true;
 };
@@ -146,8 +187,14 @@ std::string curve_name(const Topology& topology, int curve, int face) {
 }
 
 FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
-                             int face) {
-  return Builder(model, topology, curves, face).run();
+                             int face, const VanishingCurves& vanishing) {
+  return Builder(model, topology, curves, face, vanishing).run(true);
+}
+
+FaceDomain collect_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
+                               int face) {
+  const VanishingCurves none;
+  return Builder(model, topology, curves, face, none).run(false);
 }
 
 }  // namespace carreau

@@ -34,12 +34,22 @@ struct TurnedDomain : DomainError {
   using DomainError::DomainError;
 };
 
+/// Curves that vanish between faces which do, and corners that become one with them. Empty lists: none.
+struct VanishingCurves {
+  std::vector<char> curve;  ///< by index in Topology::curves
+  std::vector<int> corner;  ///< by index in Topology::points: the corner that stands for it
+};
+
 /// Collects the discretised curves and the imposed points of face `face` (index) and turns its loops so that the
 /// surface lies on their left. Ends of curves that meet in the parameter plane become one vertex; those that meet in
 /// space only (seams) do not. Throws DomainError naming the face when a loop does not close, TurnedDomain when it is
-/// turned the wrong way (HDR fig. 3.1).
+/// turned the wrong way (HDR fig. 3.1). Vanishing curves are left out, and their ends joined.
 FaceDomain build_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
-                             int face);
+                             int face, const VanishingCurves& vanishing = {});
+
+/// The same, with every edge as its curve runs, whether its loops close and are turned or not.
+FaceDomain collect_face_domain(const Model& model, const Topology& topology, std::span<const DiscreteCurve> curves,
+                               int face);
 
 /// How messages call a curve of a face: "curve 2 (reference 17)", its rank from 1 and its reference.
 std::string curve_name(const Topology& topology, int curve, int face);

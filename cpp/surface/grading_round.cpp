@@ -37,7 +37,7 @@ GradedModel GradingRound::run(const std::vector<SizeSamples>& raw, const GradedM
     curves_.push_back(discretise_curve(model_, static_cast<int>(c), rules_, {.lss = options_.lss, .known = &coarse}));
   }
   separate_coincident_curves(model_, curves_);
-  domains_ = refine_domains(model_, rules_, options_, limits, curves_, monitor_);
+  domains_ = refine_domains(model_, rules_, options_, limits, {}, curves_, monitor_);
   number_vertices(raw);
   faces_.resize(model_.model.faces.size());
   place_of_.resize(faces_.size());
