@@ -109,10 +109,10 @@ struct Meshed {
   Monitor monitor;
   Session session{monitor};
 
-  Meshed(AnalyticCad cad, double size, const char* mode, double ratio = 0.1)
-      : Meshed(testing::unglued(cad), std::move(cad), size, mode, ratio) {}
-  Meshed(const Model& model, AnalyticCad cad, double size, const char* mode, double ratio = 0.1) {
-    session.set_cad(std::make_shared<AnalyticCad>(std::move(cad)));
+  Meshed(const AnalyticCad& cad, double size, const char* mode, double ratio = 0.1)
+      : Meshed(testing::unglued(cad), cad, size, mode, ratio) {}
+  Meshed(const Model& model, const AnalyticCad& cad, double size, const char* mode, double ratio = 0.1) {
+    session.set_cad(std::make_shared<AnalyticCad>(cad));
     session.set_model(model);
     session.parameters().set("hphydef", size);
     session.parameters().set("hphymin", size / 10);
