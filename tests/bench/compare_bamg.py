@@ -22,14 +22,9 @@ import sys
 import tempfile
 import time
 
-sys.path.append("/usr/lib/python3/dist-packages")  # where Debian's python3-gmsh is, whatever python3 runs this
-try:
-    import gmsh
-    import numpy as np
-except ImportError as error:
-    sys.exit(f"{error}. Type: apt-get install gmsh python3-gmsh python3-numpy freefem++")
+from gmsh_runs import BAMG, ROOT, gmsh, np, session
+from gmsh_runs import triangles as triangles_of_gmsh
 
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 GMSH_TIMES, FREEFEM_TIMES = 20, 4  # as fast, at least
 
 FREEFEM = """\
@@ -101,12 +96,7 @@ def by_gmsh(options, h, path, folder):
     tensor = np.stack([m11, m12, zero, m12, m22, zero, zero, zero, one], axis=1)
     p = points[triangles]
     table = np.concatenate([p[:, :, 0], p[:, :, 1], np.zeros((m, 3)), tensor[triangles].reshape(m, 27)], axis=1)
-    gmsh.initialize()
-    try:
-        for name, value in (("General.Terminal", 0), ("General.NumThreads", 1), ("Mesh.Algorithm", 7),
-                            ("Mesh.MeshSizeMin", h / 4), ("Mesh.MeshSizeMax", 4 * options.ratio * h),
-                            ("Mesh.MeshSizeExtendFromBoundary", 0), ("Mesh.MeshSizeFromPoints", 0)):
-            gmsh.option.setNumber(name, value)
+    with session(BAMG, h / 4, 4 * options.ratio * h):
         view = gmsh.view.add("metric")
         gmsh.view.addListData(view, "TT", m, table.ravel())
         field = gmsh.model.mesh.field.add("PostView")
@@ -118,13 +108,8 @@ def by_gmsh(options, h, path, folder):
         start = time.process_time()
         gmsh.model.mesh.generate(2)
         seconds = time.process_time() - start
-        tags, xyz, _ = gmsh.model.mesh.getNodes()
-        corners = np.concatenate([nodes for kind, _, nodes in zip(*gmsh.model.mesh.getElements(2)) if kind == 2])
-    finally:
-        gmsh.finalize()
-    rank = np.zeros(int(max(tags)) + 1, dtype=np.int64)
-    rank[np.asarray(tags, dtype=np.int64)] = np.arange(len(tags))
-    write(path, np.asarray(xyz).reshape(-1, 3)[:, :2], rank[np.asarray(corners, dtype=np.int64)].reshape(-1, 3))
+        made, corners = triangles_of_gmsh()
+    write(path, made[:, :2], corners)
     return {**measured(options, h, path), "seconds": seconds}
 
 

@@ -22,14 +22,7 @@ import subprocess
 import sys
 import time
 
-sys.path.append("/usr/lib/python3/dist-packages")  # where Debian's python3-gmsh is, whatever python3 runs this
-try:
-    import gmsh
-    import numpy as np
-except ImportError as error:
-    sys.exit(f"{error}. Type: apt-get install gmsh python3-gmsh python3-numpy")
-
-ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
+from gmsh_runs import FRONTAL_DELAUNAY, ROOT, gmsh, np, quality, quality_row, session, triangles
 
 # Case of bench_surface, size, number of triangles it is near, and the ratio of speeds to reach.
 CASES = [
@@ -96,30 +89,19 @@ def teapot(occ):
 GEOMETRY = {"paraboloid": paraboloid, "hemisphere": hemisphere, "torus": torus, "teapot": teapot}
 
 
-def figures(points, triangles):
+def figures(points, corners):
     """Quality and counts, as bench_surface has them."""
-    p = points[triangles]
-    edges = [p[:, (k + 1) % 3] - p[:, k] for k in range(3)]
-    squares = sum((e * e).sum(axis=1) for e in edges)
-    areas = np.linalg.norm(np.cross(edges[0], edges[1]), axis=1) / 2
-    q2 = 4 * math.sqrt(3) * areas / squares
-    sides = np.sort(np.concatenate([triangles[:, (k, (k + 1) % 3)] for k in range(3)]), axis=1)
+    q2, areas = quality(points, corners)
+    sides = np.sort(np.concatenate([corners[:, (k, (k + 1) % 3)] for k in range(3)]), axis=1)
     sides, count = np.unique(sides, axis=0, return_counts=True)
     degree = np.bincount(sides.ravel(), minlength=len(points))
     inside = degree > 0
     inside[sides[count == 1].ravel()] = False
-    return {"triangles": len(triangles), "q2_mean": q2.mean(), "q2_p1": np.percentile(q2, 1), "q2_min": q2.min(),
-            "degree6": (degree[inside] == 6).mean(), "area": areas.sum()}
+    return {**quality_row(q2), "degree6": (degree[inside] == 6).mean(), "area": areas.sum()}
 
 
 def by_gmsh(name, size):
-    gmsh.initialize()
-    try:
-        for option, value in (("General.Terminal", 0), ("General.NumThreads", 1), ("Mesh.Algorithm", 6),
-                              ("Mesh.MeshSizeMin", size), ("Mesh.MeshSizeMax", size),
-                              ("Mesh.MeshSizeExtendFromBoundary", 0), ("Mesh.MeshSizeFromPoints", 0),
-                              ("Mesh.MeshSizeFromCurvature", 0)):
-            gmsh.option.setNumber(option, value)
+    with session(FRONTAL_DELAUNAY, size, size):
         gmsh.model.add(name)
         GEOMETRY[name](gmsh.model.occ)
         gmsh.model.occ.synchronize()
@@ -127,14 +109,8 @@ def by_gmsh(name, size):
         start = time.process_time()
         gmsh.model.mesh.generate(2)
         seconds = time.process_time() - start
-        tags, xyz, _ = gmsh.model.mesh.getNodes()
-        corners = np.concatenate([nodes for kind, _, nodes in zip(*gmsh.model.mesh.getElements(2)) if kind == 2])
-    finally:
-        gmsh.finalize()
-    rank = np.zeros(int(max(tags)) + 1, dtype=np.int64)
-    rank[np.asarray(tags, dtype=np.int64)] = np.arange(len(tags))
-    row = figures(np.asarray(xyz).reshape(-1, 3), rank[np.asarray(corners, dtype=np.int64)].reshape(-1, 3))
-    return {"case": name, "size": size, "seconds": seconds, **row}
+        made = triangles()
+    return {"case": name, "size": size, "seconds": seconds, **figures(*made)}
 
 
 def by_carreau(program, name, size, repeat):
