@@ -162,6 +162,42 @@ NearestOnMesh TriangleSearch::nearest(Vec3 p, std::int32_t guess) const noexcept
   return best;
 }
 
+// Between the planes of each pair of sides, widened by rounding.
+bool TriangleSearch::meets(const Box& box, Vec3 p, Vec3 q) noexcept {
+  double from = 0, to = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double a = coordinate(p, axis), d = coordinate(q, axis) - a;
+    const double slack = 1e-12 * (std::abs(a) + std::abs(d));
+    const double low = coordinate(box.low, axis) - slack, high = coordinate(box.high, axis) + slack;
+    if (d == 0) {
+      if (a < low || a > high) return false;
+      continue;
+    }
+    const double s = (low - a) / d, t = (high - a) / d;
+    from = std::max(from, std::min(s, t));
+    to = std::min(to, std::max(s, t));
+  }
+  return from <= to;
+}
+
+void TriangleSearch::beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const {
+  if (boxes_.empty()) return;
+  std::array<std::int32_t, 128> todo;  // as in nearest()
+  std::size_t size = 0;
+  todo[size++] = 0;
+  while (size > 0) {
+    const Box& box = boxes_[static_cast<std::size_t>(todo[--size])];
+    if (!meets(box, p, q)) continue;
+    if (box.count > 0) {
+      const auto first = order_.begin() + box.first;
+      triangles.insert(triangles.end(), first, first + box.count);
+      continue;
+    }
+    todo[size++] = box.first + 1;
+    todo[size++] = box.first;
+  }
+}
+
 double TriangleSearch::longest_edge(std::int32_t triangle) const noexcept {
   const auto& c = corners_[static_cast<std::size_t>(triangle)];
   return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});

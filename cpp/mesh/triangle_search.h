@@ -34,6 +34,8 @@ class TriangleSearch {
   /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found
   /// nearby), saves time and changes nothing. Not for an empty tree.
   [[nodiscard]] NearestOnMesh nearest(Vec3 p, std::int32_t guess = 0) const noexcept;
+  /// Adds the triangles that a segment may meet: all those whose boxes it meets, and some others beside.
+  void beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const;
   /// Longest edge of a triangle.
   [[nodiscard]] double longest_edge(std::int32_t triangle) const noexcept;
 
@@ -45,6 +47,7 @@ class TriangleSearch {
   };
   struct Builder;
   static double squared_distance(const Box& box, Vec3 p) noexcept;
+  static bool meets(const Box& box, Vec3 p, Vec3 q) noexcept;
   void look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept;
 
   std::vector<std::array<Vec3, 3>> corners_;

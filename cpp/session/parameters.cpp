@@ -92,7 +92,7 @@ constexpr std::array kTable = {
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),
     integer_row("proximity", 0, 1000, 0,
-                "least number of layers of triangles across narrow zones of a face (0: any; else gradation is needed)"),
+                "least number of layers across narrow zones of a face and between faces (0: any; else gradation is needed)"),
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
     integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),
     integer_row("verb", 0, 100, 10, "verbosity, per cent"),

@@ -35,8 +35,9 @@ struct CompositeOptions {
   double narrow_ratio = 0.1;
   /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
   double gradation = 0;
-  /// Least number of layers of triangles between boundaries of a face that are near each other (> 0 needs a gradation);
-  /// 0: they are not looked for.
+  /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap
+  /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
+  /// for.
   int proximity = 0;
   bool frontal = true;
   std::int64_t max_triangles = 0;  ///< 0: by memory

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "size/facing.h"
 #include "size/proximity.h"
 
 namespace carreau::detail {
@@ -44,6 +45,7 @@ GradedModel GradingRound::run(const std::vector<SizeSamples>& raw, const GradedM
   samples_.resize(faces_.size());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     monitor_.checkpoint();
+    place_of_[f] = graph_.places.size();
     if (!domains_.domain[f]) continue;
     try {
       add_face(f, limits);
@@ -53,7 +55,11 @@ GradedModel GradingRound::run(const std::vector<SizeSamples>& raw, const GradedM
     }
   }
   prescribed_ = metric_;
-  if (options_.proximity > 0) bound_narrow_zones();
+  prescribed_h_ = h_;
+  if (options_.proximity > 0) {
+    bound_narrow_zones();
+    bound_facing_faces();
+  }
   return metrics_ ? grade_by_direction(raw) : grade(raw);
 }
 
@@ -130,7 +136,6 @@ void GradingRound::add_face(std::size_t f, const SizeLimits& limits) {
     }
     graph_.places.push_back({vertex, {}});
   }
-  place_of_[f] = first;
   evaluate(input, face, first);
   mend_normals(face, first);
   add_triangles(domain, face, first);
@@ -275,6 +280,53 @@ void GradingRound::bound_narrow_zones() {
       metric_[p].bound_along(across, h);
     }
   }
+}
+
+// As many layers between two faces that face each other: a size of the gap over their number in all directions of both.
+void GradingRound::bound_facing_faces() {
+  std::vector<std::vector<int>> points(model_.model.faces.size());
+  for (const Curve& c : model_.topology.curves)
+    for (const CurveUse& use : c.uses) points[use.face].insert(points[use.face].end(), {c.end1, c.end2});
+  const auto apart = [&](int p, int q) {
+    const int f = face_of(p), g = face_of(q);
+    if (f == g) return false;
+    return std::find_first_of(points[f].begin(), points[f].end(), points[g].begin(), points[g].end()) ==
+           points[f].end();
+  };
+  const double layers = options_.proximity;
+  const auto reach = [&](int p) {
+    const double h = metrics_ ? std::max(metric_[p].h1, metric_[p].h2) : h_[graph_.places[p].vertex];
+    return layers * std::min(h, largest_ / graph_share);  // diag where nothing is known
+  };
+  for (const FacingPlace& f : find_facing_places(graph_, reach, apart, monitor_)) {
+    const double h = f.gap / layers;
+    // What no size that is allowed can resolve is contact.
+    if (h < smallest_size()) continue;
+    if (metrics_) {
+      metric_[f.place].h1 = std::min(metric_[f.place].h1, h);
+      metric_[f.place].h2 = std::min(metric_[f.place].h2, h);
+      continue;
+    }
+    double& known = h_[graph_.places[f.place].vertex];
+    known = std::min(known, h);
+    // The other face may have no vertex near the foot.
+    for (const int p : graph_.triangles[f.triangle]) {
+      const Vec3 way = step_on_surface(graph_.places[p].normal, f.foot - graph_.xyz[graph_.places[p].vertex]);
+      sources_.push_back({p, {h, -1 * way}});
+    }
+  }
+}
+
+double GradingRound::smallest_size() const {
+  const SizeParameters& size = options_.size;
+  if (size.hphy_flag == 0) return size.hgeomin;
+  return size.hgeo_flag == 0 ? size.hphymin : std::min(size.hphymin, size.hgeomin);
+}
+
+// Places of a face are numbered together; a face without any has the first of the next one.
+int GradingRound::face_of(int place) const {
+  const auto after = std::upper_bound(place_of_.begin(), place_of_.end(), static_cast<std::size_t>(place));
+  return static_cast<int>(after - place_of_.begin()) - 1;
 }
 
 }  // namespace carreau::detail

@@ -51,7 +51,7 @@ class GradingRound {
   void lower_by_samples(std::size_t c, const SizeSamples& raw, const std::vector<int>& nodes);
   void add_face(std::size_t f, const SizeLimits& limits);
   void locate_samples(std::size_t f);
-  void find_rough(GradedFace& face, const std::vector<Sample>& samples) const;
+  void find_rough(std::size_t f);
   static void widen_rough(GradedFace& face);
   ControlSpace sample(const PatchInput& input);
   void keep_sample(Vec2 uv, const SurfaceJet& jet, Metric2 metric, std::vector<Sample>& samples) const;
@@ -61,6 +61,9 @@ class GradingRound {
   static void find_tips(GradedFace& face);
   GradedModel grade(const std::vector<SizeSamples>& raw);
   void bound_narrow_zones();
+  void bound_facing_faces();
+  [[nodiscard]] double smallest_size() const;
+  [[nodiscard]] int face_of(int place) const;
   GradedModel grade_by_direction(const std::vector<SizeSamples>& raw);
   void collect_places();
   [[nodiscard]] Vec3 tangent(std::size_t c, std::size_t node, int place) const;
@@ -82,6 +85,7 @@ class GradingRound {
   RefinedDomains domains_;
   GradationGraph graph_;
   std::vector<double> h_;                  // prescribed at the vertices of the graph
+  std::vector<double> prescribed_h_;       // before narrow zones
   std::vector<std::vector<int>> node_of_;  // [curve][node]: vertex of the graph
   std::vector<GradedFace> faces_;
   std::vector<std::size_t> place_of_;  // first place of a face

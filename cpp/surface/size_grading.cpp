@@ -19,11 +19,14 @@ constexpr int samples_per_edge = 4;
 
 // Where some size is another vertex's, or some sample not what the corners of its triangle make of it, the
 // prescribed sizes do not obey the gradation.
-void GradingRound::find_rough(GradedFace& face, const std::vector<Sample>& samples) const {
+void GradingRound::find_rough(std::size_t f) {
+  GradedFace& face = faces_[f];
+  const auto prescribed = [&](std::int32_t v) { return prescribed_h_[graph_.places[place_of_[f] + v].vertex]; };
   for (std::size_t t = 0; t < face.triangles.size(); ++t)
     for (const std::int32_t v : face.triangles[t])
-      if (dot(face.front[v].line, face.front[v].line) > 0) face.smooth[t] = 0;
-  for (const Sample& s : samples) {
+      if (dot(face.front[v].line, face.front[v].line) > 0 || face.h[v] < (1 - roughness) * prescribed(v))
+        face.smooth[t] = 0;
+  for (const Sample& s : samples_[f]) {
     double linear = 0;
     for (int i = 0; i < 3; ++i) linear += s.promised[i] * face.h[face.triangles[s.triangle][i]];
     if (std::abs(linear - s.h) > roughness * s.h) face.smooth[s.triangle] = 0;
@@ -70,7 +73,7 @@ GradedModel GradingRound::grade(const std::vector<SizeSamples>& raw) {
       faces_[f].front.push_back(fronts.front[place_of_[f] + v]);
       faces_[f].h.push_back(fronts.h[graph_.places[place_of_[f] + v].vertex]);
     }
-    find_rough(faces_[f], samples_[f]);
+    find_rough(f);
     find_tips(faces_[f]);
   }
   GradedModel result;
