@@ -146,6 +146,20 @@ typedef struct c_face {
     void *why;
     void *name;
 } c_face;
+typedef struct c_interface {
+    long struct_size;
+    int curve;
+    int uses;
+    int face;
+    int ic;
+    int other_face;
+    int other_ic;
+    int boundary;
+    int glued;
+    int degenerate;
+    int reserved;
+    double gap;
+} c_interface;
 typedef struct c_measure {
     long struct_size;
     void *name;
@@ -275,6 +289,8 @@ int carreau_session_background (void *session, c_background_report *report);
 int carreau_session_create (void *session);
 int carreau_session_delivered (void *session, c_delivered *delivered);
 void carreau_session_free (void *session);
+int carreau_session_interface (void *session, long index, c_interface *interface);
+int carreau_session_interface_count (void *session, long *count);
 int carreau_session_mesh (void *session, void *mesh);
 int carreau_session_report (void *session, c_report *report);
 int carreau_set_background (void *session, const c_background *background);

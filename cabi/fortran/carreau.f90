@@ -14,6 +14,7 @@ module carreau
   private
 
   public :: carreau_session, carreau_mesh, carreau_error_place, carreau_parameter, carreau_report, carreau_face
+  public :: carreau_interface, carreau_session_interface_count, carreau_session_interface
   public :: carreau_quality, carreau_delivered, carreau_measure
   public :: carreau_init_fn, carreau_surf0_fn, carreau_surf1_fn, carreau_surf2_fn, carreau_curv_int_fn, carreau_curv_fn
   public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
@@ -107,6 +108,12 @@ module carreau
     integer(c_int64_t) :: curv0_calls = 0, curv1_calls = 0, curv2_calls = 0, size_calls = 0
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type carreau_report
+
+  type :: carreau_interface
+    integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
+    logical :: boundary = .false., glued = .false., degenerate = .false.
+    real(c_double) :: gap = 0
+  end type carreau_interface
 
   type :: carreau_background_report
     integer(c_int64_t) :: asked = 0, outside = 0
@@ -812,6 +819,29 @@ contains
       c%curv2_calls, c%size_calls, c%seconds_curves, c%seconds_sampling, c%seconds_plane, c%seconds_lift, &
       c%seconds_total)
   end subroutine carreau_session_report
+
+  ! ---- Interfaces ----
+
+  subroutine carreau_session_interface_count(session, count, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(inout) :: count
+    integer(c_int32_t), intent(out) :: status
+    status = c_session_interface_count(session%handle, count)
+  end subroutine carreau_session_interface_count
+
+  !> index: from 1.
+  subroutine carreau_session_interface(session, index, interface, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_interface), intent(out) :: interface
+    integer(c_int32_t), intent(out) :: status
+    type(c_interface) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_session_interface(session%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    interface = carreau_interface(c%curve, c%uses, c%face, c%ic, c%other_face, c%other_ic, c%boundary /= 0, &
+      c%glued /= 0, c%degenerate /= 0, c%gap)
+  end subroutine carreau_session_interface
 
   ! ---- What was delivered ----
 

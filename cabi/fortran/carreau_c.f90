@@ -105,6 +105,13 @@ module carreau_c
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type c_report
 
+  type, bind(c) :: c_interface
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
+    integer(c_int32_t) :: boundary = 0, glued = 0, degenerate = 0, reserved = 0
+    real(c_double) :: gap = 0
+  end type c_interface
+
   type, bind(c) :: c_delivered
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0
@@ -466,6 +473,24 @@ module carreau_c
       type(c_report), intent(inout) :: report
       integer(c_int32_t) :: status
     end function c_session_report
+
+    function c_session_interface_count(session, count) result(status) &
+      bind(c, name="carreau_session_interface_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function c_session_interface_count
+
+    function c_session_interface(session, index, interface) result(status) bind(c, name="carreau_session_interface")
+      import :: c_int32_t, c_int64_t, c_ptr, c_interface
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: index
+      type(c_interface), intent(inout) :: interface
+      integer(c_int32_t) :: status
+    end function c_session_interface
 
     function c_session_mesh(session, mesh) result(status) bind(c, name="carreau_session_mesh")
       import :: c_int32_t, c_ptr

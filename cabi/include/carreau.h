@@ -267,7 +267,8 @@ CARREAU_API carreau_status carreau_model_add_face(carreau_session* session, int3
 
 /* Appends a curve to face `face_ref`; it is number ic = 1, 2, ... of that face. ref: the same for curves that are one
  * in space (twice in one face: a seam). end1, end2: references of the points at t = a and t = b. When the first curve
- * of the model has ref 0, all references of curves and ends are found by comparing positions (parameter eps_glue).
+ * of the model has ref 0, all references of curves and ends are found by comparing positions (parameter eps_glue);
+ * with parameter glue_open = 1 also those of curves that one face only has, once, and that have references.
  * Errors: ARGUMENT (no such face, unknown type). */
 CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_ref, int32_t type,
                                                    int32_t ref, int32_t end1, int32_t end2);
@@ -416,6 +417,31 @@ typedef struct carreau_report {
 
 /* Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report);
+
+/* ---- Interfaces: the curves of the last mesh in space ---- */
+
+/* A curve has one discretisation. Its vertices lie on the surface of its first place; the others may be apart from it,
+ * since curves that a model calls one, or that were glued, need not agree. */
+typedef struct carreau_interface {
+  size_t struct_size;
+  int32_t curve;      /* its reference; after gluing that of its first place */
+  int32_t uses;       /* places: curves of faces. 1 on a boundary: open. Two in one face: a seam */
+  int32_t face;       /* the first place */
+  int32_t ic;         /* of the host's curve there, also where it was cut */
+  int32_t other_face; /* the place that is farthest from the vertices; the first again when there is no other */
+  int32_t other_ic;
+  int32_t boundary;   /* 1: on the boundary of a face; 0: inside faces only */
+  int32_t glued;      /* 1: places were found to be one by comparing positions */
+  int32_t degenerate; /* 1: a point of space */
+  int32_t reserved;
+  double gap; /* largest distance found between the places, model length: at the ends and at some vertices, at all where
+                 it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
+} carreau_interface;
+
+/* Number of interfaces; and number `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+CARREAU_API carreau_status carreau_session_interface_count(carreau_session* session, int64_t* out_count);
+CARREAU_API carreau_status carreau_session_interface(carreau_session* session, int64_t index,
+                                                     carreau_interface* out_interface);
 
 /* ---- Background meshes: wanted sizes at the vertices of a mesh ---- */
 

@@ -103,6 +103,37 @@ carreau_status carreau_run_env(carreau_session* session, const char* path) {
   });
 }
 
+carreau_status carreau_session_interface_count(carreau_session* session, int64_t* out_count) {
+  return guarded(session, [&] {
+    required(out_count, "out_count");
+    if (!session->session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
+    *out_count = static_cast<int64_t>(session->session.interfaces().size());
+  });
+}
+
+carreau_status carreau_session_interface(carreau_session* session, int64_t index, carreau_interface* out_interface) {
+  return guarded(session, [&] {
+    if (!session->session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
+    const std::vector<carreau::Interface>& all = session->session.interfaces();
+    if (index < 0 || index >= static_cast<int64_t>(all.size()))
+      throw StatusError(CARREAU_ERR_ARGUMENT, "interface " + std::to_string(index) + " is out of range; there are " +
+                                                  std::to_string(all.size()));
+    const carreau::Interface& entry = all[static_cast<std::size_t>(index)];
+    carreau_interface result{};
+    result.curve = entry.ref;
+    result.uses = entry.uses;
+    result.face = entry.first.face;
+    result.ic = entry.first.curve_index;
+    result.other_face = entry.farthest.face;
+    result.other_ic = entry.farthest.curve_index;
+    result.boundary = entry.boundary ? 1 : 0;
+    result.glued = entry.glued ? 1 : 0;
+    result.degenerate = entry.degenerate ? 1 : 0;
+    result.gap = entry.gap;
+    write_struct(result, out_interface, "out_interface");
+  });
+}
+
 carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report) {
   return guarded(session, [&] {
     if (!session->session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");

@@ -24,6 +24,8 @@ class CadInput {
   virtual carreau_status give_to(carreau_session* session) = 0;
   /// Diagonal of the box of the geometry.
   [[nodiscard]] virtual double diagonal() const = 0;
+  /// Distance below which curves that one face only has are one, as the file's own tolerances have it; 0: none is.
+  [[nodiscard]] virtual double glue_tolerance() const { return 0; }
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.

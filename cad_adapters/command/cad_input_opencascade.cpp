@@ -20,6 +20,7 @@ class OpenCascadeInput final : public CadInput {
 
   carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
   [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
+  [[nodiscard]] double glue_tolerance() const override { return host_.glue_tolerance(); }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   [[nodiscard]] std::string failure(int face) const override { return host_.failure(face); }

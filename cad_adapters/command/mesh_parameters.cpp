@@ -144,6 +144,11 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
   set(session, "CheckAdjacentEdges", 20);
   set(session, "flag", 1);
+  // Faces that are not sewn in the file; the others keep what the file says of them.
+  if (const double tolerance = input.glue_tolerance(); tolerance > 0) {
+    set(session, "glue_open", 1);
+    set(session, "eps_glue", tolerance);
+  }
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);
   if (!options.env.empty()) require(session, carreau_read_env(session, options.env.c_str()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "json_output.h"
 #include "quality_json.h"
@@ -57,6 +58,51 @@ std::int64_t count(const std::vector<FaceResult>& faces, std::int32_t status) {
   return std::count_if(faces.begin(), faces.end(), [&](const FaceResult& f) { return f.status == status; });
 }
 
+std::vector<carreau_interface> interfaces_of(carreau_session* session) {
+  std::int64_t n = 0;
+  require(session, carreau_session_interface_count(session, &n));
+  std::vector<carreau_interface> interfaces(static_cast<std::size_t>(n));
+  for (std::int64_t i = 0; i < n; ++i) {
+    carreau_interface& each = interfaces[static_cast<std::size_t>(i)];
+    each.struct_size = sizeof each;
+    require(session, carreau_session_interface(session, i, &each));
+  }
+  return interfaces;
+}
+
+bool is_open(const carreau_interface& i) { return i.boundary != 0 && i.uses == 1 && i.degenerate == 0; }
+
+/// How many curves were glued, and which are open, where the file has faces that are not sewn.
+std::vector<std::string> gluing_lines(const std::vector<carreau_interface>& interfaces) {
+  constexpr int listed = 10;
+  std::int64_t glued = 0, open = 0;
+  double widest = 0;
+  std::string list;
+  for (const carreau_interface& each : interfaces) {
+    if (each.glued != 0) ++glued, widest = std::max(widest, each.gap);
+    if (!is_open(each) || ++open > listed) continue;
+    list += (list.empty() ? "" : ", ") + std::to_string(each.curve) + " (face " + std::to_string(each.face) + ")";
+  }
+  if (glued == 0) return {};
+  std::vector<std::string> lines{text("glued      %lld curves, within %.6g", whole(glued), widest)};
+  if (open > 0) lines.push_back("open       curves " + list + (open > listed ? ", ..." : ""));
+  return lines;
+}
+
+nlohmann::ordered_json interfaces_json(const std::vector<carreau_interface>& interfaces) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const carreau_interface& each : interfaces)
+    list.push_back({{"reference", each.curve},
+                    {"uses", each.uses},
+                    {"faces", {each.face, each.other_face}},
+                    {"curves", {each.ic, each.other_ic}},
+                    {"open", is_open(each)},
+                    {"glued", each.glued != 0},
+                    {"degenerate", each.degenerate != 0},
+                    {"gap", each.gap}});
+  return list;
+}
+
 }  // namespace
 
 std::vector<FaceResult> collect_faces(carreau_mesh* mesh, const CadInput& input) {
@@ -97,6 +143,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
            whole(count(faces, CARREAU_FACE_MENDED)), whole(count(faces, CARREAU_FACE_FAILED))),
       text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
            q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str())};
+  for (std::string& line : gluing_lines(interfaces_of(run.session))) lines.push_back(std::move(line));
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,
                        r.seconds_total, static_cast<int>(threads), threads == 1 ? "thread" : "threads",
@@ -122,6 +169,7 @@ void print_json(const MeshRun& run) {
                                           {"threads", threads_of(run.session)},
                                           {"mesh", quality_json(q)},
                                           {"faces", faces},
+                                          {"interfaces", interfaces_json(interfaces_of(run.session))},
                                           {"calls",
                                            {{"surf0", r.surf0_calls},
                                             {"surf1", r.surf1_calls},

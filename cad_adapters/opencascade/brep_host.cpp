@@ -18,6 +18,7 @@
 #include <gp_Pnt2d.hxx>
 #include <gp_Vec.hxx>
 #include <gp_Vec2d.hxx>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -169,7 +170,10 @@ int32_t BrepHost::State::curve_size(int32_t face, int32_t ic, double, double* va
 }
 
 int32_t BrepHost::State::point_size(int32_t point, double* value, void* user) noexcept {
-  return answer(static_cast<State*>(user)->vertex_size[static_cast<std::size_t>(point - 1)], value);
+  // Gluing numbers points where it cuts curves behind all others.
+  const std::vector<double>& sizes = static_cast<State*>(user)->vertex_size;
+  const auto index = static_cast<std::size_t>(point - 1);
+  return index < sizes.size() ? answer(sizes[index], value) : CARREAU_NO_ANSWER;
 }
 
 int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
@@ -331,6 +335,26 @@ double BrepHost::diagonal() const {
   Bnd_Box box;
   BRepBndLib::AddOptimal(state_->shape, box, Standard_False, Standard_False);
   return std::sqrt(box.SquareExtent());
+}
+
+double BrepHost::glue_tolerance() const try {
+  double tolerance = 0, shortest = std::numeric_limits<double>::infinity();
+  int free = 0;
+  for (int e = 1; e <= state_->edges.Extent(); ++e) {
+    if (state_->uses[static_cast<std::size_t>(e - 1)] != 1) continue;
+    const TopoDS_Edge edge = TopoDS::Edge(state_->edges(e));
+    ++free;
+    tolerance = std::max(tolerance, BRep_Tool::Tolerance(edge));
+    for (TopExp_Explorer v(edge, TopAbs_VERTEX); v.More(); v.Next())
+      tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Vertex(v.Current())));
+    Bnd_Box box;
+    BRepBndLib::Add(edge, box, Standard_False);
+    if (!box.IsVoid()) shortest = std::min(shortest, std::sqrt(box.SquareExtent()));
+  }
+  // Each of two edges may be off by its own tolerance.
+  return free < 2 ? 0 : std::min(2 * tolerance, shortest / 10);
+} catch (const Standard_Failure&) {
+  return 0;
 }
 
 bool BrepHost::is_closed() const noexcept {

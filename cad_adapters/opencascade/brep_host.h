@@ -43,6 +43,10 @@ class BrepHost {
   [[nodiscard]] int vertex_count() const noexcept;
   /// Diagonal of the box of all edges.
   [[nodiscard]] double diagonal() const;
+  /// How far apart edges of one face only may be that are one in space (parameters glue_open and eps_glue): what the
+  /// tolerances of the file's own edges and vertices allow, but no more than a tenth of the shortest such edge. 0:
+  /// there is no such edge, or only one.
+  [[nodiscard]] double glue_tolerance() const;
   /// Every edge belongs to two faces, or twice to one.
   [[nodiscard]] bool is_closed() const noexcept;
   /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has

@@ -16,6 +16,10 @@ Vec3 corner(const CurveModel& model, int point) {
   return model.topology.points[static_cast<std::size_t>(point)].position;
 }
 
+void note_gap(DiscreteCurve& d, std::size_t use, double gap) {
+  if (gap > d.gap) d.gap = gap, d.gap_use = static_cast<int>(use);
+}
+
 /// Parameters and images at the ends of each use: the support has evaluated them.
 void carry_ends(DiscreteCurve& d, const CurveModel& model) {
   const auto& uses = model.curve(d.curve).uses;
@@ -30,8 +34,8 @@ void carry_ends(DiscreteCurve& d, const CurveModel& model) {
     d.t_of_use[u].back() = back ? s.t.front() : s.t.back();
     d.uv_of_use[u].front() = back ? s.uv.back() : s.uv.front();
     d.uv_of_use[u].back() = back ? s.uv.front() : s.uv.back();
-    d.gap = std::max({d.gap, norm((back ? s.xyz.back() : s.xyz.front()) - d.xyz.front()),
-                      norm((back ? s.xyz.front() : s.xyz.back()) - d.xyz.back())});
+    note_gap(d, u, norm((back ? s.xyz.back() : s.xyz.front()) - d.xyz.front()));
+    note_gap(d, u, norm((back ? s.xyz.front() : s.xyz.back()) - d.xyz.back()));
   }
 }
 
@@ -50,7 +54,7 @@ void refine_vertex(DiscreteCurve& d, const CurveModel& model, std::size_t u, std
       refine_t(model.cad, model.face_ref(use), use.curve + 1, model.support(use), t[k], low, high, d.xyz[k]);
   t[k] = p.t;
   d.uv_of_use[u][k] = p.uv;
-  d.gap = std::max(d.gap, p.distance);
+  note_gap(d, u, p.distance);
 }
 
 /// The interior vertices at which a use is probed: quarter points, and where the two supports disagree most (their
@@ -88,14 +92,14 @@ void check_use(DiscreteCurve& d, const CurveModel& model, std::size_t u, double 
   std::vector<SurfaceJet> jets(uv.size());
   model.cad.surface(model.face_ref(model.curve(d.curve).uses[u]), want_position, uv, jets);
   bool far = false;
-  double gap = d.gap;
+  double gap = 0;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double distance = norm(jets[i].s - d.xyz[at[i]]);
     gap = std::max(gap, distance);
     far = far || distance > tolerance * d.size[at[i]];
   }
   if (!far) {
-    d.gap = gap;
+    note_gap(d, u, gap);
     return;
   }
   d.refined[u] = 1;

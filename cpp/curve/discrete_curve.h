@@ -23,6 +23,7 @@ struct DiscreteCurve {
   /// Largest distance found between a vertex and what another use's surface says about it, model length. Measured at
   /// all vertices of the uses in `refined`, at the ends and a few vertices of the others.
   double gap = 0;
+  int gap_use = 0;            ///< the use that it was found in
   std::vector<char> refined;  ///< [use]: parameters were improved by refine_t because interpolation was not enough
 
   [[nodiscard]] int segments() const noexcept { return static_cast<int>(r.size()) - 1; }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -34,17 +35,18 @@ class Gluer {
         remarks_(remarks),
         report_(report),
         entries_(entries_of(model, traces)),
+        known_(!needs_gluing(model)),
         points_(2 * entries_.size()),
-        curves_(entries_.size()) {}
+        curves_(entries_.size()) {
+    const std::vector<std::vector<char>> free = curves_to_glue(model);
+    for (const Entry& entry : entries_) takes_part_.push_back(free[entry.face][entry.curve]);
+  }
 
   Model run() {
-    std::vector<Vec3> ends;
-    for (const Entry& entry : entries_) {
-      ends.push_back(entry.trace.front());
-      ends.push_back(entry.trace.back());
-    }
-    merge_near_points(ends, eps_, points_);
-    for (std::size_t k = 0; k < entries_.size(); ++k) merge_curve(k);
+    if (known_) merge_what_is_known();
+    merge_near_ends();
+    for (std::size_t k = 0; k < entries_.size(); ++k)
+      if (takes_part_[k] != 0) merge_curve(k);
     if (report_ != nullptr) list_open_curves();
     return numbered();
   }
@@ -55,6 +57,38 @@ class Gluer {
     for (std::size_t f = 0; f < model.faces.size(); ++f)
       for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) entries.push_back({f, c, traces[f][c]});
     return entries;
+  }
+
+  [[nodiscard]] const FaceCurve& given(std::size_t k) const {
+    return model_.faces[entries_[k].face].curves[entries_[k].curve];
+  }
+  /// Of end 2 k or 2 k + 1 of entry k.
+  [[nodiscard]] int given_end(std::size_t end) const {
+    return end % 2 == 0 ? given(end / 2).end1 : given(end / 2).end2;
+  }
+
+  void merge_what_is_known() {
+    std::map<int, std::size_t> first_curve, first_end;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      curves_.merge(first_curve.try_emplace(given(k).ref, k).first->second, k);
+      for (const std::size_t end : {2 * k, 2 * k + 1})
+        points_.merge(first_end.try_emplace(given_end(end), end).first->second, end);
+    }
+  }
+
+  void merge_near_ends() {
+    std::vector<Vec3> ends;
+    std::vector<std::size_t> number;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      if (takes_part_[k] == 0) continue;
+      ends.push_back(entries_[k].trace.front());
+      ends.push_back(entries_[k].trace.back());
+      number.push_back(2 * k);
+      number.push_back(2 * k + 1);
+    }
+    UnionFind near(ends.size());
+    merge_near_points(ends, eps_, near);
+    for (std::size_t i = 0; i < ends.size(); ++i) points_.merge(number[near.find(i)], number[i]);
   }
 
   void merge_curve(std::size_t k) {
@@ -70,7 +104,8 @@ class Gluer {
       return;
     }
     const std::size_t p = points_.find(2 * k), q = points_.find(2 * k + 1);
-    if (p == q && gap > rounding_share * eps_)
+    const bool said = known_ && given(k).end1 == given(k).end2;
+    if (p == q && !said && gap > rounding_share * eps_)
       remark(k, "its ends are " + format_number(gap) + " apart, which is less than eps_glue = " + format_number(eps_) +
                     " or bridged by other points, and become one point");
     auto& same_ends = by_ends_[std::minmax(p, q)];
@@ -88,15 +123,14 @@ class Gluer {
     return model_.faces[e.face].curves[e.curve].type == CurveType::boundary;
   }
 
-  /// The distance of two curves that are one.
+  /// The distance of two curves that are one, as far as it is not that of their polylines from the curves.
   [[nodiscard]] std::optional<double> gap_if_one(const Entry& a, const Entry& b) const {
-    double tolerance = eps_;
-    if (a.face == b.face) {
-      if (!is_boundary(a) || !is_boundary(b)) return {};  // a seam is made of two sides
-      tolerance = std::min(eps_, inside_share * eps_ + trace_deviation(a.trace) + trace_deviation(b.trace));
-    }
+    const bool sides = a.face == b.face;
+    if (sides && (!is_boundary(a) || !is_boundary(b))) return {};  // a seam is made of two sides
+    const double loose = trace_deviation(a.trace) + trace_deviation(b.trace);
+    const double tolerance = (sides ? inside_share * eps_ : eps_) + loose;
     const double gap = hausdorff_distance(a.trace, b.trace, tolerance);
-    return gap < tolerance ? std::optional(gap) : std::nullopt;
+    return gap < tolerance ? std::optional(std::max(gap - loose, 0.0)) : std::nullopt;
   }
 
   void list_open_curves() {
@@ -108,13 +142,15 @@ class Gluer {
   }
 
   // The numbering of HDR fig. 4.18: curve k (from 1) has the ends 2 k - 1 and 2 k; sets take their smallest number.
+  // What has references takes that of its first one.
   Model numbered() {
     Model glued = model_;
     for (std::size_t k = 0; k < entries_.size(); ++k) {
       FaceCurve& curve = glued.faces[entries_[k].face].curves[entries_[k].curve];
-      curve.ref = static_cast<int>(curves_.find(k)) + 1;
-      curve.end1 = static_cast<int>(points_.find(2 * k)) + 1;
-      curve.end2 = static_cast<int>(points_.find(2 * k + 1)) + 1;
+      const std::size_t same = curves_.find(k), end1 = points_.find(2 * k), end2 = points_.find(2 * k + 1);
+      curve.ref = known_ ? given(same).ref : static_cast<int>(same) + 1;
+      curve.end1 = known_ ? given_end(end1) : static_cast<int>(end1) + 1;
+      curve.end2 = known_ ? given_end(end2) : static_cast<int>(end2) + 1;
     }
     return glued;
   }
@@ -130,6 +166,8 @@ class Gluer {
   std::vector<std::string>* remarks_;
   GlueReport* report_;
   std::vector<Entry> entries_;
+  bool known_;  // the model has references
+  std::vector<char> takes_part_;
   UnionFind points_, curves_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends_;
 };
@@ -138,6 +176,20 @@ class Gluer {
 
 bool needs_gluing(const Model& model) {
   return !model.faces.empty() && !model.faces.front().curves.empty() && model.faces.front().curves.front().ref == 0;
+}
+
+std::vector<std::vector<char>> curves_to_glue(const Model& model) {
+  const bool known = !needs_gluing(model);
+  std::map<int, int> uses;
+  for (const Face& face : model.faces)
+    for (const FaceCurve& curve : face.curves) ++uses[curve.ref];
+  std::vector<std::vector<char>> free;
+  for (const Face& face : model.faces) {
+    auto& of_face = free.emplace_back();
+    for (const FaceCurve& curve : face.curves)
+      of_face.push_back(!known || (curve.type == CurveType::boundary && uses[curve.ref] == 1) ? 1 : 0);
+  }
+  return free;
 }
 
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "model/near_points.h"
 #include "model/places.h"
@@ -38,15 +39,19 @@ struct Entry {
 class Splitter {
  public:
   Splitter(const Model& model, const CurveTraces& traces, double eps) : eps_(eps), points_(0) {
+    const std::vector<std::vector<char>> free = curves_to_glue(model);
     std::vector<Vec3> ends;
     for (std::size_t f = 0; f < model.faces.size(); ++f)
       for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) {
+        if (free[f][c] == 0) continue;
         entries_.push_back({f, c, traces[f][c]});
         ends.push_back(traces[f][c].front());
         ends.push_back(traces[f][c].back());
       }
     points_ = UnionFind(ends.size());
     merge_near_points(ends, eps, points_);
+    for (std::size_t i = 0; i < ends.size(); ++i) by_x_.emplace_back(ends[i].x, i);
+    std::sort(by_x_.begin(), by_x_.end());
   }
 
   std::vector<CurveSplit> run() {
@@ -66,7 +71,11 @@ class Splitter {
     const Box box = box_of(entry.trace);
     const double length = trace_length(entry.trace);
     std::map<std::size_t, CurveSplit> by_set;
-    for (std::size_t i = 0; i < 2 * entries_.size(); ++i) {
+    std::vector<std::size_t> near;
+    const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x - eps_, std::size_t{0}});
+    for (auto it = from; it != by_x_.end() && it->first <= box.high.x + eps_; ++it) near.push_back(it->second);
+    std::sort(near.begin(), near.end());  // of several ends as near as one another the first one cuts
+    for (const std::size_t i : near) {
       const Entry& other = entries_[i / 2];
       const Vec3 end = i % 2 == 0 ? other.trace.front() : other.trace.back();
       if (other.face == entry.face || !box.holds(end, eps_)) continue;
@@ -91,6 +100,7 @@ class Splitter {
   double eps_;
   std::vector<Entry> entries_;
   UnionFind points_;  // ends 2 k and 2 k + 1 of entry k
+  std::vector<std::pair<double, std::size_t>> by_x_;
 };
 
 }  // namespace
@@ -102,14 +112,41 @@ std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& trace
   return Splitter(model, traces, eps).run();
 }
 
+namespace {
+
+/// Numbers that no curve or point of a model has.
+class FreshReferences {
+ public:
+  explicit FreshReferences(const Model& model) : known_(!needs_gluing(model)) {
+    for (const Face& face : model.faces) {
+      for (const FaceCurve& curve : face.curves) {
+        curve_ = std::max(curve_, curve.ref);
+        point_ = std::max({point_, curve.end1, curve.end2});
+      }
+      for (const FacePoint& point : face.points) point_ = std::max(point_, point.ref);
+    }
+  }
+  /// 0 where references are still to be found.
+  int curve() { return known_ ? ++curve_ : 0; }
+  int point() { return known_ ? ++point_ : 0; }
+
+ private:
+  bool known_;
+  int curve_ = 0, point_ = 0;
+};
+
+}  // namespace
+
 Model cut_curves(const Model& model, std::span<const CurveCut> cuts) {
   Model result = model;
+  FreshReferences fresh(model);
   for (const CurveCut& cut : cuts) {
     std::vector<FaceCurve>& curves = result.faces[cut.face].curves;
     const int whole = host_rank(result.faces[cut.face], cut.curve);
     std::vector<double> ends = cut.t;
     ends.insert(ends.begin(), cut.a);
     ends.push_back(cut.b);
+    int inner = 0;  // reference of the end between two parts
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
       if (!(ends[i] < ends[i + 1]))
         throw InvalidArgument(place_of(model, cut.face, cut.curve),
@@ -118,6 +155,8 @@ Model cut_curves(const Model& model, std::span<const CurveCut> cuts) {
       part.part_of = whole;
       part.part_a = ends[i];
       part.part_b = ends[i + 1];
+      if (i > 0) part.ref = fresh.curve(), part.end1 = inner;
+      if (i + 2 < ends.size()) part.end2 = inner = fresh.point();
       if (i == 0) {
         curves[cut.curve] = part;
       } else {

@@ -17,11 +17,12 @@ struct CurveSplit {
 };
 
 /// By face, curve and arc. Ends that are one (merged within eps) cut a curve once, at their nearest. Nothing is cut
-/// within eps of its own ends. Internal curves cut and are cut like boundaries. Needs no references. Throws
+/// within eps of its own ends. Internal curves cut and are cut like boundaries. Only curves_to_glue() take part. Throws
 /// InvalidArgument when traces are missing.
 std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& traces, double eps);
 
-/// The model with curves cut: `t[i]` strictly inside the host's interval, ascending for one curve.
+/// The model with curves cut; where it has references, parts behind the first, and points between, get new ones: `t[i]`
+/// strictly inside the host's interval, ascending for one curve.
 struct CurveCut {
   std::size_t face = 0, curve = 0;
   double a = 0, b = 1;    ///< the curve's interval

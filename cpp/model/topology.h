@@ -53,12 +53,16 @@ using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
 /// True when references are to be found by gluing: the very first curve has reference 0.
 bool needs_gluing(const Model& model);
 
+/// [face][curve]: whether gluing compares the curve with others: all curves, or, when the model has references already,
+/// the boundary curves that one face has, once.
+std::vector<std::vector<char>> curves_to_glue(const Model& model);
+
 /// What gluing has found. Indices of faces and of curves in them.
 struct GlueReport {
   struct Place {
     std::size_t face = 0, curve = 0;
   };
-  /// Two curves that became one, and their two-sided Hausdorff distance.
+  /// Two curves that became one, and their two-sided Hausdorff distance beyond what their traces may be off them.
   struct Pair {
     Place a, b;
     double gap = 0;
@@ -69,13 +73,15 @@ struct GlueReport {
 
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
-/// distance is below eps_glue. Two sides of one face become a seam when they agree a thousand times better (HDR's two
+/// distance is below eps_glue plus what their traces may be off the curves. Two sides of one face become a seam when they agree a thousand times better (HDR's two
 /// tolerances), as far as the traces can tell. A curve that lies within eps_glue of a point keeps a reference of its
 /// own; its ends become one. Internal points keep their references. Ends are numbered 2k - 1 and 2k for the k-th curve
 /// of the model, curves k; what is merged takes the smallest number (the numbering of RT-0232 sec. 6.1, HDR fig. 4.18).
 /// `remarks` (may be null) receives a sentence for each curve whose ends are merged although they differ by more than
 /// rounding; `report` (may be null) what was found. Curves that overlap in part only are one when they have been cut
-/// first (model/splits.h). Throws InvalidArgument when eps_glue is not positive or traces are missing.
+/// first (model/splits.h). References that the model has are kept: only what curves_to_glue() tells is compared, and
+/// what becomes one takes the reference of its first curve or end. Throws InvalidArgument when eps_glue is not positive
+/// or traces are missing.
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr,
            GlueReport* report = nullptr);
 

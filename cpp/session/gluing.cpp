@@ -85,7 +85,7 @@ PartCad::Parts parts_of(const Model& model) {
 }
 
 Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
-                      std::vector<std::string>& remarks, Monitor& monitor) {
+                      std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor) {
   Model cut = model;
   const auto count_curves = [](const Model& m) {
     std::size_t n = 0;
@@ -94,10 +94,61 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
   };
   for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
   }
-  GlueReport report;
+  report.open.clear();
   Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report);
   tell(glued, report, count_curves(cut) - count_curves(model), monitor);
   return glued;
+}
+
+std::vector<Interface> list_interfaces(const Model& model, const Topology& topology, const std::vector<CurveGap>& gaps,
+                                       const GlueReport& report) {
+  const auto place = [&](const CurveUse& use) {
+    const Face& face = model.faces[static_cast<std::size_t>(use.face)];
+    return Where{.face = face.ref, .curve_index = host_rank(face, static_cast<std::size_t>(use.curve))};
+  };
+  std::vector<Interface> interfaces;
+  for (std::size_t c = 0; c < topology.curves.size(); ++c) {
+    const Curve& curve = topology.curves[c];
+    Interface entry{.ref = curve.ref,
+                    .uses = static_cast<int>(curve.uses.size()),
+                    .first = place(curve.uses.front()),
+                    .farthest = place(curve.uses[static_cast<std::size_t>(gaps[c].use)]),
+                    .degenerate = curve.degenerate,
+                    .gap = gaps[c].gap};
+    for (const CurveUse& use : curve.uses)
+      if (model.faces[static_cast<std::size_t>(use.face)].curves[static_cast<std::size_t>(use.curve)].type ==
+          CurveType::boundary)
+        entry.boundary = true;
+    // Without a gap the other use is as good as any.
+    if (gaps[c].use == 0 && curve.uses.size() > 1) entry.farthest = place(curve.uses[1]);
+    interfaces.push_back(entry);
+  }
+  for (const GlueReport::Pair& pair : report.pairs) {
+    Interface& entry = interfaces[static_cast<std::size_t>(topology.curve_of[pair.a.face][pair.a.curve])];
+    entry.glued = true;
+    entry.gap = std::max(entry.gap, pair.gap);
+  }
+  return interfaces;
+}
+
+void tell_interfaces(const std::vector<Interface>& interfaces, Monitor& monitor) {
+  std::size_t open = 0, crowded = 0;
+  const Interface* widest = nullptr;
+  for (const Interface& entry : interfaces) {
+    if (entry.degenerate) continue;
+    open += entry.boundary && entry.uses == 1 ? 1 : 0;
+    crowded += entry.uses > 2 ? 1 : 0;
+    if (widest == nullptr || entry.gap > widest->gap) widest = &entry;
+  }
+  std::string sentence =
+      count_of(interfaces.size(), "curve", "curves") + " in space, " + std::to_string(open) + " open";
+  if (crowded > 0) sentence += ", " + std::to_string(crowded) + " with more than two uses";
+  if (widest != nullptr && widest->gap > 0)
+    sentence += "; the widest gap is " + format_number(widest->gap) + ", at curve " + std::to_string(widest->ref) +
+                " (face " + std::to_string(widest->first.face) + " curve " + std::to_string(widest->first.curve_index) +
+                ", face " + std::to_string(widest->farthest.face) + " curve " +
+                std::to_string(widest->farthest.curve_index) + ")";
+  monitor.message(Level::summary, sentence);
 }
 
 }  // namespace carreau

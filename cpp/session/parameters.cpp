@@ -71,6 +71,8 @@ constexpr std::array kTable = {
     integer_row("geo_metric", 0, 1, 0, "geometric sizes: 0 by the smallest radius, 1 by both principal radii"),
     text_row("geo_rule", "angle", "angle|chord|both|radii",
              "geometric sizes from: angle_mesh, eps_chord, the smaller of both, or the principal radii (RR-2928)"),
+    integer_row("glue_open", 0, 1, 0,
+                "1: curves that one face only has are glued too (eps_glue) when the model has references"),
     real_row("gradation", 0, kInfinity, 0,
              "largest ratio of sizes one unit edge apart, greater than 1 (0: no gradation)"),
     integer_row("hgeo_flag", 0, 2, 0, "geometric size: 0 ignored, 1 from the curvature, 2 from cad_rads and cad_radc"),

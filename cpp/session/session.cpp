@@ -47,6 +47,7 @@ struct Session::State {
   SurfaceMesh previous;
   bool has_previous = false;
   Model model;
+  GlueReport glued;  // in `model`
   bool model_from_file = false;
   bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
   Parameters parameters;
@@ -56,6 +57,7 @@ struct Session::State {
   Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
   bool last_failed = false;                        // the last make_mesh() has thrown
   std::optional<Delivered> delivered;              // of `result`
+  std::vector<Interface> interfaces;               // of `result`
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const {
@@ -266,6 +268,7 @@ bool Session::has_model_from_host() const noexcept { return !state_->model.faces
 void Session::set_model(Model model) {
   state_->check_model(model);
   state_->model = std::move(model);
+  state_->glued = {};
   state_->model_from_file = state_->model_from_env = false;
 }
 
@@ -280,7 +283,10 @@ void Session::load_pardom_of_env(const std::string& path) {
   state_->model_from_env = true;
 }
 
-void Session::clear_model() noexcept { state_->model = {}; }
+void Session::clear_model() noexcept {
+  state_->model = {};
+  state_->glued = {};
+}
 
 const Model& Session::model() const noexcept { return state_->model; }
 Parameters& Session::parameters() noexcept { return state_->parameters; }
@@ -298,6 +304,7 @@ const SurfaceMesh& Session::previous_mesh() const {
 }
 const std::vector<double>& Session::vertex_sizes() const { return (void)mesh(), state_->result.vertex_size; }
 const CompositeReport& Session::report() const { return (void)mesh(), state_->result.report; }
+const std::vector<Interface>& Session::interfaces() const { return (void)mesh(), state_->interfaces; }
 const ModelSupports& Session::supports() const { return (void)mesh(), state_->meshed.supports; }
 
 void Session::make_mesh() {
@@ -316,11 +323,12 @@ void Session::make_mesh() {
   set_parameter_boxes(s.model, supports, whole_cad);
   Model model = s.model;
   std::vector<std::string> remarks;
-  if (needs_gluing(model)) {
+  if (const bool all = needs_gluing(model); all || s.parameters.integer("glue_open") != 0) {
     const double eps_glue = s.parameters.real("eps_glue", supports.diag);
-    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .angle_smo = angle_smo}, remarks, s.monitor);
+    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .angle_smo = angle_smo}, remarks, s.glued,
+                            s.monitor);
     s.check_model(model);
-    if (s.model_from_file) write_glued(model, remarks);
+    if (all && s.model_from_file) write_glued(model, remarks);
     s.model = model;
   }
   PartCad cad(whole_cad, parts_of(model));
@@ -345,6 +353,7 @@ void Session::make_mesh() {
     throw DomainError("no face could be meshed: " +
                       (failed != result.mesh.faces.end() ? failed->why : std::string("no reason is known")));
   }
+  std::vector<Interface> interfaces = list_interfaces(model, topology, result.gaps, s.glued);
   for (const PrescriptionSource* source : options.size.sources)
     for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);
   const BackgroundReport background_report = background ? background->report() : BackgroundReport{};
@@ -363,11 +372,13 @@ void Session::make_mesh() {
   s.previous = std::move(s.result.mesh);
   s.result = std::move(result);
   s.meshed = std::move(meshed);
+  s.interfaces = std::move(interfaces);
   s.delivered = std::move(delivered);
   s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;
   s.last_failed = false;
   describe_result(s.result, s.meshed.options.threads, s.monitor);
+  tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_delivered(*s.delivered, s.monitor);
   s.monitor.progress(Phase::idle, 0, 1);
 }

@@ -12,6 +12,7 @@
 #include "metric/prescription.h"
 #include "model/model.h"
 #include "session/fields.h"
+#include "session/gluing.h"
 #include "session/parameters.h"
 #include "size/background.h"
 #include "support/monitor.h"
@@ -84,6 +85,8 @@ class Session {
   /// mesh stays.
   std::vector<std::string> write_fields(const std::string& path, const FieldOptions& options);
 
+  /// The curves of the mesh in space. Throws like mesh().
+  [[nodiscard]] const std::vector<Interface>& interfaces() const;
   /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).
   [[nodiscard]] const ModelSupports& supports() const;
 

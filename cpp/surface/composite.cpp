@@ -299,6 +299,7 @@ class Pipeline {
   }
 
   void keep_prescriptions() {
+    for (const DiscreteCurve& curve : curves_) result_.gaps.push_back({curve.gap, curve.gap_use});
     for (std::size_t c = 0; c < curves_.size(); ++c)
       result_.curve_size.push_back(result_.mesh.curves[c].vertices.size() > 1 ? std::move(curves_[c].size)
                                                                               : std::vector<double>{});

@@ -59,6 +59,12 @@ struct CompositeReport {
   double seconds_total = 0;
 };
 
+/// How far the faces of a curve leave its vertices (DiscreteCurve::gap), and which use is farthest.
+struct CurveGap {
+  double gap = 0;
+  int use = 0;
+};
+
 struct CompositeResult {
   SurfaceMesh mesh;
   std::vector<double> vertex_size;                  ///< prescribed size at each vertex
@@ -67,6 +73,7 @@ struct CompositeResult {
   std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
   /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
   std::vector<std::vector<double>> curve_size;
+  std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
 };
 

@@ -144,6 +144,15 @@ void fetch(carreau_session* session, MeasuredMesh& m) {
   report.struct_size = sizeof report;
   if (carreau_session_report(session, &report) != CARREAU_OK) return;
   m.seconds = report.seconds_total;
+  m.report = report;
+  std::int64_t interfaces = 0;
+  carreau_session_interface_count(session, &interfaces);
+  m.interfaces.resize(static_cast<std::size_t>(interfaces));
+  for (std::int64_t i = 0; i < interfaces; ++i) {
+    carreau_interface& each = m.interfaces[static_cast<std::size_t>(i)];
+    each.struct_size = sizeof each;
+    carreau_session_interface(session, i, &each);
+  }
   m.surface_calls = report.surf0_calls + report.surf1_calls + report.surf2_calls;
 }
 
@@ -178,6 +187,10 @@ MeasuredMesh mesh_and_measure(carreau_occ::BrepHost& host, double size,
   carreau_session_create(&raw);
   const std::unique_ptr<carreau_session, FreeSession> session(raw);
   use_command_parameters(raw, size, host.diagonal());
+  if (const double tolerance = host.glue_tolerance(); tolerance > 0) {
+    carreau_set_integer(raw, "glue_open", 1);
+    carreau_set_real(raw, "eps_glue", tolerance);
+  }
   if (prepare) prepare(raw);
   m.status = host.give_to(raw);
   if (m.status == CARREAU_OK) m.status = carreau_mesh_generate(raw);

@@ -28,6 +28,8 @@ struct MeasuredMesh {
   /// at a corner under the angle of the triangle.
   double free_q2_min = 1;
   double volume = 0;  ///< enclosed, by the divergence theorem
+  std::vector<carreau_interface> interfaces;
+  carreau_report report{};
   double seconds = 0;
   std::int64_t surface_calls = 0;
 

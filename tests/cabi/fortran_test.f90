@@ -239,6 +239,8 @@ contains
     type(carreau_mesh) :: mesh
     type(carreau_face) :: face
     type(carreau_quality) :: quality
+    type(carreau_interface) :: curve
+    integer(c_int64_t) :: interfaces
     type(carreau_report) :: report
     real(c_double), allocatable :: xyz(:, :), c_xyz(:, :), uv(:, :, :), sizes(:)
     integer(c_int32_t), allocatable :: triangles(:, :), c_triangles(:, :), refs(:), edges(:, :), edge_refs(:), ends(:, :)
@@ -296,6 +298,11 @@ contains
     call expect(defects == 0 .and. text == '', 'no defects')
     call carreau_session_report(session, report, status)
     call expect(report%surf0_calls >= n .and. report%seconds_total > 0 .and. abs(report%diag - 7.735d0) < 0.01d0, 'report')
+    call carreau_session_interface_count(session, interfaces, status)
+    call expect(interfaces == 4, 'interfaces')
+    call carreau_session_interface(session, 4_c_int64_t, curve, status)
+    call expect(curve%curve == 4 .and. curve%uses == 1 .and. curve%face == 1 .and. curve%ic == 4 .and. curve%boundary &
+      .and. .not. curve%glued .and. curve%gap == 0, 'interface 4')
     call check_delivered(session, xyz, triangles)
     call carreau_model_curves(session, face_refs, types, curve_refs, ends, status)
     call expect(all(ends(2, :) == [2, 3, 4, 1]) .and. all(types == CARREAU_BOUNDARY) .and. all(face_refs == 1) .and. &

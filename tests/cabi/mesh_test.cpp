@@ -148,6 +148,48 @@ TEST_F(SessionTest, MeshesATorusWithItsSeams) {
   }
 }
 
+TEST_F(SessionTest, TellsTheInterfacesOfATorusAndOfASheet) {
+  std::int64_t n = -1;
+  auto each = sized<carreau_interface>();
+  EXPECT_EQ(carreau_session_interface_count(session, &n), CARREAU_ERR_SEQUENCE);
+  EXPECT_EQ(carreau_session_interface(session, 0, &each), CARREAU_ERR_SEQUENCE);
+  use_paraboloid();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_session_interface_count(session, &n), CARREAU_OK);
+  ASSERT_EQ(n, 4);
+  for (std::int64_t i = 0; i < n; ++i) {
+    ASSERT_EQ(carreau_session_interface(session, i, &each), CARREAU_OK);
+    EXPECT_EQ(each.curve, i + 1);
+    EXPECT_EQ(each.uses, 1);
+    EXPECT_EQ(each.boundary, 1);
+    EXPECT_EQ(each.face, 1);
+    EXPECT_EQ(each.ic, i + 1);
+    EXPECT_EQ(each.other_face, 1);
+    EXPECT_EQ(each.gap, 0);
+  }
+  EXPECT_EQ(carreau_session_interface(session, 4, &each), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_session_interface(session, -1, &each), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_session_interface(session, 0, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_session_interface_count(session, nullptr), CARREAU_ERR_ARGUMENT);
+
+  ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);
+  const carreau_cad torus = torus_cad(&host);
+  ASSERT_EQ(carreau_set_cad(session, &torus), CARREAU_OK);
+  ASSERT_EQ(torus_model(session), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_session_interface_count(session, &n), CARREAU_OK);
+  ASSERT_EQ(n, 2);
+  for (std::int64_t i = 0; i < n; ++i) {
+    ASSERT_EQ(carreau_session_interface(session, i, &each), CARREAU_OK);
+    EXPECT_EQ(each.uses, 2);
+    EXPECT_EQ(each.face, 5);
+    EXPECT_EQ(each.other_face, 5);
+    EXPECT_NE(each.ic, each.other_ic);
+    EXPECT_EQ(each.glued, 0);
+    EXPECT_LT(each.gap, 1e-12);
+  }
+}
+
 TEST_F(SessionTest, BothRegistrationsGiveTheSameMesh) {
   use_paraboloid(0.2);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();

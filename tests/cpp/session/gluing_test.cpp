@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <numbers>
+#include <set>
 
 #include "common/analytic_cad.h"
 #include "model/splits.h"
@@ -103,6 +104,83 @@ TEST(Gluing, CutsTheRectangleOfFigure418) {
   run.session.parameters().set("hphydef", 0.3);
   run.session.make_mesh();
   EXPECT_EQ(run.euler(), 1);
+}
+
+/// As a host that knows the loops of each face and nothing else.
+Model with_references(AnalyticCad& cad) {
+  Model model = testing::unglued(cad);
+  int next = 0;
+  for (Face& face : model.faces) {
+    const int n = static_cast<int>(face.curves.size());
+    for (int i = 0; i < n; ++i) {
+      FaceCurve& curve = face.curves[static_cast<std::size_t>(i)];
+      curve.ref = next + i + 1, curve.end1 = next + i + 1, curve.end2 = next + (i + 1) % n + 1;
+    }
+    next += n;
+  }
+  return model;
+}
+
+TEST(Gluing, OfOpenCurvesKeepsReferences) {
+  Patches run(three_patches(1e-3), 0.2, 0.01);
+  const Model known = with_references(*run.cad);
+  run.session.set_model(known);
+  run.session.make_mesh();
+  EXPECT_EQ(run.euler(), 3);  // nothing was asked
+  run.session.parameters().set("glue_open", 1);
+  run.session.make_mesh();
+  EXPECT_EQ(find_defects(run.session.mesh()), std::vector<std::string>{});
+  EXPECT_EQ(run.euler(), 1);
+  EXPECT_TRUE(run.monitor.says("3 pairs of curves are one"));
+  EXPECT_TRUE(run.monitor.says("3 cuts were made"));
+  const Model& model = run.session.model();
+  std::set<int> refs;
+  for (const Face& face : known.faces)
+    for (const FaceCurve& curve : face.curves) refs.insert(curve.ref);
+  // Only the three parts that were cut off, and what they were glued to, have new ones.
+  std::set<int> fresh;
+  for (const Face& face : model.faces)
+    for (const FaceCurve& curve : face.curves)
+      if (!refs.contains(curve.ref)) fresh.insert(curve.ref);
+  EXPECT_EQ(fresh.size(), 3U);
+  long glued = 0;
+  for (const Interface& each : run.session.interfaces()) {
+    glued += each.glued ? 1 : 0;
+    EXPECT_EQ(each.uses, each.glued ? 2 : 1);
+    EXPECT_LT(each.gap, 0.003);
+  }
+  EXPECT_EQ(glued, 3);
+  // A second run finds nothing more, and remembers.
+  run.session.make_mesh();
+  EXPECT_EQ(run.euler(), 1);
+  EXPECT_EQ(std::count_if(run.session.interfaces().begin(), run.session.interfaces().end(),
+                          [](const Interface& i) { return i.glued; }),
+            3);
+}
+
+TEST(Gluing, OfOpenCurvesLeavesSharedOnesAlone) {
+  // Two pairs of squares; the sides x = 1 of each pair have one reference, the pairs only touch along y = 1.
+  AnalyticCad cad;
+  cad.faces[1] = polygon({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0);
+  cad.faces[2] = polygon({{1, 0}, {2, 0}, {2, 1}, {1, 1}}, 0);
+  cad.faces[3] = polygon({{0, 1}, {1, 1}, {1, 2}, {0, 2}}, 0);
+  Patches run(std::move(cad), 0.2, 0.001);
+  Model model = with_references(*run.cad);
+  FaceCurve& shared = model.faces[1].curves[3];
+  const FaceCurve& other = model.faces[0].curves[1];
+  // Against the other use: (1, 1) to (1, 0).
+  shared.ref = other.ref, shared.end1 = other.end2, shared.end2 = other.end1;
+  model.faces[1].curves[0].end1 = other.end1;
+  model.faces[1].curves[2].end2 = other.end2;
+  run.session.set_model(model);
+  run.session.parameters().set("glue_open", 1);
+  run.session.make_mesh();
+  EXPECT_EQ(run.euler(), 1);
+  EXPECT_TRUE(run.monitor.says("1 pair of curves is one"));
+  for (const Interface& each : run.session.interfaces()) {
+    EXPECT_EQ(each.glued, each.ref == model.faces[0].curves[2].ref);
+  }
+  EXPECT_EQ(run.session.model().faces[1].curves[3].ref, other.ref);
 }
 
 TEST(Gluing, LeavesGapsAboveItsTolerance) {
