@@ -579,8 +579,9 @@ CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* pat
 
 /* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face), .msh and
  * .msh2 (Gmsh 4.1 and 2.2, with physical names). The mesh of a session is written as its parameters option, refs and
- * flag say (RT-0232 sec. 4); .exr: its fields, as carreau_write_exr does with multi_part. A mesh from a file has binary
- * .stl. The file is complete or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
+ * flag say (RT-0232 sec. 4); onesurf2d of a face that has failed gives its curves in the parameter plane; .exr: its
+ * fields, as carreau_write_exr does with multi_part. A mesh from a file has binary .stl. The file is complete or as it
+ * was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
 
 /* Numbers of vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */

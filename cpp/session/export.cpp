@@ -128,6 +128,23 @@ FlatMesh supports_as_mesh(const ExportSource& source) {
   return flat;
 }
 
+// What there is of a face that has failed.
+FlatMesh boundary_in_the_plane(const ExportSource& source, std::size_t f) {
+  FlatMesh flat;
+  flat.dimension = 2;
+  for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
+    const FaceCurve& curve = source.model.faces[f].curves[c];
+    const std::vector<Vec2>& uv = source.supports.of_face[f][c].uv;
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+      flat.vertices.push_back({uv[i].x, uv[i].y, 0});
+      flat.vertex_refs.push_back(i == 0 ? curve.end1 : i + 1 == uv.size() ? curve.end2 : 0);
+      const auto last = static_cast<std::int32_t>(flat.vertices.size()) - 1;
+      if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);
+    }
+  }
+  return flat;
+}
+
 void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const FlatSources& sources) {
   MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};
   for (const std::int32_t v : sources.vertex) size.values.push_back(vertex_size[v]);
@@ -207,6 +224,9 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
   if (option == "smo3d") return supports_as_mesh(source);
   const bool plane = option == "allsurf2d" || option == "onesurf2d", whole = option.empty() || option == "allsurf3d";
   if (!plane && !whole && option != "onesurf3d") throw InvalidArgument("export: unknown option \"" + option + "\"");
+  if (option == "onesurf2d")
+    if (const std::size_t f = face_of_reference(source.mesh, face); source.mesh.faces[f].triangles.empty())
+      return boundary_in_the_plane(source, f);
   FlatMesh flat;
   FlatSources sources;
   if (whole) {

@@ -85,6 +85,31 @@ TEST_F(PolygonTest, AFaceThatFailsLeavesTheOthers) {
   auto quality = sized<carreau_quality>();
   ASSERT_EQ(carreau_mesh_quality(mesh(), &quality), CARREAU_OK);
   EXPECT_NEAR(quality.area, 2, 1e-12);
+
+  // Its owner can look at its domain, and at what the host says in it.
+  const std::string path = testing::TempDir() + "carreau_failed_domain.mesh";
+  ASSERT_EQ(carreau_set_text(session, "option", "onesurf2d"), CARREAU_OK);
+  ASSERT_EQ(carreau_set_integer(session, "refs", 2), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_write(mesh(), path.c_str()), CARREAU_OK) << error();
+  carreau_mesh* domain = nullptr;
+  ASSERT_EQ(carreau_mesh_create(&domain), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_read(domain, path.c_str()), CARREAU_OK) << carreau_mesh_last_error(domain);
+  std::int64_t triangles = -1, edges = 0;
+  ASSERT_EQ(carreau_mesh_count(domain, nullptr, &triangles, &edges, nullptr), CARREAU_OK);
+  EXPECT_EQ(triangles, 0);
+  ASSERT_GE(edges, 4);
+  std::vector<std::int32_t> refs(static_cast<std::size_t>(edges));
+  ASSERT_EQ(carreau_mesh_edge_refs(domain, edges, refs.data()), CARREAU_OK);
+  EXPECT_EQ(refs.front(), 200);
+  EXPECT_EQ(refs.back(), 203);
+  carreau_mesh_free(domain);
+  std::remove(path.c_str());
+  auto options = sized<carreau_exr_options>();
+  options.longest = 16;
+  options.face = 2;
+  const std::string image = testing::TempDir() + "carreau_failed_domain.exr";
+  EXPECT_EQ(carreau_write_exr(session, image.c_str(), &options), CARREAU_OK) << error();
+  EXPECT_EQ(std::remove(image.c_str()), 0);
 }
 
 TEST_F(PolygonTest, ADomainThatCrossesItselfIsRefused) {
