@@ -138,9 +138,9 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   }
   const bool sizes_by_face = !options.face_sizes.empty() && !input.answers_face_sizes();
   set(session, "threads", threads_of(options));
-  // Zones narrower than a twentieth of their edges would have triangles of no shape.
+  // Zones narrower than a tenth of their edges would have triangles of no shape.
   set(session, "CheckCloseEdges", 20);
-  set(session, "CoefRectangle", 0.05);
+  set(session, "CoefRectangle", 0.1);
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
   set(session, "CheckAdjacentEdges", 20);
   set(session, "flag", 1);

@@ -33,11 +33,10 @@ bool wants_swap(const Triangulation& mesh, int t, int i) noexcept {
 
 }  // namespace
 
-void make_delaunay_in_metric(Triangulation& mesh, Monitor& monitor) {
+void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> seeds, Monitor& monitor) {
   std::vector<HalfEdge> open;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (mesh.triangles[t].n[i] > 4 * t + i) open.push_back(4 * t + i);
+  for (const std::int32_t t : seeds)
+    for (int i = 0; i < 3; ++i) open.push_back(4 * t + i);
   long swaps = 0;
   while (!open.empty()) {
     const HalfEdge he = open.back();

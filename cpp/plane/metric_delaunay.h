@@ -1,5 +1,8 @@
-// A triangulation of imposed points made Delaunay in the metric of its vertices, before points are placed in it.
+// Delaunay in the metric of the vertices, however many swaps it takes.
 #pragma once
+
+#include <cstdint>
+#include <span>
 
 #include "plane/triangulation.h"
 #include "support/monitor.h"
@@ -8,7 +11,8 @@ namespace carreau::plane {
 
 /// Swaps until no swap makes the flatter of two triangles less flat, flatness being judged by the smallest angle in the
 /// mean metric of a triangle's own corners: where the metric is constant that is Delaunay's criterion, and where it
-/// varies swaps cannot run in circles. Needs the metrics at the vertices; imposed edges stay.
-void make_delaunay_in_metric(Triangulation& mesh, Monitor& monitor);
+/// varies swaps cannot run in circles. Starts with the edges of the triangles `seeds`. Needs the metrics at the
+/// vertices; imposed edges stay.
+void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> seeds, Monitor& monitor);
 
 }  // namespace carreau::plane

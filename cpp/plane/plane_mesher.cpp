@@ -4,7 +4,6 @@
 
 #include "plane/boundary.h"
 #include "plane/filler.h"
-#include "plane/metric_delaunay.h"
 #include "plane/optimiser.h"
 
 namespace carreau {
@@ -48,7 +47,6 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
   bool turning = false;
   {
     plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);
-    make_delaunay_in_metric(boundary.mesh, monitor);
     fixed = filler.surround_degenerate_edges(domain);
     if (options.frontal)
       filler.march();
