@@ -1,5 +1,6 @@
 #include "surface/face_job.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "support/format.h"
@@ -15,6 +16,8 @@ constexpr int most_corrections = 3;
 // continuous. Sizes of the finest features that are met in practice are off by some tens; anisotropy in the mean by the
 // root of its ratio.
 constexpr double torn = 1000;
+// A patch of less than this share of its extent squared is what rounding leaves of a line.
+constexpr double no_area = 1e-14;
 
 /// Adds the time of its life.
 class Stopwatch {
@@ -90,7 +93,7 @@ void FaceJob::lift(Monitor& monitor) {
     next_ = Step::mesh;
     return;
   }
-  refuse_torn();
+  refuse_unsound();
   const Stopwatch watch(report_.seconds_lift);
   const bool kept = options_.size.geo_guarantee && rules_.uses_metrics();
   refine_in_space(input_, cad_, rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
@@ -109,7 +112,13 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   return true;
 }
 
-void FaceJob::refuse_torn() const {
+void FaceJob::refuse_unsound() const {
+  double area = 0, extent = 0;
+  const std::vector<Vec3>& p = mesh_->xyz;
+  for (const auto& [a, b, c] : mesh_->plane.triangles) area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
+  for (const Vec3 q : p) extent = std::max(extent, norm(q - p.front()));
+  if (!(area > no_area * extent * extent))
+    throw DomainError(Where{.face = input_.ref}, "the surface has no area: it is a line or a point of space");
   const EdgeExcess& longest = mesh_->longest;
   if (!(longest.ratio > torn)) return;
   throw DomainError(Where{.face = input_.ref, .uv = longest.place},

@@ -1,0 +1,181 @@
+// Hosts whose faces, curves and references do not fit together: a sentence, or one face that fails alone.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "common/analytic_cad.h"
+#include "mesh/quality.h"
+#include "session/session.h"
+
+namespace carreau {
+namespace {
+
+using testing::AnalyticCad;
+using testing::segment;
+
+SurfaceJet plane(Vec2 p, double z) { return {{p.x, p.y, z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+
+AnalyticCad square(double z = 0) {
+  AnalyticCad cad;
+  cad.faces[1] = {[z](Vec2 p) { return plane(p, z); }, testing::rectangle({0, 0}, {1, 1})};
+  return cad;
+}
+/// Curves 1 .. 4 from point to point.
+Model square_model() {
+  Model model = testing::unglued(square());
+  for (int c = 0; c < 4; ++c) {
+    FaceCurve& curve = model.faces[0].curves[static_cast<std::size_t>(c)];
+    curve.ref = c + 1, curve.end1 = c + 1, curve.end2 = (c + 1) % 4 + 1;
+  }
+  return model;
+}
+
+struct Outcome {
+  std::string error;     // of make_mesh
+  std::string failures;  // of faces
+  bool sound = false;
+};
+Outcome try_mesh(const AnalyticCad& cad, const Model& model, double size = 0.2) {
+  Monitor monitor;
+  Session session(monitor);
+  Outcome outcome;
+  try {
+    session.set_cad(std::make_shared<AnalyticCad>(cad));
+    session.set_model(model);
+    session.parameters().set("hphydef", size);
+    session.make_mesh();
+    outcome.sound = find_defects(session.mesh()).empty();
+    for (const FaceMesh& face : session.mesh().faces)
+      if (face.status == FaceStatus::failed) outcome.failures += face.why + "\n";
+  } catch (const Error& error) {
+    outcome.error = error.what();
+  }
+  return outcome;
+}
+void expect_refused(const Outcome& outcome, const std::string& word) {
+  EXPECT_NE(outcome.error.find(word), std::string::npos) << outcome.error << outcome.failures;
+}
+
+TEST(BadModels, ASoundOneIsMeshed) {
+  const Outcome outcome = try_mesh(square(), square_model());
+  EXPECT_EQ(outcome.error + outcome.failures, "");
+  EXPECT_TRUE(outcome.sound);
+}
+
+TEST(BadModels, LoopThatDoesNotClose) {
+  AnalyticCad cad = square();
+  cad.faces[1].curves[2] = segment({1, 1}, {0, 0.7});
+  expect_refused(try_mesh(cad, square_model()), "face 1");
+  expect_refused(try_mesh(cad, testing::unglued(cad)), "face 1");
+}
+
+TEST(BadModels, ReferencesOfOtherCurvesAndPoints) {
+  Model model = square_model();
+  std::swap(model.faces[0].curves[1].end1, model.faces[0].curves[1].end2);
+  expect_refused(try_mesh(square(), model), "face 1");
+  model = square_model();
+  model.faces[0].curves[2].ref = 1;
+  expect_refused(try_mesh(square(), model), "face 1");
+  model = square_model();
+  model.faces[0].orientation = 7;
+  expect_refused(try_mesh(square(), model), "orientation");
+}
+
+TEST(BadModels, CurveOfAnotherFaceThatLiesElsewhere) {
+  AnalyticCad cad = square();
+  cad.faces[2] = {[](Vec2 p) { return plane(p, 0.5); }, testing::rectangle({0, 0}, {1, 1})};
+  Model model = square_model();
+  model.faces.push_back(model.faces[0]);
+  model.faces[1].ref = 2;
+  expect_refused(try_mesh(cad, model), "face 2");
+}
+
+TEST(BadModels, CurveWithoutLength) {
+  AnalyticCad cad = square();
+  cad.faces[1].curves.push_back(segment({0, 0}, {0, 0}));
+  Model model = square_model();
+  model.faces[0].curves.push_back({.ref = 5, .end1 = 1, .end2 = 1});
+  const Outcome outcome = try_mesh(cad, model);
+  EXPECT_TRUE(outcome.sound || !outcome.error.empty());
+  AnalyticCad none = square();
+  for (auto& curve : none.faces[1].curves) curve = segment({0.5, 0.5}, {0.5, 0.5});
+  expect_refused(try_mesh(none, square_model()), "no extent");
+}
+
+// A cylinder whose host says that it closes after six radians.
+TEST(BadModels, PeriodThatIsNotOne) {
+  AnalyticCad cad;
+  cad.faces[1] = {[](Vec2 p) {
+                    const double c = std::cos(p.x), s = std::sin(p.x);
+                    return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {6, 1})};
+  Model model = testing::unglued(cad);
+  const int refs[4][3] = {{1, 1, 1}, {2, 1, 2}, {3, 2, 2}, {2, 2, 1}};
+  for (std::size_t c = 0; c < 4; ++c) {
+    FaceCurve& curve = model.faces[0].curves[c];
+    curve.ref = refs[c][0], curve.end1 = refs[c][1], curve.end2 = refs[c][2];
+  }
+  expect_refused(try_mesh(cad, model), "face 1");
+}
+
+// A step of a hundred in the midst of a face: no mesh of the rest of it is a mesh of the face, and others stay.
+TEST(BadModels, SurfaceThatJumps) {
+  AnalyticCad cad = square();
+  cad.faces[2] = {[](Vec2 p) {
+                    return plane({p.x + 2, p.y}, p.x > 0.37 && p.x < 0.61 && p.y > 0.37 && p.y < 0.61 ? 1e6 : 0);
+                  },
+                  testing::rectangle({0, 0}, {1, 1})};
+  const Outcome outcome = try_mesh(cad, testing::unglued(cad), 0.1);
+  EXPECT_NE((outcome.error + outcome.failures).find("face 2"), std::string::npos);
+  EXPECT_NE((outcome.error + outcome.failures).find("the surface jumps"), std::string::npos);
+  EXPECT_TRUE(outcome.sound);
+}
+
+// A face that shrinks to a line in space while its curves do not say so.
+TEST(BadModels, SurfaceWithoutArea) {
+  AnalyticCad cad = square();
+  cad.faces[2] = {[](Vec2 p) {
+                    return SurfaceJet{{p.x + p.y, 3, 0}, {1, 0, 0}, {1, 0, 0}, {}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {1, 1})};
+  const Outcome outcome = try_mesh(cad, testing::unglued(cad));
+  EXPECT_TRUE(!outcome.error.empty() || !outcome.failures.empty());
+}
+
+// ---- tiny edges (eps_collapse) ----
+
+TEST(TinyEdges, InALoopBecomePoints) {
+  for (const double tiny : {1e-3, 1e-5, 1e-9}) {
+    SCOPED_TRACE(tiny);
+    AnalyticCad cad;
+    const std::vector<Vec2> corners{{0, 0}, {1, 0}, {1, 1 - tiny}, {1 - tiny, 1}, {tiny, 1}, {0, 1 - tiny}};
+    cad.faces[1].at = [](Vec2 p) { return plane(p, 0); };
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      cad.faces[1].curves.push_back(segment(corners[i], corners[(i + 1) % corners.size()]));
+    Model model = testing::unglued(cad);
+    for (int c = 0; c < 6; ++c) {
+      FaceCurve& curve = model.faces[0].curves[static_cast<std::size_t>(c)];
+      curve.ref = c + 1, curve.end1 = c + 1, curve.end2 = (c + 1) % 6 + 1;
+    }
+    for (const double size : {0.5, 0.1, 0.03}) {
+      SCOPED_TRACE(size);
+      Monitor monitor;
+      Session session(monitor);
+      session.set_cad(std::make_shared<AnalyticCad>(cad));
+      session.set_model(model);
+      session.parameters().set("hphydef", size);
+      session.parameters().set("hphymax", size);
+      session.parameters().set("eps_collapse", 3 * tiny);
+      session.make_mesh();
+      EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
+      const QualitySummary q = summarise_quality(session.exported());
+      EXPECT_NEAR(q.area, 1, 4 * tiny);
+      EXPECT_EQ(static_cast<long>(q.vertices) - static_cast<long>(q.edges) + static_cast<long>(q.triangles), 1);
+      EXPECT_GT(q.edge_min, 0.2 * size);  // no edge is tiny any more
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carreau
