@@ -33,65 +33,20 @@ void count_edges(MeasuredMesh& m) {
   }
 }
 
-using Point = std::array<double, 3>;
-Point minus(const Point& p, const Point& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-double dot(const Point& p, const Point& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+// Triangles above this are not asked for a cause: no bound that the sweep knows is higher.
+constexpr double flat_limit = 0.1;
 
-double q2_of(const Point& a, const Point& b, const Point& c) {
-  const Point u = minus(b, a), v = minus(c, a), w = minus(c, b);
-  const double area = std::sqrt(std::max(0.0, dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v))) / 2;
-  return 4 * std::sqrt(3.0) * area / (dot(u, u) + dot(v, v) + dot(w, w));
-}
-
-// A triangle at a corner whose two sides are edges of curves has the angle that the input has there; so have the flat
-// ones that follow it between the same curves.
-void find_free_worst(carreau_mesh* mesh, std::int64_t n, std::int64_t k, MeasuredMesh& m) {
+void explain(carreau_mesh* mesh, std::int64_t n, std::int64_t k, double size, MeasuredMesh& m) {
   std::vector<std::array<std::int32_t, 2>> edges(static_cast<std::size_t>(k));
   std::vector<std::int32_t> refs(static_cast<std::size_t>(n));
   if (k > 0) carreau_mesh_edges(mesh, k, edges.front().data());
   carreau_mesh_vertex_refs(mesh, n, refs.data());
   for (auto& edge : edges) std::sort(edge.begin(), edge.end());
   std::sort(edges.begin(), edges.end());
-  const auto on_curve = [&](std::int32_t a, std::int32_t b) {
-    return std::binary_search(edges.begin(), edges.end(), std::array{std::min(a, b), std::max(a, b)});
-  };
-  // Flat triangles by their edges: what is forced at a corner is forced further on between the same two curves.
-  struct Flat {
-    std::array<std::int32_t, 3> corners;
-    double q2;
-    bool forced;
-  };
-  std::vector<Flat> flat;
-  for (const auto& t : m.triangles) {
-    const double q2 = q2_of(m.vertices[static_cast<std::size_t>(t[0])], m.vertices[static_cast<std::size_t>(t[1])],
-                            m.vertices[static_cast<std::size_t>(t[2])]);
-    if (q2 >= 0.1) {
-      m.free_q2_min = std::min(m.free_q2_min, q2);
-      continue;
-    }
-    bool forced = false;
-    for (std::size_t i = 0; i < 3; ++i)
-      forced = forced || (refs[static_cast<std::size_t>(t[i])] > 0 && on_curve(t[i], t[(i + 1) % 3]) &&
-                          on_curve(t[i], t[(i + 2) % 3]));
-    flat.push_back({t, q2, forced});
-  }
-  const auto shared = [](const Flat& p, const Flat& q) {
-    return std::count_if(p.corners.begin(), p.corners.end(), [&](std::int32_t v) {
-             return std::find(q.corners.begin(), q.corners.end(), v) != q.corners.end();
-           }) == 2;
-  };
-  const auto has_curve_edge = [&](const Flat& f) {
-    return on_curve(f.corners[0], f.corners[1]) || on_curve(f.corners[1], f.corners[2]) ||
-           on_curve(f.corners[2], f.corners[0]);
-  };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (Flat& f : flat)
-      for (const Flat& g : flat)
-        if (!f.forced && g.forced && shared(f, g) && has_curve_edge(f)) f.forced = changed = true;
-  }
-  for (const Flat& f : flat)
-    if (!f.forced) m.free_q2_min = std::min(m.free_q2_min, f.q2);
+  m.flat = explain_flat_triangles({m.vertices, m.triangles, refs, edges, size}, flat_limit);
+  m.free_q2_min = m.flat.empty() ? m.quality.q2_min : flat_limit;
+  for (const FlatTriangle& f : m.flat)
+    if (f.cause == FlatCause::none) m.free_q2_min = std::min(m.free_q2_min, f.q2);
 }
 
 void measure_volume(MeasuredMesh& m) {
@@ -115,7 +70,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-void fetch(carreau_session* session, MeasuredMesh& m) {
+void fetch(carreau_session* session, double size, MeasuredMesh& m) {
   carreau_mesh* mesh = nullptr;
   if (carreau_session_mesh(session, &mesh) != CARREAU_OK) return;
   std::int64_t n = 0, t = 0, k = 0, f = 0, count = 0;
@@ -139,7 +94,7 @@ void fetch(carreau_session* session, MeasuredMesh& m) {
   m.defects = lines_of(text);
   count_edges(m);
   measure_volume(m);
-  find_free_worst(mesh, n, k, m);
+  explain(mesh, n, k, size, m);
   carreau_report report{};
   report.struct_size = sizeof report;
   if (carreau_session_report(session, &report) != CARREAU_OK) return;
@@ -197,7 +152,7 @@ MeasuredMesh mesh_and_measure(carreau_occ::BrepHost& host, double size,
   if (m.status != CARREAU_OK && m.status != CARREAU_ERR_PARTIAL)
     m.error = carreau_last_error(raw);
   else
-    fetch(raw, m);
+    fetch(raw, size, m);
   return m;
 }
 

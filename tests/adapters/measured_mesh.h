@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "flat_triangles.h"
+
 namespace adapters {
 
 struct MeasuredMesh {
@@ -24,8 +26,8 @@ struct MeasuredMesh {
   std::int64_t crowded_edges = 0;  ///< with more than two
   std::int64_t turned_edges = 0;   ///< of two triangles that run along it the same way
   carreau_quality quality{};
-  /// Worst Q2 of the triangles whose shape the input does not force: those that do not lie between two curves that meet
-  /// at a corner under the angle of the triangle.
+  std::vector<FlatTriangle> flat;  ///< of Q2 below 0.1, with what in the input forces them
+  /// Worst Q2 of the triangles that nothing in the input forces; 0.1 when all that are below are forced.
   double free_q2_min = 1;
   double volume = 0;  ///< enclosed, by the divergence theorem
   std::vector<carreau_interface> interfaces;

@@ -25,7 +25,8 @@ struct Options {
 };
 
 struct Row {
-  int bad = 0, flat = 0, forced = 0;  // forced: only where curves of the input meet under a small angle
+  int bad = 0, flat = 0, forced = 0;  // forced: only where the input has a feature that is as flat
+  std::array<std::int64_t, adapters::flat_causes> causes{};  // triangles of Q2 below worst_q2, of all sizes
   double worst = 1, worst_divisor = 0, seconds = 0;
   std::int64_t triangles = 0;
   std::vector<std::pair<double, double>> volume_error;  // size, relative error
@@ -69,6 +70,8 @@ Row sweep(const std::string& name, const carreau_occ::ShapeFile& file, const Opt
       ++row.flat;
       if (options.verbose) std::printf("  %s, diag/%.4g: worst Q2 %.4f\n", name.c_str(), divisor, worst);
     }
+    for (const adapters::FlatTriangle& f : m.flat)
+      if (f.q2 < options.worst_q2) ++row.causes[static_cast<std::size_t>(f.cause)];
     if (worst < row.worst) row.worst = worst, row.worst_divisor = divisor;
     if (closed && trouble.empty()) row.volume_error.emplace_back(diagonal / divisor, m.volume / properties.Mass() - 1);
     row.seconds += m.seconds;
@@ -82,9 +85,11 @@ bool run(const std::string& name, const carreau_occ::ShapeFile& file, const Opti
   const Row row = sweep(name, file, options);
   const std::size_t slash = name.find_last_of('/');
   std::printf(
-      "%-34s %3d of %3d bad, %3d with Q2 < %.2g (and %d forced by angles of the input); worst Q2 %.4f at diag/%-5.4g",
-      name.substr(slash + 1).c_str(), row.bad, options.sizes, row.flat, options.worst_q2, row.forced, row.worst,
-      row.worst_divisor);
+      "%-34s %3d of %3d bad, %3d with Q2 < %.2g (and %d forced by the input: triangles by angles %lld, short curves "
+      "%lld, narrow faces %lld); worst Q2 %.4f at diag/%-5.4g",
+      name.substr(slash + 1).c_str(), row.bad, options.sizes, row.flat, options.worst_q2, row.forced,
+      static_cast<long long>(row.causes[1]), static_cast<long long>(row.causes[2]),
+      static_cast<long long>(row.causes[3]), row.worst, row.worst_divisor);
   if (!row.volume_error.empty())
     std::printf(" volume error %9.2e, order %.2f;", row.volume_error.back().second, order_of(row.volume_error));
   std::printf(" %9lld triangles in %.2f s\n", static_cast<long long>(row.triangles), row.seconds);
