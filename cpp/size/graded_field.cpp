@@ -47,7 +47,39 @@ Vec3 step_on_surface(Vec3 normal, Vec3 chord) noexcept {
   return (length * (1 + sine * sine / 6) / l) * flat;
 }
 
-GradedField::GradedField(double slope, std::vector<GradedFace> faces) : slope_(slope), faces_(std::move(faces)) {}
+namespace {
+
+/// Fills GradedFace::beyond.
+void find_beyond(GradedFace& face) {
+  struct Side {
+    std::array<std::int32_t, 2> key;
+    std::int32_t triangle;
+    int side;
+  };
+  std::vector<Side> sides;
+  sides.reserve(3 * face.triangles.size());
+  for (std::size_t t = 0; t < face.triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = face.triangles[t][i], b = face.triangles[t][(i + 1) % 3];
+      sides.push_back({{std::min(a, b), std::max(a, b)}, static_cast<std::int32_t>(t), i});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
+  face.beyond.assign(face.triangles.size(), {-1, -1, -1});
+  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+    const Side &p = sides[k], &q = sides[k + 1];
+    if (p.key != q.key) continue;
+    face.beyond[p.triangle][p.side] = face.triangles[q.triangle][(q.side + 2) % 3];
+    face.beyond[q.triangle][q.side] = face.triangles[p.triangle][(p.side + 2) % 3];
+  }
+}
+
+}  // namespace
+
+GradedField::GradedField(double slope, std::vector<GradedFace> faces) : slope_(slope), faces_(std::move(faces)) {
+  for (GradedFace& face : faces_)
+    if (!face.front.empty()) find_beyond(face);
+}
 
 double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept {
   if (static_cast<std::size_t>(face) >= faces_.size()) return prescribed;
@@ -65,6 +97,11 @@ double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const n
     h = std::min(h, f.front[v].source_h + slope_ * norm(f.front[v].line + way[i]));
     linear += place.weight[i] * f.h[v];
   }
+  // A front that has come to a corner across a side is seen from here too, or sizes would jump on that side.
+  for (const std::int32_t v : f.beyond[place.triangle])
+    if (v >= 0)
+      h = std::min(h,
+                   f.front[v].source_h + slope_ * norm(f.front[v].line + step_on_surface(f.normal[v], xyz - f.xyz[v])));
   bool wave = true;
   for (int i = 0; i < 3; ++i) {
     const std::int32_t a = t[i], b = t[i == 2 ? 0 : i + 1];

@@ -30,6 +30,8 @@ struct GradedFace {
   std::vector<std::uint8_t> smooth;
   std::vector<Vec2> tips;  ///< vertices whose size is smaller than all around allow: points that control spaces miss
   TriangleTree tree;
+  /// By triangle: the third corners of those across its sides, in their order; -1: none. Filled by GradedField.
+  std::vector<std::array<std::int32_t, 3>> beyond;
 };
 
 /// From `origin`, where the unit normal is given, to a point nearby: in the tangent plane and as long as the arc.

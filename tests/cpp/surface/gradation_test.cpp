@@ -285,10 +285,10 @@ TEST(GradedModel, NearlyEveryEdgeObeysWherePrescribedSizesAreRough) {
     double over = 0;
     AnalyticCad cad = band();
     steepest_in_control_spaces(cad, host_sizes(beta), &over);
-    EXPECT_LE(over, 0.004) << beta;
+    EXPECT_LE(over, 0.0015) << beta;
     cad = testing::teapot();
     steepest_in_control_spaces(cad, curvature(beta), &over);
-    EXPECT_LE(over, 0.002) << beta;
+    EXPECT_LE(over, 0.0008) << beta;
   }
 }
 
