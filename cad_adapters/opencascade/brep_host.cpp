@@ -250,6 +250,22 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
   }
 }
 
+double diagonal_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  try {
+    BRepBndLib::AddOptimal(shape, box, Standard_False, Standard_False);
+  } catch (const Standard_Failure&) {  // a face cannot be evaluated: the others count
+    box.SetVoid();
+    for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) try {
+        Bnd_Box of_face;
+        BRepBndLib::AddOptimal(f.Current(), of_face, Standard_False, Standard_False);
+        box.Add(of_face);
+      } catch (const Standard_Failure&) {
+      }
+  }
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+}
+
 BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
   state_->shape = file.shape;
   try {
@@ -331,11 +347,7 @@ bool BrepHost::locate(int face, double u, double v, double* xyz, double* uv) con
   return State::surface_batch(face, 1, given, 0, xyz, nullptr, nullptr, nullptr, nullptr, nullptr, state_.get()) == 0;
 }
 
-double BrepHost::diagonal() const {
-  Bnd_Box box;
-  BRepBndLib::AddOptimal(state_->shape, box, Standard_False, Standard_False);
-  return std::sqrt(box.SquareExtent());
-}
+double BrepHost::diagonal() const { return diagonal_of(state_->shape); }
 
 double BrepHost::glue_tolerance() const try {
   double tolerance = 0, shortest = std::numeric_limits<double>::infinity();

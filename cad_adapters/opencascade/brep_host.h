@@ -12,6 +12,9 @@
 
 namespace carreau_occ {
 
+/// Diagonal of the box of a shape; of the faces that OpenCASCADE can evaluate when it fails on some. 0: of none.
+double diagonal_of(const TopoDS_Shape& shape);
+
 /// Faces, edges and vertices of a shape, numbered from 1 as OpenCASCADE's maps of the shape number them: those numbers
 /// are the references of faces, curves and points. A face that is reversed gets u and v exchanged, so that triangles,
 /// which are counterclockwise in (u, v), look outwards of a solid. Callbacks may come from several threads at a time.

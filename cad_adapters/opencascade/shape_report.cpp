@@ -2,11 +2,9 @@
 
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepBndLib.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
-#include <Bnd_Box.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
@@ -61,9 +59,7 @@ class Inspector {
   Inspector(const ShapeFile& file, double tiny) : shape_(file.shape) {
     TopExp::MapShapes(shape_, TopAbs_FACE, faces_);
     TopExp::MapShapes(shape_, TopAbs_EDGE, edges_);
-    Bnd_Box box;
-    BRepBndLib::Add(shape_, box, Standard_False);
-    report_.diagonal = box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+    report_.diagonal = diagonal_of(shape_);
     limit_ = tiny * report_.diagonal;
   }
 

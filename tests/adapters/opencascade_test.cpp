@@ -5,13 +5,18 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
+#include <Geom_CylindricalSurface.hxx>
+#include <Standard_NumericError.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
+#include <gp_Cylinder.hxx>
 
 #include "measured_mesh.h"
 #include "shape_report.h"
@@ -26,6 +31,26 @@ double volume_of(const TopoDS_Shape& shape) {
   BRepGProp::VolumeProperties(shape, properties, 1e-10);
   return properties.Mass();
 }
+
+/// A cylinder that OpenCASCADE cannot evaluate on one half of its turn.
+class FailingCylinder : public Geom_CylindricalSurface {
+ public:
+  explicit FailingCylinder(const gp_Cylinder& cylinder) : Geom_CylindricalSurface(cylinder) {}
+  void D0(double u, double v, gp_Pnt& p) const override { check(u), Geom_CylindricalSurface::D0(u, v, p); }
+  void D1(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv) const override {
+    check(u), Geom_CylindricalSurface::D1(u, v, p, su, sv);
+  }
+  void D2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const override {
+    check(u), Geom_CylindricalSurface::D2(u, v, p, su, sv, suu, svv, suv);
+  }
+  // Another type than Geom_CylindricalSurface: adaptors evaluate that one themselves.
+  DEFINE_STANDARD_RTTI_INLINE(FailingCylinder, Geom_CylindricalSurface)
+
+ private:
+  static void check(double u) {
+    if (u > 3) throw Standard_NumericError("on purpose");
+  }
+};
 
 class Torture : public testing::TestWithParam<std::string> {};
 
@@ -80,6 +105,48 @@ TEST(BrepHost, ThreadsDoNotChangeTheMesh) {
       EXPECT_EQ(m.triangles, one.triangles);
       EXPECT_EQ(m.surface_calls, one.surface_calls);
     }
+  }
+}
+
+TEST(BrepHost, ExceptionsOfOpenCascadeNameTheFace) {
+  for (const int threads : {1, 2}) {
+    const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(1, 2).Shape();
+    const TopoDS_Face round = TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current());
+    const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(BRep_Tool::Surface(round));
+    ASSERT_FALSE(cylinder.IsNull());
+    // Images of edges belong to a surface: the new one gets those of the old one.
+    struct Image {
+      TopoDS_Edge edge;
+      Handle(Geom2d_Curve) forward, reversed;
+    };
+    std::vector<Image> images;
+    double a = 0, b = 0;
+    for (TopExp_Explorer e(round.Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(e.Current().Oriented(TopAbs_FORWARD));
+      images.push_back({edge, BRep_Tool::CurveOnSurface(edge, round, a, b),
+                        BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), round, a, b)});
+    }
+    const BRep_Builder builder;
+    builder.UpdateFace(round, new FailingCylinder(cylinder->Cylinder()), {}, 1e-7);
+    for (const Image& image : images)
+      if (image.forward == image.reversed)
+        builder.UpdateEdge(image.edge, image.forward, round, 1e-7);
+      else
+        builder.UpdateEdge(image.edge, image.forward, image.reversed, round, 1e-7);
+    carreau_occ::BrepHost host(file_of(solid));
+    const auto run = [&] {
+      return adapters::mesh_and_measure(host, 0.2,
+                                        [&](carreau_session* s) { carreau_set_integer(s, "threads", threads); });
+    };
+    const adapters::MeasuredMesh failed = run();
+    EXPECT_EQ(failed.status, CARREAU_ERR_CALLBACK);
+    EXPECT_NE(failed.error.find("face 1"), std::string::npos) << failed.error;
+    EXPECT_NE(host.failure(1).find("Standard_NumericError: on purpose"), std::string::npos) << host.failure(1);
+    EXPECT_EQ(host.failure(2), "");
+    host.exclude(1, host.failure(1));
+    const adapters::MeasuredMesh others = run();
+    EXPECT_EQ(others.trouble(false), "");
+    EXPECT_NEAR(others.quality.area, 2 * std::acos(-1.0), 0.05);  // the two lids
   }
 }
 
