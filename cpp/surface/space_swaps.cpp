@@ -13,6 +13,9 @@ namespace {
 constexpr double good_quality = 0.6;
 // A swap must gain this much, so that no pair of swaps undoes each other for ever.
 constexpr double least_gain = 1e-6;
+// Cosine of the angle to the nearer of the two old triangles that a new one must keep: across a tube or around an apex
+// of three edges the best shape is the cross-section.
+constexpr double least_agreement = 0.7;
 // A fan of n triangles in a narrow wedge is undone in n passes; nearly all patches need two or three.
 constexpr int most_passes = 100;
 
@@ -54,6 +57,18 @@ class Swapper {
   [[nodiscard]] double length(int a, int b) const { return norm(xyz_[a] - xyz_[b]); }
   [[nodiscard]] bool positive(const Triangle& t) const {
     return orientation(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]) > 0;
+  }
+
+  [[nodiscard]] Vec3 normal(const Triangle& t) const {
+    const Vec3 n = cross(xyz_[t[1]] - xyz_[t[0]], xyz_[t[2]] - xyz_[t[0]]);
+    const double l = norm(n);
+    return l > 0 ? (1 / l) * n : Vec3{};
+  }
+  // Triangles without area agree with all.
+  [[nodiscard]] bool leaves(const Triangle& t, const Triangle& old, const Triangle& other) const {
+    const Vec3 n = normal(t), p = normal(old), q = normal(other);
+    if (p == Vec3{} || q == Vec3{}) return false;
+    return std::max(dot(n, p), dot(n, q)) < least_agreement;
   }
 
   void collect_around(const std::vector<int>& bad) {
@@ -98,6 +113,7 @@ class Swapper {
       // In a narrow strip that winds, far vertices make triangles of a better shape that leave the surface.
       if (norm(xyz_[c] - xyz_[d]) > std::max({length(a, b), length(b, c), length(c, a), length(a, d), length(d, b)}))
         continue;
+      if (leaves(first, mesh_.triangles[t], other) || leaves(second, mesh_.triangles[t], other)) continue;
       const double before = std::min(quality(mesh_.triangles[t]), quality(other));
       const double gain = std::min(quality(first), quality(second)) - before;
       if (gain > best) best = gain, best_u = u, best_t = first, best_other = second;

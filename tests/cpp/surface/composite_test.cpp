@@ -217,6 +217,31 @@ TEST(Cone, HasAtLeastThreeTrianglesAtItsApex) {
   }
 }
 
+// Three edges around an apex make a cross-section of a better shape than the triangles beside it.
+TEST(Cone, IsNotCutAcross) {
+  constexpr double pi = std::numbers::pi;
+  for (double slope = 0.8; slope < 6; slope *= 1.09) {
+    AnalyticCad cad;  // u the angle, v from the apex
+    cad.faces[1] = {[slope](Vec2 p) {
+                      const double c = std::cos(p.x), s = std::sin(p.x), v = p.y;
+                      return SurfaceJet{{v * c, v * s, slope * v}, {-v * s, v * c, 0}, {c, s, slope},
+                                        {-v * c, -v * s, 0},       {-s, c, 0},         {0, 0, 0}};
+                    },
+                    testing::rectangle({0, 0}, {2 * pi, 1})};
+    for (const double size : {0.4, 0.1, 0.04}) {
+      SCOPED_TRACE(::testing::Message() << "slope " << slope << ", size " << size);
+      const MeshedCase run(cad, size);
+      EXPECT_GE(run.quality.q2.min, 0.2);
+      for (const auto& t : run.mesh.triangles) {
+        const Vec3 a = run.mesh.vertices[t[0]], b = run.mesh.vertices[t[1]], c = run.mesh.vertices[t[2]];
+        const Vec3 middle = (1.0 / 3) * (a + b + c), n = cross(b - a, c - a);
+        // Outwards: the surface's normal is (slope cos u, slope sin u, -1).
+        EXPECT_GT(slope * (n.x * middle.x + n.y * middle.y) - n.z * std::hypot(middle.x, middle.y), 0);
+      }
+    }
+  }
+}
+
 TEST(VertexSizes, AreThePrescribedOneWhenItIsConstant) {
   const MeshedCase bowl(testing::paraboloid(), 0.3), teapot(testing::teapot(), 0.4);
   for (const double h : bowl.session->vertex_sizes()) EXPECT_EQ(h, 0.3);
