@@ -11,6 +11,8 @@ namespace {
 
 // Within this squared distance the metric of the new point speaks for the others.
 constexpr double near2 = 9;
+// A chart errs by the cube of the distance.
+constexpr double near_in_chart2 = 9;
 // Nearly cocircular points are left as they are: rounding must not dig.
 constexpr double cocircular = 1e-12;
 
@@ -27,8 +29,9 @@ inline double squared(Metric2 m, double x, double y) noexcept { return (m.a * x 
 
 }  // namespace
 
-bool Triangulation::too_near(Vec2 p, int v, double d2, const InsertRules& rules) const noexcept {
+bool Triangulation::too_near(Vec2 p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept {
   if (std::find(rules.exempt.begin(), rules.exempt.end(), v) != rules.exempt.end()) return false;
+  if (in_chart) return true;
   const Vertex& w = vertices[v];
   // Both ends must agree: a metric that varies would refuse on one side what it wants on the other.
   return 0.5 * (d2 + squared(w.metric(), w.x - p.x, w.y - p.y)) < rules.distance2;
@@ -43,25 +46,35 @@ bool Triangulation::in_far_circle(Metric2 metric, const RimPoint& a, const RimPo
   return dot(m, pa, pb) * (sum - area) + dot(m, pa - pd, pb - pd) * area < 0;
 }
 
+// The circle through p, a, b and d in the chart of p.
+bool Triangulation::in_circle_of_chart(std::int32_t a, std::int32_t b, std::int32_t d) const noexcept {
+  const Vec2 A = charted_[a], B = charted_[b], D = charted_[d];
+  const double ab = cross(A, B), d2 = points_[d].d2;
+  return points_[a].d2 * cross(D, B) + points_[b].d2 * cross(A, D) - d2 * ab > cocircular * d2 * std::abs(ab);
+}
+
 void Triangulation::reserve_cavity(std::size_t triangles_in) {
   if (points_.size() >= triangles_in + 8) return;
   const std::size_t n = 2 * triangles_in + 64;
   cavity_.resize(n);
   points_.resize(n);
+  charted_.resize(n);
   rim_.resize(n);
   stack_.resize(n);
 }
 
 // alpha < 1 in RR-2928 eq. 5-8. Where all is near to p one metric stands for the product of four; farther away the mean
 // tensor of the four vertices does (README, "Differs").
-bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules) {
+bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart) {
   reserve_cavity(64);
   const Triangle& S = triangles[start];
   std::size_t cavity_size = 0, rim_size = 0, top = 0, point_count = 3;
   for (int i = 0; i < 3; ++i) {
     const Vertex& w = vertices[S.v[i]];
-    const double x = w.x - p.x, y = w.y - p.y, d2 = squared(metric, x, y);
-    if ((x == 0 && y == 0) || (d2 < rules.distance2 && too_near(p, S.v[i], d2, rules))) return false;
+    const double x = w.x - p.x, y = w.y - p.y;
+    if (chart != nullptr) charted_[i] = chart->at_offset({x, y});
+    const double d2 = chart != nullptr ? dot(charted_[i], charted_[i]) : squared(metric, x, y);
+    if ((x == 0 && y == 0) || (d2 < rules.distance2 && too_near(p, S.v[i], d2, rules, chart != nullptr))) return false;
     points_[i] = {x, y, d2, S.v[i]};
   }
   cavity_[cavity_size++] = start;
@@ -88,16 +101,24 @@ bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& ru
       RimPoint& D = points[point_count];
       D.x = w.x - p.x, D.y = w.y - p.y, D.v = N.v[i];
       D.d2 = squared(metric, D.x, D.y);
+      const auto d = static_cast<std::int32_t>(point_count);
+      if (chart != nullptr) {
+        charted_[d] = chart->at_offset({D.x, D.y});
+        D.d2 = dot(charted_[d], charted_[d]);
+      }
       double ad, db;
       int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
       if (left >= 0 && right >= 0) {
-        bool inside = A.d2 * db + B.d2 * ad - D.d2 * e.area > cocircular * D.d2 * e.area;
-        if (std::max({A.d2, B.d2, D.d2}) > near2) {
-          const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
-          if (D.d2 <= near2)
+        bool inside = chart != nullptr ? in_circle_of_chart(e.a, e.b, d)
+                                       : A.d2 * db + B.d2 * ad - D.d2 * e.area > cocircular * D.d2 * e.area;
+        const double near = chart != nullptr ? near_in_chart2 : near2;
+        if (std::max({A.d2, B.d2, D.d2}) > near) {
+          const bool near_a = A.d2 <= near, near_b = B.d2 <= near;
+          if (D.d2 <= near)
             inside = true;  // a sliver between what is near and what is far
           else if (near_a && near_b)
-            inside = inside && dot(metric, Vec2{A.x, A.y}, Vec2{B.x, B.y}) < 0;
+            inside = inside && (chart != nullptr ? dot(charted_[e.a], charted_[e.b])
+                                                 : dot(metric, Vec2{A.x, A.y}, Vec2{B.x, B.y})) < 0;
           else if (!near_a && !near_b)
             inside = in_far_circle(metric, A, B, D, ad + db, e.area);
         }
@@ -105,9 +126,9 @@ bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& ru
           if (left == 0) left = orientation(at(A.v), w.point(), p);
           if (right == 0) right = orientation(w.point(), at(B.v), p);
           if (left > 0 && right > 0) {
-            if (D.d2 < rules.distance2 && too_near(p, D.v, D.d2, rules)) return false;
+            if (D.d2 < rules.distance2 && too_near(p, D.v, D.d2, rules, chart != nullptr)) return false;
             cavity_[cavity_size++] = t;
-            const auto d = static_cast<std::int32_t>(point_count++);
+            ++point_count;
             const int ia = next3[i], ib = prev3[i];  // corner ia is b, corner ib is a
             const std::int32_t a = e.a;
             // Of the two new edges the second takes the place of e.

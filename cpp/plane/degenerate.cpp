@@ -138,7 +138,7 @@ void Filler::surround(DegenerateEdge& edge) {
     const Metric2 metric = field_.at(p);
     const double least = ring_distance * std::min(spacing, height);
     if (!mesh_.dig(p, metric, hint, {least * least, 0, 0, degenerate_ends_})) continue;
-    insert_at(p, metric);
+    insert_at(p, metric, Bend::none);
     fan.push_back(static_cast<std::int32_t>(mesh_.vertices.size()) - 1);
     hint = mesh_.vertices.back().triangle;
   }

@@ -18,12 +18,13 @@ constexpr double large_mesh = 10000;  // triangles
 
 Filler::Filler(Triangulation& mesh, const Field& field, std::int64_t max_triangles, Monitor& monitor)
     : mesh_(mesh),
+      shapes_(mesh, field),
       field_(field),
       max_triangles_(max_triangles),
       monitor_(monitor),
-      strain_limit_(field.measure() < large_mesh ? strain_limit_small : strain_limit_large),
-      looks_between_(field.measure() >= large_mesh) {
-  for (Vertex& v : mesh_.vertices) v.set_metric(field_.at(v.point()));
+      strain_limit_(field.measure() < large_mesh ? strain_limit_small : strain_limit_large) {
+  if (field.bends()) mesh_.bends.resize(mesh_.vertices.size());
+  for (int v = 0; v < static_cast<int>(mesh_.vertices.size()); ++v) shapes_.set_metric(v);
   const double expected = std::min(1.1 * std::max(field.measure(), 0.0) + static_cast<double>(mesh.triangles.size()),
                                    static_cast<double>(max_triangles));
   mesh_.triangles.reserve(static_cast<std::size_t>(expected) + 1000);
@@ -42,7 +43,7 @@ void Filler::check_limit() const {
 
 void Filler::judge(int t) {
   Triangle& T = mesh_.triangles[t];
-  if (T.done != Done::frozen) T.done = mesh_.squared_radius(t) < done_radius * done_radius ? Done::yes : Done::no;
+  if (T.done != Done::frozen) T.done = shapes_.squared_radius(t) < done_radius * done_radius ? Done::yes : Done::no;
 }
 
 bool Filler::near_degenerate_edge(Vec2 p, Metric2 metric) const {
@@ -61,19 +62,28 @@ bool Filler::try_insert(Vec2 p, int start, double distance, double height) {
   const Metric2 metric = field_.at(p);
   if (near_degenerate_edge(p, metric)) return false;
   const InsertRules rules{distance * distance, height, degenerate_height, degenerate_ends_};
-  if (!mesh_.dig(p, metric, start, rules)) return false;
-  insert_at(p, metric);
+  Bend bend = Bend::none;
+  if (field_.bends()) {
+    const MetricSlopes slopes = field_.slopes(p);
+    const Chart chart(p, slopes);
+    bend = field_.bend(slopes, chart);
+    if (!mesh_.dig(p, metric, start, rules, bend == Bend::smooth ? &chart : nullptr)) return false;
+  } else if (!mesh_.dig(p, metric, start, rules)) {
+    return false;
+  }
+  insert_at(p, metric, bend);
   return true;
 }
 
 // Fills the cavity and judges the new triangles by their circumradius: in the metric of the point, whose lengths are at
-// hand, and, if small enough, in the mean of their vertices, or in that of the middle.
-void Filler::insert_at(Vec2 p, Metric2 metric) {
+// hand, and, if small enough, in the mean of their vertices; in charts where the field bends.
+void Filler::insert_at(Vec2 p, Metric2 metric, Bend bend) {
   constexpr double r2 = done_radius * done_radius;
   const auto v = static_cast<int>(mesh_.vertices.size());
   mesh_.vertices.emplace_back();
   mesh_.vertices.back().x = p.x, mesh_.vertices.back().y = p.y;
   mesh_.vertices.back().set_metric(metric);
+  if (field_.bends()) mesh_.bends.push_back(bend);
   mesh_.fill(v);
   check_limit();
   const double four_det = 4 * determinant(metric);
@@ -88,11 +98,13 @@ void Filler::insert_at(Vec2 p, Metric2 metric) {
     const RimPoint &A = mesh_.rim_point(e.a), &B = mesh_.rim_point(e.b);
     touched_.push_back(star[i]);
     if (std::max(A.d2, B.d2) > 4 * r2) continue;
+    if (mesh_.is_bent(v, A.v, B.v)) {
+      judge(star[i]);
+      continue;
+    }
     const Vec2 a{A.x, A.y}, b{B.x, B.y};
     if (!small(A.d2, B.d2, a, b, metric, four_det * e.area * e.area)) continue;
-    Metric2 m = (1.0 / 3) * (metric + V[A.v].metric() + V[B.v].metric());
-    if (looks_between_ && (turns_much(metric, V[A.v].metric()) || turns_much(metric, V[B.v].metric())))
-      m = field_.at(p + (1.0 / 3) * (a + b));
+    const Metric2 m = (1.0 / 3) * (metric + V[A.v].metric() + V[B.v].metric());
     if (small(squared_length(m, a), squared_length(m, b), a, b, m, 4 * determinant(m) * e.area * e.area))
       mesh_.triangles[star[i]].done = Done::yes;
   }

@@ -6,6 +6,7 @@
 
 #include "plane/frame.h"
 #include "plane/plane_mesh.h"
+#include "plane/shapes.h"
 #include "plane/triangulation.h"
 #include "support/monitor.h"
 
@@ -22,10 +23,6 @@ class Filler {
   void march();
   /// Algebraic: points on edges longer than unity until there are none (RR-2928 sec. 2.2), then leftovers.
   void split_long_edges();
-  /// Share of the places of points so far where the metric turned much from a vertex to the next.
-  [[nodiscard]] double turning() const noexcept {
-    return apexes_ > 0 ? static_cast<double>(turning_apexes_) / static_cast<double>(apexes_) : 0;
-  }
   /// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::least_fan), imposed
   /// and frozen. Returns the number of vertices that must not move from now on: those imposed and those of the fans.
   int surround_degenerate_edges(const PlaneDomain& domain);
@@ -52,7 +49,7 @@ class Filler {
   // filler.cpp
   void judge(int t);
   bool try_insert(Vec2 p, int start, double distance, double height);
-  void insert_at(Vec2 p, Metric2 metric);
+  void insert_at(Vec2 p, Metric2 metric, Bend bend);
   [[nodiscard]] bool near_degenerate_edge(Vec2 p, Metric2 metric) const;
   [[nodiscard]] int start_of(const Candidate& candidate) const;
   void tick();
@@ -63,12 +60,13 @@ class Filler {
   void add_front_edge(HalfEdge he);
   void link_front();
   [[nodiscard]] std::int32_t next_around(const FrontEdge& edge) const;
-  [[nodiscard]] Candidate apex(const FrontEdge& edge);
+  [[nodiscard]] Candidate apex(const FrontEdge& edge) const;
+  [[nodiscard]] Candidate apex_in_charts(const FrontEdge& edge, Vec2 first) const;
   void chain_up();
   void insert_row();
 
   // respacing.cpp
-  [[nodiscard]] static double distance(const Candidate& p, const Candidate& q) noexcept;
+  [[nodiscard]] double distance(const Candidate& p, const Candidate& q) const;
   void respace(bool closed);
   void merge_and_extend(bool closed);
   void go_round_corner(const Candidate& before, const Candidate& after);
@@ -78,6 +76,9 @@ class Filler {
   [[nodiscard]] double distance_at_middle(Vec2 p, Vec2 q) const;
   void fill_leftovers(double radius, double distance);
   [[nodiscard]] Vec2 circumcentre(int t) const;
+  bool shorten(int t);
+  bool halve(int t);
+  bool fill_at(Vec2 p, int t, double distance);
 
   // degenerate.cpp
   struct Ring;
@@ -87,13 +88,13 @@ class Filler {
   bool freeze_fan(const DegenerateEdge& edge, const std::vector<std::int32_t>& fan);
 
   Triangulation& mesh_;
+  Shapes shapes_;
   const Field& field_;
   std::int64_t max_triangles_;
   Monitor& monitor_;
   std::vector<DegenerateEdge> degenerate_;
   std::vector<std::int32_t> degenerate_ends_;
   double strain_limit_;
-  bool looks_between_;  // where the metric turns much: small meshes cannot follow it anyway
   std::vector<FrontEdge> front_;
   std::vector<std::int32_t> leaving_;  // front edge by the vertex it leaves; -1 none, -2 several
   std::vector<std::int32_t> several_;  // front edges that leave such vertices
@@ -102,7 +103,6 @@ class Filler {
   std::vector<double> gaps_;
   std::vector<HalfEdge> long_edges_;
   long work_ = 0;
-  long apexes_ = 0, turning_apexes_ = 0;
 };
 
 }  // namespace carreau::plane

@@ -1,7 +1,9 @@
 // Coordinates of the size of one, whatever the host's: the mesher works in them.
 #pragma once
 
+#include "metric/chart.h"
 #include "metric/metric2.h"
+#include "plane/triangulation.h"
 #include "size/control_space.h"
 
 namespace carreau::plane {
@@ -14,6 +16,10 @@ struct Frame {
   [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x * unscale.x, p.y * unscale.y}; }
 };
 
+/// Bend of a chart from which on it takes the place of the tensor: a size that grows by a tenth, or directions that
+/// turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors.
+inline constexpr double least_bend = 0.4;
+
 /// The control space as seen from the frame.
 class Field {
  public:
@@ -22,12 +28,28 @@ class Field {
         unscale_(frame.unscale),
         aa_(unscale_.x * unscale_.x),
         ab_(unscale_.x * unscale_.y),
-        bb_(unscale_.y * unscale_.y) {}
+        bb_(unscale_.y * unscale_.y),
+        bends_(space.largest_bend() > least_bend) {}
 
   [[nodiscard]] Metric2 at(Vec2 p) const noexcept {
     const Metric2 m = space_.at({p.x * unscale_.x, p.y * unscale_.y});
     return {m.a * aa_, m.b * ab_, m.c * bb_};
   }
+  [[nodiscard]] MetricSlopes slopes(Vec2 p) const noexcept {
+    const MetricSlopes s = space_.slopes_at({p.x * unscale_.x, p.y * unscale_.y});
+    const auto inward = [&](Metric2 m, double k) { return Metric2{k * aa_ * m.a, k * ab_ * m.b, k * bb_ * m.c}; };
+    return {inward(s.metric, 1), inward(s.by_u, unscale_.x), inward(s.by_v, unscale_.y)};
+  }
+  /// `curved` false: of the tensor alone.
+  [[nodiscard]] Chart chart(Vec2 p, bool curved = true) const noexcept {
+    if (curved) return {p, slopes(p)};
+    constexpr Metric2 none{0, 0, 0};
+    return {p, {at(p), none, none}};
+  }
+  /// Whether there may be places where it bends.
+  [[nodiscard]] bool bends() const noexcept { return bends_; }
+  /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).
+  [[nodiscard]] Bend bend(const MetricSlopes& slopes, const Chart& chart) const noexcept;
   /// Expected number of triangles.
   [[nodiscard]] double measure() const noexcept { return space_.measure(); }
 
@@ -35,6 +57,7 @@ class Field {
   const ControlSpace& space_;
   Vec2 unscale_;
   double aa_, ab_, bb_;
+  bool bends_;
 };
 
 }  // namespace carreau::plane

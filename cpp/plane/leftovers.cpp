@@ -11,6 +11,9 @@ namespace carreau::plane {
 namespace {
 
 constexpr int attempts = 4;
+// Of points on edges that join what is far apart: crowded ones are removed in the end, but edges that cannot be swapped
+// would stay.
+constexpr double crowded_distance = 0.25;
 constexpr int most_pieces = 4096;  // of one edge in one pass; the next passes see to the rest
 
 }  // namespace
@@ -19,11 +22,50 @@ double Filler::distance_at_middle(Vec2 p, Vec2 q) const { return length(field_.a
 
 Vec2 Filler::circumcentre(int t) const {
   const Triangle& T = mesh_.triangles[t];
+  const auto from_corner = [](Metric2 m, Vec2 u, Vec2 v) {
+    const double uu = dot(m, u, u), vv = dot(m, v, v), uv = dot(m, u, v), det = 2 * (uu * vv - uv * uv);
+    return (vv * (uu - uv) / det) * u + (uu * (vv - uv) / det) * v;
+  };
   const Vertex &A = mesh_.vertices[T.v[0]], &B = mesh_.vertices[T.v[1]], &C = mesh_.vertices[T.v[2]];
+  if (shapes_.is_bent(T)) {
+    const ChartedTriangle y = shapes_.charted(T);
+    const Vec2 middle = (1.0 / 3) * (A.point() + B.point() + C.point());
+    return y.chart.point(y.a + from_corner({}, y.b - y.a, y.c - y.a), middle);
+  }
   const Metric2 m = (1.0 / 3) * (A.metric() + B.metric() + C.metric());
-  const Vec2 u = B.point() - A.point(), v = C.point() - A.point();
-  const double uu = dot(m, u, u), vv = dot(m, v, v), uv = dot(m, u, v), det = 2 * (uu * vv - uv * uv);
-  return A.point() + (vv * (uu - uv) / det) * u + (uu * (vv - uv) / det) * v;
+  return A.point() + from_corner(m, B.point() - A.point(), C.point() - A.point());
+}
+
+// Long edges of a bent triangle, which mean tensors or charts beyond their reach have joined, are swapped for shorter
+// ones.
+bool Filler::shorten(int t) {
+  constexpr double gain = 0.9;
+  const Triangle& T = mesh_.triangles[t];
+  if (!shapes_.is_bent(T)) return false;
+  for (int i = 0; i < 3; ++i) {
+    const double l2 = shapes_.squared_length(T.v[next3[i]], T.v[prev3[i]]);
+    if (l2 <= longest_bent2 || !mesh_.can_swap(t, i)) continue;
+    const HalfEdge o = T.n[i];
+    if (shapes_.squared_length(T.v[i], mesh_.triangles[o >> 2].v[o & 3]) > gain * gain * l2) continue;
+    mesh_.swap_edge(t, i);
+    return true;
+  }
+  return false;
+}
+
+// A point on the longest edge of a bent triangle, if that is long.
+bool Filler::halve(int t) {
+  const Triangle& T = mesh_.triangles[t];
+  if (!shapes_.is_bent(T)) return false;
+  const Lengths l = shapes_.lengths(T.v[0], T.v[1], T.v[2]);
+  const int i = l.a >= l.b && l.a >= l.c ? 0 : l.b >= l.c ? 1 : 2;
+  if (std::max({l.a, l.b, l.c}) <= longest_bent2) return false;
+  return fill_at(0.5 * (mesh_.at(T.v[next3[i]]) + mesh_.at(T.v[prev3[i]])), t, crowded_distance);
+}
+
+bool Filler::fill_at(Vec2 p, int t, double distance) {
+  const int start = is_finite(p) ? mesh_.locate(p, t) : -1;
+  return start >= 0 && try_insert(p, start, distance, imposed_height);
 }
 
 void Filler::fill_leftovers(double radius, double distance) {
@@ -31,11 +73,8 @@ void Filler::fill_leftovers(double radius, double distance) {
   for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
     tick();
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      if (mesh_.triangles[t].done == Done::frozen || !(mesh_.squared_radius(t) > radius2)) break;
-      const Vec2 centre = circumcentre(t);
-      if (!is_finite(centre)) break;
-      const int start = mesh_.locate(centre, t);
-      if (start < 0 || !try_insert(centre, start, distance, imposed_height)) break;
+      if (mesh_.triangles[t].done == Done::frozen || !(shapes_.squared_radius(t) > radius2)) break;
+      if (!shorten(t) && !fill_at(circumcentre(t), t, distance) && !halve(t)) break;
     }
   }
   touched_.clear();

@@ -2,8 +2,8 @@
 
 namespace carreau::plane {
 
-Optimiser::Optimiser(Triangulation& mesh, int fixed, const Field& field, bool turning, Monitor& monitor)
-    : mesh_(mesh), fixed_(fixed), field_(field), turning_(turning), monitor_(monitor) {}
+Optimiser::Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor)
+    : mesh_(mesh), shapes_(mesh, field), fixed_(fixed), field_(field), monitor_(monitor) {}
 
 void Optimiser::run() {
   swap_to_delaunay();

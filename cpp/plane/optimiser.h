@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plane/frame.h"
+#include "plane/shapes.h"
 #include "plane/triangulation.h"
 #include "support/monitor.h"
 
@@ -14,8 +15,7 @@ namespace carreau::plane {
 /// removed triangles without vertices (-1) and removed vertices without a triangle.
 class Optimiser {
  public:
-  /// `turning`: there are many places where the metric turns much from a vertex to the next.
-  Optimiser(Triangulation& mesh, int fixed, const Field& field, bool turning, Monitor& monitor);
+  Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
   void run();
 
  private:
@@ -24,6 +24,7 @@ class Optimiser {
   void prefetch_beyond(std::size_t k) const;
   void swap_to_delaunay();
   [[nodiscard]] bool wants_swap(int t, int i) const;
+  [[nodiscard]] bool wants_bent_swap(int a, int b, int c, int d) const;
   void swap_to_degree_six();
   void count_degrees();
 
@@ -32,6 +33,7 @@ class Optimiser {
   void sweep(double relaxation);
   void update_metrics();
   void propose();
+  void propose_in_chart(const Triangle& T);
   void undo_spoiling_moves();
   [[nodiscard]] bool sound(const Triangle& T) const;
 
@@ -49,9 +51,9 @@ class Optimiser {
   [[nodiscard]] double shape(int p, int q, int r) const;
 
   Triangulation& mesh_;
+  Shapes shapes_;
   int fixed_;
   const Field& field_;
-  bool turning_;
   Monitor& monitor_;
   struct Proposal {
     double x = 0, y = 0;

@@ -10,9 +10,6 @@ namespace carreau {
 
 namespace {
 
-// Share of the points placed where the metric turned much that makes the optimiser look out for it.
-constexpr double much_turning = 0.5;
-
 // The imposed vertices get the host's own numbers back: the frame's are equal, but for the smallest.
 PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangulation, const plane::Frame& frame) {
   PlaneMesh mesh;
@@ -44,7 +41,6 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
   plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
   const plane::Field field(metric, boundary.frame);
   int fixed = 0;
-  bool turning = false;
   {
     plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);
     fixed = filler.surround_degenerate_edges(domain);
@@ -52,10 +48,9 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
       filler.march();
     else
       filler.split_long_edges();
-    turning = filler.turning() > much_turning;
   }
   boundary.mesh.renumber_if_large();
-  plane::Optimiser(boundary.mesh, fixed, field, turning, monitor).run();
+  plane::Optimiser(boundary.mesh, fixed, field, monitor).run();
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 

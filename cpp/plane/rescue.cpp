@@ -15,6 +15,8 @@ namespace {
 constexpr double bad_quality = 0.8;
 constexpr double suspect_quality = 0.85;  // in the mean metric of the vertices, which are at hand
 constexpr double refine_quality = 0.45;   // below, shape goes before size
+// Where the field bends, straight triangles have less area than their lengths say; half of it is well enough.
+constexpr double straight_weight = 2 * 2 * std::numbers::sqrt3;
 constexpr int rescue_passes = 6;
 constexpr double gain = 1e-3;
 // Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad
@@ -41,8 +43,12 @@ double Optimiser::shape(int p, int q, int r) const {
   if (orientation(P, Q, R) <= 0) return 0;
   const Metric2 m = field_.at((1.0 / 3) * (P + Q + R));
   const Vec2 u = Q - P, v = R - P;
-  return 2 * std::numbers::sqrt3 * cross(u, v) * std::sqrt(std::max(determinant(m), 0.0)) /
-         (squared_length(m, u) + squared_length(m, v) + squared_length(m, u - v));
+  const double area = cross(u, v) * std::sqrt(std::max(determinant(m), 0.0));
+  if (mesh_.is_bent(p, q, r)) {
+    const Lengths l = shapes_.lengths(p, q, r);
+    return std::min(l.quality(), straight_weight * area / (l.a + l.b + l.c));
+  }
+  return 2 * std::numbers::sqrt3 * area / (squared_length(m, u) + squared_length(m, v) + squared_length(m, u - v));
 }
 
 bool Optimiser::collect_star(int v) {
@@ -129,7 +135,7 @@ bool Optimiser::rescue_by_removal(int v, bool crowded) {
     for (int j = 1; j + 1 < n && least > best; ++j) {
       const int a = ring_[(k + j) % n], b = ring_[(k + j + 1) % n];
       least = std::min(least, shape(u, a, b));
-      if (j > 1 && mesh_.squared_length(u, a) > (crowded ? longest_crowded2 : longest_after_removal2)) least = 0;
+      if (j > 1 && shapes_.squared_length(u, a) > (crowded ? longest_crowded2 : longest_after_removal2)) least = 0;
     }
     if (least > best) best = least, into = k;
   }
@@ -194,11 +200,13 @@ bool Optimiser::rescue_by_insertion(int t) {
   }
   const auto v = static_cast<std::int32_t>(mesh_.vertices.size());
   mesh_.vertices.push_back({p.x, p.y});
-  mesh_.vertices.back().set_metric(field_.at(p));
+  if (!mesh_.bends.empty()) mesh_.bends.push_back(Bend::none);
+  shapes_.set_metric(v);
   for (const RimEdge& r : mesh_.rim())
     after = std::min(after, shape(v, mesh_.rim_point(r.a).v, mesh_.rim_point(r.b).v));
   if (after <= before + gain) {
     mesh_.vertices.pop_back();
+    if (!mesh_.bends.empty()) mesh_.bends.pop_back();
     return false;
   }
   mesh_.fill(v);
@@ -210,7 +218,7 @@ bool Optimiser::rescue_by_insertion(int t) {
 bool Optimiser::is_crowded(int t) const {
   const Triangle& T = mesh_.triangles[t];
   for (int i = 0; i < 3; ++i)
-    if (mesh_.squared_length(T.v[next3[i]], T.v[prev3[i]]) < crowded_length2 && !mesh_.is_imposed(t, i)) return true;
+    if (shapes_.squared_length(T.v[next3[i]], T.v[prev3[i]]) < crowded_length2 && !mesh_.is_imposed(t, i)) return true;
   return false;
 }
 
@@ -218,7 +226,7 @@ bool Optimiser::rescue(int t) {
   if (is_crowded(t)) {
     const Triangle& T = mesh_.triangles[t];
     for (int i = 0; i < 3; ++i) {
-      if (mesh_.squared_length(T.v[next3[i]], T.v[prev3[i]]) >= crowded_length2 || mesh_.is_imposed(t, i)) continue;
+      if (shapes_.squared_length(T.v[next3[i]], T.v[prev3[i]]) >= crowded_length2 || mesh_.is_imposed(t, i)) continue;
       for (const int v : {T.v[next3[i]], T.v[prev3[i]]})
         if (v >= fixed_ && rescue_by_removal(v, true)) return true;
     }
@@ -245,7 +253,7 @@ void Optimiser::rescue_worst() {
     const Triangle& T = mesh_.triangles[t];
     if (T.v[0] < 0 || T.done == Done::frozen) return false;
     return is_crowded(t) ||
-           (mesh_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality && shape(T.v[0], T.v[1], T.v[2]) < bad_quality);
+           (shapes_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality && shape(T.v[0], T.v[1], T.v[2]) < bad_quality);
   };
   work_.clear();
   for (std::int32_t t = 0; t < total; ++t) {

@@ -15,7 +15,8 @@ constexpr int strain_window = 5;
 
 }  // namespace
 
-double Filler::distance(const Candidate& p, const Candidate& q) noexcept {
+double Filler::distance(const Candidate& p, const Candidate& q) const {
+  if (mesh_.is_bent(p.a, q.a)) return distance_at_middle(p.p, q.p);
   return length(0.5 * (p.metric + q.metric), q.p - p.p);
 }
 

@@ -97,9 +97,8 @@ std::int32_t Filler::next_around(const FrontEdge& edge) const {
 }
 
 // Apex of the unit isosceles triangle on an edge, on the metric's normal, the metric being corrected once by that at
-// the apex; where it turns much, it is that halfway.
-Filler::Candidate Filler::apex(const FrontEdge& edge) {
-  ++apexes_;
+// the apex.
+Filler::Candidate Filler::apex(const FrontEdge& edge) const {
   const Vertex &A = mesh_.vertices[edge.a], &B = mesh_.vertices[edge.b];
   const double ex = B.x - A.x, ey = B.y - A.y;
   const Vec2 middle{0.5 * (A.x + B.x), 0.5 * (A.y + B.y)};
@@ -111,11 +110,22 @@ Filler::Candidate Filler::apex(const FrontEdge& edge) {
   };
   const Metric2 at_ends = 0.5 * (A.metric() + B.metric());
   const Metric2 at_apex = field_.at(place(at_ends));
-  if (!looks_between_ || (!turns_much(A.metric(), B.metric()) && !turns_much(at_ends, at_apex)))
-    return {place(0.5 * (at_ends + at_apex)), at_apex, edge.edge, edge.a};
-  ++turning_apexes_;
-  Vec2 top = place(field_.at(middle));
-  for (int k = 0; k < 2; ++k) top = place(field_.at(0.5 * (middle + top)));
+  if (mesh_.is_bent(edge.a, edge.b)) return apex_in_charts(edge, place(field_.at(middle)));
+  return {place(0.5 * (at_ends + at_apex)), at_apex, edge.edge, edge.a};
+}
+
+// Where the field bends, the triangle is isosceles in the chart about its own centroid, which is found in turns with
+// it.
+Filler::Candidate Filler::apex_in_charts(const FrontEdge& edge, Vec2 first) const {
+  constexpr int turns = 2;
+  const Vec2 a = mesh_.at(edge.a), b = mesh_.at(edge.b);
+  Vec2 top = first;
+  for (int k = 0; k < turns; ++k) {
+    const ChartedTriangle y(field_, a, b, top, !mesh_.is_kinked(edge.a, edge.b));
+    const Vec2 e = y.b - y.a;
+    const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, least_height2) / l2);
+    top = y.chart.point(0.5 * (y.a + y.b) + height * Vec2{-e.y, e.x}, top);
+  }
   return {top, field_.at(top), edge.edge, edge.a};
 }
 

@@ -21,7 +21,27 @@ constexpr int degree_passes = 2;
 
 }  // namespace
 
-// Opposite angles that sum to more than pi, in the mean metric of the four vertices, or in that of the middle.
+namespace {
+
+// Opposite angles, at c and d, that sum to more than pi: their sines are areas over lengths.
+bool sum_exceeds_pi(double dot_c, double area_c, double dot_d, double area_d) noexcept {
+  const double s = dot_c * area_d + dot_d * area_c, scale = std::abs(dot_c) * area_d + std::abs(dot_d) * area_c;
+  return s < -cocircular * scale;
+}
+
+}  // namespace
+
+// Cosines by the lengths of the edges. What is long is swapped if that makes it shorter: over more than about two units
+// straight lines say little.
+bool Optimiser::wants_bent_swap(int a, int b, int c, int d) const {
+  const double ab = shapes_.squared_length(a, b);
+  if (ab > longest_bent2) return shapes_.squared_length(c, d) < ab * (1 - cocircular);
+  const Lengths abc{shapes_.squared_length(b, c), shapes_.squared_length(c, a), ab},
+      abd{shapes_.squared_length(b, d), shapes_.squared_length(d, a), ab};
+  return sum_exceeds_pi(abc.a + abc.b - ab, std::sqrt(abc.area2()), abd.a + abd.b - ab, std::sqrt(abd.area2()));
+}
+
+// Delaunay in the mean metric of the four vertices, or by lengths where the field bends.
 bool Optimiser::wants_swap(int t, int i) const {
   const Triangle& A = mesh_.triangles[t];
   const HalfEdge o = A.n[i];
@@ -29,14 +49,12 @@ bool Optimiser::wants_swap(int t, int i) const {
   const Triangle& B = mesh_.triangles[o >> 2];
   const Vertex &c = mesh_.vertices[A.v[i]], &a = mesh_.vertices[A.v[next3[i]]], &b = mesh_.vertices[A.v[prev3[i]]],
                &d = mesh_.vertices[B.v[o & 3]];
-  Metric2 m = a.metric() + b.metric() + c.metric() + d.metric();
-  if (turning_ && (turns_much(a.metric(), b.metric()) || turns_much(c.metric(), d.metric())))
-    m = field_.at(0.25 * (a.point() + b.point() + c.point() + d.point()));
+  if (shapes_.is_bent(A) || shapes_.is_bent(B))
+    return wants_bent_swap(A.v[next3[i]], A.v[prev3[i]], A.v[i], B.v[o & 3]) && mesh_.can_swap(t, i);
+  const Metric2 m = a.metric() + b.metric() + c.metric() + d.metric();
   const Vec2 ca = a.point() - c.point(), cb = b.point() - c.point(), da = a.point() - d.point(),
              db = b.point() - d.point();
-  const double dot_c = dot(m, ca, cb), dot_d = dot(m, da, db), area_c = cross(ca, cb), area_d = cross(db, da);
-  const double s = dot_c * area_d + dot_d * area_c, scale = std::abs(dot_c) * area_d + std::abs(dot_d) * area_c;
-  return s < -cocircular * scale && mesh_.can_swap(t, i);
+  return sum_exceeds_pi(dot(m, ca, cb), cross(ca, cb), dot(m, da, db), cross(db, da)) && mesh_.can_swap(t, i);
 }
 
 // Half-edges of the triangles from `first` to before `end` whose neighbour has a larger number, without a branch that a
@@ -142,7 +160,7 @@ void Optimiser::swap_to_degree_six() {
         const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh_.triangles[o >> 2].v[o & 3];
         // The sum of squares of the excesses changes by 2 (ec + ed - ea - eb) + 4.
         if (excess(c) + excess(d) - excess(a) - excess(b) + 2 >= 0 || (A.imposed >> i & 1) != 0) continue;
-        if (mesh_.quality(c, a, d) <= swap_quality || mesh_.quality(c, d, b) <= swap_quality) continue;
+        if (shapes_.quality(c, a, d) <= swap_quality || shapes_.quality(c, d, b) <= swap_quality) continue;
         mesh_.swap_edge(t, i);
         --degree_[a], --degree_[b], ++degree_[c], ++degree_[d];
         any = true;

@@ -17,6 +17,19 @@ constexpr std::size_t prefetch_distance = 12;
 
 }  // namespace
 
+void Optimiser::propose_in_chart(const Triangle& T) {
+  const ChartedTriangle triangle = shapes_.charted(T);
+  const Vec2 y[3] = {triangle.a, triangle.b, triangle.c};
+  for (int i = 0; i < 3; ++i) {
+    const Vec2 from = y[next3[i]], to = y[prev3[i]], e = to - from;
+    const Vec2 top =
+        triangle.chart.point(0.5 * (from + to) + 0.5 * std::numbers::sqrt3 * Vec2{-e.y, e.x}, mesh_.at(T.v[i]));
+    Proposal& p = proposals_[T.v[i]];
+    p.x += top.x, p.y += top.y;
+    ++p.votes;
+  }
+}
+
 // Each triangle proposes to each of its vertices the place where it would be equilateral in its metric.
 void Optimiser::propose() {
   proposals_.assign(mesh_.vertices.size(), {});
@@ -29,9 +42,11 @@ void Optimiser::propose() {
         prefetch(&proposals_[v]);
       }
     const Vertex &P = mesh_.vertices[T.v[0]], &Q = mesh_.vertices[T.v[1]], &R = mesh_.vertices[T.v[2]];
-    Metric2 m = P.metric() + Q.metric() + R.metric();
-    if (turning_ && (turns_much(P.metric(), Q.metric()) || turns_much(P.metric(), R.metric())))
-      m = field_.at((1.0 / 3) * (P.point() + Q.point() + R.point()));
+    if (shapes_.is_bent(T)) {
+      propose_in_chart(T);
+      continue;
+    }
+    const Metric2 m = P.metric() + Q.metric() + R.metric();
     const double k = 0.5 * std::numbers::sqrt3 / std::sqrt(std::max(determinant(m), 1e-300));
     const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
       const double ex = to.x - from.x, ey = to.y - from.y;
@@ -48,6 +63,9 @@ void Optimiser::propose() {
 
 bool Optimiser::sound(const Triangle& T) const {
   const Vertex &A = mesh_.vertices[T.v[0]], &B = mesh_.vertices[T.v[1]], &C = mesh_.vertices[T.v[2]];
+  if (shapes_.is_bent(T))
+    return orientation(A.point(), B.point(), C.point()) > 0 &&
+           shapes_.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * least_area * least_area;
   const Metric2 m = A.metric() + B.metric() + C.metric();
   const double area = cross(B.point() - A.point(), C.point() - A.point());
   return area > 0 && area * area * determinant(m) > 9 * least_area * least_area &&
@@ -106,8 +124,7 @@ void Optimiser::sweep_all() {
 void Optimiser::update_metrics() {
   for (int v = fixed_; v < static_cast<int>(mesh_.vertices.size()); ++v) {
     if (v % triangles_between_checks == 0) monitor_.checkpoint();
-    Vertex& P = mesh_.vertices[v];
-    P.set_metric(field_.at(P.point()));
+    shapes_.set_metric(v);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "metric/chart.h"
 #include "metric/metric2.h"
 #include "support/vec.h"
 
@@ -23,16 +24,12 @@ struct Vertex {
   }
 };
 
-/// Whether the tensors of two neighbours differ by more than about twelve times the smaller eigenvalue of their mean:
-/// directions turn so fast that the mean is much too long in all of them, and the field itself must be asked in
-/// between.
-inline bool turns_much(Metric2 p, Metric2 q) noexcept {
-  const double a = p.a - q.a, b = p.b - q.b, c = p.c - q.c;
-  const Metric2 sum = p + q;
-  // det / trace is about the smaller eigenvalue of the sum.
-  const double trace = sum.a + sum.c, det = determinant(sum);
-  return (a * a + 2 * b * b + c * c) * trace * trace > 36 * det * det;
-}
+/// How the directions and shapes of the field change about a vertex.
+enum class Bend : std::uint8_t {
+  none,    ///< mean tensors of vertices do
+  smooth,  ///< a chart tells distances
+  kinked,  ///< the field must be asked halfway, neither will do
+};
 
 /// Half-edge i of triangle t lies opposite to its corner i and is written 4 t + i; -1: nothing beyond.
 using HalfEdge = std::int32_t;
@@ -95,6 +92,8 @@ class Triangulation {
  public:
   std::vector<Vertex> vertices;
   std::vector<Triangle> triangles;
+  /// By vertex. Empty: the field bends nowhere.
+  std::vector<Bend> bends;
 
   /// Triangle that contains p (on its border counts), walking from triangle `hint`; -1 when the walk leaves the
   /// triangulation or meets an imposed edge.
@@ -102,7 +101,8 @@ class Triangulation {
 
   /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.
   /// False: the point is refused by the rules, or lies on an imposed edge or a vertex.
-  bool dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules);
+  /// `chart`: that of p, where the field bends much.
+  bool dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart = nullptr);
   /// The triangles dug out, until they are filled.
   [[nodiscard]] std::span<const std::int32_t> cavity() const noexcept { return {cavity_.data(), cavity_size_}; }
   /// Fills the cavity with triangles around the vertex p; `star()` lists them, `rim()` their outer edges in the same
@@ -129,6 +129,15 @@ class Triangulation {
     const Triangle& T = triangles[t];
     return T.v[0] == v ? 0 : T.v[1] == v ? 1 : 2;
   }
+  [[nodiscard]] bool is_bent(int u, int v) const noexcept {
+    return !bends.empty() && (bends[u] != Bend::none || bends[v] != Bend::none);
+  }
+  [[nodiscard]] bool is_bent(int u, int v, int w) const noexcept {
+    return !bends.empty() && (bends[u] != Bend::none || bends[v] != Bend::none || bends[w] != Bend::none);
+  }
+  [[nodiscard]] bool is_kinked(int u, int v) const noexcept {
+    return !bends.empty() && (bends[u] == Bend::kinked || bends[v] == Bend::kinked);
+  }
   [[nodiscard]] bool is_imposed(int t, int i) const noexcept { return (triangles[t].imposed >> i & 1) != 0; }
   /// Marks the edge imposed in both its triangles.
   void impose(HalfEdge he, bool degenerate) noexcept;
@@ -140,14 +149,16 @@ class Triangulation {
   [[nodiscard]] double quality(int p, int q, int r) const noexcept;
 
  private:
-  [[nodiscard]] bool too_near(Vec2 p, int v, double d2, const InsertRules& rules) const noexcept;
+  [[nodiscard]] bool too_near(Vec2 p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept;
   [[nodiscard]] bool in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
                                    double area) const noexcept;
+  [[nodiscard]] bool in_circle_of_chart(std::int32_t a, std::int32_t b, std::int32_t d) const noexcept;
   void reserve_cavity(std::size_t triangles);
 
   // Scratch of dig(), used as plain arrays: their sizes are capacities.
   std::vector<std::int32_t> cavity_;
   std::vector<RimPoint> points_;
+  std::vector<Vec2> charted_;  // the same points in the chart of p, if there is one
   std::vector<RimEdge> rim_, stack_;
   std::size_t cavity_size_ = 0, rim_size_ = 0;
 };

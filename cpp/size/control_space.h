@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "metric/chart.h"
 #include "metric/metric2.h"
 #include "support/monitor.h"
 
@@ -50,12 +51,8 @@ class ControlSpace {
 
   /// Metric at (u, v). Points outside the box take the value of its nearest point.
   [[nodiscard]] Metric2 at(Vec2 uv) const noexcept {
-    const double x = within((uv.x - low_.x) * scale_.x, last_.x), y = within((uv.y - low_.y) * scale_.y, last_.y);
-    const int i = static_cast<int>(x), j = static_cast<int>(y);
-    std::int32_t cell = table_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)];
-    if (cell < 0) cell = descend(cell, x - i, y - j);
-    const Leaf& l = leaves_[static_cast<std::size_t>(cell)];
-    const double s = (x - l.x) * l.scale, t = (y - l.y) * l.scale;
+    const auto [leaf, s, t] = place(uv);
+    const Leaf& l = *leaf;
     // Columns of coefficients: powers of s; rows: powers of t.
     double root[3];
     for (int k = 0; k < 3; ++k)
@@ -64,6 +61,11 @@ class ControlSpace {
     return {unit_.a * (root[0] * root[0] + root[1] * root[1]), unit_.b * (root[1] * (root[0] + root[2])),
             unit_.c * (root[1] * root[1] + root[2] * root[2])};
   }
+
+  /// With its derivatives, which jump from a leaf to the next by as little as the tolerance allows.
+  [[nodiscard]] MetricSlopes slopes_at(Vec2 uv) const noexcept;
+  /// Largest bend of shapes (metric/chart.h) at the middle of a leaf.
+  [[nodiscard]] double largest_bend() const noexcept;
 
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
@@ -83,7 +85,20 @@ class ControlSpace {
     std::array<std::array<double, 3>, 9> c{{{1, 0, 1}}};
   };
 
+  [[nodiscard]] MetricSlopes slopes_in(const Leaf& leaf, double s, double t) const noexcept;
   static double within(double x, double last) noexcept { return x > 0 ? (x < last ? x : last) : 0; }
+  struct Place {
+    const Leaf* leaf;
+    double s, t;
+  };
+  [[nodiscard]] Place place(Vec2 uv) const noexcept {
+    const double x = within((uv.x - low_.x) * scale_.x, last_.x), y = within((uv.y - low_.y) * scale_.y, last_.y);
+    const int i = static_cast<int>(x), j = static_cast<int>(y);
+    std::int32_t cell = table_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)];
+    if (cell < 0) cell = descend(cell, x - i, y - j);
+    const Leaf& l = leaves_[static_cast<std::size_t>(cell)];
+    return {&l, (x - l.x) * l.scale, (y - l.y) * l.scale};
+  }
   [[nodiscard]] std::int32_t descend(std::int32_t cell, double fx, double fy) const noexcept {
     do {
       fx += fx, fy += fy;

@@ -55,6 +55,7 @@ class Points {
     }
   }
   Vec2 in_box() { return {low_.x + unit_(engine_) * (high_.x - low_.x), low_.y + unit_(engine_) * (high_.y - low_.y)}; }
+  [[nodiscard]] Vec2 extent() const { return high_ - low_; }
   Vec2 direction() {
     const double a = 2 * fields::pi * unit_(engine_);
     return {std::cos(a), std::sin(a)};
@@ -172,6 +173,35 @@ TEST(ControlSpace, BiquadraticRootsAreExact) {
   for (int k = 0; k < 5000; ++k) {
     const Vec2 p = points.inside();
     EXPECT_LT(length_error(space.at(p), field.metric(p)), 1e-11);
+  }
+}
+
+// Differences of a field that is as smooth as a leaf are those of at() itself.
+TEST(ControlSpace, SlopesAreThoseOfTheMetric) {
+  for (const Field& field : {fields::paraboloid(0.1), fields::torus(0.05), fields::swirl(4, 0.02)}) {
+    const ControlSpace space = build(field);
+    Points points(field.domain);
+    int jumps = 0;
+    for (int k = 0; k < 200; ++k) {
+      const Vec2 p = points.inside();
+      const MetricSlopes s = space.slopes_at(p);
+      const Metric2 m = space.at(p);
+      const double scale = m.a + m.c;
+      EXPECT_NEAR(s.metric.a, m.a, 1e-12 * scale);
+      EXPECT_NEAR(s.metric.b, m.b, 1e-12 * scale);
+      EXPECT_NEAR(s.metric.c, m.c, 1e-12 * scale);
+      const Vec2 d = 1e-6 * points.extent();
+      const auto difference = [&](Vec2 e) { return space.at(p + e) + -1.0 * space.at(p + -1.0 * e); };
+      const Metric2 u = difference({d.x, 0}), v = difference({0, d.y});
+      const auto far = [&](Metric2 told, double step, Metric2 seen) {
+        const double most =
+            1e-4 * std::abs(2 * step) * (std::abs(told.a) + std::abs(told.b) + std::abs(told.c)) + 1e-8 * scale;
+        const Metric2 off = seen + -2 * step * told;
+        return std::abs(off.a) + std::abs(off.b) + std::abs(off.c) > most;
+      };
+      if (far(s.by_u, d.x, u) || far(s.by_v, d.y, v)) ++jumps;  // the border of a leaf, or of the box, in between
+    }
+    EXPECT_LE(jumps, 4) << field.name;
   }
 }
 

@@ -1,0 +1,51 @@
+#include "plane/shapes.h"
+
+#include <cmath>
+
+#include "predicates/predicates.h"
+
+namespace carreau::plane {
+
+// Kinks of the field, or bends too strong for second order, make charts that lie: what one tells of distances in six
+// directions must be what the tensors halfway do.
+Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
+  if (!(bend_of_shapes(slopes) > least_bend)) return Bend::none;
+  constexpr double tolerance = 0.1, root3 = 0.8660254037844386;
+  constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
+  for (const Vec2 d : directions) {
+    Vec2 e = chart.offset(d);
+    // Along a strong bend only so far that the curve is about a unit long.
+    const double aside = norm(chart.at_offset(e) - d);
+    if (aside > 1) e = (1 / std::sqrt(aside)) * e;
+    const double told = norm(chart.at_offset(e)), halfway = length(at(chart.origin() + 0.5 * e), e);
+    if (!(std::abs(told - halfway) <= tolerance * halfway)) return Bend::kinked;
+  }
+  return Bend::smooth;
+}
+
+double Lengths::quality() const noexcept { return std::sqrt(3 * area2()) / (a + b + c); }
+
+void Shapes::set_metric(int v) const noexcept {
+  Vertex& V = mesh_.vertices[v];
+  V.set_metric(field_.at(V.point()));
+  if (mesh_.bends.empty()) return;
+  const MetricSlopes slopes = field_.slopes(V.point());
+  mesh_.bends[v] = field_.bend(slopes, {V.point(), slopes});
+}
+
+double Shapes::squared_length(int u, int v) const noexcept {
+  if (!mesh_.is_bent(u, v)) return mesh_.squared_length(u, v);
+  return carreau::squared_length(field_.at(0.5 * (mesh_.at(u) + mesh_.at(v))), mesh_.at(u) - mesh_.at(v));
+}
+
+double Shapes::squared_radius(int t) const noexcept {
+  const Triangle& T = mesh_.triangles[t];
+  return is_bent(T) ? lengths(T.v[0], T.v[1], T.v[2]).radius2() : mesh_.squared_radius(t);
+}
+
+double Shapes::quality(int p, int q, int r) const noexcept {
+  if (!mesh_.is_bent(p, q, r)) return mesh_.quality(p, q, r);
+  return orientation(mesh_.at(p), mesh_.at(q), mesh_.at(r)) > 0 ? lengths(p, q, r).quality() : 0;
+}
+
+}  // namespace carreau::plane
