@@ -19,6 +19,8 @@ struct Frame {
 /// Bend of a chart from which on it takes the place of the tensor: a size that grows by a tenth, or directions that
 /// turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors.
 inline constexpr double least_bend = 0.4;
+/// Triangles below which charts are not used: in coarse meshes of patches with poles and creases they reach too far.
+inline constexpr double least_bent_measure = 10'000;
 
 /// The control space as seen from the frame.
 class Field {
@@ -29,7 +31,7 @@ class Field {
         aa_(unscale_.x * unscale_.x),
         ab_(unscale_.x * unscale_.y),
         bb_(unscale_.y * unscale_.y),
-        bends_(space.largest_bend() > least_bend) {}
+        bends_(space.measure() >= least_bent_measure && space.largest_bend() > least_bend) {}
 
   [[nodiscard]] Metric2 at(Vec2 p) const noexcept {
     const Metric2 m = space_.at({p.x * unscale_.x, p.y * unscale_.y});
