@@ -117,7 +117,7 @@ void Optimiser::swap_to_delaunay() {
     work_.swap(next_);
   }
   // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many passes.
-  if (!turning_) make_delaunay_in_metric(mesh_, work_, monitor_);
+  if (mesh_.bends.empty()) make_delaunay_in_metric(mesh_, work_, monitor_);
 }
 
 // Degrees are counted in triangles. On the border a vertex of angle w wants w / 60 degrees of them.
