@@ -41,6 +41,8 @@ class CadInput {
   virtual bool exclude(int face, const std::string& why) = 0;
   /// Faces that are left out, with the reason.
   [[nodiscard]] virtual std::vector<std::pair<int, std::string>> excluded() const = 0;
+  /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
+  [[nodiscard]] virtual std::string gaps() const { return ""; }
   /// What went wrong in a callback on this face; "" when nothing did.
   [[nodiscard]] virtual std::string failure(int face) const = 0;
 };

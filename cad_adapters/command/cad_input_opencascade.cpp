@@ -33,6 +33,14 @@ class OpenCascadeInput final : public CadInput {
     return true;
   }
 
+  [[nodiscard]] std::string gaps() const override {
+    const carreau_occ::Gaps gaps = carreau_occ::measure_gaps(file_);
+    char text[160];
+    std::snprintf(text, sizeof text, "largest %.3g (edge %d on face %d); %d above twice the tolerance of their edges",
+                  gaps.largest, gaps.edge, gaps.face, gaps.beyond);
+    return text;
+  }
+
   bool exclude(int face, const std::string& why) override {
     if (face < 1 || face > host_.face_count()) return false;
     for (const auto& [number, reason] : host_.excluded())

@@ -99,7 +99,8 @@ int mesh(const MeshOptions& options) {
   const Stopwatch writing;
   outputs.write([&](const std::vector<std::string>& paths) { write_all(run, paths); });
   run.seconds_writing = writing.seconds();
-  for (const std::string& line : summary_lines(run)) progress.line(line);
+  if (!options.quiet)
+    for (const std::string& line : summary_lines(run)) progress.line(line);
   if (options.json) print_json(run);
   if (failed.empty()) return all_faces;
   progress.error(failed);

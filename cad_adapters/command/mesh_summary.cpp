@@ -144,6 +144,9 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
       text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
            q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str())};
   for (std::string& line : gluing_lines(interfaces_of(run.session))) lines.push_back(std::move(line));
+  if (const std::int64_t n = count(faces, CARREAU_FACE_COLLAPSED); n > 0)
+    lines.front() += text(", %lld collapsed", whole(n));
+  if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,
                        r.seconds_total, static_cast<int>(threads), threads == 1 ? "thread" : "threads",

@@ -75,6 +75,23 @@ class Inspector {
     return std::move(report_);
   }
 
+  Gaps gaps() {
+    uses_.assign(static_cast<std::size_t>(edges_.Extent()) + 1, {});
+    for (int f = 1; f <= faces_.Extent(); ++f)
+      for (TopExp_Explorer e(faces_(f).Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next())
+        uses_[static_cast<std::size_t>(edges_.FindIndex(e.Current()))].push_back(f);
+    Gaps gaps;
+    for (int e = 1; e <= edges_.Extent(); ++e)
+      guarded("edge", 0, e, [&] {
+        const TopoDS_Edge edge = TopoDS::Edge(edges_(e));
+        if (BRep_Tool::Degenerated(edge)) return;
+        const auto [gap, face] = gap_of(e, edge, BRepAdaptor_Curve(edge));
+        if (gap > 2 * BRep_Tool::Tolerance(edge)) ++gaps.beyond;
+        if (gap > gaps.largest) gaps.largest = gap, gaps.edge = e, gaps.face = face;
+      });
+    return gaps;
+  }
+
  private:
   template <typename Body>
   void guarded(const char* what, int face, int edge, Body&& body) {
@@ -157,6 +174,14 @@ class Inspector {
   }
 
   void measure_gap(int number, const TopoDS_Edge& edge, const BRepAdaptor_Curve& curve) {
+    const auto [gap, where] = gap_of(number, edge, curve);
+    report_.largest_gap = std::max(report_.largest_gap, gap);
+    if (gap > limit_ || gap > 2 * BRep_Tool::Tolerance(edge))
+      add({"gap", where, number, gap, "between the curve of the edge and its image on the face"});
+  }
+
+  /// Largest distance, and the face where it is.
+  std::pair<double, int> gap_of(int number, const TopoDS_Edge& edge, const BRepAdaptor_Curve& curve) const {
     double gap = 0;
     int where = 0;
     for (const int f : uses_[static_cast<std::size_t>(number)]) {
@@ -173,9 +198,7 @@ class Inspector {
         if (distance > gap) gap = distance, where = f;
       }
     }
-    report_.largest_gap = std::max(report_.largest_gap, gap);
-    if (gap > limit_ || gap > 2 * BRep_Tool::Tolerance(edge))
-      add({"gap", where, number, gap, "between the curve of the edge and its image on the face"});
+    return {gap, where};
   }
 
   TopoDS_Shape shape_;
@@ -187,6 +210,8 @@ class Inspector {
 };
 
 }  // namespace
+
+Gaps measure_gaps(const ShapeFile& file) { return Inspector(file, 1).gaps(); }
 
 ShapeReport inspect(const ShapeFile& file, double tiny) { return Inspector(file, tiny).run(); }
 

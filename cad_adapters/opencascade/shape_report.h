@@ -30,4 +30,14 @@ struct ShapeReport {
 /// evaluations an edge. Faces that OpenCASCADE fails on are dangers too; nothing is thrown.
 ShapeReport inspect(const ShapeFile& file, double tiny = 1e-3);
 
+/// Gaps between the curves of edges and their images on the faces beside, at ten places each.
+struct Gaps {
+  double largest = 0;
+  int edge = 0, face = 0;  ///< where; 0: there is none
+  int beyond = 0;          ///< edges with more than twice their own tolerance
+};
+
+/// Nothing is thrown; edges that OpenCASCADE fails on are left out.
+Gaps measure_gaps(const ShapeFile& file);
+
 }  // namespace carreau_occ

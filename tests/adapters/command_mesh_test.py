@@ -220,6 +220,9 @@ class Mesh(unittest.TestCase):
         self.assertRegex(done.stderr, r"(?m)^reading .*torus\.step$")
         self.assertRegex(done.stderr, r"(?m)^ *\d+ % patches, face 1$")
         self.assertRegex(done.stderr, r"(?m)^1 face: \d+ vertices")
+        # Both curves of the torus are circles with exact images, but for digits of the file: below its tolerance.
+        gap = float(re.search(r"(?m)^gaps +largest (\S+) \(edge \d on face [01]\); 0 above twice", done.stderr)[1])
+        self.assertLess(gap, 1e-7)
         master, slave = pty.openpty()
         process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("b.mesh")],
                                    stderr=slave, stdout=subprocess.DEVNULL)
