@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "plane/frame.h"
@@ -19,6 +21,13 @@ class Optimiser {
   void run();
 
  private:
+  enum class Sizes : std::uint8_t {
+    even,    ///< much the same over a triangle
+    graded,  ///< change over most triangles, but never by much
+    rough,   ///< change by much, or there are too few triangles: no lattice to speak of
+  };
+  [[nodiscard]] Sizes classify() const;
+
   // swaps.cpp
   void collect_edges(std::int32_t first, std::int32_t end);
   void prefetch_beyond(std::size_t k) const;
@@ -28,12 +37,28 @@ class Optimiser {
   void swap_to_degree_six();
   void count_degrees();
 
+  // glides.cpp
+  [[nodiscard]] int excess(int v) const { return static_cast<int>(degree_[v]) - static_cast<int>(wanted_degree_[v]); }
+  [[nodiscard]] int swap_gain(int t, int i) const;
+  [[nodiscard]] bool can_glide(int t, int i) const;
+  void swap_counted(int t, int i);
+  bool swap_around(int v);
+  bool glide(int seven, int five, bool left, int reach);
+  void cancel_pairs(int reach);
+  void thin_out();
+  void drop_removed();
+
   // sweeps.cpp
-  void sweep_all();
-  void sweep(double relaxation);
+  /// What moves are after.
+  struct Aim {
+    double pull;   ///< 0: equilateral triangles; 1: unit lengths
+    bool by_size;  ///< triangles count by the inverse of the size wanted
+  };
+  void sweep_all(std::span<const double> relaxations, Aim aim);
+  void sweep(double relaxation, Aim aim);
   void update_metrics();
-  void propose();
-  void propose_in_chart(const Triangle& T);
+  void propose(Aim aim);
+  void propose_in_chart(const Triangle& T, double weight);
   void undo_spoiling_moves();
   [[nodiscard]] bool sound(const Triangle& T) const;
 
@@ -47,6 +72,7 @@ class Optimiser {
   bool rescue_by_insertion(int t);
   void collapse(int v, int k);
   bool collect_star(int v);
+  [[nodiscard]] bool has_imposed_spoke(int v) const;
   double star_penalty(int v);
   [[nodiscard]] double shape(int p, int q, int r) const;
 
@@ -57,7 +83,7 @@ class Optimiser {
   Monitor& monitor_;
   struct Proposal {
     double x = 0, y = 0;
-    std::int32_t votes = 0;
+    double weight = 0;
   };
   std::vector<Proposal> proposals_;  // afterwards: the old places
   std::vector<HalfEdge> edges_;
@@ -65,6 +91,7 @@ class Optimiser {
   std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise
   std::int64_t stars_ = 0;                 // evaluated by the rescue
   std::vector<std::uint8_t> degree_, wanted_degree_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> glided_;  // diagonals of the swaps of a glide
 };
 
 }  // namespace carreau::plane

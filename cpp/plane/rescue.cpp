@@ -67,6 +67,13 @@ bool Optimiser::collect_star(int v) {
   return true;
 }
 
+// Of the star collected.
+bool Optimiser::has_imposed_spoke(int v) const {
+  return std::any_of(star_.begin(), star_.end(), [&](std::int32_t t) {
+    return mesh_.triangles[t].imposed != 0 && mesh_.is_imposed(t, next3[mesh_.corner_of(t, v)]);
+  });
+}
+
 double Optimiser::star_penalty(int v) {
   ++stars_;
   double sum = 0;
@@ -123,8 +130,7 @@ bool Optimiser::rescue_by_move(int v) {
 bool Optimiser::rescue_by_removal(int v, bool crowded) {
   if (!collect_star(v)) return false;
   const auto n = static_cast<int>(ring_.size());
-  for (const std::int32_t t : star_)
-    if (mesh_.triangles[t].imposed != 0 && mesh_.is_imposed(t, next3[mesh_.corner_of(t, v)])) return false;
+  if (has_imposed_spoke(v)) return false;
   double worst = 1;
   for (int k = 0; k < n; ++k) worst = std::min(worst, shape(v, ring_[k], ring_[(k + 1) % n]));
   int into = -1;

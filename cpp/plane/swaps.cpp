@@ -143,7 +143,6 @@ void Optimiser::count_degrees() {
 
 void Optimiser::swap_to_degree_six() {
   count_degrees();
-  const auto excess = [&](int v) { return static_cast<int>(degree_[v]) - static_cast<int>(wanted_degree_[v]); };
   for (int pass = 0; pass < degree_passes; ++pass) {
     bool any = false;
     const auto total = static_cast<std::int32_t>(mesh_.triangles.size());

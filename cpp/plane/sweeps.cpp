@@ -17,7 +17,7 @@ constexpr std::size_t prefetch_distance = 12;
 
 }  // namespace
 
-void Optimiser::propose_in_chart(const Triangle& T) {
+void Optimiser::propose_in_chart(const Triangle& T, double weight) {
   const ChartedTriangle triangle = shapes_.charted(T);
   const Vec2 y[3] = {triangle.a, triangle.b, triangle.c};
   for (int i = 0; i < 3; ++i) {
@@ -25,14 +25,18 @@ void Optimiser::propose_in_chart(const Triangle& T) {
     const Vec2 top =
         triangle.chart.point(0.5 * (from + to) + 0.5 * std::numbers::sqrt3 * Vec2{-e.y, e.x}, mesh_.at(T.v[i]));
     Proposal& p = proposals_[T.v[i]];
-    p.x += top.x, p.y += top.y;
-    ++p.votes;
+    p.x += weight * top.x, p.y += weight * top.y;
+    p.weight += weight;
   }
 }
 
-// Each triangle proposes to each of its vertices the place where it would be equilateral in its metric.
-void Optimiser::propose() {
+// Each triangle proposes to each of its vertices the place where it would be equilateral in its metric, or, as far as
+// that is the aim, where its sides would have unit length: lower over long bases, higher over short ones. Where sizes
+// vary triangles count by the inverse of the size. That of its square would make the sum of their defects, each
+// relative to the triangle, least; but where sizes jump it draws vertices to the small ones.
+void Optimiser::propose(Aim aim) {
   proposals_.assign(mesh_.vertices.size(), {});
+  const double slope = 2.0 / 3 * aim.pull;
   const std::size_t n = mesh_.triangles.size();
   for (std::size_t t = 0; t < n; ++t) {
     const Triangle& T = mesh_.triangles[t];
@@ -42,18 +46,21 @@ void Optimiser::propose() {
         prefetch(&proposals_[v]);
       }
     const Vertex &P = mesh_.vertices[T.v[0]], &Q = mesh_.vertices[T.v[1]], &R = mesh_.vertices[T.v[2]];
+    const Metric2 m = P.metric() + Q.metric() + R.metric();
+    const double root = std::sqrt(std::max(determinant(m), 1e-300)), weight = aim.by_size ? std::sqrt(root) : 1;
     if (shapes_.is_bent(T)) {
-      propose_in_chart(T);
+      propose_in_chart(T, weight);
       continue;
     }
-    const Metric2 m = P.metric() + Q.metric() + R.metric();
-    const double k = 0.5 * std::numbers::sqrt3 / std::sqrt(std::max(determinant(m), 1e-300));
+    const double k = 0.5 * std::numbers::sqrt3 / root;
     const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
-      const double ex = to.x - from.x, ey = to.y - from.y;
+      const double ex = to.x - from.x, ey = to.y - from.y, nx = m.b * ex + m.c * ey, ny = m.a * ex + m.b * ey;
+      // The height of a unit isosceles triangle over that of an equilateral one, to first order in the squared base.
+      const double height = k * (1 + slope - slope * std::clamp((ex * ny + ey * nx) / 3, 0.5, 2.0));
       Proposal& p = proposals_[v];
-      p.x += 0.5 * (from.x + to.x) - k * (m.b * ex + m.c * ey);
-      p.y += 0.5 * (from.y + to.y) + k * (m.a * ex + m.b * ey);
-      ++p.votes;
+      p.x += weight * (0.5 * (from.x + to.x) - height * nx);
+      p.y += weight * (0.5 * (from.y + to.y) + height * ny);
+      p.weight += weight;
     };
     tell(T.v[0], Q, R);
     tell(T.v[1], R, P);
@@ -95,30 +102,25 @@ void Optimiser::undo_spoiling_moves() {
 }
 
 // Each vertex goes `relaxation` of the way to the mean of its proposals; moves that spoil a triangle are undone.
-void Optimiser::sweep(double relaxation) {
+void Optimiser::sweep(double relaxation, Aim aim) {
   monitor_.checkpoint();
-  propose();
+  propose(aim);
   const auto n = static_cast<int>(mesh_.vertices.size());
   for (int v = fixed_; v < n; ++v) {
     Vertex& P = mesh_.vertices[v];
     Proposal& to = proposals_[v];
     const Vec2 old = P.point();
-    if (to.votes > 0) P.x += relaxation * (to.x / to.votes - P.x), P.y += relaxation * (to.y / to.votes - P.y);
+    if (to.weight > 0) P.x += relaxation * (to.x / to.weight - P.x), P.y += relaxation * (to.y / to.weight - P.y);
     to.x = old.x, to.y = old.y;
   }
   monitor_.checkpoint();
   undo_spoiling_moves();
 }
 
-// Far moves first to spread strain, short ones last against what they leave behind: four sweeps do the work of six. The
-// metric follows the vertices only twice: its change along a move is small.
-void Optimiser::sweep_all() {
-  constexpr double relaxations[] = {1.6, 1.6, 1, 0.7};
-  int done = 0;
-  for (const double relaxation : relaxations) {
-    sweep(relaxation);
-    if (++done % 2 == 0) update_metrics();
-  }
+// The metric follows the vertices at the end only: its change along a move is small.
+void Optimiser::sweep_all(std::span<const double> relaxations, Aim aim) {
+  for (const double relaxation : relaxations) sweep(relaxation, aim);
+  update_metrics();
 }
 
 void Optimiser::update_metrics() {
