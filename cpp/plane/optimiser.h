@@ -29,6 +29,7 @@ class Optimiser {
   [[nodiscard]] Sizes classify() const;
 
   // swaps.cpp
+  [[nodiscard]] bool has_long_edge(const Triangle& t) const;
   void collect_edges(std::int32_t first, std::int32_t end);
   void prefetch_beyond(std::size_t k) const;
   void swap_to_delaunay();

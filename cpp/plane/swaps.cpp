@@ -18,6 +18,8 @@ constexpr double cocircular = 1e-9;
 // A swap for the sake of degrees leaves no triangle worse than this.
 constexpr double swap_quality = 0.6;
 constexpr int degree_passes = 2;
+// Units: longer than any edge that points a unit apart leave.
+constexpr double long_edge = 3;
 
 }  // namespace
 
@@ -116,8 +118,19 @@ void Optimiser::swap_to_delaunay() {
       }
     work_.swap(next_);
   }
-  // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many passes.
-  if (mesh_.bends.empty()) make_delaunay_in_metric(mesh_, work_, monitor_);
+  // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many passes. Where no
+  // edge is long, swaps run in circles between triangles that are as good as each other.
+  if (!mesh_.bends.empty()) return;
+  std::erase_if(work_, [this](std::int32_t t) { return !has_long_edge(mesh_.triangles[t]); });
+  make_delaunay_in_metric(mesh_, work_, monitor_);
+}
+
+bool Optimiser::has_long_edge(const Triangle& T) const {
+  for (int i = 0; i < 3; ++i) {
+    const Vertex &p = mesh_.vertices[T.v[i]], &q = mesh_.vertices[T.v[next3[i]]];
+    if (squared_length(0.5 * (p.metric() + q.metric()), q.point() - p.point()) > long_edge * long_edge) return true;
+  }
+  return false;
 }
 
 // Degrees are counted in triangles. On the border a vertex of angle w wants w / 60 degrees of them.
