@@ -9,9 +9,6 @@ namespace carreau {
 
 namespace {
 
-// Below this share of an equilateral triangle's quality a triangle has no area: what rounding leaves of a flat one.
-constexpr double flat_quality = 1e-12;
-
 class DefectFinder {
  public:
   DefectFinder(const SurfaceMesh& mesh, const DefectOptions& options) : mesh_(mesh), options_(options) {}

@@ -8,9 +8,6 @@ namespace carreau {
 
 namespace {
 
-// As in find_defects of a SurfaceMesh: what rounding leaves of a flat triangle.
-constexpr double flat_quality = 1e-12;
-
 class FlatDefectFinder {
  public:
   FlatDefectFinder(const FlatMesh& mesh, const DefectOptions& options) : mesh_(mesh), options_(options) {}

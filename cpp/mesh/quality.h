@@ -12,6 +12,8 @@ namespace carreau {
 double quality_q1(Vec3 a, Vec3 b, Vec3 c) noexcept;
 /// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6).
 double quality_q2(Vec3 a, Vec3 b, Vec3 c) noexcept;
+/// A triangle of no more than this Q2 has no area: it is what rounding leaves of a flat one.
+inline constexpr double flat_quality = 1e-12;
 
 struct Distribution {
   double mean = 0, min = 0, p1 = 0, max = 0;  ///< p1: first percentile

@@ -17,8 +17,6 @@ namespace carreau {
 
 namespace {
 
-// What rounding leaves of a triangle without area.
-constexpr double flat_quality = 1e-12;
 constexpr std::int32_t unknown = -1;
 
 /// What changes when faces vanish.

@@ -16,9 +16,6 @@ namespace {
 using Chain = std::vector<std::int32_t>;  // local vertices
 using Triangle = std::array<std::int32_t, 3>;
 
-// Less than this share of an equilateral triangle's quality is what rounding leaves of a flat one.
-constexpr double flat_quality = 1e-12;
-
 class Ladder {
  public:
   Ladder(const CurveModel& model, const NarrowFace& narrow, const std::vector<DiscreteCurve>& curves)

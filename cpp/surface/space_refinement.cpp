@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cad/fundamental_forms.h"
+#include "mesh/quality.h"
 #include "predicates/predicates.h"
 #include "surface/face_metric.h"
 #include "surface/triangle_distance.h"
@@ -77,6 +78,11 @@ class SpaceRefinement {
   // Two corners of one apex of space make a flat triangle that will be removed.
   [[nodiscard]] bool collapsed(const Triangle& t) const {
     return position(t[0]) == position(t[1]) || position(t[1]) == position(t[2]) || position(t[2]) == position(t[0]);
+  }
+
+  // Both ends of a seam and a vertex between them on a straight line of the surface have an area in (u, v) only.
+  [[nodiscard]] bool is_flat(const Triangle& t) const {
+    return !collapsed(t) && !(quality_q2(position(t[0]), position(t[1]), position(t[2])) > flat_quality);
   }
 
   // Those that look wrong from what is known at their corners, or against the mean of the triangles around.
@@ -250,6 +256,7 @@ class SpaceRefinement {
       const std::int32_t d = triangle(u)[(side_towards(u, t) + 2) % 3];
       const Triangle first{c[i], d, c[(i + 2) % 3]}, second{d, c[(i + 1) % 3], c[(i + 2) % 3]};
       if (collapsed(first) || collapsed(second) || !positive(first) || !positive(second)) continue;
+      if (is_flat(first) || is_flat(second)) continue;
       const double least = std::min(uprightness(first), uprightness(second));
       if (least > best && !(known_ && (looks_far(first) || looks_far(second)))) best = least, best_side = i;
     }
@@ -311,6 +318,11 @@ class SpaceRefinement {
       return false;
     }
     mesh_.xyz.push_back(jet.s);
+    if (is_flat({a, m, c}) || is_flat({m, b, c}) || is_flat({b, m, d}) || is_flat({m, a, d})) {
+      mesh_.plane.vertices.pop_back();
+      mesh_.xyz.pop_back();
+      return false;
+    }
     if (known_) mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{}));
     const int bc = across_[t][(i + 1) % 3], ca = across_[t][(i + 2) % 3], ad = across_[u][(j + 1) % 3],
               db = across_[u][(j + 2) % 3];

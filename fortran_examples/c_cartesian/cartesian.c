@@ -177,10 +177,11 @@ static void adapt(carreau_session* session, const struct variant* v, const char*
 
 /* Without arguments, all variants; otherwise their meshes are written to the folder that is named. */
 int main(int argc, char** argv) {
+  /* The figures give numbers of triangles, no thresholds: these make as many. */
   const struct variant variants[] = {
       {"largest curvature", CARREAU_CURVATURE, CARREAU_GRAPH, 0, 8, 0.002, 0.6, 8736, 10, 1},
       {"both curvatures", CARREAU_CURVATURE, CARREAU_ANISOTROPIC, 0, 6.5, 0.002, 0.6, 2110, 50, 1},
-      {"relative error", CARREAU_HESSIAN, CARREAU_ISOTROPIC, 1, 0.1, 0.002, 0.3, 5258, 8, 0},
+      {"relative error", CARREAU_HESSIAN, CARREAU_ISOTROPIC, 1, 0.11, 0.002, 0.3, 5258, 8, 0},
       {"absolute error", CARREAU_HESSIAN, CARREAU_ISOTROPIC, 0, 0.01, 0.002, 0.3, 31177, 15, 0},
   };
   carreau_session* session = NULL;
