@@ -14,7 +14,7 @@ class ModelChecker {
  public:
   explicit ModelChecker(const Model& model) : model_(model), gluing_(needs_gluing(model)) {}
 
-  std::vector<std::string> run() {
+  std::vector<ModelDefect> run() {
     if (model_.faces.empty()) add({.file = model_.source}, "the model has no face");
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       check_face(f);
@@ -33,7 +33,7 @@ class ModelChecker {
   }
 
  private:
-  void add(const Where& where, const std::string& sentence) { defects_.push_back(where.prefix() + sentence); }
+  void add(const Where& where, const std::string& sentence) { defects_.push_back({where, sentence}); }
 
   [[nodiscard]] Where place(std::size_t f, int line) const {
     Where where{.face = model_.faces[f].ref};
@@ -180,7 +180,7 @@ class ModelChecker {
 
   const Model& model_;
   bool gluing_;
-  std::vector<std::string> defects_;
+  std::vector<ModelDefect> defects_;
   std::map<int, std::size_t> faces_;        // by reference
   std::map<int, const FaceCurve*> curves_;  // first of each reference
   std::map<UseKey, std::vector<std::size_t>> uses_;
@@ -188,6 +188,12 @@ class ModelChecker {
 
 }  // namespace
 
-std::vector<std::string> find_model_defects(const Model& model) { return ModelChecker(model).run(); }
+std::vector<ModelDefect> list_model_defects(const Model& model) { return ModelChecker(model).run(); }
+
+std::vector<std::string> find_model_defects(const Model& model) {
+  std::vector<std::string> sentences;
+  for (const ModelDefect& defect : list_model_defects(model)) sentences.push_back(defect.text());
+  return sentences;
+}
 
 }  // namespace carreau

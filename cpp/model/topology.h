@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "support/error.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -46,6 +47,13 @@ struct Topology {
 /// Seams (a boundary reference twice in one face) and curves that return to their starting point (closed, degenerate)
 /// are legal, although the manual forbade them.
 std::vector<std::string> find_model_defects(const Model& model);
+/// The same with their places, to leave a face out.
+struct ModelDefect {
+  Where where;
+  std::string sentence;  ///< without the place
+  [[nodiscard]] std::string text() const { return where.prefix() + sentence; }
+};
+std::vector<ModelDefect> list_model_defects(const Model& model);
 
 /// Polylines that stand for the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
 using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;

@@ -71,12 +71,12 @@ struct Session::State {
   }
 
   void check_model(const Model& candidate) const {
-    const std::vector<std::string> defects = find_model_defects(candidate);
+    const std::vector<ModelDefect> defects = list_model_defects(candidate);
     if (defects.empty()) return;
-    std::string text = defects.front();
-    if (defects.size() > 1) text += " (and " + std::to_string(defects.size() - 1) + " more)";
-    for (std::size_t i = 1; i < defects.size(); ++i) monitor.message(Level::error, defects[i]);
-    throw InvalidModel(text);
+    std::string sentence = defects.front().sentence;
+    if (defects.size() > 1) sentence += " (and " + std::to_string(defects.size() - 1) + " more)";
+    for (std::size_t i = 1; i < defects.size(); ++i) monitor.message(Level::error, defects[i].text());
+    throw InvalidModel(defects.front().where, sentence);
   }
 };
 

@@ -112,6 +112,18 @@ TEST_F(PolygonTest, AFaceThatFailsLeavesTheOthers) {
   EXPECT_EQ(std::remove(image.c_str()), 0);
 }
 
+TEST_F(PolygonTest, AModelThatBreaksARuleTellsTheFaceToLeaveOut) {
+  polygon_host.polygons = {square};
+  use_polygons();
+  ASSERT_EQ(carreau_model_add_face(session, 2, 1), CARREAU_OK);
+  ASSERT_EQ(carreau_model_add_curve(session, 2, CARREAU_BOUNDARY, 200, 200, 201), CARREAU_OK);  // does not close
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_MODEL);
+  EXPECT_EQ(error().find("face 2, "), 0u) << error();
+  auto place = sized<carreau_error_place>();
+  ASSERT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
+  EXPECT_EQ(place.face, 2);
+}
+
 TEST_F(PolygonTest, ADomainThatCrossesItselfIsRefused) {
   polygon_host.polygons = {bow_tie};
   use_polygons();
