@@ -79,6 +79,7 @@ class ThreadedRun {
   ~ThreadedRun() {
     first_failed_ = 0;  // what is still at work ends at its next checkpoint
     std::unique_lock lock(mutex_);
+    waiting_.clear();
     changed_.wait(lock, [this] { return helpers_ == 0; });
   }
 
@@ -104,26 +105,28 @@ class ThreadedRun {
   /// Tasks that wait for a thread, as many as keep all at work: those not started cost no memory.
   void start_some() {
     const std::size_t most = 2 * static_cast<std::size_t>(threads_);
-    std::size_t ready = 0;
-    {
-      const std::scoped_lock lock(mutex_);
-      ready = free_.size() + bound_.size();
-    }
-    for (; ready < most && !waiting_.empty(); ++ready) {
-      const std::size_t task = waiting_.front();
-      waiting_.pop_front();
-      put(task);
+    for (;;) {
+      bool bound = false;
+      {
+        const std::scoped_lock lock(mutex_);
+        if (waiting_.empty() || free_.size() + bound_.size() >= most) return;
+        bound = make_ready(waiting_.front());
+        waiting_.pop_front();
+      }
+      call_for(bound);
     }
   }
 
-  /// Where the next step of a task waits.
-  void put(std::size_t task) {
+  /// Where the next step of a task waits. Under the lock; whether it is bound.
+  bool make_ready(std::size_t task) {
     const bool bound = tasks_[task]->bound();
-    {
-      const std::scoped_lock lock(mutex_);
-      (bound ? bound_ : free_).push_back(task);
-      if (!bound) ++helpers_;
-    }
+    (bound ? bound_ : free_).push_back(task);
+    if (!bound) ++helpers_;
+    return bound;
+  }
+
+  /// Someone for a task that has been made ready.
+  void call_for(bool bound) {
     changed_.notify_all();
     if (bound) return;
     try {
@@ -141,7 +144,14 @@ class ThreadedRun {
       const std::scoped_lock lock(mutex_);
       task = pop(free_);
     }
-    if (task != none) work_on(task);
+    if (task != none) {
+      work_on(task);
+      // The calling thread may be long at work.
+      try {
+        start_some();
+      } catch (...) {  // no memory: what has not been started waits for the calling thread
+      }
+    }
     // Under the lock: the run may be gone as soon as the last helper is known to be.
     const std::scoped_lock lock(mutex_);
     --helpers_;
@@ -167,7 +177,12 @@ class ThreadedRun {
       monitors_[task]->checkpoint();
       tasks_[task]->step(*monitors_[task]);
       if (!tasks_[task]->finished()) {
-        put(task);
+        bool bound = false;
+        {
+          const std::scoped_lock lock(mutex_);
+          bound = make_ready(task);
+        }
+        call_for(bound);
         return;
       }
     } catch (...) {
@@ -207,11 +222,11 @@ class ThreadedRun {
   Monitor& monitor_;
   std::vector<std::unique_ptr<TaskMonitor>> monitors_;
   std::atomic<std::size_t> first_failed_{none};
-  std::deque<std::size_t> waiting_;  // not started; of the calling thread
-  std::size_t delivered_ = 0;        // of the calling thread
+  std::size_t delivered_ = 0;  // of the calling thread
 
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_;
+  std::deque<std::size_t> waiting_;  // not started
   std::deque<std::size_t> bound_, free_;
   std::vector<std::exception_ptr> errors_;
   std::vector<char> done_;

@@ -4,6 +4,7 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <stdexcept>
@@ -143,6 +144,50 @@ TEST(SteppedTasks, AStopIsObeyed) {
     EXPECT_THROW(carreau::run_stepped(tasks, {.threads = threads}, monitor), carreau::Cancelled);
     other.join();
   }
+}
+
+/// Ends when `others` tasks have: the last ones must run while this one is at work.
+class Waiter final : public SteppedTask {
+ public:
+  explicit Waiter(const std::atomic<int>& ended, int others) : ended_(ended), others_(others) {}
+  [[nodiscard]] bool finished() const override { return done_; }
+  [[nodiscard]] bool bound() const override { return false; }
+  void step(Monitor&) override {
+    const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (ended_ < others_ && std::chrono::steady_clock::now() < limit) std::this_thread::yield();
+    saw_all = ended_ == others_;
+    done_ = true;
+  }
+  bool saw_all = false;
+
+ private:
+  const std::atomic<int>& ended_;
+  int others_;
+  bool done_ = false;
+};
+
+class Adder final : public SteppedTask {
+ public:
+  explicit Adder(std::atomic<int>& ended) : ended_(ended) {}
+  [[nodiscard]] bool finished() const override { return done_; }
+  [[nodiscard]] bool bound() const override { return false; }
+  void step(Monitor&) override { ++ended_, done_ = true; }
+
+ private:
+  std::atomic<int>& ended_;
+  bool done_ = false;
+};
+
+TEST(SteppedTasks, GoOnWhileOneIsLong) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  constexpr int others = 100;
+  std::atomic<int> ended = 0;
+  std::vector<std::unique_ptr<SteppedTask>> tasks;
+  tasks.push_back(std::make_unique<Waiter>(ended, others));
+  for (int i = 0; i < others; ++i) tasks.push_back(std::make_unique<Adder>(ended));
+  Monitor monitor;
+  carreau::run_stepped(tasks, {.threads = 2}, monitor);
+  EXPECT_TRUE(static_cast<Waiter&>(*tasks.front()).saw_all);
 }
 
 TEST(SteppedTasks, NoneAreNothing) {
