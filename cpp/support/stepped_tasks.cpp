@@ -14,6 +14,17 @@
 #include <string>
 #include <utility>
 
+// oneTBB is not instrumented: what it hands from one thread to another the thread sanitizer has to be told.
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+namespace {
+char handed_over;  // its address only
+}
+#else
+#define __tsan_release(address)
+#define __tsan_acquire(address)
+#endif
+
 namespace carreau {
 namespace {
 
@@ -130,7 +141,11 @@ class ThreadedRun {
     changed_.notify_all();
     if (bound) return;
     try {
-      arena_.enqueue([this] { help(); });
+      __tsan_release(&handed_over);
+      arena_.enqueue([this] {
+        __tsan_acquire(&handed_over);  // before `this` is read
+        help();
+      });
     } catch (...) {  // no memory for a helper: the calling thread takes the task
       const std::scoped_lock lock(mutex_);
       --helpers_;
