@@ -1,4 +1,5 @@
 #include <brep_host.h>
+#include <faults.h>
 #include <shape_file.h>
 #include <shape_report.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 class OpenCascadeInput final : public CadInput {
  public:
-  explicit OpenCascadeInput(carreau_occ::ShapeFile file) : file_(std::move(file)), host_(file_) {}
+  explicit OpenCascadeInput(const std::string& path) : file_(carreau_occ::read_shape(path)), host_(file_) {}
 
   carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
   [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
@@ -60,6 +61,7 @@ class OpenCascadeInput final : public CadInput {
   }
 
  private:
+  carreau_occ::FaultTrap trap_;  // before the file is read
   carreau_occ::ShapeFile file_;
   carreau_occ::BrepHost host_;
 };
@@ -143,6 +145,7 @@ nlohmann::ordered_json json_of(const carreau_occ::ShapeReport& r, const carreau_
 }  // namespace
 
 int print_cad_info(const InfoOptions& options) try {
+  const carreau_occ::FaultTrap trap;
   const carreau_occ::ShapeFile file = carreau_occ::read_shape(options.input);
   const carreau_occ::BrepHost host(file);
   const carreau_occ::ShapeReport report = carreau_occ::inspect(file);
@@ -161,7 +164,7 @@ int print_cad_info(const InfoOptions& options) try {
 
 std::unique_ptr<CadInput> open_cad(const std::string& path) {
   try {
-    return std::make_unique<OpenCascadeInput>(carreau_occ::read_shape(path));
+    return std::make_unique<OpenCascadeInput>(path);
   } catch (const std::bad_alloc&) {
     throw Failure("'" + path + "': out of memory.");
   } catch (const std::exception& error) {

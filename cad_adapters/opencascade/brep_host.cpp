@@ -13,6 +13,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Pnt2d.hxx>
@@ -24,6 +25,7 @@
 #include <stdexcept>
 
 #include "evaluators.h"
+#include "faults.h"
 
 namespace carreau_occ {
 
@@ -45,6 +47,10 @@ struct HostFace {
   std::string broken;  // why it cannot be meshed; "": it can
 };
 
+std::string sentence_of(const Standard_Failure& failure) {
+  return std::string("OpenCASCADE: ") + failure.DynamicType()->Name() + ": " + failure.GetMessageString();
+}
+
 void store(const gp_Pnt& p, double* to) { to[0] = p.X(), to[1] = p.Y(), to[2] = p.Z(); }
 void store(const gp_Vec& v, double* to) { to[0] = v.X(), to[1] = v.Y(), to[2] = v.Z(); }
 
@@ -59,6 +65,8 @@ struct BrepHost::State {
   Evaluators evaluators;
   std::mutex mutex;                     // of what follows: callbacks come from several threads
   std::map<int, std::string> failures;  // by face
+  // Faces with a failure, by number - 1: not asked again, since a fault may have left locks behind.
+  std::unique_ptr<std::atomic<bool>[]> has_failed;
 
   void collect();
   void collect_names(const ShapeFile& file);
@@ -73,6 +81,7 @@ struct BrepHost::State {
   static int32_t curve_size(int32_t face, int32_t ic, double t, double* value, void* user) noexcept;
   static int32_t point_size(int32_t point, double* value, void* user) noexcept;
   void collect_sizes();
+  [[nodiscard]] double glue_tolerance() const;
   int32_t fail(int32_t face, const Standard_Failure& why) noexcept;
 };
 
@@ -84,13 +93,14 @@ void BrepHost::State::collect() {
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
   evaluators.resize(host_faces.size());
+  has_failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
   for (int f = 1; f <= faces.Extent(); ++f) {
     HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
     try {
-      collect_face(f);
+      guarded([&] { collect_face(f); });
       if (face.curves.empty()) face.broken = "no edge bounds it";
     } catch (const Standard_Failure& error) {
-      face.broken = std::string("OpenCASCADE: ") + error.GetMessageString();
+      face.broken = sentence_of(error);
     } catch (const std::runtime_error& error) {
       face.broken = error.what();
     }
@@ -179,17 +189,18 @@ int32_t BrepHost::State::point_size(int32_t point, double* value, void* user) no
 int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
   try {
     const std::scoped_lock lock(mutex);
-    failures[face] =
-        "face " + std::to_string(face) + ": OpenCASCADE: " + why.DynamicType()->Name() + ": " + why.GetMessageString();
+    failures[face] = "face " + std::to_string(face) + ": " + sentence_of(why);
   } catch (...) {  // no memory for a sentence
   }
+  has_failed[static_cast<std::size_t>(face - 1)] = true;
   return 1;
 }
 
 int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
                                        double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept {
   auto& state = *static_cast<State*>(user);
-  try {
+  if (state.has_failed[static_cast<std::size_t>(face - 1)]) return 1;
+  const auto evaluate = [&] {
     const bool swapped = state.host_faces[static_cast<std::size_t>(face - 1)].swapped;
     const Evaluators::Surface surface = state.evaluators.surface(static_cast<std::size_t>(face - 1));
     if (swapped) std::swap(Su, Sv), std::swap(Suu, Svv);
@@ -208,6 +219,9 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
       store(p, S + 3 * i);
       if (order >= 1) store(d1u, Su + 3 * i), store(d1v, Sv + 3 * i);
     }
+  };
+  try {
+    guarded(evaluate);
     return 0;
   } catch (const Standard_Failure& failure) {
     return state.fail(face, failure);
@@ -227,7 +241,8 @@ int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b
 int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
                                void* user) noexcept {
   auto& state = *static_cast<State*>(user);
-  try {
+  if (state.has_failed[static_cast<std::size_t>(face - 1)]) return 1;
+  const auto evaluate = [&] {
     const Evaluators::Curve curve =
         state.evaluators.curve(static_cast<std::size_t>(face - 1), static_cast<std::size_t>(ic - 1));
     gp_Pnt2d p;
@@ -242,6 +257,9 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
     C[x] = p.X(), C[y] = p.Y();
     if (order >= 1) Ct[x] = d1.X(), Ct[y] = d1.Y();
     if (order >= 2) Ctt[x] = d2.X(), Ctt[y] = d2.Y();
+  };
+  try {
+    guarded(evaluate);
     return 0;
   } catch (const Standard_Failure& failure) {
     return state.fail(face, failure);
@@ -253,12 +271,12 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
 double diagonal_of(const TopoDS_Shape& shape) {
   Bnd_Box box;
   try {
-    BRepBndLib::AddOptimal(shape, box, Standard_False, Standard_False);
+    guarded([&] { BRepBndLib::AddOptimal(shape, box, Standard_False, Standard_False); });
   } catch (const Standard_Failure&) {  // a face cannot be evaluated: the others count
     box.SetVoid();
     for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) try {
         Bnd_Box of_face;
-        BRepBndLib::AddOptimal(f.Current(), of_face, Standard_False, Standard_False);
+        guarded([&] { BRepBndLib::AddOptimal(f.Current(), of_face, Standard_False, Standard_False); });
         box.Add(of_face);
       } catch (const Standard_Failure&) {
       }
@@ -269,8 +287,7 @@ double diagonal_of(const TopoDS_Shape& shape) {
 BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
   state_->shape = file.shape;
   try {
-    state_->collect();
-    state_->collect_names(file);
+    guarded([&] { state_->collect(), state_->collect_names(file); });
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
   }
@@ -350,11 +367,19 @@ bool BrepHost::locate(int face, double u, double v, double* xyz, double* uv) con
 double BrepHost::diagonal() const { return diagonal_of(state_->shape); }
 
 double BrepHost::glue_tolerance() const try {
+  double tolerance = 0;
+  guarded([&] { tolerance = state_->glue_tolerance(); });
+  return tolerance;
+} catch (const Standard_Failure&) {
+  return 0;
+}
+
+double BrepHost::State::glue_tolerance() const {
   double tolerance = 0, shortest = std::numeric_limits<double>::infinity();
   int free = 0;
-  for (int e = 1; e <= state_->edges.Extent(); ++e) {
-    if (state_->uses[static_cast<std::size_t>(e - 1)] != 1) continue;
-    const TopoDS_Edge edge = TopoDS::Edge(state_->edges(e));
+  for (int e = 1; e <= edges.Extent(); ++e) {
+    if (uses[static_cast<std::size_t>(e - 1)] != 1) continue;
+    const TopoDS_Edge edge = TopoDS::Edge(edges(e));
     ++free;
     tolerance = std::max(tolerance, BRep_Tool::Tolerance(edge));
     for (TopExp_Explorer v(edge, TopAbs_VERTEX); v.More(); v.Next())
@@ -365,8 +390,6 @@ double BrepHost::glue_tolerance() const try {
   }
   // Each of two edges may be off by its own tolerance.
   return free < 2 ? 0 : std::min(2 * tolerance, shortest / 10);
-} catch (const Standard_Failure&) {
-  return 0;
 }
 
 bool BrepHost::is_closed() const noexcept {

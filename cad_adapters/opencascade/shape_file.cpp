@@ -24,6 +24,8 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "faults.h"
+
 namespace carreau_occ {
 
 namespace {
@@ -131,6 +133,21 @@ void read_document(const std::string& path, const char* kind, ShapeFile& file) {
   file.unit = "mm";
 }
 
+void read_as(Format format, const std::string& path, ShapeFile& file) {
+  switch (format) {
+    case Format::step:
+      read_document<STEPCAFControl_Reader>(path, "STEP", file);
+      break;
+    case Format::iges:
+      read_document<IGESCAFControl_Reader>(path, "IGES", file);
+      break;
+    default: {
+      BRep_Builder builder;
+      if (!BRepTools::Read(file.shape, path.c_str(), builder)) refuse(path, "is not a readable BREP file");
+    }
+  }
+}
+
 }  // namespace
 
 ShapeFile read_shape(const std::string& path) {
@@ -148,18 +165,7 @@ ShapeFile read_shape(const std::string& path) {
   const Silence silence;
   ShapeFile file;
   try {
-    switch (format) {
-      case Format::step:
-        read_document<STEPCAFControl_Reader>(path, "STEP", file);
-        break;
-      case Format::iges:
-        read_document<IGESCAFControl_Reader>(path, "IGES", file);
-        break;
-      default: {
-        BRep_Builder builder;
-        if (!BRepTools::Read(file.shape, path.c_str(), builder)) refuse(path, "is not a readable BREP file");
-      }
-    }
+    guarded([&] { read_as(format, path, file); });
   } catch (const Standard_Failure& failure) {
     refuse(path, std::string("OpenCASCADE cannot read it: ") + failure.GetMessageString());
   }

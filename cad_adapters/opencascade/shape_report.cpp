@@ -22,6 +22,8 @@
 #include <gp_Pnt2d.hxx>
 #include <map>
 
+#include "faults.h"
+
 namespace carreau_occ {
 namespace {
 
@@ -96,7 +98,7 @@ class Inspector {
   template <typename Body>
   void guarded(const char* what, int face, int edge, Body&& body) {
     try {
-      body();
+      carreau_occ::guarded(body);
     } catch (const Standard_Failure& failure) {
       add({std::string("broken ") + what, face, edge, 0, std::string("OpenCASCADE: ") + failure.GetMessageString()});
     }

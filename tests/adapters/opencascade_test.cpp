@@ -2,23 +2,18 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
-#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
-#include <BRep_Builder.hxx>
-#include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom_CylindricalSurface.hxx>
 #include <Standard_NumericError.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
-#include <gp_Cylinder.hxx>
 
 #include "measured_mesh.h"
+#include "odd_cylinder.h"
 #include "shape_report.h"
 #include "shapes.h"
 
@@ -31,26 +26,6 @@ double volume_of(const TopoDS_Shape& shape) {
   BRepGProp::VolumeProperties(shape, properties, 1e-10);
   return properties.Mass();
 }
-
-/// A cylinder that OpenCASCADE cannot evaluate on one half of its turn.
-class FailingCylinder : public Geom_CylindricalSurface {
- public:
-  explicit FailingCylinder(const gp_Cylinder& cylinder) : Geom_CylindricalSurface(cylinder) {}
-  void D0(double u, double v, gp_Pnt& p) const override { check(u), Geom_CylindricalSurface::D0(u, v, p); }
-  void D1(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv) const override {
-    check(u), Geom_CylindricalSurface::D1(u, v, p, su, sv);
-  }
-  void D2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const override {
-    check(u), Geom_CylindricalSurface::D2(u, v, p, su, sv, suu, svv, suv);
-  }
-  // Another type than Geom_CylindricalSurface: adaptors evaluate that one themselves.
-  DEFINE_STANDARD_RTTI_INLINE(FailingCylinder, Geom_CylindricalSurface)
-
- private:
-  static void check(double u) {
-    if (u > 3) throw Standard_NumericError("on purpose");
-  }
-};
 
 class Torture : public testing::TestWithParam<std::string> {};
 
@@ -110,29 +85,10 @@ TEST(BrepHost, ThreadsDoNotChangeTheMesh) {
 
 TEST(BrepHost, ExceptionsOfOpenCascadeNameTheFace) {
   for (const int threads : {1, 2}) {
-    const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(1, 2).Shape();
-    const TopoDS_Face round = TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current());
-    const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(BRep_Tool::Surface(round));
-    ASSERT_FALSE(cylinder.IsNull());
-    // Images of edges belong to a surface: the new one gets those of the old one.
-    struct Image {
-      TopoDS_Edge edge;
-      Handle(Geom2d_Curve) forward, reversed;
-    };
-    std::vector<Image> images;
-    double a = 0, b = 0;
-    for (TopExp_Explorer e(round.Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next()) {
-      const TopoDS_Edge edge = TopoDS::Edge(e.Current().Oriented(TopAbs_FORWARD));
-      images.push_back({edge, BRep_Tool::CurveOnSurface(edge, round, a, b),
-                        BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), round, a, b)});
-    }
-    const BRep_Builder builder;
-    builder.UpdateFace(round, new FailingCylinder(cylinder->Cylinder()), {}, 1e-7);
-    for (const Image& image : images)
-      if (image.forward == image.reversed)
-        builder.UpdateEdge(image.edge, image.forward, round, 1e-7);
-      else
-        builder.UpdateEdge(image.edge, image.forward, image.reversed, round, 1e-7);
+    // OpenCASCADE cannot evaluate it on one half of its turn.
+    const TopoDS_Shape solid = adapters::odd_cylinder([](double u) {
+      if (u > 3) throw Standard_NumericError("on purpose");
+    });
     carreau_occ::BrepHost host(file_of(solid));
     const auto run = [&] {
       return adapters::mesh_and_measure(host, 0.2,
