@@ -573,8 +573,11 @@ CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* NULL is allowed */
 /* Sentence of the last call on the mesh, "" after success. Lives until the next call on it. */
 CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 
-/* Replaces the content by that of a `.mesh` or `.meshb` file (Medit). On error the old content stays.
- * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
+/* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, not compressed),
+ * .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and binary). What
+ * carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names where the format
+ * holds them (.vtu: all; .msh: references of faces and curves, corners' if positive; .stl: solids as faces).
+ * On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
 /* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face), .msh and
@@ -628,7 +631,7 @@ typedef struct carreau_face {
   const char* name;  /* given by carreau_model_name_face, else ""; lives as `why` does */
 } carreau_face;
 
-/* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending.
+/* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending, and others that it tells of.
  * Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
 

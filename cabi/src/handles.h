@@ -65,9 +65,13 @@ struct carreau_mesh {
 
   carreau_session* session;  // nullptr: the mesh is `flat`
   carreau::FlatMesh flat;
-  std::vector<std::pair<int, std::int64_t>> flat_faces;  // references of `flat`, ascending, with numbers of triangles
-  bool filled = false;                                   // of `flat`
-  std::string text;  // returned to the caller, who may look at it until the next call
+  struct FaceOfFile {
+    carreau::FlatFace face;
+    std::int64_t triangles = 0;
+  };
+  std::vector<FaceOfFile> flat_faces;  // ascending references: of triangles of `flat`, and of faces that it tells of
+  bool filled = false;                 // of `flat`
+  std::string text;                    // returned to the caller, who may look at it until the next call
   carreau::abi::ErrorSlot error;
   std::atomic<bool> busy{false};
 };

@@ -66,6 +66,17 @@ void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_
   for (std::size_t i = 0; i < n; ++i) out[i] = i < refs.size() ? refs[i] : 0;
 }
 
+std::vector<carreau_mesh::FaceOfFile> faces_of(const FlatMesh& flat) {
+  std::map<std::int32_t, carreau_mesh::FaceOfFile> by_ref;
+  for (std::size_t i = 0; i < flat.triangles.size(); ++i)
+    ++by_ref[i < flat.triangle_refs.size() ? flat.triangle_refs[i] : 0].triangles;
+  for (auto& [ref, face] : by_ref) face.face = {.ref = ref, .status = carreau::FaceStatus::meshed};
+  for (const carreau::FlatFace& face : flat.faces) by_ref[face.ref].face = face;
+  std::vector<carreau_mesh::FaceOfFile> faces;
+  for (auto& [ref, face] : by_ref) faces.push_back(std::move(face));
+  return faces;
+}
+
 FlatMesh flat_of(const carreau_mesh& mesh) { return carreau::flatten(surface_of(mesh), false); }
 
 }  // namespace
@@ -98,10 +109,7 @@ carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path) {
     if (mesh->session != nullptr)
       throw InvalidArgument("the mesh of a session cannot be replaced by a file: use carreau_mesh_create");
     FlatMesh flat = carreau::read_mesh(required(path, "path"));
-    std::map<int, std::int64_t> faces;
-    for (std::size_t i = 0; i < flat.triangles.size(); ++i)
-      ++faces[i < flat.triangle_refs.size() ? flat.triangle_refs[i] : 0];
-    mesh->flat_faces.assign(faces.begin(), faces.end());
+    mesh->flat_faces = faces_of(flat);
     mesh->flat = std::move(flat);
     mesh->filled = true;
   });
@@ -252,9 +260,12 @@ carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face
       result.why = mesh->text.c_str();
       result.name = result.why + face.why.size() + 1;
     } else {
-      result.ref = mesh->flat_faces[i].first;
-      result.status = CARREAU_FACE_MESHED;
-      result.triangles = mesh->flat_faces[i].second;
+      const carreau_mesh::FaceOfFile& face = mesh->flat_faces[i];
+      mesh->text = face.face.name;
+      result.ref = face.face.ref;
+      result.status = std::int32_t(face.face.status);
+      result.triangles = face.triangles;
+      result.name = mesh->text.c_str();
     }
     write_struct(result, out_face, "out_face");
   });

@@ -11,6 +11,7 @@
 namespace command {
 namespace {
 
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh or .msh2";
 constexpr const char* geometry_files = "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom";
 
 void parse_picture_size(const std::string& text, PictureOptions& options) {
@@ -119,7 +120,7 @@ void CommandLine::add_info() {
 
 void CommandLine::add_check() {
   CLI::App* check = add("check", "Print counts, quality and defects of a mesh");
-  check->add_option("MESH", check_.mesh, "File .mesh or .meshb")->required()->type_name(kind::file);
+  check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
   check->add_flag("--closed", check_.closed, "An edge with one triangle is a defect too");
   check->add_option("--limit", check_.limit, "Defects to look for")
       ->check(CLI::PositiveNumber)
@@ -135,7 +136,7 @@ void CommandLine::add_check() {
 
 void CommandLine::add_picture() {
   CLI::App* picture = add("picture", "Draw a mesh into a PNG file");
-  picture->add_option("MESH", picture_.mesh, "File .mesh or .meshb")->required()->type_name(kind::file);
+  picture->add_option("MESH", picture_.mesh, mesh_files)->required()->type_name(kind::file);
   picture->add_option("-o,--output", picture_.out, "File to write")->required()->type_name(kind::file);
   picture->add_option("--size", picture_size_, "Pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
   repeated(picture->add_option("--view", picture_.views,

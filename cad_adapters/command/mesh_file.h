@@ -18,7 +18,7 @@ struct FreeMesh {
 };
 using MeshHandle = std::unique_ptr<carreau_mesh, FreeMesh>;
 
-/// Reads a .mesh or .meshb file. Throws Failure with the library's sentence.
+/// Reads a file of any format that the library reads. Throws Failure with the library's sentence.
 MeshHandle read_mesh(const std::string& path);
 
 /// Throws Failure with the sentence of the last call on `mesh` when `status` is an error.

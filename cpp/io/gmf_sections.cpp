@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "io/raw_numbers.h"
 #include "support/error.h"
 
 namespace carreau {
@@ -13,6 +14,11 @@ constexpr std::int32_t swapped_one = 0x01000000;
 
 }  // namespace
 
+bool starts_as_gmf(std::string_view bytes) noexcept {
+  const std::string_view start = bytes.substr(0, 4);
+  return start == std::string_view("\1\0\0\0", 4) || start == std::string_view("\0\0\0\1", 4);
+}
+
 void GmfSections::fail(std::size_t at, const std::string& sentence) const {
   throw FileError({.file = name_}, "byte " + std::to_string(at) + ": " + sentence);
 }
@@ -21,12 +27,7 @@ void GmfSections::fail(std::size_t at, const std::string& sentence) const {
 template <typename T>
 T GmfSections::raw() {
   if (bytes_.size() - pos_ < sizeof(T)) fail(bytes_.size(), "the file ends inside a number");
-  char copy[sizeof(T)];
-  std::memcpy(copy, bytes_.data() + pos_, sizeof(T));
-  if (swap_)
-    for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(copy[i], copy[sizeof(T) - 1 - i]);
-  T value;
-  std::memcpy(&value, copy, sizeof(T));
+  const T value = raw_number<T>(bytes_.data() + pos_, swap_);
   pos_ += sizeof(T);
   return value;
 }

@@ -3,14 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "io/gmf.h"
 
 namespace carreau {
+
+/// Whether a file is binary: it starts with the number 1 in 32 bits, in one byte order or the other.
+bool starts_as_gmf(std::string_view bytes) noexcept;
 
 /// Walks through a file; keeps references to both arguments. Errors are FileErrors.
 class GmfSections {

@@ -13,7 +13,6 @@ class MeditReader {
   FlatMesh read();
 
  private:
-  bool section();
   void vertices();
   template <std::size_t N>
   void entities(const std::string& what, std::vector<std::array<std::int32_t, N>>& list,
@@ -23,15 +22,16 @@ class MeditReader {
 
   MeditWords in_;
   FlatMesh mesh_;
-  bool has_dimension_ = false, has_vertices_ = false;
+  bool has_vertices_ = false;
   const char* edges_start_ = nullptr;  ///< of the first record; null: no section yet
   const char* triangles_start_ = nullptr;
 };
 
 void MeditReader::vertices() {
-  if (!has_dimension_) in_.fail(in_.position(), "Vertices comes before Dimension");
+  if (!in_.dimension()) in_.fail(in_.position(), "Vertices comes before Dimension");
   if (has_vertices_) in_.fail(in_.position(), "Vertices comes twice");
   has_vertices_ = true;
+  mesh_.dimension = *in_.dimension();
   const std::size_t n = in_.count("vertices", static_cast<std::size_t>(mesh_.dimension) + 1);
   mesh_.vertices.resize(n);
   mesh_.vertex_refs.resize(n);
@@ -76,32 +76,17 @@ void MeditReader::check_indices(const char* what, const std::vector<std::array<s
     }
 }
 
-/// False at the word End.
-bool MeditReader::section() {
-  const std::string_view name = in_.word();
-  if (name.empty()) in_.fail(in_.end(), "the file ends without the word End: it may be truncated");
-  if (name == "End") return false;
-  if (name == "Dimension") {
-    if (has_dimension_) in_.fail(name.data(), "Dimension comes twice");
-    has_dimension_ = true;
-    mesh_.dimension = in_.dimension();
-  } else if (name == "Vertices") {
-    vertices();
-  } else if (name == "Edges") {
-    entities("edges", mesh_.edges, mesh_.edge_refs, edges_start_);
-  } else if (name == "Triangles") {
-    entities("triangles", mesh_.triangles, mesh_.triangle_refs, triangles_start_);
-  } else if (is_known_section(name)) {
-    in_.skip_section();
-  } else {
-    in_.fail(name.data(), "the name of a section or End was expected, not " + shown(name));
-  }
-  return true;
-}
-
 FlatMesh MeditReader::read() {
   in_.header("a mesh file");
-  while (section()) {
+  for (;;) {
+    const std::string_view name = in_.next_section({"Vertices", "Edges", "Triangles"});
+    if (name.empty()) break;
+    if (name == "Vertices")
+      vertices();
+    else if (name == "Edges")
+      entities("edges", mesh_.edges, mesh_.edge_refs, edges_start_);
+    else
+      entities("triangles", mesh_.triangles, mesh_.triangle_refs, triangles_start_);
   }
   if (!has_vertices_) in_.fail(in_.position(), "the file has no Vertices");
   check_indices("edge", mesh_.edges, edges_start_);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "io/files.h"
+#include "io/gmf_sections.h"
 #include "io/mesh_writers.h"
 #include "support/error.h"
 
@@ -100,11 +101,21 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 }
 
 FlatMesh read_mesh(const std::string& path) {
+  const MeshFormat format = mesh_format_of(path);
   const std::string content = read_file(path);
-  // A binary file starts with the number 1 in 32 bits, in one byte order or the other.
-  const std::string_view start = std::string_view(content).substr(0, 4);
-  const bool binary = start == std::string_view("\1\0\0\0", 4) || start == std::string_view("\0\0\0\1", 4);
-  return binary ? read_mesh_binary(content, path) : read_mesh_text(content, path);
+  switch (format) {
+    case MeshFormat::mesh:
+    case MeshFormat::meshb:
+      return starts_as_gmf(content) ? read_mesh_binary(content, path) : read_mesh_text(content, path);
+    case MeshFormat::vtu:
+      return read_mesh_vtu(content, path);
+    case MeshFormat::stl:
+      return read_mesh_stl(content, path);
+    case MeshFormat::msh:
+    case MeshFormat::msh2:
+      break;
+  }
+  return read_mesh_msh(content, path);
 }
 
 }  // namespace carreau

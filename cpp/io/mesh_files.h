@@ -31,12 +31,23 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
 /// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Reads Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order), told apart by the content.
-/// Vertices, edges and triangles are taken; other sections of the format are skipped. A word that is no section of the
-/// format (ASCII), a section that comes twice, or a missing End is an error. Throws FileError with file and line, or
-/// file and byte.
+/// Reads a file by its suffix, as mesh_format_of() tells it. Throws InvalidArgument for another suffix, FileError with
+/// file and line, or file and byte. Vertices, edges and triangles are taken, their references, names of faces and, of
+/// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files only.
 FlatMesh read_mesh(const std::string& path);
+/// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() tells them apart by
+/// the content. Other sections of the format are skipped. A word that is no section of the format (ASCII), a section
+/// that comes twice, or a missing End is an error.
 FlatMesh read_mesh_text(std::string_view text, const std::string& name);
 FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
+/// Gmsh, versions 4.1 and 2.2, ASCII and binary (either byte order). References are the numbers of entities (not of
+/// physical groups, unless an element has no other), names those of physical groups. Vertices have the order of their
+/// numbers. Solids are skipped, other elements than triangles, edges and points of first order are errors.
+FlatMesh read_mesh_msh(std::string_view content, const std::string& name);
+/// STL, text or binary: corners of equal coordinates become one vertex. Solids of the text form are faces.
+FlatMesh read_mesh_stl(std::string_view content, const std::string& name);
+/// VTK XML: one piece, arrays as text, base64 or raw bytes, not compressed. Cells other than triangles and lines are
+/// errors, but for points and solids, which are skipped.
+FlatMesh read_mesh_vtu(std::string_view content, const std::string& name);
 
 }  // namespace carreau

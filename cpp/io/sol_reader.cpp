@@ -51,36 +51,21 @@ class TextReader {
 
   Solution read() {
     in_.header("a solution file");
-    while (section()) {
+    for (;;) {
+      const std::string_view name = in_.next_section({"SolAtVertices"});
+      if (name.empty()) break;
+      values(name.data());
     }
     if (!has_values_) in_.fail(in_.position(), "the file has no SolAtVertices");
     return std::move(solution_);
   }
 
  private:
-  /// False at the word End.
-  bool section() {
-    const std::string_view name = in_.word();
-    if (name.empty()) in_.fail(in_.end(), "the file ends without the word End: it may be truncated");
-    if (name == "End") return false;
-    if (name == "Dimension") {
-      if (has_dimension_) in_.fail(name.data(), "Dimension comes twice");
-      has_dimension_ = true;
-      solution_.dimension = in_.dimension();
-    } else if (name == "SolAtVertices") {
-      values(name.data());
-    } else if (is_known_section(name) || name == "Vertices" || name == "Edges" || name == "Triangles") {
-      in_.skip_section();
-    } else {
-      in_.fail(name.data(), "the name of a section or End was expected, not " + shown(name));
-    }
-    return true;
-  }
-
   void values(const char* at) {
-    if (!has_dimension_) in_.fail(at, "SolAtVertices comes before Dimension");
+    if (!in_.dimension()) in_.fail(at, "SolAtVertices comes before Dimension");
     if (has_values_) in_.fail(at, "SolAtVertices comes twice");
     has_values_ = true;
+    solution_.dimension = *in_.dimension();
     const char* number = in_.position();
     in_.integer("the number of vertices");
     const std::int32_t how_many = in_.integer("the number of values at a vertex");
@@ -101,7 +86,7 @@ class TextReader {
   MeditWords in_;
   SolutionUse use_;
   Solution solution_;
-  bool has_dimension_ = false, has_values_ = false;
+  bool has_values_ = false;
 };
 
 class BinaryReader {
@@ -175,10 +160,7 @@ Solution read_solution_binary(std::string_view bytes, const std::string& name, S
 
 Solution read_solution(const std::string& path, SolutionUse use) {
   const std::string content = read_file(path);
-  // A binary file starts with the number 1 in 32 bits, in one byte order or the other.
-  const std::string_view start = std::string_view(content).substr(0, 4);
-  const bool binary = start == std::string_view("\1\0\0\0", 4) || start == std::string_view("\0\0\0\1", 4);
-  return binary ? read_solution_binary(content, path, use) : read_solution_text(content, path, use);
+  return starts_as_gmf(content) ? read_solution_binary(content, path, use) : read_solution_text(content, path, use);
 }
 
 }  // namespace carreau

@@ -231,6 +231,45 @@ class Command(unittest.TestCase):
         self.assertEqual(done.returncode, 2)
         self.assertIn("standard output cannot be written: No space left", done.stderr)
 
+    def test_meshes_of_all_formats_are_checked_and_drawn(self):
+        plate = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+        triangles = [(0, 1, 2), (0, 2, 3)]
+        text = "".join(
+            "solid side\n" + "facet normal 0 0 1\nouter loop\n" +
+            "".join("vertex %g %g %g\n" % plate[v] for v in t) + "endloop\nendfacet\nendsolid side\n" for t in triangles)
+        binary = b" " * 80 + struct.pack("<I", 2) + b"".join(
+            struct.pack("<12f2x", 0, 0, 1, *(x for v in t for x in plate[v])) for t in triangles)
+        gmsh = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n" + "".join(
+            "%d %g %g %g\n" % (v + 1, *p) for v, p in enumerate(plate)) + "$EndNodes\n$Elements\n2\n" + "".join(
+            "%d 2 2 0 %d %d %d %d\n" % (i + 1, i + 1, *(v + 1 for v in t)) for i, t in enumerate(triangles)) + "$EndElements\n"
+        array = "<DataArray type='%s' Name='%s' NumberOfComponents='%d' format='ascii'>%s</DataArray>"
+        vtu = ("<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='4' NumberOfCells='2'><Points>" +
+               array % ("Float64", "Points", 3, " ".join("%g %g %g" % p for p in plate)) + "</Points><Cells>" +
+               array % ("Int32", "connectivity", 1, "0 1 2 0 2 3") + array % ("Int32", "offsets", 1, "3 6") +
+               array % ("UInt8", "types", 1, "5 5") + "</Cells></Piece></UnstructuredGrid></VTKFile>")
+        files = {"text.stl": text, "binary.stl": binary, "a.msh": gmsh, "b.msh2": gmsh, "c.vtu": vtu}
+        for name, content in files.items():
+            with self.subTest(name):
+                path = os.path.join(self.folder, name)
+                with open(path, "wb") as file:
+                    file.write(content if isinstance(content, bytes) else content.encode())
+                result = run("check", path, "--json")
+                self.assertEqual((result.returncode, result.stderr), (0, ""))
+                found = json.loads(result.stdout)
+                self.assertEqual((found["vertices"], found["triangles"], found["quality"]["open_edges"]), (4, 2, 4))
+                self.assertEqual(found["quality"]["area"], 1)
+                picture = os.path.join(self.folder, name + ".png")
+                self.assertEqual(run("picture", path, "-o", picture, "--view", "top").returncode, 0)
+                self.assertNotEqual(read_png(picture)[450][600], (255, 255, 255))
+                with open(path, "wb") as file:
+                    file.write(b"\0 no mesh")
+                result = run("check", path)
+                self.assertEqual((result.returncode, result.stdout), (2, ""))
+                self.assertIn(path, result.stderr)
+        result = run("check", os.path.join(self.folder, "part.step"))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2", result.stderr)
+
     def test_defects_give_exit_code_1(self):
         line = self.write("line.mesh", SQUARE.replace("1 1 1 0", "2 0 1 0"))
         done = run("check", line)

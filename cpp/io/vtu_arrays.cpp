@@ -1,0 +1,192 @@
+#include "io/vtu_arrays.h"
+
+#include <bit>
+#include <cmath>
+#include <type_traits>
+
+#include "io/raw_numbers.h"
+#include "io/text.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+/// Value of a digit of base64; -1: it is none.
+int base64_digit(char c) noexcept {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+}  // namespace
+
+std::string VtuArray::shown_name() const { return "array " + shown(name()); }
+
+VtuArrays::VtuArrays(std::string_view content, const std::string& name, const XmlTag& root)
+    : content_(content), name_(name) {
+  if (root.attribute("type") != "UnstructuredGrid")
+    fail(root, "the type of the file is " + shown(root.attribute("type")) + " instead of 'UnstructuredGrid'");
+  if (!root.attribute("compressor").empty())
+    fail(root, "its arrays are compressed; only a file without a compressor is read");
+  const std::string order = root.attribute("byte_order"), header = root.attribute("header_type");
+  if (order != "" && order != "LittleEndian" && order != "BigEndian")
+    fail(root, "byte_order is " + shown(order) + " instead of LittleEndian or BigEndian");
+  swapped_ = (order == "BigEndian") != (std::endian::native == std::endian::big);
+  if (header != "" && header != "UInt32" && header != "UInt64")
+    fail(root, "header_type is " + shown(header) + " instead of UInt32 or UInt64");
+  length_size_ = header == "UInt64" ? 8 : 4;
+}
+
+void VtuArrays::fail(const XmlTag& tag, const std::string& sentence) const {
+  Words(content_, name_).fail(tag.at, sentence);
+}
+
+void VtuArrays::set_appended(const XmlTag& tag) {
+  const std::string encoding = tag.attribute("encoding");
+  if (encoding != "raw" && encoding != "base64")
+    fail(tag, "the encoding of the data is " + shown(encoding) + " instead of raw or base64");
+  appended_ = content_.substr(static_cast<std::size_t>(tag.after - content_.data()));
+  const std::size_t start = appended_.find('_');
+  if (start == std::string_view::npos) fail(tag, "the data do not begin with an underscore");
+  appended_.remove_prefix(start + 1);
+  appended_base64_ = encoding == "base64";
+  has_appended_ = true;
+}
+
+/// Up to the first character that is no digit of base64, or until there are as many bytes as wanted. A length may be
+/// encoded apart from what follows it: groups of four that end with '=' are passed.
+std::string VtuArrays::decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const {
+  std::string bytes;
+  std::uint32_t group = 0;
+  int digits = 0, missing = 0;
+  for (const char c : base64) {
+    if (c == ' ' || c == '\n' || c == '\r' || c == '\t') continue;
+    const int digit = base64_digit(c);
+    if (digit < 0 && c != '=') break;
+    if ((c == '=' && digits < 2) || (c != '=' && missing > 0)) fail(array.tag, array.shown_name() + " is not base64");
+    group = group << 6 | static_cast<std::uint32_t>(c == '=' ? 0 : digit);
+    if (c == '=') ++missing;
+    if (++digits < 4) continue;
+    for (int k = 0; k < 3 - missing; ++k) bytes += static_cast<char>(group >> (16 - 8 * k) & 255u);
+    group = 0, digits = missing = 0;
+    if (bytes.size() >= wanted) return bytes;
+  }
+  if (digits != 0) fail(array.tag, array.shown_name() + " ends inside a group of base64");
+  return bytes;
+}
+
+std::string VtuArrays::bytes_of(const VtuArray& array) {
+  std::string_view stored = array.text;
+  const bool appended = array.tag.attribute("format") == "appended", base64 = !appended || appended_base64_;
+  if (appended) {
+    if (!has_appended_) fail(array.tag, array.shown_name() + " lies in AppendedData, which the file does not have");
+    double offset = 0;  // exact up to 2^53
+    const std::string given = array.tag.attribute("offset");
+    if (!parse_number(given, offset) || !(offset >= 0) || offset > static_cast<double>(appended_.size()))
+      fail(array.tag, array.shown_name() + " begins at " + shown(given) + ", which is outside of the data");
+    stored = appended_.substr(static_cast<std::size_t>(offset));
+  }
+  const std::string start = base64 ? decoded(array, stored, length_size_) : std::string(stored.substr(0, length_size_));
+  if (start.size() < length_size_) fail(array.tag, array.shown_name() + " has no length before its bytes");
+  const std::uint64_t length = length_size_ == 8 ? raw_number<std::uint64_t>(start.data(), swapped_)
+                                                 : raw_number<std::uint32_t>(start.data(), swapped_);
+  // Every array has its own bytes: what is asked for in all is no more than the file holds.
+  if (length > content_.size() - taken_)
+    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) +
+                        " bytes, more than are left: the file may be truncated");
+  taken_ += length;
+  std::string bytes =
+      base64 ? decoded(array, stored, length_size_ + length) : std::string(stored.substr(0, length_size_ + length));
+  if (bytes.size() < length_size_ + length)
+    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) + " bytes, but " +
+                        std::to_string(bytes.size() - length_size_) + " are left: the file may be truncated");
+  return bytes.substr(length_size_, length);
+}
+
+template <typename T>
+std::vector<T> VtuArrays::numbers_of_text(const VtuArray& array, bool finite) const {
+  Words in(content_.substr(0, static_cast<std::size_t>(array.text.data() + array.text.size() - content_.data())),
+           name_);
+  in.go_back(array.text.data());
+  std::vector<T> values;
+  for (;;) {
+    const char* const before = in.position();
+    const std::string_view word = in.word();
+    if (word.empty()) return values;
+    if constexpr (std::is_same_v<T, double>) {
+      double value = 0;
+      if (!parse_number(word, value)) in.fail(word.data(), "a number was expected, not " + shown(word));
+      if (finite && !std::isfinite(value)) in.fail(word.data(), "a number is not finite: " + shown(word));
+      values.push_back(value);
+    } else {
+      in.go_back(before);
+      values.push_back(in.integer_64("a number"));
+    }
+  }
+}
+
+template <typename T>
+std::vector<T> VtuArrays::numbers_of_bytes(const VtuArray& array, std::string_view bytes) const {
+  const std::string type = array.tag.attribute("type");
+  std::vector<T> values;
+  const auto read = [&]<typename Stored>(Stored) {
+    if constexpr (std::is_integral_v<T> && !std::is_integral_v<Stored>) {
+      fail(array.tag, array.shown_name() + " has type " + type + " instead of integers");
+    } else {
+      if (bytes.size() % sizeof(Stored) != 0)
+        fail(array.tag, array.shown_name() + " has " + std::to_string(bytes.size()) +
+                            " bytes, which are no numbers of " + std::to_string(sizeof(Stored)));
+      values.reserve(bytes.size() / sizeof(Stored));
+      for (std::size_t i = 0; i < bytes.size(); i += sizeof(Stored))
+        values.push_back(static_cast<T>(raw_number<Stored>(bytes.data() + i, swapped_)));
+    }
+  };
+  if (type == "Float64") return read(double{}), values;
+  if (type == "Float32") return read(float{}), values;
+  if (type == "Int32") return read(std::int32_t{}), values;
+  if (type == "Int64") return read(std::int64_t{}), values;
+  if (type == "UInt8") return read(std::uint8_t{}), values;
+  if (type == "Int8") return read(std::int8_t{}), values;
+  if (type == "Int16") return read(std::int16_t{}), values;
+  if (type == "UInt16") return read(std::uint16_t{}), values;
+  if (type == "UInt32") return read(std::uint32_t{}), values;
+  if (type == "UInt64") return read(std::uint64_t{}), values;
+  fail(array.tag, array.shown_name() + " has the unknown type " + shown(type));
+}
+
+template <typename T>
+std::vector<T> VtuArrays::numbers(const VtuArray& array, bool finite) {
+  const std::string format = array.tag.attribute("format");
+  if (format == "ascii") return numbers_of_text<T>(array, finite);
+  if (format != "appended" && format != "binary")
+    fail(array.tag, array.shown_name() + " has format " + shown(format) + " instead of ascii, binary or appended");
+  std::vector<T> values = numbers_of_bytes<T>(array, bytes_of(array));
+  if constexpr (std::is_same_v<T, double>)
+    for (const double value : values)
+      if (finite && !std::isfinite(value)) fail(array.tag, array.shown_name() + " has a number that is not finite");
+  return values;
+}
+
+void VtuArrays::check_count(const VtuArray& array, std::size_t found, std::size_t expected) const {
+  if (found != expected)
+    fail(array.tag,
+         array.shown_name() + " has " + std::to_string(found) + " numbers instead of " + std::to_string(expected));
+}
+
+std::vector<std::int64_t> VtuArrays::integers(const VtuArray& array, std::size_t count) {
+  std::vector<std::int64_t> values = numbers<std::int64_t>(array, true);
+  check_count(array, values.size(), count);
+  return values;
+}
+
+std::vector<std::int64_t> VtuArrays::all_integers(const VtuArray& array) { return numbers<std::int64_t>(array, true); }
+
+std::vector<double> VtuArrays::reals(const VtuArray& array, std::size_t count, bool finite) {
+  std::vector<double> values = numbers<double>(array, finite);
+  check_count(array, values.size(), count);
+  return values;
+}
+
+}  // namespace carreau

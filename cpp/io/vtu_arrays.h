@@ -1,0 +1,58 @@
+// Arrays of a VTK XML file: numbers as text, as base64, or as bytes behind the XML.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/xml_tags.h"
+
+namespace carreau {
+
+struct VtuArray {
+  XmlTag tag;
+  std::string_view text;  ///< between the tags
+  [[nodiscard]] std::string name() const { return tag.attribute("Name"); }
+  [[nodiscard]] std::string shown_name() const;
+};
+
+/// How the numbers of a file are stored, and where.
+class VtuArrays {
+ public:
+  /// Keeps references to both arguments. `root`: the tag VTKFile. Throws FileError for what is not known.
+  VtuArrays(std::string_view content, const std::string& name, const XmlTag& root);
+
+  /// The tag AppendedData. Throws FileError.
+  void set_appended(const XmlTag& tag);
+
+  /// `count` numbers; any that a 64-bit integer holds. Throws FileError.
+  [[nodiscard]] std::vector<std::int64_t> integers(const VtuArray& array, std::size_t count);
+  /// finite: NaN and infinity are errors.
+  [[nodiscard]] std::vector<double> reals(const VtuArray& array, std::size_t count, bool finite);
+  /// However many there are.
+  [[nodiscard]] std::vector<std::int64_t> all_integers(const VtuArray& array);
+
+  [[noreturn]] void fail(const XmlTag& tag, const std::string& sentence) const;
+
+ private:
+  template <typename T>
+  std::vector<T> numbers_of_text(const VtuArray& array, bool finite) const;
+  template <typename T>
+  std::vector<T> numbers_of_bytes(const VtuArray& array, std::string_view bytes) const;
+  template <typename T>
+  std::vector<T> numbers(const VtuArray& array, bool finite);
+  [[nodiscard]] std::string bytes_of(const VtuArray& array);
+  [[nodiscard]] std::string decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const;
+  void check_count(const VtuArray& array, std::size_t found, std::size_t expected) const;
+
+  std::string_view content_;
+  const std::string& name_;
+  bool swapped_ = false;
+  std::size_t length_size_ = 4;  // bytes of the length before the bytes of an array
+  std::string_view appended_;    // behind the underscore
+  bool has_appended_ = false, appended_base64_ = false;
+  std::uint64_t taken_ = 0;  // bytes of arrays so far
+};
+
+}  // namespace carreau

@@ -1,0 +1,263 @@
+// VTK XML (UnstructuredGrid): points, triangles, lines; references and fields of the file's arrays.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "io/mesh_files.h"
+#include "io/text.h"
+#include "io/vtu_arrays.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_triangle = 5;
+
+/// Solids, of any order: they are skipped. Other cells are pieces of surfaces that are not triangles.
+bool is_solid(std::int64_t type) noexcept {
+  constexpr std::int64_t solids[] = {10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 42, 71, 72, 73, 74};
+  return std::find(std::begin(solids), std::end(solids), type) != std::end(solids);
+}
+
+/// Arrays of one kind, by name.
+using Arrays = std::map<std::string, VtuArray>;
+
+class VtuReader {
+ public:
+  VtuReader(std::string_view content, const std::string& name) : content_(content), name_(name), tags_(content, name) {}
+
+  FlatMesh read() {
+    const XmlTag root = tags_.next();
+    if (root.name.empty()) tags_.fail(content_.data() + content_.size(), "the file has no tag of XML");
+    if (root.name != "VTKFile") tags_.fail(root.at, "a .vtu file starts with VTKFile, not with " + shown(root.name));
+    VtuArrays numbers(content_, name_, root);
+    collect(numbers);
+    if (!piece_.at) tags_.fail(root.at, "the file has no Piece");
+    add_points(numbers);
+    add_cells(numbers);
+    add_fields(numbers);
+    add_faces(numbers);
+    return std::move(mesh_);
+  }
+
+ private:
+  void collect(VtuArrays& numbers);
+  void add_array(const std::string& section, VtuArray array);
+  const VtuArray& array(const std::string& section, const std::string& name) const;
+  [[nodiscard]] std::size_t piece_count(const char* attribute) const;
+  std::int32_t index(const VtuArray& array, std::int64_t value) const;
+  void add_points(VtuArrays& numbers);
+  void add_cells(VtuArrays& numbers);
+  void add_cell(std::int64_t type, const std::vector<std::int32_t>& corners, std::size_t cell);
+  void add_fields(VtuArrays& numbers);
+  void add_cell_field(const VtuArray& array, int components, const std::vector<double>& values);
+  std::vector<std::int32_t> refs(const VtuArray& array, const std::vector<std::int64_t>& values) const;
+  void add_faces(VtuArrays& numbers);
+
+  std::string_view content_;
+  const std::string& name_;
+  XmlTags tags_;
+  XmlTag piece_{};
+  std::map<std::string, Arrays> sections_;
+  FlatMesh mesh_;
+  std::size_t cells_ = 0;
+  std::vector<std::size_t> cell_of_triangle_, cell_of_edge_;
+};
+
+void VtuReader::add_array(const std::string& section, VtuArray array) {
+  // The only array of Points may have any name.
+  const std::string name = section == "Points" ? "" : array.name();
+  const XmlTag& tag = array.tag;
+  const char* const at = tag.at;
+  const std::string shown_name = array.shown_name();
+  if (!sections_[section].emplace(name, std::move(array)).second)
+    tags_.fail(at, shown_name + " of " + section + " is given twice");
+}
+
+/// Reads the tags: where the arrays are.
+void VtuReader::collect(VtuArrays& numbers) {
+  std::string section;
+  for (XmlTag tag = tags_.next();; tag = tags_.next()) {
+    if (tag.name.empty()) tags_.fail(tag.at, "the file ends before </VTKFile>: it may be truncated");
+    if (tag.name == "VTKFile") return;
+    if (tag.name == "AppendedData" && tag.opens) return numbers.set_appended(tag);  // bytes, no tags, follow
+    if (tag.name == "Piece" && tag.opens) {
+      if (piece_.at) tags_.fail(tag.at, "the file has several pieces; one is wanted");
+      piece_ = tag;
+    }
+    if (tag.name == "DataArray" || tag.name == "Array") {
+      if (!tag.opens) continue;
+      VtuArray array{.tag = tag, .text = {}};
+      if (!tag.closes) {
+        const XmlTag closing = tags_.next();
+        if (closing.opens || closing.name != tag.name) tags_.fail(tag.at, array.shown_name() + " is not closed");
+        array.text = {tag.after, static_cast<std::size_t>(closing.at - tag.after)};
+      }
+      add_array(section, std::move(array));
+      continue;
+    }
+    section = tag.opens && !tag.closes ? std::string(tag.name) : "";
+  }
+}
+
+const VtuArray& VtuReader::array(const std::string& section, const std::string& name) const {
+  const auto arrays = sections_.find(section);
+  if (arrays != sections_.end())
+    if (const auto found = arrays->second.find(name); found != arrays->second.end()) return found->second;
+  tags_.fail(piece_.at, section + " has no array" + (name.empty() ? "" : " '" + name + "'"));
+}
+
+std::size_t VtuReader::piece_count(const char* attribute) const {
+  const std::string given = piece_.attribute(attribute);
+  int n = 0;  // indices have 32 bits
+  if (!parse_number(given, n) || n < 0)
+    tags_.fail(piece_.at, std::string(attribute) + " is " + shown(given) + " instead of a number of 32 bits");
+  return static_cast<std::size_t>(n);
+}
+
+void VtuReader::add_points(VtuArrays& numbers) {
+  const std::size_t n = piece_count("NumberOfPoints");
+  if (n > 0) {
+    const std::vector<double> x = numbers.reals(array("Points", ""), 3 * n, true);
+    for (std::size_t i = 0; i < n; ++i) mesh_.vertices.push_back({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
+  }
+  mesh_.vertex_refs.assign(n, 0);
+}
+
+std::int32_t VtuReader::index(const VtuArray& array, std::int64_t value) const {
+  if (value < 0 || static_cast<std::uint64_t>(value) >= mesh_.vertices.size())
+    tags_.fail(array.tag.at,
+               "a cell names point " + std::to_string(value) + " of " + std::to_string(mesh_.vertices.size()));
+  return static_cast<std::int32_t>(value);
+}
+
+void VtuReader::add_cell(std::int64_t type, const std::vector<std::int32_t>& corners, std::size_t cell) {
+  const bool of_points = type == vtk_vertex || type == vtk_points, chain = type == vtk_line || type == vtk_polyline;
+  if (of_points || is_solid(type)) return;
+  const std::size_t n = corners.size();
+  if (type == vtk_triangle && n == 3) {
+    mesh_.triangles.push_back({corners[0], corners[1], corners[2]});
+    cell_of_triangle_.push_back(cell);
+  } else if (chain && n >= 2) {
+    for (std::size_t k = 1; k < n; ++k)
+      mesh_.edges.push_back({corners[k - 1], corners[k]}), cell_of_edge_.push_back(cell);
+  } else {
+    tags_.fail(array("Cells", "types").tag.at, "cell " + std::to_string(cell) + " (from 0) has type " +
+                                                   std::to_string(type) + " and " + std::to_string(n) +
+                                                   " points; surfaces of triangles (type 5) are read only");
+  }
+}
+
+void VtuReader::add_cells(VtuArrays& numbers) {
+  cells_ = piece_count("NumberOfCells");
+  if (cells_ == 0) return;
+  const VtuArray& corners_array = array("Cells", "connectivity");
+  const std::vector<std::int64_t> types = numbers.integers(array("Cells", "types"), cells_),
+                                  offsets = numbers.integers(array("Cells", "offsets"), cells_),
+                                  all = numbers.all_integers(corners_array);
+  std::vector<std::int32_t> corners;
+  std::int64_t begin = 0;
+  for (std::size_t c = 0; c < cells_; ++c) {
+    const std::int64_t end = offsets[c];
+    if (end < begin || static_cast<std::uint64_t>(end) > all.size())
+      tags_.fail(array("Cells", "offsets").tag.at, "the offset of cell " + std::to_string(c) + " (from 0) is " +
+                                                       std::to_string(end) + ", which cannot be");
+    corners.clear();
+    for (; begin < end; ++begin) corners.push_back(index(corners_array, all[static_cast<std::size_t>(begin)]));
+    add_cell(types[c], corners, c);
+  }
+}
+
+std::vector<std::int32_t> VtuReader::refs(const VtuArray& array, const std::vector<std::int64_t>& values) const {
+  std::vector<std::int32_t> result;
+  for (const std::int64_t value : values) {
+    if (value < std::numeric_limits<std::int32_t>::min() || value > std::numeric_limits<std::int32_t>::max())
+      tags_.fail(array.tag.at, "the reference " + std::to_string(value) + " does not fit in 32 bits");
+    result.push_back(static_cast<std::int32_t>(value));
+  }
+  return result;
+}
+
+/// Values of triangles and of edges; a list of which all are NaN was made to fill the array.
+void VtuReader::add_cell_field(const VtuArray& array, int components, const std::vector<double>& values) {
+  MeshField field{.name = array.name(), .on_vertices = false, .components = components, .values = {}};
+  const auto n = static_cast<std::size_t>(components);
+  const auto take = [&](const std::vector<std::size_t>& cells, std::vector<double>& list) {
+    for (const std::size_t cell : cells)
+      for (std::size_t k = 0; k < n; ++k) list.push_back(values[cell * n + k]);
+    return std::all_of(list.begin(), list.end(), [](double value) { return std::isnan(value); });
+  };
+  const bool no_triangle = take(cell_of_triangle_, field.values), no_edge = take(cell_of_edge_, field.edge_values);
+  if (no_edge)
+    field.edge_values.clear();
+  else if (no_triangle)
+    field.values.clear();
+  mesh_.fields.push_back(std::move(field));
+}
+
+void VtuReader::add_fields(VtuArrays& numbers) {
+  for (const char* section : {"PointData", "CellData"}) {
+    const bool on_vertices = section == std::string("PointData");
+    const std::size_t count = on_vertices ? mesh_.vertices.size() : cells_;
+    for (const auto& [name, each] : sections_[section]) {
+      if (name == "reference") {
+        const std::vector<std::int32_t> found = refs(each, numbers.integers(each, count));
+        if (on_vertices) mesh_.vertex_refs = found;
+        for (const std::size_t cell : cell_of_triangle_)
+          if (!on_vertices) mesh_.triangle_refs.push_back(found[cell]);
+        for (const std::size_t cell : cell_of_edge_)
+          if (!on_vertices) mesh_.edge_refs.push_back(found[cell]);
+        continue;
+      }
+      if (each.tag.name != "DataArray") continue;  // strings
+      const std::string given = each.tag.attribute("NumberOfComponents");
+      int components = 1;
+      constexpr int most = 1000;  // so that numbers of values cannot overflow
+      if (!given.empty() && (!parse_number(given, components) || components < 1 || components > most))
+        tags_.fail(each.tag.at, each.shown_name() + " has " + shown(given) + " components");
+      std::vector<double> values = numbers.reals(each, count * static_cast<std::size_t>(components), false);
+      if (on_vertices)
+        mesh_.fields.push_back({.name = name, .on_vertices = true, .components = components, .values = values});
+      else
+        add_cell_field(each, components, values);
+    }
+  }
+  mesh_.triangle_refs.resize(mesh_.triangles.size(), 0);
+  mesh_.edge_refs.resize(mesh_.edges.size(), 0);
+}
+
+/// What the writer tells of faces.
+void VtuReader::add_faces(VtuArrays& numbers) {
+  const Arrays& arrays = sections_["FieldData"];
+  const auto found = arrays.find("face_reference"), status = arrays.find("face_status"),
+             names = arrays.find("face_name");
+  if (found == arrays.end() || status == arrays.end() || names == arrays.end()) return;
+  for (const std::int32_t ref : refs(found->second, numbers.all_integers(found->second)))
+    mesh_.faces.push_back({.ref = ref});
+  const std::vector<std::int64_t> states = numbers.integers(status->second, mesh_.faces.size()),
+                                  codes = numbers.all_integers(names->second);
+  for (std::size_t f = 0; f < states.size(); ++f) {
+    if (states[f] < 0 || states[f] > static_cast<std::int64_t>(FaceStatus::collapsed))
+      tags_.fail(status->second.tag.at, "there is no status " + std::to_string(states[f]));
+    mesh_.faces[f].status = static_cast<FaceStatus>(states[f]);
+  }
+  std::size_t face = 0;
+  for (const std::int64_t code : codes) {
+    if (face == mesh_.faces.size() || code < 0 || code > 255)
+      tags_.fail(names->second.tag.at, "the names of faces are more than faces, or not text");
+    if (code == 0)
+      ++face;
+    else
+      mesh_.faces[face].name += static_cast<char>(code);
+  }
+}
+
+}  // namespace
+
+FlatMesh read_mesh_vtu(std::string_view content, const std::string& name) {
+  return VtuReader(without_byte_order_mark(content), name).read();
+}
+
+}  // namespace carreau
