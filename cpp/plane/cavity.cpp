@@ -66,15 +66,22 @@ void Triangulation::reserve_cavity(std::size_t triangles_in) {
 // alpha < 1 in RR-2928 eq. 5-8. Where all is near to p one metric stands for the product of four; farther away the mean
 // tensor of the four vertices does (README, "Differs").
 bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart) {
+  return chart != nullptr ? dig_in<true>(p, metric, start, rules, chart)
+                          : dig_in<false>(p, metric, start, rules, chart);
+}
+
+template <bool charted>
+bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules& rules,
+                           [[maybe_unused]] const Chart* chart) {
   reserve_cavity(64);
   const Triangle& S = triangles[start];
   std::size_t cavity_size = 0, rim_size = 0, top = 0, point_count = 3;
   for (int i = 0; i < 3; ++i) {
     const Vertex& w = vertices[S.v[i]];
     const double x = w.x - p.x, y = w.y - p.y;
-    if (chart != nullptr) charted_[i] = chart->at_offset({x, y});
-    const double d2 = chart != nullptr ? dot(charted_[i], charted_[i]) : squared(metric, x, y);
-    if ((x == 0 && y == 0) || (d2 < rules.distance2 && too_near(p, S.v[i], d2, rules, chart != nullptr))) return false;
+    if constexpr (charted) charted_[i] = chart->at_offset({x, y});
+    const double d2 = charted ? dot(charted_[i], charted_[i]) : squared(metric, x, y);
+    if ((x == 0 && y == 0) || (d2 < rules.distance2 && too_near(p, S.v[i], d2, rules, charted))) return false;
     points_[i] = {x, y, d2, S.v[i]};
   }
   cavity_[cavity_size++] = start;
@@ -102,23 +109,23 @@ bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& ru
       D.x = w.x - p.x, D.y = w.y - p.y, D.v = N.v[i];
       D.d2 = squared(metric, D.x, D.y);
       const auto d = static_cast<std::int32_t>(point_count);
-      if (chart != nullptr) {
+      if constexpr (charted) {
         charted_[d] = chart->at_offset({D.x, D.y});
         D.d2 = dot(charted_[d], charted_[d]);
       }
       double ad, db;
       int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
       if (left >= 0 && right >= 0) {
-        bool inside = chart != nullptr ? in_circle_of_chart(e.a, e.b, d)
-                                       : A.d2 * db + B.d2 * ad - D.d2 * e.area > cocircular * D.d2 * e.area;
-        const double near = chart != nullptr ? near_in_chart2 : near2;
+        bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
+                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > cocircular * D.d2 * e.area;
+        const double near = charted ? near_in_chart2 : near2;
         if (std::max({A.d2, B.d2, D.d2}) > near) {
           const bool near_a = A.d2 <= near, near_b = B.d2 <= near;
           if (D.d2 <= near)
             inside = true;  // a sliver between what is near and what is far
           else if (near_a && near_b)
-            inside = inside && (chart != nullptr ? dot(charted_[e.a], charted_[e.b])
-                                                 : dot(metric, Vec2{A.x, A.y}, Vec2{B.x, B.y})) < 0;
+            inside = inside &&
+                     (charted ? dot(charted_[e.a], charted_[e.b]) : dot(metric, Vec2{A.x, A.y}, Vec2{B.x, B.y})) < 0;
           else if (!near_a && !near_b)
             inside = in_far_circle(metric, A, B, D, ad + db, e.area);
         }
@@ -126,7 +133,7 @@ bool Triangulation::dig(Vec2 p, Metric2 metric, int start, const InsertRules& ru
           if (left == 0) left = orientation(at(A.v), w.point(), p);
           if (right == 0) right = orientation(w.point(), at(B.v), p);
           if (left > 0 && right > 0) {
-            if (D.d2 < rules.distance2 && too_near(p, D.v, D.d2, rules, chart != nullptr)) return false;
+            if (D.d2 < rules.distance2 && too_near(p, D.v, D.d2, rules, charted)) return false;
             cavity_[cavity_size++] = t;
             ++point_count;
             const int ia = next3[i], ib = prev3[i];  // corner ia is b, corner ib is a

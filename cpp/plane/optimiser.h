@@ -56,11 +56,17 @@ class Optimiser {
     bool by_size;  ///< triangles count by the inverse of the size wanted
   };
   void sweep_all(std::span<const double> relaxations, Aim aim);
-  void sweep(double relaxation, Aim aim);
+  // `bends`: whether the field may bend, so that each triangle must be asked.
+  template <bool by_size, bool bends>
+  void sweep(double relaxation, double pull);
   void update_metrics();
-  void propose(Aim aim);
+  template <bool by_size, bool bends>
+  void propose(double pull);
   void propose_in_chart(const Triangle& T, double weight);
+  template <bool bends>
   void undo_spoiling_moves();
+  bool undo(int v);
+  template <bool bends>
   [[nodiscard]] bool sound(const Triangle& T) const;
 
   // rescue.cpp
@@ -86,7 +92,8 @@ class Optimiser {
     double x = 0, y = 0;
     double weight = 0;
   };
-  std::vector<Proposal> proposals_;  // afterwards: the old places
+  std::vector<Proposal> proposals_;   // afterwards: the old places
+  std::vector<std::int32_t> undone_;  // vertices of moves taken back
   std::vector<HalfEdge> edges_;
   std::vector<std::int32_t> work_, next_;
   std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise

@@ -34,9 +34,10 @@ void Optimiser::propose_in_chart(const Triangle& T, double weight) {
 // that is the aim, where its sides would have unit length: lower over long bases, higher over short ones. Where sizes
 // vary triangles count by the inverse of the size. That of its square would make the sum of their defects, each
 // relative to the triangle, least; but where sizes jump it draws vertices to the small ones.
-void Optimiser::propose(Aim aim) {
+template <bool by_size, bool bends>
+void Optimiser::propose(double pull) {
   proposals_.assign(mesh_.vertices.size(), {});
-  const double slope = 2.0 / 3 * aim.pull;
+  const double slope = 2.0 / 3 * pull, third = slope / 3;
   const std::size_t n = mesh_.triangles.size();
   for (std::size_t t = 0; t < n; ++t) {
     const Triangle& T = mesh_.triangles[t];
@@ -47,19 +48,23 @@ void Optimiser::propose(Aim aim) {
       }
     const Vertex &P = mesh_.vertices[T.v[0]], &Q = mesh_.vertices[T.v[1]], &R = mesh_.vertices[T.v[2]];
     const Metric2 m = P.metric() + Q.metric() + R.metric();
-    const double root = std::sqrt(std::max(determinant(m), 1e-300)), weight = aim.by_size ? std::sqrt(root) : 1;
-    if (shapes_.is_bent(T)) {
-      propose_in_chart(T, weight);
-      continue;
-    }
-    const double k = 0.5 * std::numbers::sqrt3 / root;
+    const double root = std::sqrt(std::max(determinant(m), 1e-300)), weight = by_size ? std::sqrt(root) : 1;
+    if constexpr (bends)
+      if (shapes_.is_bent(T)) {
+        propose_in_chart(T, weight);
+        continue;
+      }
+    // The height of a unit isosceles triangle over that of an equilateral one is, to first order in the squared base,
+    // 1 + slope - slope * base.
+    const double k = 0.5 * std::numbers::sqrt3 / root, k0 = k * (1 + slope), k1 = k * third;
     const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
-      const double ex = to.x - from.x, ey = to.y - from.y, nx = m.b * ex + m.c * ey, ny = m.a * ex + m.b * ey;
-      // The height of a unit isosceles triangle over that of an equilateral one, to first order in the squared base.
-      const double height = k * (1 + slope - slope * std::clamp((ex * ny + ey * nx) / 3, 0.5, 2.0));
+      // The metric's normal of the base, to the left.
+      const double ex = to.x - from.x, ey = to.y - from.y, nx = -m.b * ex + -m.c * ey, ny = m.a * ex + m.b * ey;
+      const double height = k0 - k1 * std::min(std::max(ex * ny - ey * nx, 1.5), 6.0);
+      const double x = 0.5 * (from.x + to.x) + height * nx, y = 0.5 * (from.y + to.y) + height * ny;
       Proposal& p = proposals_[v];
-      p.x += weight * (0.5 * (from.x + to.x) - height * nx);
-      p.y += weight * (0.5 * (from.y + to.y) + height * ny);
+      p.x += by_size ? weight * x : x;
+      p.y += by_size ? weight * y : y;
       p.weight += weight;
     };
     tell(T.v[0], Q, R);
@@ -68,58 +73,86 @@ void Optimiser::propose(Aim aim) {
   }
 }
 
-bool Optimiser::sound(const Triangle& T) const {
+template <bool bends>
+inline bool Optimiser::sound(const Triangle& T) const {
   const Vertex &A = mesh_.vertices[T.v[0]], &B = mesh_.vertices[T.v[1]], &C = mesh_.vertices[T.v[2]];
-  if (shapes_.is_bent(T))
-    return orientation(A.point(), B.point(), C.point()) > 0 &&
-           shapes_.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * least_area * least_area;
+  if constexpr (bends)
+    if (shapes_.is_bent(T))
+      return orientation(A.point(), B.point(), C.point()) > 0 &&
+             shapes_.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * least_area * least_area;
   const Metric2 m = A.metric() + B.metric() + C.metric();
-  const double area = cross(B.point() - A.point(), C.point() - A.point());
-  return area > 0 && area * area * determinant(m) > 9 * least_area * least_area &&
+  // The order of orientation(): its sign is decided by the same bound.
+  const double left = (A.x - C.x) * (B.y - C.y), right = (A.y - C.y) * (B.x - C.x), area = left - right;
+  if (!(area > 0 && area * area * determinant(m) > 9 * least_area * least_area)) return false;
+  return area > detail::orientation_bound * (std::abs(left) + std::abs(right)) + detail::underflow_bound ||
          orientation(A.point(), B.point(), C.point()) > 0;
 }
 
+bool Optimiser::undo(int v) {
+  Vertex& P = mesh_.vertices[v];
+  if (v < fixed_ || (P.x == proposals_[v].x && P.y == proposals_[v].y)) return false;
+  P.x = proposals_[v].x, P.y = proposals_[v].y;
+  undone_.push_back(v);
+  return true;
+}
+
+// All triangles are looked at once, then those around the vertices that went back.
+template <bool bends>
 void Optimiser::undo_spoiling_moves() {
-  const auto undo = [&](int v) {
-    Vertex& P = mesh_.vertices[v];
-    if (P.x == proposals_[v].x && P.y == proposals_[v].y) return false;
-    P.x = proposals_[v].x, P.y = proposals_[v].y;
-    return true;
-  };
-  for (int round = 0; round < undo_rounds; ++round) {
-    bool any = false;
-    const std::size_t n = mesh_.triangles.size();
-    for (std::size_t t = 0; t < n; ++t) {
-      const Triangle& T = mesh_.triangles[t];
-      if (t + prefetch_distance < n)
-        for (const std::int32_t v : mesh_.triangles[t + prefetch_distance].v) prefetch(&mesh_.vertices[v]);
-      if (sound(T)) continue;
-      for (const std::int32_t v : T.v) any = (v >= fixed_ && undo(v)) || any;
-    }
-    if (!any) return;
+  undone_.clear();
+  const std::size_t n = mesh_.triangles.size();
+  for (std::size_t t = 0; t < n; ++t) {
+    const Triangle& T = mesh_.triangles[t];
+    if (t + prefetch_distance < n)
+      for (const std::int32_t v : mesh_.triangles[t + prefetch_distance].v) prefetch(&mesh_.vertices[v]);
+    if (sound<bends>(T)) continue;
+    for (const std::int32_t v : T.v) undo(v);
   }
+  for (int round = 1; round < undo_rounds && !undone_.empty(); ++round) {
+    work_.clear();
+    for (const std::int32_t v : undone_) {
+      collect_star(v);
+      work_.insert(work_.end(), star_.begin(), star_.end());
+    }
+    std::sort(work_.begin(), work_.end());
+    work_.erase(std::unique(work_.begin(), work_.end()), work_.end());
+    undone_.clear();
+    for (const std::int32_t t : work_)
+      if (const Triangle& T = mesh_.triangles[t]; !sound<bends>(T))
+        for (const std::int32_t v : T.v) undo(v);
+  }
+  if (undone_.empty()) return;
   for (int v = fixed_; v < static_cast<int>(mesh_.vertices.size()); ++v) undo(v);
 }
 
 // Each vertex goes `relaxation` of the way to the mean of its proposals; moves that spoil a triangle are undone.
-void Optimiser::sweep(double relaxation, Aim aim) {
+template <bool by_size, bool bends>
+void Optimiser::sweep(double relaxation, double pull) {
   monitor_.checkpoint();
-  propose(aim);
+  propose<by_size, bends>(pull);
   const auto n = static_cast<int>(mesh_.vertices.size());
   for (int v = fixed_; v < n; ++v) {
     Vertex& P = mesh_.vertices[v];
     Proposal& to = proposals_[v];
     const Vec2 old = P.point();
-    if (to.weight > 0) P.x += relaxation * (to.x / to.weight - P.x), P.y += relaxation * (to.y / to.weight - P.y);
+    if (to.weight > 0) {
+      const double share = relaxation / to.weight;
+      P.x += share * to.x - relaxation * P.x, P.y += share * to.y - relaxation * P.y;
+    }
     to.x = old.x, to.y = old.y;
   }
   monitor_.checkpoint();
-  undo_spoiling_moves();
+  undo_spoiling_moves<bends>();
 }
 
 // The metric follows the vertices at the end only: its change along a move is small.
 void Optimiser::sweep_all(std::span<const double> relaxations, Aim aim) {
-  for (const double relaxation : relaxations) sweep(relaxation, aim);
+  const bool bends = !mesh_.bends.empty();
+  for (const double relaxation : relaxations)
+    if (aim.by_size)
+      bends ? sweep<true, true>(relaxation, aim.pull) : sweep<true, false>(relaxation, aim.pull);
+    else
+      bends ? sweep<false, true>(relaxation, aim.pull) : sweep<false, false>(relaxation, aim.pull);
   update_metrics();
 }
 

@@ -149,6 +149,8 @@ class Triangulation {
   [[nodiscard]] double quality(int p, int q, int r) const noexcept;
 
  private:
+  template <bool charted>
+  bool dig_in(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart);
   [[nodiscard]] bool too_near(Vec2 p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept;
   [[nodiscard]] bool in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
                                    double area) const noexcept;

@@ -113,11 +113,14 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
 }
 
 void FaceJob::refuse_unsound() const {
-  double area = 0, extent = 0;
+  double area = 0, extent2 = 0;
   const std::vector<Vec3>& p = mesh_->xyz;
-  for (const auto& [a, b, c] : mesh_->plane.triangles) area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
-  for (const Vec3 q : p) extent = std::max(extent, norm(q - p.front()));
-  if (!(area > no_area * extent * extent))
+  for (const Vec3 q : p) extent2 = std::max(extent2, dot(q - p.front(), q - p.front()));
+  for (const auto& [a, b, c] : mesh_->plane.triangles) {
+    area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
+    if (area > no_area * extent2) break;  // a few triangles tell
+  }
+  if (!(area > no_area * extent2))
     throw DomainError(Where{.face = input_.ref}, "the surface has no area: it is a line or a point of space");
   const EdgeExcess& longest = mesh_->longest;
   if (!(longest.ratio > torn)) return;

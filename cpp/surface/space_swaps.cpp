@@ -31,7 +31,7 @@ class Swapper {
     for (int pass = 0; pass < most_passes; ++pass) {
       std::vector<int> bad;
       for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
-        if (quality(mesh_.triangles[t]) < good_quality) bad.push_back(t);
+        if (is_bad(mesh_.triangles[t])) bad.push_back(t);
       if (bad.empty()) return;
       collect_around(bad);
       bool changed = false;
@@ -53,6 +53,12 @@ class Swapper {
     const Vec3 a = xyz_[t[0]], b = xyz_[t[1]], c = xyz_[t[2]];
     if (a == b || b == c || c == a) return 1;
     return quality_q2(a, b, c);
+  }
+  // The same against good_quality, without roots for those that are good, which nearly all are.
+  [[nodiscard]] bool is_bad(const Triangle& t) const {
+    const Vec3 ab = xyz_[t[1]] - xyz_[t[0]], ac = xyz_[t[2]] - xyz_[t[0]], bc = ac - ab, n = cross(ab, ac);
+    const double squares = dot(ab, ab) + dot(bc, bc) + dot(ac, ac), good = 1.001 * good_quality;
+    return !(12 * dot(n, n) > good * good * squares * squares) && quality(t) < good_quality;
   }
   [[nodiscard]] double length(int a, int b) const { return norm(xyz_[a] - xyz_[b]); }
   [[nodiscard]] bool positive(const Triangle& t) const {

@@ -89,9 +89,9 @@ class LiftCheck {
         if (t[i] < t[i == 2 ? 0 : i + 1]) use(t[i], t[i == 2 ? 0 : i + 1]);
     }
   }
-  [[nodiscard]] double promised(int a, int b) const {
+  [[nodiscard]] double squared_promise(int a, int b) const {
     const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
-    return length(space_.at(0.5 * (p + q)), q - p);
+    return squared_length(space_.at(0.5 * (p + q)), q - p);
   }
   [[nodiscard]] double in_space(int a, int b) const { return norm(mesh_.xyz[b] - mesh_.xyz[a]); }
 
@@ -100,7 +100,7 @@ class LiftCheck {
   void compare_lengths() {
     std::vector<double> of_space(mesh_.xyz.size(), 0), of_metric(mesh_.xyz.size(), 0);
     for_inner_edges([&](int a, int b) {
-      const double l = in_space(a, b), m = promised(a, b);
+      const double l = in_space(a, b), m = std::sqrt(squared_promise(a, b));
       of_space[a] += l, of_space[b] += l;
       of_metric[a] += m, of_metric[b] += m;
       promised_.push_back(static_cast<float>(m));
@@ -130,22 +130,35 @@ class LiftCheck {
     }
   }
 
+  // All is compared by squares: an edge has three square roots else.
   void find_places(bool report) {
+    constexpr double too_long2 = too_long * too_long, too_short2 = too_short * too_short;
     const PlaneDomain& domain = input_.domain->plane;
-    std::vector<char> at_apex(mesh_.xyz.size(), 0);
-    for (const PlaneEdge& e : domain.edges)
-      if (e.kind == PlaneEdgeKind::degenerate) at_apex[e.a] = at_apex[e.b] = 1;
+    std::vector<char> at_apex;  // by imposed vertex; empty: there is no apex
+    for (const PlaneEdge& e : domain.edges) {
+      if (e.kind != PlaneEdgeKind::degenerate) continue;
+      at_apex.resize(domain.vertices.size(), 0);
+      at_apex[e.a] = at_apex[e.b] = 1;
+    }
     std::size_t rank = 0;
+    double longest2 = 0;
     for_inner_edges([&](int a, int b) {
-      const double m = promised_.empty() ? promised(a, b) : static_cast<double>(promised_[rank++]);
+      const double promised = promised_.empty() ? 0 : promised_[rank++];
       // Between two imposed vertices the domain decides; at a degenerate side the metric is clamped.
-      if (static_cast<std::size_t>(b) < domain.vertices.size() || at_apex[a] != 0 || at_apex[b] != 0) return;
-      const double h = std::sqrt(mesh_.size[a] * mesh_.size[b]), l = in_space(a, b);
-      if (!(h > 0) || !(l > 0) || !(m > 0)) return;
+      if (static_cast<std::size_t>(b) < domain.vertices.size()) return;
+      if (static_cast<std::size_t>(a) < at_apex.size() && at_apex[a] != 0) return;
+      const double m2 = promised_.empty() ? squared_promise(a, b) : promised * promised;
+      const Vec3 e = mesh_.xyz[b] - mesh_.xyz[a];
+      const double l2 = dot(e, e), expected2 = mesh_.size[a] * mesh_.size[b] * m2;
+      if (!(expected2 > 0) || !(l2 > 0)) return;
+      const bool fits = l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2;
+      if (l2 <= longest2 * expected2 && (fits || !report)) return;
       const Vec2 place = 0.5 * (mesh_.plane.vertices[a] + mesh_.plane.vertices[b]);
-      if (l > mesh_.longest.ratio * h * m) mesh_.longest = {l / (h * m), place};
-      if (!report || (l <= too_long * h * m && l >= too_short * h * m)) return;
-      places_.push_back(place);
+      if (l2 > longest2 * expected2) {
+        longest2 = l2 / expected2;
+        mesh_.longest = {std::sqrt(longest2), place};
+      }
+      if (report && !fits) places_.push_back(place);
     });
   }
 
