@@ -122,7 +122,7 @@ class MetricGrading {
 // The least change of the logarithms of both, to first order; then both by what is left.
 void TangentMetric::bound_along(Vec3 w, double h) noexcept {
   const double size = along(w);
-  if (!(size > h)) return;
+  if (!(size > h) || !(dot(w, w) > 0)) return;
   const double a = dot(w, d1) / h1, b = dot(w, d2) / h2;
   const double share = std::isfinite(size) ? a * a / (a * a + b * b) : 0.5;
   const double power = 1 / (share * share + (1 - share) * (1 - share));

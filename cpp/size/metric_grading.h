@@ -29,7 +29,8 @@ struct TangentMetric {
     const double a = dot(w, d1), b = dot(w, d2);
     return a * a >= b * b ? h1 : h2;
   }
-  /// Shrinks both, each as far as it matters along the unit tangent w, until the size along w is at most h.
+  /// Shrinks both, each as far as it matters along the unit tangent w, until the size along w is at most h; a null
+  /// vector, the tangent of a curve that is normal to the plane, bounds nothing.
   void bound_along(Vec3 w, double h) noexcept;
 };
 

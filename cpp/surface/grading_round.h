@@ -67,6 +67,7 @@ class GradingRound {
   GradedModel grade_by_direction(const std::vector<SizeSamples>& raw);
   void collect_places();
   [[nodiscard]] Vec3 tangent(std::size_t c, std::size_t node, int place) const;
+  [[nodiscard]] std::vector<int> places_on(std::size_t c, std::size_t node) const;
   void bound_by_curve(std::size_t c, const SizeSamples& raw);
   void bound_by_points(const std::vector<SizeSamples>& raw);
   static void find_rough_metrics(GradedFace& face, const TangentMetric* prescribed, const std::vector<Sample>& samples);

@@ -56,12 +56,22 @@ Vec3 GradingRound::tangent(std::size_t c, std::size_t node, int place) const {
   return unit(chord - dot(chord, n) * n);
 }
 
+// In faces that the curve bounds or crosses: from others at its ends it may point anywhere.
+std::vector<int> GradingRound::places_on(std::size_t c, std::size_t node) const {
+  const std::vector<CurveUse>& uses = model_.topology.curves[c].uses;
+  std::vector<int> places;
+  for (const int p : places_of_[node_of_[c][node]])
+    if (std::any_of(uses.begin(), uses.end(), [f = face_of(p)](const CurveUse& use) { return use.face == f; }))
+      places.push_back(p);
+  return places;
+}
+
 // Sizes of curves are sizes along them.
 void GradingRound::bound_by_curve(std::size_t c, const SizeSamples& raw) {
   if (curves_[c].indivisible) return;
   for (std::size_t k = 0; k < curves_[c].r.size(); ++k) {
     const double h = raw.size_at(curves_[c].r[k]);
-    for (const int p : places_of_[node_of_[c][k]]) {
+    for (const int p : places_on(c, k)) {
       const Vec3 t = tangent(c, k, p);
       // What is interpolated between samples differs a little from what holds at vertices.
       if (metric_[p].along(t) > (1 + interpolation_error) * h) metric_[p].bound_along(t, h);
@@ -115,7 +125,7 @@ SizeSamples GradingRound::bounded_along(std::size_t c, const SizeSamples& raw) c
   for (std::size_t k = 0; k < d.r.size(); ++k) {
     h.push_back(raw.size_at(d.r[k]));
     if (d.indivisible) continue;
-    for (const int p : places_of_[node_of_[c][k]]) h.back() = std::min(h.back(), metric_[p].along(tangent(c, k, p)));
+    for (const int p : places_on(c, k)) h.back() = std::min(h.back(), metric_[p].along(tangent(c, k, p)));
   }
   const auto add = [&](double r, double size) {
     result.r.push_back(r);

@@ -421,6 +421,19 @@ TEST(GradedMetrics, FieldsThatObeyAreLeftAsTheyAre) {
   }
 }
 
+// The size along a curve says nothing of a face that only has one of its ends, least of all where it is normal to it.
+TEST(GradedMetrics, CurvesBoundFacesThatHoldThem) {
+  AnalyticCad cad = fold();
+  constexpr double along = 0.2, across = 0.02;  // of the crease
+  SpaceMetric source([](Vec3) { return metric_of_sizes({0, 1, 0}, along, across); });
+  CompositeResult result;
+  const Anisotropic a = measure_directions(cad, host_sizes(1.3), &source, &result);
+  EXPECT_LE(a.steepest, 1.001);
+  const double of_unit_square = 4 / (std::numbers::sqrt3 * along * across);
+  for (const FaceMesh& face : result.mesh.faces)
+    EXPECT_NEAR(static_cast<double>(face.triangles.size()) / of_unit_square, 1, 0.1);
+}
+
 class Watcher : public Monitor {
  public:
   void progress(Phase phase, int, double fraction) override {
