@@ -77,6 +77,9 @@ class Optimiser {
   bool rescue_by_removal(int v, bool crowded);
   [[nodiscard]] bool is_crowded(int t) const;
   bool rescue_by_insertion(int t);
+  bool rescue_by_halving(int t);
+  bool insert_to_improve(Vec2 p, int t, bool spaced);
+  bool move_to_best(int v);
   void collapse(int v, int k);
   bool collect_star(int v);
   [[nodiscard]] bool has_imposed_spoke(int v) const;

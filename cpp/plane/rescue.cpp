@@ -97,9 +97,8 @@ bool Optimiser::rescue_by_swap(int t) {
   return false;
 }
 
-// To the best of places around, at shrinking distances in the metric.
-bool Optimiser::rescue_by_move(int v) {
-  if (!collect_star(v)) return false;
+// To the best of places around, at shrinking distances in the metric; whether that gains. Of the ring collected.
+bool Optimiser::move_to_best(int v) {
   constexpr double root3 = 0.8660254037844386;
   constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
   Vertex& P = mesh_.vertices[v];
@@ -120,7 +119,11 @@ bool Optimiser::rescue_by_move(int v) {
         P = kept;
     }
   }
-  if (!(best < before * (1 - gain))) return false;
+  return best < before * (1 - gain);
+}
+
+bool Optimiser::rescue_by_move(int v) {
+  if (!collect_star(v) || !move_to_best(v)) return false;
   next_.insert(next_.end(), star_.begin(), star_.end());
   return true;
 }
@@ -195,6 +198,31 @@ bool Optimiser::rescue_by_insertion(int t) {
   const Vec2 a = V[next3[i]]->point(), b = V[prev3[i]]->point(), e = b - a;
   const double k = short_edge_height / std::sqrt(std::max(determinant(m), 1e-300));
   const Vec2 p{0.5 * (a.x + b.x) - k * (m.b * e.x + m.c * e.y), 0.5 * (a.y + b.y) + k * (m.a * e.x + m.b * e.y)};
+  return insert_to_improve(p, t, false);
+}
+
+// An edge of a bad triangle, or of one beside it, on which a vertex fits: the rows of two borders that meet at a corner
+// may leave one triangle in the place of three.
+bool Optimiser::rescue_by_halving(int t) {
+  const Triangle T = mesh_.triangles[t];
+  const auto halve = [&](int s, int i) {
+    const Triangle& S = mesh_.triangles[s];
+    const int a = S.v[next3[i]], b = S.v[prev3[i]];
+    return !mesh_.is_imposed(s, i) && shapes_.squared_length(a, b) > longest_after_removal2 &&
+           insert_to_improve(0.5 * (mesh_.at(a) + mesh_.at(b)), s, true);
+  };
+  for (int i = 0; i < 3; ++i) {
+    if (halve(t, i)) return true;
+    if (T.n[i] == no_edge || mesh_.is_imposed(t, i)) continue;
+    const int s = T.n[i] >> 2, k = T.n[i] & 3;
+    if (halve(s, next3[k]) || halve(s, prev3[k])) return true;
+  }
+  return false;
+}
+
+// A new vertex near p, at the best place for the triangles about it, if the worst of those becomes better. `spaced`:
+// and if it makes no edge that is as short as those that go.
+bool Optimiser::insert_to_improve(Vec2 p, int t, bool spaced) {
   const int start = is_finite(p) ? mesh_.locate(p, t) : -1;
   if (start < 0 || !mesh_.dig(p, field_.at(p), start, {})) return false;
   ++stars_;
@@ -208,8 +236,16 @@ bool Optimiser::rescue_by_insertion(int t) {
   mesh_.vertices.push_back({p.x, p.y});
   if (!mesh_.bends.empty()) mesh_.bends.push_back(Bend::none);
   shapes_.set_metric(v);
-  for (const RimEdge& r : mesh_.rim())
-    after = std::min(after, shape(v, mesh_.rim_point(r.a).v, mesh_.rim_point(r.b).v));
+  ring_.clear();
+  for (const RimEdge& r : mesh_.rim()) ring_.push_back(mesh_.rim_point(r.a).v);
+  if (spaced) {
+    move_to_best(v);
+    shapes_.set_metric(v);
+  }
+  for (std::size_t k = 0; k < ring_.size(); ++k) {
+    after = std::min(after, shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
+    if (spaced && shapes_.squared_length(v, ring_[k]) < crowded_length2) after = 0;
+  }
   if (after <= before + gain) {
     mesh_.vertices.pop_back();
     if (!mesh_.bends.empty()) mesh_.bends.pop_back();
@@ -249,6 +285,7 @@ bool Optimiser::rescue(int t) {
     const int v = mesh_.triangles[t].v[i];
     if (v >= fixed_ && rescue_by_removal(v, false)) return true;
   }
+  if (rescue_by_halving(t)) return true;
   if (shape(T.v[0], T.v[1], T.v[2]) >= refine_quality) return any;
   return rescue_by_insertion(t) || any;
 }

@@ -1,6 +1,9 @@
 // The figures that the plane mesher must reach: Q2 in space (HDR eq. 1.6), edge lengths over sizes, degrees.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "plane/plane_mesher.h"
 #include "plane_checks.h"
 
@@ -70,6 +73,20 @@ TEST(Turning, SixToOne) { expect_in_space(swirl(0.0089, 2.1), 0.996); }
 TEST(Turning, EighteenToOne) { expect_in_space(swirl(0.009, 4), 0.994); }
 // Straight edges of the parameter plane are arcs of space whose sagitta is nearly their length.
 TEST(Turning, FiftyOneToOne) { expect_in_space(swirl(0.0089, 7), 0.97); }
+
+// Where borders that meet at a corner part from each other, the width asks for one edge, then for two: each triangle
+// is as good as three in the place of one can be. From 4 sin(a / 2) = sqrt(2) on the second edge is long enough to
+// halve.
+TEST(Quality, OfTrianglesInCorners) {
+  for (double degrees = 42; degrees <= 75; degrees += 1) {
+    SCOPED_TRACE(degrees);
+    const double a = degrees * std::numbers::pi / 180;
+    PlaneCase c = flat_square(0.1);
+    c.domain = {};
+    append_polygon(c, {{0, 0}, {1, 0}, {std::cos(a), std::sin(a)}});
+    EXPECT_GE(quality_of(c).worst, 0.7);
+  }
+}
 
 // Sizes 0.01 to 0.1 with slope 0.26 (gradation 1.3), and the same scaled to a slope of 0.11.
 PlaneQuality graded(double scale) {
