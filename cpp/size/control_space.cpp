@@ -8,8 +8,19 @@ namespace carreau {
 
 ControlSpace ControlSpace::build(const SampledDomain& domain, const MetricSampler& sampler,
                                  const ControlSpaceOptions& options, Monitor& monitor) {
-  detail::ControlSpaceSampling sampling(domain, sampler, options, monitor);
+  const SurfaceSampler metrics_only = [&](std::span<const Vec2> uv, std::span<Metric2> metric, std::span<Metric2>) {
+    sampler(uv, metric);
+  };
+  detail::ControlSpaceSampling sampling(domain, metrics_only, false, options, monitor);
   sampling.run();
+  return ControlSpaceWriter(sampling, monitor).run();
+}
+
+ControlSpace ControlSpace::build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
+                                        const ControlSpaceOptions& options, Monitor& monitor) {
+  detail::ControlSpaceSampling sampling(domain, sampler, true, options, monitor);
+  sampling.run();
+  sampling.bound_slopes(slope);
   return ControlSpaceWriter(sampling, monitor).run();
 }
 

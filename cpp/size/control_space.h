@@ -19,6 +19,10 @@ namespace carreau {
 /// Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
+/// The same with J^T J, which tells lengths in space.
+using SurfaceSampler =
+    std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric, std::span<Metric2> form)>;
+
 struct ControlSpaceOptions {
   /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
   /// the mesh.
@@ -46,6 +50,10 @@ class ControlSpace {
   /// DomainError when the domain has no area, what the sampler throws, and Cancelled.
   static ControlSpace build(const SampledDomain& domain, const MetricSampler& sampler,
                             const ControlSpaceOptions& options, Monitor& monitor);
+  /// The same for isotropic metrics, whose sizes are shrunk until none grows by more than `slope` times the distance in
+  /// space from one sample to the next ones.
+  static ControlSpace build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
+                                   const ControlSpaceOptions& options, Monitor& monitor);
   /// The same metric everywhere.
   static ControlSpace constant(Metric2 metric);
 

@@ -14,6 +14,8 @@ class BorderSamples {
 
   /// A sample at a position in units of the finest grid.
   void add(Vec2 position, Metric2 root);
+  /// Replaces the value of a sample, in the order of add().
+  void set(std::size_t sample, Metric2 root) noexcept { samples_[sample].root = root; }
   [[nodiscard]] std::size_t size() const noexcept { return samples_.size(); }
 
   /// The value at `position` of the quadratic polynomial that fits samples and sampled nodes in a neighbourhood of a

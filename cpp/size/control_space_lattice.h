@@ -1,6 +1,7 @@
 // The nodes of a control space under construction. Private to the builder.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -86,6 +87,14 @@ class Lattice {
   /// Position in units of the finest grid, not rounded.
   [[nodiscard]] Vec2 position(Vec2 uv) const noexcept {
     return {(uv.x - low_.x) / cell_.x * step_, (uv.y - low_.y) / cell_.y * step_};
+  }
+  /// The lower corner of the cell of the finest grid that holds a point; of the nearest one for points outside the box.
+  [[nodiscard]] GridPoint unit_cell(Vec2 uv) const noexcept {
+    const Vec2 p = position(uv);
+    const auto within = [](double x, std::int32_t end) {
+      return x > 0 ? std::min(static_cast<std::int32_t>(std::min<double>(x, end)), end - 1) : 0;
+    };
+    return {within(p.x, end_.i), within(p.y, end_.j)};
   }
   [[nodiscard]] bool contains(GridPoint p) const noexcept {
     return p.i >= 0 && p.j >= 0 && p.i <= end_.i && p.j <= end_.j;

@@ -48,11 +48,12 @@ constexpr int most_looks = 24;
 
 }  // namespace
 
-ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const MetricSampler& sampler,
+ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const SurfaceSampler& sampler, bool on_surface,
                                            const ControlSpaceOptions& options, Monitor& monitor)
     : domain_(domain),
       locator_(domain.vertices, domain.edges),
       sampler_(sampler),
+      on_surface_(on_surface),
       options_(options),
       monitor_(monitor),
       vertex_sampled_(domain.vertices.size(), 0) {
@@ -64,6 +65,8 @@ void ControlSpaceSampling::run() {
   choose_grid(s);
   for (std::size_t k = 0; k < s.vertices.size(); ++k) {
     border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of_boxed(s.metrics[k]));
+    const Metric2 m = s.metrics[k];
+    keep_border(s.vertices[k], {m.a / (box_.x * box_.x), m.b / (box_.x * box_.y), m.c / (box_.y * box_.y)}, k);
     vertex_sampled_[s.vertices[k]] = 1;
   }
   sample_roots();
@@ -87,8 +90,7 @@ void ControlSpaceSampling::look_at_suspects() {
   for (int round = 0; round < most_looks && !options_.suspects.empty(); ++round) {
     std::vector<std::int32_t> cells;
     for (const Vec2 uv : options_.suspects) {
-      const Vec2 p = lattice_->position(uv);
-      const std::int32_t leaf = tree_->leaf_at({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y)});
+      const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv));
       if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
       if (std::sqrt((*tree_)[leaf].vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
     }
@@ -133,10 +135,12 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
 
 std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   std::vector<Metric2> metric(uv.size());
+  if (on_surface_) last_forms_.resize(uv.size());
   for (std::size_t start = 0; start < uv.size(); start += batch) {
     monitor_.checkpoint();
     const std::size_t n = std::min(batch, uv.size() - start);
-    sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n));
+    sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n),
+             on_surface_ ? std::span(last_forms_).subspan(start, n) : std::span<Metric2>{});
     samples_ += n;
   }
   return metric;
@@ -169,7 +173,7 @@ void ControlSpaceSampling::sample_roots() {
     }
   }
   const std::vector<Metric2> metric = ask(uv);
-  for (std::size_t k = 0; k < nodes.size(); ++k) lattice_->set_sample(nodes[k], root_of(metric[k]));
+  for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
 }
 
 // What the samples known so far say about a node.
@@ -272,13 +276,14 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
     TreeCell& cell = (*tree_)[points[k].cell];
     const Metric2 truth = root_of(metric[centres.size() + k]);
     border_->add(lattice_->position(domain_.vertices[points[k].vertex]), truth);
+    keep_border(points[k].vertex, metric[centres.size() + k], centres.size() + k);
     cell.error = std::max(cell.error, border_relief * error_between(points[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
   for (std::size_t k = 0; k < centres.size(); ++k) {
     TreeCell& cell = (*tree_)[centres[k].cell];
     const Metric2 truth = root_of(metric[k]);
-    lattice_->set_sample(centres[k].node, truth);
+    set_sample(centres[k].node, metric[k], k);
     cell.error = std::max(cell.error, error_between(centres[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
@@ -414,7 +419,7 @@ std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const s
   std::vector<std::int32_t> beside;
   for (std::size_t k = 0; k < probes.size(); ++k) {
     const Metric2 truth = root_of(metric[k]);
-    lattice_->set_sample(probes[k].node, truth);
+    set_sample(probes[k].node, metric[k], k);
     // The leaves on both sides; those just made will be tested by their own centres.
     const auto [node, own, side, expected] = probes[k];
     const std::int32_t beyond = (*tree_)[own].beside[side];

@@ -11,6 +11,7 @@
 #include "size/control_space_lattice.h"
 #include "size/control_space_survey.h"
 #include "size/control_space_tree.h"
+#include "size/space_gradation.h"
 
 namespace carreau::detail {
 
@@ -19,10 +20,15 @@ namespace carreau::detail {
 class ControlSpaceSampling {
  public:
   /// The arguments must outlive the object.
-  ControlSpaceSampling(const SampledDomain& domain, const MetricSampler& sampler, const ControlSpaceOptions& options,
-                       Monitor& monitor);
+  /// `on_surface`: the sampler tells J^T J.
+  ControlSpaceSampling(const SampledDomain& domain, const SurfaceSampler& sampler, bool on_surface,
+                       const ControlSpaceOptions& options, Monitor& monitor);
   /// Call once, before all others.
   void run();
+  /// Call once, after run(): carreau::bound_slopes() for the samples, joined in each leaf. They must be on_surface.
+  void bound_slopes(double slope);
+  /// A value predicted at a node of a leaf, made to obey the slope between it and the leaf's samples.
+  [[nodiscard]] Metric2 within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const;
 
   [[nodiscard]] Tree& tree() noexcept { return *tree_; }
   [[nodiscard]] Lattice& lattice() noexcept { return *lattice_; }
@@ -45,6 +51,9 @@ class ControlSpaceSampling {
 
   void choose_grid(const Survey& s);
   [[nodiscard]] std::vector<Metric2> ask(std::span<const Vec2> uv);
+  void set_sample(std::int32_t node, Metric2 metric, std::size_t rank);
+  void keep_border(int vertex, Metric2 metric, std::size_t rank);
+  void join_leaf(const TreeCell& cell, std::span<const std::int32_t> rank, SampledField& field) const;
   [[nodiscard]] Metric2 root_of(Metric2 metric) const noexcept;
   [[nodiscard]] Metric2 root_of_boxed(Metric2 metric) const noexcept;
   void sample_roots();
@@ -69,7 +78,8 @@ class ControlSpaceSampling {
 
   const SampledDomain& domain_;
   PolygonLocator locator_;
-  const MetricSampler& sampler_;
+  const SurfaceSampler& sampler_;
+  bool on_surface_;
   ControlSpaceOptions options_;
   Monitor& monitor_;
   Vec2 box_;
@@ -81,6 +91,19 @@ class ControlSpaceSampling {
   std::optional<Tree> tree_;
   std::vector<char> vertex_sampled_;
   std::size_t samples_ = 0;
+  // What a surface told: J^T J at the last points that it was asked at, at nodes and at samples of the border.
+  struct OnSurface {
+    Metric2 metric, form;
+  };
+  static double size_of(const OnSurface& s) noexcept;
+  struct OnBorder {
+    int vertex;
+    OnSurface told;
+  };
+  double slope_ = 0;  // none yet
+  std::vector<Metric2> last_forms_;
+  std::vector<OnSurface> at_node_;
+  std::vector<OnBorder> at_border_;
 };
 
 }  // namespace carreau::detail

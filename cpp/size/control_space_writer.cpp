@@ -89,7 +89,7 @@ bool ControlSpaceWriter::set_value(std::int32_t node, const TreeCell& cell) {
   if (lattice_.inside(node)) {
     const detail::Prediction guess = lattice_.predict(node);
     if (guess.order >= 3) {
-      value_[node] = guess.root;
+      value_[node] = sampling_.within_slopes(node, cell, guess.root);
       return true;
     }
   } else if (!cell.relevant) {

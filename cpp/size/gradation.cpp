@@ -241,6 +241,17 @@ double slope_of_gradation(double beta) {
   return std::log(beta);
 }
 
+double size_from_segment(double h_a, double h_b, Vec3 edge, Vec3 d, double slope) noexcept {
+  const double length = norm(edge);
+  if (!(length > 0)) return infinity;
+  const double climb = (h_b - h_a) / (slope * length);
+  const double along = dot(d, edge) / length;
+  const double up = std::sqrt(std::max(0., dot(d, d) - along * along));
+  double foot = climb >= 1 ? 0. : climb <= -1 ? length : along - climb * up / std::sqrt(1 - climb * climb);
+  foot = std::clamp(foot, 0., length);
+  return h_a + (h_b - h_a) * (foot / length) + slope * std::hypot(along - foot, up);
+}
+
 std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
                                     Monitor& monitor) {
   check(graph, h, slope);

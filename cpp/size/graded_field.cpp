@@ -15,19 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_source(const GradationFront& f) noexcept { return dot(f.line, f.line) == 0; }
 
-/// min over the points p of the segment from corner a along `edge` of size(p) + slope |p - x|, x being at `d` from a;
-/// sizes are linear along it.
-double from_segment(double h_a, double h_b, Vec3 edge, Vec3 d, double slope) noexcept {
-  const double length = norm(edge);
-  if (!(length > 0)) return infinity;
-  const double climb = (h_b - h_a) / (slope * length);
-  const double along = dot(d, edge) / length;
-  const double up = std::sqrt(std::max(0., dot(d, d) - along * along));
-  double foot = climb >= 1 ? 0. : climb <= -1 ? length : along - climb * up / std::sqrt(1 - climb * climb);
-  foot = std::clamp(foot, 0., length);
-  return h_a + (h_b - h_a) * (foot / length) + slope * std::hypot(along - foot, up);
-}
-
 bool one_wave(const GradationFront& a, const GradationFront& b, bool smooth) noexcept {
   // Between two sources of their own the prescribed sizes decide where they are smooth.
   if (is_source(a) && is_source(b)) return !smooth;
@@ -108,7 +95,8 @@ double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const n
     const bool one = one_wave(f.front[a], f.front[b], smooth), curve = (f.on_curve[place.triangle] >> i & 1) != 0;
     wave = wave && one;
     if (one || curve)
-      h = std::min(h, from_segment(f.h[a], f.h[b], step_on_surface(f.normal[a], f.xyz[b] - f.xyz[a]), way[i], slope_));
+      h = std::min(
+          h, size_from_segment(f.h[a], f.h[b], step_on_surface(f.normal[a], f.xyz[b] - f.xyz[a]), way[i], slope_));
   }
   return wave && place.inside ? std::min(h, linear) : h;
 }

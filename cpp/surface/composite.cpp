@@ -128,6 +128,9 @@ class Pipeline {
   [[nodiscard]] double tolerance() const noexcept {
     return graded_.field ? graded_tolerance : ControlSpaceOptions{}.tolerance;
   }
+  [[nodiscard]] double slope() const noexcept {
+    return graded_.field && !rules_.uses_metrics() ? graded_.field->slope() : 0;
+  }
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded_.field.get()}; }
 
   void discretise() {
@@ -236,6 +239,7 @@ class Pipeline {
                                                .constant_size = graded_.field ? std::nullopt : rules_.constant(),
                                                .isotropic = !rules_.uses_metrics(),
                                                .limits = limits(),
+                                               .slope = slope(),
                                                .tolerance = tolerance()},
                                     cad_, rules_, options_, reentrant));
       job(jobs_.size() - 1).limit_triangles(options_.max_triangles);

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "plane/plane_mesher.h"
+#include "size/space_gradation.h"
 #include "support/error.h"
 
 namespace carreau {
@@ -297,6 +298,68 @@ TEST(Gradation, RefusesWhatMakesNoSense) {
   EXPECT_THROW(grade_sizes(graph, {1}, 0, monitor), InvalidArgument);
   graph.segments = {{0, 1}};
   EXPECT_THROW(grade_sizes(graph, {1}, 0.2, monitor), InvalidArgument);
+}
+
+// A sheared grid, two triangles a square; sizes by `h` of the place in space.
+SampledField sheared_grid(const std::function<double(Vec2)>& h) {
+  constexpr int n = 20;
+  SampledField field;
+  // x = u + v / 2, y = 2 v
+  const Metric2 form{1, 0.5, 4.25};
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const Vec2 uv{1.0 * i / n, 1.0 * j / n};
+      const double size = h({uv.x + 0.5 * uv.y, 2 * uv.y});
+      field.samples.push_back({uv, (1 / (size * size)) * form, form});
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int k = j * (n + 1) + i;
+      field.triangles.push_back({k, k + 1, k + n + 2});
+      field.triangles.push_back({k, k + n + 2, k + n + 1});
+    }
+  return field;
+}
+
+double size_of(const SampledField::Sample& s) { return std::sqrt(s.form.a / s.metric.a); }
+Vec2 place_of(const SampledField::Sample& s) { return {s.uv.x + 0.5 * s.uv.y, 2 * s.uv.y}; }
+
+TEST(BoundSlopes, NoPairIsSteeperAndNothingIsSmallerThanItMustBe) {
+  // Two small places: cones that meet in a ridge.
+  constexpr double slope = 0.3;
+  const Vec2 one{0, 0}, two{1.5, 2};
+  SampledField field = sheared_grid([&](Vec2 x) { return x == one || x == two ? 0.01 : 10; });
+  Monitor monitor;
+  const auto changed = bound_slopes(field, slope, monitor);
+  EXPECT_EQ(changed.size(), field.samples.size() - 2);
+  double steepest = 0;
+  for (const auto& a : field.samples)
+    for (const auto& b : field.samples)
+      if (const double d = norm(place_of(a) - place_of(b)); d > 0)
+        steepest = std::max(steepest, (size_of(b) - size_of(a)) / d);
+  EXPECT_LE(steepest, 1.06 * slope) << "straight fronts are exact, those of points late";
+  for (const auto& s : field.samples) {
+    const double d = std::min(norm(place_of(s) - one), norm(place_of(s) - two));
+    EXPECT_GE(size_of(s), (1 - 1e-6) * (0.01 + slope * d) - 0.1 * slope * 0.11)
+        << "ridges are cut, by a tenth of a side";
+    EXPECT_LE(size_of(s), 0.01 + slope * 1.1 * d + 1e-9) << "fronts of triangles are late";
+  }
+}
+
+TEST(BoundSlopes, WhatObeysIsLeftAsItIs) {
+  SampledField field = sheared_grid([](Vec2 x) { return 0.05 + 0.3 * norm(x); });
+  Monitor monitor;
+  EXPECT_TRUE(bound_slopes(field, 0.3 + 1e-9, monitor).empty()) << "a cone is convex";
+}
+
+TEST(BoundSlopes, LinksBoundWhatNoTriangleDoes) {
+  SampledField field;
+  field.samples = {{{0, 0}, {100, 0, 100}, {1, 0, 1}}, {{1, 0}, {1, 0, 1}, {1, 0, 1}}, {{3, 0}, {1, 0, 1}, {1, 0, 1}}};
+  field.links = {{0, 1}, {2, 1}};
+  Monitor monitor;
+  EXPECT_EQ(bound_slopes(field, 0.2, monitor), (std::vector<std::int32_t>{1, 2}));
+  EXPECT_NEAR(size_of(field.samples[1]), 0.3, 1e-12);
+  EXPECT_NEAR(size_of(field.samples[2]), 0.7, 1e-12);
 }
 
 }  // namespace

@@ -272,8 +272,7 @@ AnalyticCad with_point(AnalyticCad cad) {
 
 TEST(GradedModel, ControlSpacesObeyTheGradation) {
   for (const double beta : {1.1, 1.3, 2.})
-    for (const auto make : {two_squares, cylinder, fold}) {
-      if (make == cylinder && beta == 2) continue;  // see DISABLED_EveryEdgeObeys
+    for (const auto make : {two_squares, cylinder, fold, sphere}) {
       AnalyticCad cad = with_point(make());
       double over = 0;
       EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
@@ -285,23 +284,19 @@ TEST(GradedModel, NearlyEveryEdgeObeysWherePrescribedSizesAreRough) {
     double over = 0;
     AnalyticCad cad = band();
     steepest_in_control_spaces(cad, host_sizes(beta), &over);
-    EXPECT_LE(over, 0.0015) << beta;
+    EXPECT_LE(over, 0.0003) << beta;
     cad = testing::teapot();
     steepest_in_control_spaces(cad, curvature(beta), &over);
-    EXPECT_LE(over, 0.0008) << beta;
+    EXPECT_LE(over, 0.0001) << beta;
   }
 }
 
-// A known shortfall: sizes that jump by a hundred, poles, where the metric of the control space is clamped, and two
-// edges of three hundred on the cylinder with a gradation of 2.
+// A known shortfall: where sizes jump by a hundred, and on the teapot, a few edges in a hundred thousand are 2.4 % to 3.3 %
+// beyond.
 TEST(GradedModel, DISABLED_EveryEdgeObeys) {
   for (const double beta : {1.1, 1.3, 2.}) {
     double over = 0;
     AnalyticCad cad = band();
-    EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
-    cad = with_point(sphere());
-    EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
-    cad = with_point(cylinder());
     EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
     cad = testing::teapot();
     EXPECT_LE(steepest_in_control_spaces(cad, curvature(beta), &over), 1.02 * beta);
