@@ -7,6 +7,8 @@
 
 #include "common/analytic_cad.h"
 #include "mesh/quality.h"
+#include "metric/metric3_algebra.h"
+#include "metric/prescription.h"
 #include "session/session.h"
 
 namespace carreau {
@@ -108,6 +110,45 @@ TEST(Refinement, NarrowZonesAreRefinedOnBothSides) {
   for (const auto& t : mesh.triangles)
     for (int i = 0; i < 3; ++i)
       EXPECT_LE(norm(mesh.vertices[t[i]] - mesh.vertices[t[(i + 1) % 3]]), 4 * width * (1 + 1e-9) + width);
+}
+
+// In each of three faces at a corner the long direction is the short one of the next: whatever their edges are, one
+// face has a short edge beside a long one.
+class Turning : public PrescriptionSource {
+ public:
+  Prescription on_surface(int face, Vec2, Vec3) override { return of(face); }
+  Prescription on_curve(int face, int, double, Vec2, Vec3) override { return of(face); }
+  Prescription at_point(int, Vec3) override { return {}; }
+
+ private:
+  static Prescription of(int face) {
+    Vec3 is_long{0, 0, 0};
+    (face == 1 ? is_long.x : face == 2 ? is_long.y : is_long.z) = 1;
+    return Prescription::of_space(metric_of_sizes(is_long, 0.2, 0.02));
+  }
+};
+
+TEST(Refinement, BalanceOfEdgesAtACornerEndsWhereverMetricsTurn) {
+  AnalyticCad cad;
+  const auto sides = testing::rectangle({0, 0}, {1, 1});
+  cad.faces[1] = {[](Vec2 p) { return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, sides};
+  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{0, p.x, p.y}, {0, 1, 0}, {0, 0, 1}, {}, {}, {}}; }, sides};
+  cad.faces[3] = {[](Vec2 p) { return SurfaceJet{{p.y, 0, p.x}, {0, 0, 1}, {1, 0, 0}, {}, {}, {}}; }, sides};
+  Monitor monitor;
+  Session session(monitor);
+  session.set_cad(std::make_shared<AnalyticCad>(cad));
+  session.set_model(testing::unglued(cad));
+  session.set_prescription_source(std::make_shared<Turning>());
+  session.parameters().set("hphymin", 1e-9);
+  session.parameters().set("CheckAdjacentEdges", 40);
+  session.make_mesh();
+  EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
+  double shortest = 1;
+  for (const CurveMesh& curve : session.mesh().curves)
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i)
+      shortest = std::min(
+          shortest, norm(session.mesh().vertices[curve.vertices[i]] - session.mesh().vertices[curve.vertices[i - 1]]));
+  EXPECT_GE(shortest, 0.02 / 2 / 1.2);  // the size along curves, halved once
 }
 
 }  // namespace
