@@ -37,6 +37,8 @@ class NarrowZones {
         if ((sides_[t] >> i & 1) == 0) along_edge(a, b);
       }
     }
+    fill_up();
+    cover_ends();
     return std::move(found_);
   }
 
@@ -107,6 +109,41 @@ class NarrowZones {
     const Vec3 u = unit(gap);
     if (!comes_along(a, u) || !comes_along(b, -1 * u)) return;
     report(norm(gap), u, lerp(position(a), position(b), 0.5), {vertex(a), vertex(b), source(a), source(b)});
+  }
+
+  // What the fronts have passed on their way from a foot to where they meet: between the feet and there sizes would
+  // grow again as the gradation lets them, and layers be missing.
+  void fill_up() {
+    std::sort(found_.begin(), found_.end(),
+              [](const NarrowPlace& p, const NarrowPlace& q) { return p.vertex < q.vertex; });
+    const std::size_t feet = found_.size();
+    for (int p = 0; p < static_cast<int>(graph_.places.size()); ++p) {
+      const int v = vertex(p);
+      if (on_boundary_[v] != 0 || fronts_.source[v] < 0) continue;
+      const Vec3 line = fronts_.front[p].line, u = unit(line);
+      auto k = std::lower_bound(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(feet), fronts_.source[v],
+                                [](const NarrowPlace& f, int foot) { return f.vertex < foot; }) -
+               found_.begin();
+      for (; static_cast<std::size_t>(k) < feet && found_[k].vertex == fronts_.source[v]; ++k) {
+        const NarrowPlace foot = found_[k];
+        if (std::abs(dot(u, foot.across)) > head_on && norm(line) < foot.gap)
+          found_.push_back({v, foot.gap, foot.across});
+      }
+    }
+  }
+
+  // A triangle on the end of a zone has a corner outside: its part inside would get sizes that grow towards that.
+  void cover_ends() {
+    std::sort(found_.begin(), found_.end(), [](const NarrowPlace& p, const NarrowPlace& q) {
+      return p.vertex != q.vertex ? p.vertex < q.vertex : p.gap < q.gap;
+    });
+    std::vector<int> narrowest(graph_.xyz.size(), -1);  // of the places found at a vertex
+    for (int k = static_cast<int>(found_.size()) - 1; k >= 0; --k) narrowest[found_[k].vertex] = k;
+    for (const auto& t : graph_.triangles)
+      for (const int outside : t)
+        for (const int inside : t)
+          if (const int k = narrowest[vertex(inside)]; k >= 0 && narrowest[vertex(outside)] < 0)
+            found_.push_back({vertex(outside), found_[k].gap, found_[k].across});
   }
 
   const GradationGraph& graph_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "size/facing.h"
@@ -265,12 +266,14 @@ void GradingRound::add_triangles(const FaceDomain& domain, GradedFace& face, std
   }
 }
 
-// So many layers between two boundaries: a size of the gap over their number, where sizes differ by direction across
-// the gap only.
+// So many layers n between two boundaries, where sizes differ by direction across the gap only. Edges of a unit mesh
+// are up to sqrt(2) sizes long: a way of n - 1 of them does not cross the gap if (n - 1) sqrt(2) h is less than it. Up
+// to three layers a size of gap / n is enough.
 void GradingRound::bound_narrow_zones() {
+  const double layers = options_.proximity, share = 1 / std::max(layers, (layers - 1) * std::numbers::sqrt2);
   if (metrics_) collect_places();
   for (const NarrowPlace& n : find_narrow_places(graph_, sides_, monitor_)) {
-    const double h = n.gap / options_.proximity;
+    const double h = n.gap * share;
     if (!metrics_) {
       h_[n.vertex] = std::min(h_[n.vertex], h);
       continue;
