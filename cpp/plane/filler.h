@@ -74,6 +74,7 @@ class Filler {
 
   // leftovers.cpp
   [[nodiscard]] double distance_at_middle(Vec2 p, Vec2 q) const;
+  [[nodiscard]] double graded_radius(double radius) const;
   void fill_leftovers(double radius, double distance);
   [[nodiscard]] Vec2 circumcentre(int t) const;
   bool shorten(int t);

@@ -14,6 +14,8 @@ constexpr int attempts = 4;
 // Of points on edges that join what is far apart: crowded ones are removed in the end, but edges that cannot be swapped
 // would stay.
 constexpr double crowded_distance = 0.25;
+// 1 % of points more where the radius is less by 0.045, but never as small as that of many that rows make.
+constexpr double radius_a_share = 4.5, largest_reduction = 0.1;
 constexpr int most_pieces = 4096;  // of one edge in one pass; the next passes see to the rest
 
 }  // namespace
@@ -68,12 +70,23 @@ bool Filler::fill_at(Vec2 p, int t, double distance) {
   return start >= 0 && try_insert(p, start, distance, imposed_height);
 }
 
+// Rows that must gain points all along make too few. Where sizes are graded, what is missing of the expected number
+// lowers the radius that asks for a point.
+double Filler::graded_radius(double radius) const {
+  if (shapes_.classify() != Sizes::graded) return radius;
+  const double missing = 1 - static_cast<double>(mesh_.triangles.size()) / std::max(field_.measure(), 1.0);
+  return radius - std::clamp(radius_a_share * missing, 0.0, largest_reduction);
+}
+
 void Filler::fill_leftovers(double radius, double distance) {
-  const double radius2 = radius * radius;
+  const double graded = graded_radius(radius);
+  const double radius2 = radius * radius, graded2 = graded * graded;
   for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
     tick();
     for (int attempt = 0; attempt < attempts; ++attempt) {
-      if (mesh_.triangles[t].done == Done::frozen || !(shapes_.squared_radius(t) > radius2)) break;
+      if (mesh_.triangles[t].done == Done::frozen) break;
+      const double r2 = shapes_.squared_radius(t);
+      if (!(r2 > graded2) || (r2 <= radius2 && shapes_.change(t) <= graded_change)) break;
       if (!shorten(t) && !fill_at(circumcentre(t), t, distance) && !halve(t)) break;
     }
   }

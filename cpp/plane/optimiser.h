@@ -21,13 +21,6 @@ class Optimiser {
   void run();
 
  private:
-  enum class Sizes : std::uint8_t {
-    even,    ///< much the same over a triangle
-    graded,  ///< change over most triangles, but never by much
-    rough,   ///< change by much, or there are too few triangles: no lattice to speak of
-  };
-  [[nodiscard]] Sizes classify() const;
-
   // swaps.cpp
   [[nodiscard]] bool has_long_edge(const Triangle& t) const;
   void collect_edges(std::int32_t first, std::int32_t end);

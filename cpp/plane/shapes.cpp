@@ -1,5 +1,6 @@
 #include "plane/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "predicates/predicates.h"
@@ -41,6 +42,31 @@ double Shapes::squared_length(int u, int v) const noexcept {
 double Shapes::squared_radius(int t) const noexcept {
   const Triangle& T = mesh_.triangles[t];
   return is_bent(T) ? lengths(T.v[0], T.v[1], T.v[2]).radius2() : mesh_.squared_radius(t);
+}
+
+double Shapes::change(int t) const noexcept {
+  double low = 0, high = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double det = determinant(mesh_.vertices[mesh_.triangles[t].v[i]].metric());
+    low = i == 0 ? det : std::min(low, det), high = std::max(high, det);
+  }
+  return high / std::max(low, 1e-300);
+}
+
+Sizes Shapes::classify() const noexcept {
+  constexpr std::size_t sample = 1000, fewest = 4000;  // triangles; the border decides on less
+  // A few triangles of a field with slope 0.26 change as much before they are relaxed; one that jumps has more of them.
+  constexpr double rough_change = 4, rough_share = 0.02, graded_share = 0.15;
+  const std::size_t n = mesh_.triangles.size(), step = std::max<std::size_t>(1, n / sample);
+  std::size_t looked = 0, graded = 0, rough = 0;
+  for (std::size_t t = 0; t < n; t += step, ++looked) {
+    const double by = change(static_cast<int>(t));
+    graded += by > graded_change ? 1 : 0;
+    rough += by > rough_change ? 1 : 0;
+  }
+  const auto all = static_cast<double>(looked);
+  if (n < fewest || static_cast<double>(rough) > rough_share * all) return Sizes::rough;
+  return static_cast<double>(graded) > graded_share * all ? Sizes::graded : Sizes::even;
 }
 
 double Shapes::quality(int p, int q, int r) const noexcept {

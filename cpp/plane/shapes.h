@@ -2,11 +2,15 @@
 // lengths in the tensors halfway, and in charts.
 #pragma once
 
+#include <cstdint>
+
 #include "plane/frame.h"
 #include "plane/triangulation.h"
 
 namespace carreau::plane {
 
+/// Change (Shapes::change) from which on sizes count as graded.
+inline constexpr double graded_change = 1.3;
 /// Edges of bent triangles that are longer (squared) are taken for what they are: too long.
 inline constexpr double longest_bent2 = 3;
 
@@ -36,6 +40,12 @@ struct Lengths {
   [[nodiscard]] double radius2() const noexcept { return a * b * c / area2(); }
 };
 
+enum class Sizes : std::uint8_t {
+  even,    ///< much the same over a triangle
+  graded,  ///< change over many triangles, but rarely by much
+  rough,   ///< change by much, or there are too few triangles: no lattice to speak of
+};
+
 class Shapes {
  public:
   Shapes(Triangulation& mesh, const Field& field) noexcept : mesh_(mesh), field_(field) {}
@@ -55,6 +65,10 @@ class Shapes {
   }
   /// Squared circumradius.
   [[nodiscard]] double squared_radius(int t) const noexcept;
+  /// Largest over smallest determinant of the tensors at the vertices: 1.3 is 7 % of the size, 4 is 40 %.
+  [[nodiscard]] double change(int t) const noexcept;
+  /// By the change of sizes over a sample of the triangles.
+  [[nodiscard]] Sizes classify() const noexcept;
   /// Q2 (HDR eq. 1.6); 0 unless counterclockwise (exactly).
   [[nodiscard]] double quality(int p, int q, int r) const noexcept;
 
