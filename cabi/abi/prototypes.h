@@ -145,6 +145,7 @@ typedef struct c_face {
     long triangles;
     void *why;
     void *name;
+    int rgb;
 } c_face;
 typedef struct c_interface {
     long struct_size;
@@ -272,6 +273,7 @@ int carreau_model_add_face (void *session, int ref, int orientation);
 int carreau_model_add_point (void *session, int face_ref, int ref, double u, double v);
 int carreau_model_check (void *session);
 int carreau_model_clear (void *session);
+int carreau_model_color_face (void *session, int face_ref, int rgb);
 int carreau_model_count (void *session, long *faces, long *curves, long *points);
 int carreau_model_curves (void *session, long capacity, int *face_refs, int *types, int *refs, int *ends);
 int carreau_model_faces (void *session, long capacity, int *refs, int *orientations);

@@ -26,7 +26,7 @@ module carreau
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
-  public :: carreau_model_name_face
+  public :: carreau_model_name_face, carreau_model_color_face
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
   public :: carreau_parameter_count, carreau_parameter_info
@@ -165,6 +165,7 @@ module carreau
     integer(c_int32_t) :: ref = 0, status = 0
     integer(c_int64_t) :: triangles = 0
     character(len=:), allocatable :: why, name
+    integer(c_int32_t) :: rgb = -1
   end type carreau_face
 
   type :: carreau_quality
@@ -585,6 +586,13 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_name_face(session%handle, face_ref, c_text(name))
   end subroutine carreau_model_name_face
+
+  subroutine carreau_model_color_face(session, face_ref, rgb, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, rgb
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_color_face(session%handle, face_ref, rgb)
+  end subroutine carreau_model_color_face
 
   subroutine carreau_model_read_pardom(session, path, status)
     type(carreau_session), intent(in) :: session
@@ -1129,6 +1137,7 @@ contains
     face%triangles = c%triangles
     face%why = carreau_string(c%why)
     face%name = carreau_string(c%name)
+    face%rgb = c%rgb
   end subroutine carreau_mesh_face
 
   subroutine carreau_mesh_quality(mesh, quality, status)

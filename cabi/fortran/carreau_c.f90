@@ -137,6 +137,7 @@ module carreau_c
     integer(c_int32_t) :: ref = 0, status = 0
     integer(c_int64_t) :: triangles = 0
     type(c_ptr) :: why = c_null_ptr, name = c_null_ptr
+    integer(c_int32_t) :: rgb = -1
   end type c_face
 
   type, bind(c) :: c_quality
@@ -268,6 +269,14 @@ module carreau_c
       character(kind=c_char), intent(in) :: name(*)
       integer(c_int32_t) :: status
     end function c_model_name_face
+
+    function c_model_color_face(session, face_ref, rgb) result(status) bind(c, name="carreau_model_color_face")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, rgb
+      integer(c_int32_t) :: status
+    end function c_model_color_face
 
     function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
       import :: c_char, c_int32_t, c_ptr

@@ -281,6 +281,9 @@ CARREAU_API carreau_status carreau_model_add_point(carreau_session* session, int
 /* Names a face, for files that hold names (.vtu, .msh, .stl) and for people; several faces may have one name; "" takes it
  * away. Errors: ARGUMENT (no such face, NULL). */
 CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name);
+/* Colours a face, for files that hold colours (.vtu): rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour away.
+ * Errors: ARGUMENT (no such face, no such colour). */
+CARREAU_API carreau_status carreau_model_color_face(carreau_session* session, int32_t face_ref, int32_t rgb);
 
 /* Replaces the model by the content of a file x.pardom. On error the old model stays. Errors: FILE, MODEL. */
 CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
@@ -576,7 +579,7 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 /* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, not compressed),
  * .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and binary). What
  * carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names where the format
- * holds them (.vtu: all; .msh: references of faces and curves, corners' if positive; .stl: solids as faces).
+ * holds them (.vtu: all, and status and colour of faces; .msh: references of faces and curves, corners' if positive; .stl: solids as faces).
  * On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
@@ -629,6 +632,7 @@ typedef struct carreau_face {
   int64_t triangles; /* their number; they follow those of the faces before */
   const char* why;   /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
   const char* name;  /* given by carreau_model_name_face, else ""; lives as `why` does */
+  int32_t rgb;       /* given by carreau_model_color_face, 0xRRGGBB, or -1 */
 } carreau_face;
 
 /* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending, and others that it tells of.

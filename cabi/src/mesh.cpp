@@ -259,13 +259,16 @@ carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face
       result.triangles = std::int64_t(face.triangles.size());
       result.why = mesh->text.c_str();
       result.name = result.why + face.why.size() + 1;
+      result.rgb = face.rgb;
     } else {
       const carreau_mesh::FaceOfFile& face = mesh->flat_faces[i];
-      mesh->text = face.face.name;
+      mesh->text = face.face.why + '\0' + face.face.name;
       result.ref = face.face.ref;
       result.status = std::int32_t(face.face.status);
       result.triangles = face.triangles;
-      result.name = mesh->text.c_str();
+      result.why = mesh->text.c_str();
+      result.name = result.why + face.face.why.size() + 1;
+      result.rgb = face.face.rgb;
     }
     write_struct(result, out_face, "out_face");
   });

@@ -78,6 +78,16 @@ carreau_status carreau_model_name_face(carreau_session* session, int32_t face_re
   return guarded(session, [&] { face_of(session->edited_model(), face_ref).name = required(name, "name"); });
 }
 
+carreau_status carreau_model_color_face(carreau_session* session, int32_t face_ref, int32_t rgb) {
+  return guarded(session, [&] {
+    constexpr std::int32_t none = -1, white = 0xFFFFFF;
+    if (rgb < none || rgb > white)
+      throw InvalidArgument(carreau::Where{.face = face_ref},
+                            "the colour " + std::to_string(rgb) + " is neither 0xRRGGBB nor -1");
+    face_of(session->edited_model(), face_ref).rgb = rgb;
+  });
+}
+
 carreau_status carreau_model_read_pardom(carreau_session* session, const char* path) {
   return guarded(session, [&] {
     session->session.load_pardom(required(path, "path"));

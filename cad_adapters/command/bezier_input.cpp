@@ -55,6 +55,14 @@ class BezierInput final : public ModelInput {
     return true;
   }
 
+  [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
+                              double& v) const noexcept override {
+    double C[2], Ct[2], Ctt[2];
+    side(face, ic, share, 0, C, Ct, Ctt, nullptr);
+    u = C[0], v = C[1];
+    return true;
+  }
+
  private:
   static FaceModel model_of(std::size_t count) {
     FaceModel model;
@@ -116,14 +124,6 @@ class BezierInput final : public ModelInput {
     cad.curve_interval = interval;
     cad.curve = side;
     return carreau_set_cad(session, &cad);
-  }
-
-  [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
-                              double& v) const noexcept override {
-    double C[2], Ct[2], Ctt[2];
-    side(face, ic, share, 0, C, Ct, Ctt, nullptr);
-    u = C[0], v = C[1];
-    return true;
   }
 
   std::vector<BezierPatch> patches_;

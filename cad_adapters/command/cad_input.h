@@ -37,6 +37,13 @@ class CadInput {
   /// The point at (u, v), as callbacks of the session get them. May be called from several threads when the geometry
   /// may. False: the geometry fails there.
   [[nodiscard]] virtual bool locate(std::int32_t face, double u, double v, Place& place) const noexcept = 0;
+  /// "" when it has none.
+  [[nodiscard]] virtual std::string face_name(std::int32_t) const { return ""; }
+  /// References of the curves of a face, as far as they are known.
+  [[nodiscard]] virtual std::vector<std::int32_t> curves(std::int32_t face) const = 0;
+  /// (u, v), as callbacks of the session get them, at a share of curve number ic, from 1. False: the geometry fails.
+  [[nodiscard]] virtual bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
+                                      double& v) const noexcept = 0;
   /// Leaves a face out of what give_to hands over. False: it is not there, or left out already.
   virtual bool exclude(int face, const std::string& why) = 0;
   /// Faces that are left out, with the reason.

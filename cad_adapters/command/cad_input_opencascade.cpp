@@ -34,6 +34,18 @@ class OpenCascadeInput final : public CadInput {
     return true;
   }
 
+  [[nodiscard]] std::string face_name(std::int32_t face) const override {
+    return face >= 1 && face <= host_.face_count() ? host_.face_name(face) : "";
+  }
+  [[nodiscard]] std::vector<std::int32_t> curves(std::int32_t face) const override { return host_.curves(face); }
+  [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
+                              double& v) const noexcept override {
+    double uv[2];
+    if (!host_.on_curve(face, ic, share, uv)) return false;
+    u = uv[0], v = uv[1];
+    return true;
+  }
+
   [[nodiscard]] std::string gaps() const override {
     const carreau_occ::Gaps gaps = carreau_occ::measure_gaps(file_);
     char text[160];

@@ -19,7 +19,8 @@ struct Checked {
   std::string sentences;
   carreau_quality quality{};
   MeshReport report;
-  bool measured = false;  ///< indices and numbers allow quality and report
+  std::vector<FaceResult> not_meshed;  ///< faces that the file knows of and has no triangles of
+  bool measured = false;               ///< indices and numbers allow quality and report
 };
 
 /// Whether indices are in range and coordinates finite.
@@ -43,6 +44,8 @@ Checked look_at(const CheckOptions& options) {
   require(mesh.get(), carreau_mesh_defects(mesh.get(), options.closed ? 1 : 0, options.limit, &c.defects, &text));
   c.sentences = text;
   const MeshArrays arrays = arrays_of(mesh.get());
+  for (const FaceResult& face : arrays.faces)
+    if (face.triangles == 0) c.not_meshed.push_back(face);
   c.measured = can_be_measured(arrays);
   if (!c.measured) return c;
   c.report = report_of(arrays, static_cast<std::size_t>(options.worst), places);
@@ -107,8 +110,9 @@ void print_report(const MeshReport& r, bool faces) {
   std::printf("%10s %10s %12s %8s %8s %12s %12s %12s\n", "face", "triangles", "area", "Q2 mean", "Q2 min", "edge min",
               "edge mean", "edge max");
   for (const FaceFigures& f : r.faces)
-    std::printf("%10d %10" PRId64 " %12.6g %8.4f %8.4f %12.6g %12.6g %12.6g\n", static_cast<int>(f.ref), f.triangles,
-                f.area, f.q2_mean, f.q2_min, f.edge_min, f.edge_mean, f.edge_max);
+    std::printf("%10d %10" PRId64 " %12.6g %8.4f %8.4f %12.6g %12.6g %12.6g%s%s\n", static_cast<int>(f.ref),
+                f.triangles, f.area, f.q2_mean, f.q2_min, f.edge_min, f.edge_mean, f.edge_max,
+                f.name.empty() ? "" : "  ", f.name.c_str());
 }
 
 Json json_of(const MeshReport& r) {
@@ -117,6 +121,7 @@ Json json_of(const MeshReport& r) {
     borders.push_back({{"edges", b.edges}, {"length", b.length}, {"loop", b.closed}, {"at", b.place}});
   for (const FaceFigures& f : r.faces)
     faces.push_back({{"reference", f.ref},
+                     {"name", f.name},
                      {"triangles", f.triangles},
                      {"area", f.area},
                      {"q2_mean", f.q2_mean},
@@ -153,6 +158,9 @@ void print_as_json(const Checked& c, const CheckOptions& options) {
                  {"curve_edges", c.edges},
                  {"defects", defects},
                  {"all_defects", c.defects < options.limit}};
+  for (const FaceResult& face : c.not_meshed)
+    result["not_meshed"].push_back(
+        {{"reference", face.ref}, {"name", face.name}, {"status", status_word(face.status)}, {"why", face.why}});
   if (c.measured) {
     result["quality"] = quality_json(c.quality);
     result["report"] = json_of(c.report);
@@ -170,6 +178,10 @@ int check(const CheckOptions& options) {
   }
   std::printf("vertices    %" PRId64 "\ntriangles   %" PRId64 "\nfaces       %" PRId64 "\ncurve edges %" PRId64 "\n",
               c.vertices, c.triangles, c.faces, c.edges);
+  for (const FaceResult& face : c.not_meshed)
+    std::printf("%-11s face %d%s: %s\n", status_word(face.status), static_cast<int>(face.ref),
+                face.name.empty() ? "" : (" (" + face.name + ")").c_str(),
+                face.why.empty() ? "no triangles" : face.why.c_str());
   if (c.measured) {
     print_quality(c.quality, c.report);
     print_report(c.report, options.faces);

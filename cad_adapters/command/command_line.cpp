@@ -47,6 +47,9 @@ CLI::Option* threads(CLI::App* app, int& value) {
 CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches.", "carreau") {
   app_.set_version_flag("--version", std::string("carreau ") + carreau_version());
   app_.require_subcommand(1);
+  app_.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("carreau: ") + error.what() + "\nRun with --help for more information.\n";
+  });
   app_.footer(
       "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Manual: "
       "man carreau");
@@ -101,6 +104,9 @@ void CommandLine::add_mesh() {
       ->type_name(kind::file);
   repeated(mesh->add_option("--set", mesh_.settings, "Any parameter that `carreau params` lists; may be repeated"))
       ->type_name(kind::setting);
+  mesh->add_option("--dump-failed", mesh_.dump_failed,
+                   "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
+      ->type_name(kind::file);
   threads(mesh, mesh_.threads);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
@@ -145,7 +151,8 @@ void CommandLine::add_picture() {
       ->type_name(kind::view);
   picture
       ->add_option("--color", paint_,
-                   "face: a colour a reference; quality: red 0 to green 1; size: red the smallest triangles, blue the "
+                   "face: their own colours when the file has some, else a colour a reference; quality: red 0 to green "
+                   "1; size: red the smallest triangles, blue the "
                    "largest; none: grey")
       ->check(CLI::IsMember({"face", "quality", "size", "none"}))
       ->capture_default_str();

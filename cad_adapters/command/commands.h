@@ -29,6 +29,7 @@ struct MeshOptions {
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> settings;          ///< "parameter=value"
+  std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores
   bool quiet = false;
   bool json = false;  ///< a summary on the standard output

@@ -5,6 +5,7 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "failed_faces.h"
 #include "mesh_parameters.h"
 #include "mesh_summary.h"
 #include "output_files.h"
@@ -35,8 +36,17 @@ std::int32_t face_of_error(carreau_session* session) {
   return carreau_last_error_place(session, &place) == CARREAU_OK ? place.face : 0;
 }
 
+/// References of the faces that the session has.
+std::vector<std::int32_t> faces_of_model(carreau_session* session) {
+  std::int64_t n = 0;
+  require(session, carreau_model_count(session, &n, nullptr, nullptr));
+  std::vector<std::int32_t> refs(static_cast<std::size_t>(n));
+  require(session, carreau_model_faces(session, n, refs.data(), nullptr));
+  return refs;
+}
+
 /// Throws Failure when there is no mesh. A face whose geometry fails is left out, and the others are meshed.
-void generate(carreau_session* session, CadInput& input, const SizeMap& map, Progress& progress) {
+void generate(carreau_session* session, CadInput& input, const SizeMap& map, FailedFaces& failed, Progress& progress) {
   for (;;) {
     require(session, input.give_to(session));
     const carreau_status status = carreau_mesh_generate(session);
@@ -47,21 +57,27 @@ void generate(carreau_session* session, CadInput& input, const SizeMap& map, Pro
     const std::int32_t face = of_a_face ? face_of_error(session) : 0;
     const std::string why = status == CARREAU_ERR_CALLBACK ? input.failure(face) : "";
     if (!why.empty()) sentence += " (" + why + ")";
+    if (face != 0) failed.dump_without_mesh(session, input, face, progress);
+    if (status == CARREAU_ERR_DOMAIN)  // no face could be meshed
+      for (const std::int32_t each : faces_of_model(session)) failed.dump_without_mesh(session, input, each, progress);
     if (!input.exclude(face, sentence)) throw Failure(sentence);
     progress.error(sentence);
     progress.line("meshing again without face " + std::to_string(face));
   }
 }
 
-void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, Progress& progress) {
+void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, FailedFaces& failed,
+              Progress& progress) {
   progress.listen_to(run.session);
   set_parameters(run.session, options, input, map);
   for (const auto& [face, why] : input.excluded()) progress.error("face " + std::to_string(face) + ": " + why);
   const std::clock_t start = std::clock();
-  generate(run.session, input, map, progress);
+  generate(run.session, input, map, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
-  run.faces = collect_faces(run.mesh, input);
+  const std::vector<FaceResult> meshed = faces_of(run.mesh);
+  failed.dump_of_mesh(run.session, run.mesh, meshed);
+  run.faces = with_excluded(meshed, input);
 }
 
 void write_all(const MeshRun& run, const std::vector<std::string>& paths) {
@@ -82,16 +98,24 @@ int mesh(const MeshOptions& options) {
   catch_signals();
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
-  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"});
+  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"},
+                      {options.input, map.mesh_file()});
+  FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
   const Stopwatch reading;
   const std::unique_ptr<CadInput> input = open_input(options.input, options.host);
   const SessionHandle session = make_session();
-  MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}};
+  MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
   progress.line(input->summary());
-  mesh_all(options, run, *input, map, progress);
+  try {
+    mesh_all(options, run, *input, map, dumped, progress);
+  } catch (const Failure&) {
+    for (const std::string& path : dumped.files()) progress.line("dumped     " + path);
+    throw;
+  }
+  run.dumped = dumped.files();
   const std::string failed = failed_faces(run.faces);
   const bool any =
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });

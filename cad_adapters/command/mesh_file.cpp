@@ -16,6 +16,32 @@ void require(carreau_mesh* mesh, carreau_status status) {
   throw Failure(sentence.empty() ? carreau_status_meaning(status) : sentence);
 }
 
+const char* status_word(std::int32_t status) {
+  switch (status) {
+    case CARREAU_FACE_MESHED:
+      return "meshed";
+    case CARREAU_FACE_MENDED:
+      return "mended";
+    case CARREAU_FACE_COLLAPSED:
+      return "collapsed";
+    default:
+      return "failed";
+  }
+}
+
+std::vector<FaceResult> faces_of(carreau_mesh* mesh) {
+  std::vector<FaceResult> faces;
+  std::int64_t n = 0;
+  require(mesh, carreau_mesh_count(mesh, nullptr, nullptr, nullptr, &n));
+  for (std::int64_t i = 0; i < n; ++i) {
+    carreau_face face{};
+    face.struct_size = sizeof face;
+    require(mesh, carreau_mesh_face(mesh, i, &face));
+    faces.push_back({face.ref, face.status, face.triangles, face.name, face.why, face.rgb});
+  }
+  return faces;
+}
+
 MeshArrays arrays_of(carreau_mesh* mesh) {
   MeshArrays arrays;
   std::int64_t n = 0, m = 0, k = 0;
@@ -31,6 +57,7 @@ MeshArrays arrays_of(carreau_mesh* mesh) {
   if (m > 0) require(mesh, carreau_mesh_triangles(mesh, m, arrays.triangles.front().data()));
   if (m > 0) require(mesh, carreau_mesh_triangle_refs(mesh, m, arrays.triangle_refs.data()));
   if (k > 0) require(mesh, carreau_mesh_edges(mesh, k, arrays.edges.front().data()));
+  arrays.faces = faces_of(mesh);
   return arrays;
 }
 

@@ -24,6 +24,20 @@ MeshHandle read_mesh(const std::string& path);
 /// Throws Failure with the sentence of the last call on `mesh` when `status` is an error.
 void require(carreau_mesh* mesh, carreau_status status);
 
+/// What the library says of a face.
+struct FaceResult {
+  std::int32_t ref = 0, status = CARREAU_FACE_FAILED;
+  std::int64_t triangles = 0;
+  std::string name, why;
+  std::int32_t rgb = -1;  ///< 0xRRGGBB, or -1: no colour
+};
+
+/// "meshed", "mended", "collapsed", "failed".
+const char* status_word(std::int32_t status);
+
+/// In the order of the mesh. Throws Failure.
+std::vector<FaceResult> faces_of(carreau_mesh* mesh);
+
 /// Copies of the arrays of a mesh; vertices and triangles count from 0.
 struct MeshArrays {
   int dimension = 3;
@@ -31,6 +45,7 @@ struct MeshArrays {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> triangle_refs;
   std::vector<std::array<std::int32_t, 2>> edges;  ///< of curves
+  std::vector<FaceResult> faces;
 };
 
 /// Throws Failure.

@@ -137,6 +137,9 @@ void measure_shapes(const MeshArrays& mesh, std::size_t worst, MeshReport& repor
     face.q2_mean /= static_cast<double>(face.triangles), face.edge_mean /= static_cast<double>(face.triangles);
     report.faces.push_back(face);
   }
+  std::map<std::int32_t, std::string> names;
+  for (const FaceResult& face : mesh.faces) names.emplace(face.ref, face.name);
+  for (FaceFigures& face : report.faces) face.name = names[face.ref];
   worst = std::min(worst, by_quality.size());
   std::partial_sort(by_quality.begin(), by_quality.begin() + static_cast<std::ptrdiff_t>(worst), by_quality.end());
   for (std::size_t k = 0; k < worst; ++k) {

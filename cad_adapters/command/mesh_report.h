@@ -27,6 +27,7 @@ struct Border {
 
 struct FaceFigures {
   std::int32_t ref = 0;
+  std::string name;
   std::int64_t triangles = 0;
   double area = 0, q2_mean = 0, q2_min = 1, edge_min = 0, edge_mean = 0, edge_max = 0;
 };

@@ -12,19 +12,6 @@
 namespace command {
 namespace {
 
-const char* status_word(std::int32_t status) {
-  switch (status) {
-    case CARREAU_FACE_MESHED:
-      return "meshed";
-    case CARREAU_FACE_MENDED:
-      return "mended";
-    case CARREAU_FACE_COLLAPSED:
-      return "collapsed";
-    default:
-      return "failed";
-  }
-}
-
 carreau_quality quality_of(carreau_mesh* mesh) {
   carreau_quality q{};
   q.struct_size = sizeof q;
@@ -89,6 +76,53 @@ std::vector<std::string> gluing_lines(const std::vector<carreau_interface>& inte
   return lines;
 }
 
+/// How many faces meet at the curves; the library's own messages tell the widest gap.
+std::string interfaces_line(const std::vector<carreau_interface>& interfaces) {
+  std::int64_t shared = 0, seams = 0, open = 0, more = 0, points = 0;
+  for (const carreau_interface& each : interfaces) {
+    if (each.degenerate != 0)
+      ++points;
+    else if (is_open(each))
+      ++open;
+    else if (each.uses == 2)
+      ++(each.face == each.other_face ? seams : shared);
+    else if (each.uses > 2)
+      ++more;
+  }
+  std::string line = text("interfaces %lld curves of two faces, %lld %s, %lld open", whole(shared), whole(seams),
+                          seams == 1 ? "seam" : "seams", whole(open));
+  if (more > 0) line += text(", %lld of more than two faces", whole(more));
+  if (points > 0) line += text(", %lld shrunk to a point", whole(points));
+  return line;
+}
+
+/// ": why", without the face, which is named before.
+std::string reason(const FaceResult& face) {
+  if (face.why.empty()) return "";
+  const std::string name = "face " + std::to_string(face.ref);
+  for (const char* after : {", ", ": "})
+    if (face.why.starts_with(name + after)) return ": " + face.why.substr(name.size() + 2);
+  return ": " + face.why;
+}
+
+/// A line for each face that is not simply meshed, with the reason.
+std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
+  constexpr std::size_t listed = 50;
+  std::vector<std::string> lines;
+  std::size_t more = 0;
+  for (const FaceResult& face : faces) {
+    if (face.status == CARREAU_FACE_MESHED) continue;
+    if (lines.size() == listed) {
+      ++more;
+      continue;
+    }
+    lines.push_back("  face " + std::to_string(face.ref) + (face.name.empty() ? "" : " (" + face.name + ")") + " " +
+                    status_word(face.status) + reason(face));
+  }
+  if (more > 0) lines.push_back("  and " + std::to_string(more) + " more: --json lists all");
+  return lines;
+}
+
 nlohmann::ordered_json interfaces_json(const std::vector<carreau_interface>& interfaces) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const carreau_interface& each : interfaces)
@@ -105,18 +139,14 @@ nlohmann::ordered_json interfaces_json(const std::vector<carreau_interface>& int
 
 }  // namespace
 
-std::vector<FaceResult> collect_faces(carreau_mesh* mesh, const CadInput& input) {
-  std::vector<FaceResult> faces;
-  std::int64_t n = 0;
-  require(mesh, carreau_mesh_count(mesh, nullptr, nullptr, nullptr, &n));
-  for (std::int64_t i = 0; i < n; ++i) {
-    carreau_face face{};
-    face.struct_size = sizeof face;
-    require(mesh, carreau_mesh_face(mesh, i, &face));
-    faces.push_back({face.ref, face.status, face.triangles, face.name, face.why});
-  }
+std::vector<FaceResult> with_excluded(std::vector<FaceResult> faces, const CadInput& input) {
   for (const auto& [ref, why] : input.excluded())
-    faces.push_back({.ref = ref, .status = CARREAU_FACE_FAILED, .name = {}, .why = why});
+    faces.push_back({.ref = ref,
+                     .status = CARREAU_FACE_FAILED,
+                     .triangles = 0,
+                     .name = input.face_name(ref),
+                     .why = why,
+                     .rgb = -1});
   std::stable_sort(faces.begin(), faces.end(), [](const FaceResult& a, const FaceResult& b) { return a.ref < b.ref; });
   return faces;
 }
@@ -137,20 +167,23 @@ std::string failed_faces(const std::vector<FaceResult>& faces) {
 std::vector<std::string> summary_lines(const MeshRun& run) {
   const carreau_quality q = quality_of(run.mesh);
   const carreau_report r = report_of(run.session);
-  const auto& faces = run.faces;
-  std::vector<std::string> lines{
-      text("faces      %lld meshed, %lld mended, %lld failed", whole(count(faces, CARREAU_FACE_MESHED)),
-           whole(count(faces, CARREAU_FACE_MENDED)), whole(count(faces, CARREAU_FACE_FAILED))),
-      text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
-           q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str())};
-  for (std::string& line : gluing_lines(interfaces_of(run.session))) lines.push_back(std::move(line));
-  if (const std::int64_t n = count(faces, CARREAU_FACE_COLLAPSED); n > 0)
+  const std::vector<carreau_interface> interfaces = interfaces_of(run.session);
+  const auto of = [&](std::int32_t status) { return whole(count(run.faces, status)); };
+  std::vector<std::string> lines{text("faces      %lld meshed, %lld mended, %lld failed", of(CARREAU_FACE_MESHED),
+                                      of(CARREAU_FACE_MENDED), of(CARREAU_FACE_FAILED))};
+  if (const std::int64_t n = count(run.faces, CARREAU_FACE_COLLAPSED); n > 0)
     lines.front() += text(", %lld collapsed", whole(n));
+  for (std::string& line : face_lines(run.faces)) lines.push_back(std::move(line));
+  lines.push_back(text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
+                       q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str()));
+  lines.push_back(interfaces_line(interfaces));
+  for (std::string& line : gluing_lines(interfaces)) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,
                        r.seconds_total, static_cast<int>(threads), threads == 1 ? "thread" : "threads",
                        run.seconds_writing));
+  for (const std::string& path : run.dumped) lines.push_back("dumped     " + path);
   for (const std::string& path : run.options.outputs) lines.push_back("written    " + path);
   return lines;
 }
@@ -167,6 +200,7 @@ void print_json(const MeshRun& run) {
                      {"why", face.why}});
   const nlohmann::ordered_json summary = {{"input", run.options.input},
                                           {"outputs", run.options.outputs},
+                                          {"dumped", run.dumped},
                                           {"diagonal", run.input.diagonal()},
                                           {"closed", q.open_edges == 0},
                                           {"threads", threads_of(run.session)},

@@ -8,14 +8,9 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "mesh_file.h"
 
 namespace command {
-
-struct FaceResult {
-  std::int32_t ref = 0, status = CARREAU_FACE_FAILED;
-  std::int64_t triangles = 0;
-  std::string name, why;
-};
 
 /// A run with its results, besides what session and mesh know.
 struct MeshRun {
@@ -24,11 +19,12 @@ struct MeshRun {
   carreau_session* session = nullptr;
   carreau_mesh* mesh = nullptr;
   double seconds_reading = 0, seconds_writing = 0, seconds_processor = 0;
-  std::vector<FaceResult> faces;  ///< of collect_faces()
+  std::vector<FaceResult> faces;    ///< of with_excluded()
+  std::vector<std::string> dumped;  ///< files of faces that failed
 };
 
-/// Faces of the mesh and faces that are left out, by reference. Throws Failure.
-std::vector<FaceResult> collect_faces(carreau_mesh* mesh, const CadInput& input);
+/// Faces of the mesh and faces that are left out, by reference.
+std::vector<FaceResult> with_excluded(std::vector<FaceResult> faces, const CadInput& input);
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.
 std::string failed_faces(const std::vector<FaceResult>& faces);

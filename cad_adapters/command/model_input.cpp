@@ -105,6 +105,13 @@ double ModelInput::face_size(std::int32_t face) const {
   return found == nullptr ? 0 : found->size;
 }
 
+std::vector<std::int32_t> ModelInput::curves(std::int32_t face) const {
+  std::vector<std::int32_t> refs;
+  if (const FaceModel::Face* const found = model_.find(face))
+    for (const FaceModel::Curve& curve : found->curves) refs.push_back(curve.ref);
+  return refs;
+}
+
 bool ModelInput::exclude(int face, const std::string& why) {
   FaceModel::Face* const found = model_.find(face);
   if (found == nullptr || !found->excluded.empty()) return false;

@@ -32,6 +32,7 @@ class ModelInput : public CadInput {
   bool set_face_size(const std::string& face, double size) final;
   [[nodiscard]] bool answers_face_sizes() const final { return false; }
   [[nodiscard]] double face_size(std::int32_t face) const final;
+  [[nodiscard]] std::vector<std::int32_t> curves(std::int32_t face) const final;
   bool exclude(int face, const std::string& why) final;
   [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const final;
   [[nodiscard]] std::string failure(int) const final { return ""; }
@@ -43,9 +44,6 @@ class ModelInput : public CadInput {
 
   [[nodiscard]] const FaceModel& model() const noexcept { return model_; }
   virtual carreau_status give_geometry(carreau_session* session) = 0;
-  /// (u, v) at a share of curve number ic, from 1.
-  [[nodiscard]] virtual bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
-                                      double& v) const noexcept = 0;
 
  private:
   /// Places of `samples` + 1 points of a curve; calls visit(place), or failed() where the geometry fails.

@@ -61,6 +61,18 @@ class SignalsBlocked {
   sigset_t old_;
 };
 
+/// The same for all names of one file, whether it exists or not: its own place, behind symbolic links.
+std::string place_of(const std::string& path) {
+  const auto resolved = [](const std::string& name) {
+    char* const real = realpath(name.c_str(), nullptr);
+    const std::string result = real != nullptr ? real : "";
+    std::free(real);
+    return result;
+  };
+  const std::string whole = resolved(path);
+  return whole.empty() ? resolved(folder_of(path)) + "/" + name_of(path) : whole;
+}
+
 void check(const std::string& path, const std::vector<std::string>& suffixes) {
   if (std::find(suffixes.begin(), suffixes.end(), suffix_of(path)) == suffixes.end()) {
     std::string known;
@@ -75,12 +87,17 @@ void check(const std::string& path, const std::vector<std::string>& suffixes) {
 
 }  // namespace
 
-OutputFiles::OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes)
+OutputFiles::OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes,
+                         const std::vector<std::string>& inputs)
     : paths_(std::move(paths)) {
-  std::set<std::string> names;
+  std::set<std::string> read, places;
+  for (const std::string& path : inputs)
+    if (!path.empty()) read.insert(place_of(path));
   for (const std::string& path : paths_) {
     check(path, suffixes);
-    if (!names.insert(path).second) refuse(path, "it is named twice");
+    const std::string place = place_of(path);
+    if (read.contains(place)) refuse(path, "it is what is read");
+    if (!places.insert(place).second) refuse(path, "it is named twice");
   }
 }
 

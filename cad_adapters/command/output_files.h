@@ -11,9 +11,10 @@ namespace command {
 /// between removes what was written.
 class OutputFiles {
  public:
-  /// Throws Failure for a suffix that is none of `suffixes`, a name that comes twice, or a folder that cannot be
-  /// written in.
-  OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes);
+  /// Throws Failure for a suffix that is none of `suffixes`, a file that comes twice or is one of `inputs`, or a folder
+  /// that cannot be written in.
+  OutputFiles(std::vector<std::string> paths, const std::vector<std::string>& suffixes,
+              const std::vector<std::string>& inputs = {});
   ~OutputFiles();
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;

@@ -26,9 +26,6 @@ class PardomInput final : public ModelInput {
     return std::isfinite(S[0]) && std::isfinite(S[1]) && std::isfinite(S[2]);
   }
 
- private:
-  carreau_status give_geometry(carreau_session* session) override { return carreau_set_cad_m(session, &routines_); }
-
   [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
                               double& v) const noexcept override {
     double a = 0, b = 0, C[2];
@@ -38,6 +35,9 @@ class PardomInput final : public ModelInput {
     u = C[0], v = C[1];
     return std::isfinite(u) && std::isfinite(v);
   }
+
+ private:
+  carreau_status give_geometry(carreau_session* session) override { return carreau_set_cad_m(session, &routines_); }
 
   SharedHost host_;
   carreau_cad_m routines_{};

@@ -13,7 +13,8 @@ int picture(const PictureOptions& options) {
   OutputFiles output({options.out}, {".png"});
   const MeshHandle handle = read_mesh(options.mesh);
   const MeshArrays mesh = arrays_of(handle.get());
-  if (mesh.triangles.empty()) throw Failure("The mesh '" + options.mesh + "' has no triangles to draw.");
+  if (mesh.triangles.empty() && mesh.edges.empty())
+    throw Failure("The mesh '" + options.mesh + "' has neither triangles nor edges to draw.");
   std::vector<std::string> views = options.views;
   if (views.empty()) views.emplace_back(mesh.dimension == 2 ? "top" : "iso");
 

@@ -26,6 +26,8 @@ Colour srgb(int hex) {
   return {linear_of_srgb(hex >> 16 & 255), linear_of_srgb(hex >> 8 & 255), linear_of_srgb(hex & 255)};
 }
 
+constexpr int grey = 0xbcc6d2;
+
 /// Soft colours, far apart for neighbours in the list.
 Colour face_colour(std::size_t rank) {
   static constexpr int palette[] = {0x8fb8de, 0xf2c078, 0x9fd0a4, 0xe39b94, 0xb9a7d6, 0xe8dc8c,
@@ -88,10 +90,38 @@ std::map<std::int32_t, std::size_t> ranks_of(const std::vector<std::int32_t>& re
   return ranks;
 }
 
+/// Colours of faces: their own when any has one (grey for the others), else those of the palette.
+std::map<std::int32_t, Colour> colours_of_faces(const MeshArrays& mesh) {
+  std::map<std::int32_t, Colour> colours;
+  const bool own = std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const FaceResult& f) { return f.rgb >= 0; });
+  for (const auto& [ref, rank] : ranks_of(mesh.triangle_refs)) colours[ref] = own ? srgb(grey) : face_colour(rank);
+  for (const FaceResult& face : mesh.faces)
+    if (face.rgb >= 0) colours[face.ref] = srgb(face.rgb);
+  return colours;
+}
+
 /// Side of the equilateral triangle of the same area.
 double size_of(const Point& a, const Point& b, const Point& c) {
   const Point n = cross(minus(b, a), minus(c, a));
   return std::sqrt(2 / std::sqrt(3.0)) * std::pow(dot(n, n), 0.25);
+}
+
+/// The edges of a mesh that has no triangles, such as the domain of a face that failed, as narrow rectangles.
+std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Projection& projection) {
+  constexpr double half_width = 0.8;  // pixels
+  const Colour dark = srgb(0x202830);
+  std::vector<ScreenTriangle> triangles;
+  for (const auto& [i, j] : mesh.edges) {
+    const Point a = projection(mesh.vertices.at(i)), b = projection(mesh.vertices.at(j));
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    const double x = -(b[1] - a[1]) / length * half_width, y = (b[0] - a[0]) / length * half_width;
+    const Point a1{a[0] + x, a[1] + y, a[2]}, a2{a[0] - x, a[1] - y, a[2]};
+    const Point b1{b[0] + x, b[1] + y, b[2]}, b2{b[0] - x, b[1] - y, b[2]};
+    triangles.push_back({{a1, a2, b2}, dark, {}});
+    triangles.push_back({{a1, b2, b1}, dark, {}});
+  }
+  return triangles;
 }
 
 }  // namespace
@@ -124,9 +154,14 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
   for (const auto& t : mesh.triangles)
     for (const std::int32_t v : t)
       if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
+  if (mesh.triangles.empty())
+    for (const auto& edge : mesh.edges)
+      for (const std::int32_t v : edge)
+        if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
   const Projection projection(view, used, x0, y0, width, height);
+  if (mesh.triangles.empty()) return lines_of(mesh, projection);
   const auto curves = sides_on_curves(mesh);
-  const auto ranks = ranks_of(mesh.triangle_refs);
+  const auto colours = colours_of_faces(mesh);
   const SizeScale sizes(mesh);
 
   std::vector<ScreenTriangle> triangles;
@@ -135,8 +170,8 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
     const auto& t = mesh.triangles[i];
     const std::array<Point, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) continue;
-    Colour colour = srgb(0xbcc6d2);
-    if (options.paint == Paint::face) colour = face_colour(ranks.at(mesh.triangle_refs[i]));
+    Colour colour = srgb(grey);
+    if (options.paint == Paint::face) colour = colours.at(mesh.triangle_refs[i]);
     if (options.paint == Paint::size) colour = quality_colour(sizes.share(p[0], p[1], p[2]));
     if (options.paint == Paint::quality) colour = quality_colour(shape_quality(p[0], p[1], p[2]));
     const Point a = projection.in_camera(p[0]);

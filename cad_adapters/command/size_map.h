@@ -21,6 +21,9 @@ class SizeMap {
   [[nodiscard]] bool is_formula() const noexcept { return formula_.has_value(); }
   [[nodiscard]] bool is_empty() const noexcept { return !formula_ && mesh_.empty(); }
 
+  /// Mesh of a background mesh; "" of a formula.
+  [[nodiscard]] const std::string& mesh_file() const noexcept { return mesh_; }
+
   /// Makes a session ask this map, and the face sizes of `input`, for sizes. `input` and this map outlive the runs of
   /// the session. Throws Failure.
   void give_to(carreau_session* session, const CadInput& input);

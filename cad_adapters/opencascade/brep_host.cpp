@@ -43,6 +43,7 @@ struct HostFace {
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
   std::string name;
+  int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
   double size = 0;     // 0: no size of its own
   std::string broken;  // why it cannot be meshed; "": it can
 };
@@ -133,20 +134,24 @@ void BrepHost::State::collect_face(int number) {
 }
 
 // Wide parts first, so that the name of the narrowest part stays.
+/// Own name and colour of each face, or those of the smallest part that holds it and has some.
 void BrepHost::State::collect_names(const ShapeFile& file) {
-  std::vector<std::pair<int, std::vector<int>>> parts;  // label, faces
-  for (std::size_t l = 0; l < file.labels.size(); ++l) {
-    if (file.labels[l].name.empty()) continue;
+  std::vector<std::pair<const ShapeFile::Label*, std::vector<int>>> parts;  // with their faces
+  for (const ShapeFile::Label& label : file.labels) {
     std::vector<int> held;
-    for (TopExp_Explorer e(file.labels[l].part, TopAbs_FACE); e.More(); e.Next())
+    for (TopExp_Explorer e(label.part, TopAbs_FACE); e.More(); e.Next())
       if (const int number = faces.FindIndex(e.Current()); number > 0) held.push_back(number);
-    parts.emplace_back(static_cast<int>(l), std::move(held));
+    parts.emplace_back(&label, std::move(held));
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& p, const auto& q) { return p.second.size() > q.second.size(); });
+  const auto byte = [](double share) { return static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0))); };
   for (const auto& [label, held] : parts)
-    for (const int number : held)
-      host_faces[static_cast<std::size_t>(number - 1)].name = file.labels[static_cast<std::size_t>(label)].name;
+    for (const int number : held) {
+      HostFace& face = host_faces[static_cast<std::size_t>(number - 1)];
+      if (!label->name.empty()) face.name = label->name;
+      if (label->has_colour) face.rgb = byte(label->red) << 16 | byte(label->green) << 8 | byte(label->blue);
+    }
 }
 
 void BrepHost::State::collect_sizes() {
@@ -320,6 +325,7 @@ carreau_status BrepHost::give_to(carreau_session* session) {
     const auto ref = static_cast<int32_t>(f + 1);
     status = carreau_model_add_face(session, ref, orientation);
     if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
+    if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);
     for (const HostCurve& curve : face.curves)
       if (status == CARREAU_OK)
         status = carreau_model_add_curve(session, ref, curve.internal ? CARREAU_INTERNAL : CARREAU_BOUNDARY, curve.edge,
@@ -362,6 +368,21 @@ bool BrepHost::locate(int face, double u, double v, double* xyz, double* uv) con
   const bool swapped = state_->host_faces[static_cast<std::size_t>(face - 1)].swapped;
   uv[0] = swapped ? v : u, uv[1] = swapped ? u : v;
   return State::surface_batch(face, 1, given, 0, xyz, nullptr, nullptr, nullptr, nullptr, nullptr, state_.get()) == 0;
+}
+
+std::vector<std::int32_t> BrepHost::curves(int face) const {
+  std::vector<std::int32_t> edges;
+  if (face < 1 || face > face_count()) return edges;
+  for (const HostCurve& curve : state_->host_faces[static_cast<std::size_t>(face - 1)].curves)
+    edges.push_back(curve.edge);
+  return edges;
+}
+
+bool BrepHost::on_curve(int face, int ic, double share, double* uv) const noexcept {
+  double a = 0, b = 0;
+  if (State::interval(face, ic, &a, &b, state_.get()) != 0) return false;
+  const double t = share < 1 ? a + share * (b - a) : b;
+  return State::curve(face, ic, t, 0, uv, nullptr, nullptr, state_.get()) == 0;
 }
 
 double BrepHost::diagonal() const { return diagonal_of(state_->shape); }

@@ -55,6 +55,10 @@ class BrepHost {
   /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has
   /// there (uv[2]; exchanged when the face is reversed). False: OpenCASCADE fails.
   bool locate(int face, double u, double v, double* xyz, double* uv) const noexcept;
+  /// Edges of the curves of a face, as far as they are known, and (u, v) (uv[2]) as callbacks get them at a share of
+  /// curve number ic, from 1. False: OpenCASCADE fails.
+  [[nodiscard]] std::vector<std::int32_t> curves(int face) const;
+  bool on_curve(int face, int ic, double share, double* uv) const noexcept;
   /// What OpenCASCADE said when a callback failed on this face; "" when none did.
   [[nodiscard]] std::string failure(int face) const;
 

@@ -89,7 +89,7 @@ void collect_labels(const Handle(XCAFDoc_ShapeTool) & shapes, const Handle(XCAFD
     for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen}) {
       if (entry.has_colour || !colours->GetColor(label, type, colour)) continue;
       entry.has_colour = true;
-      entry.red = colour.Red(), entry.green = colour.Green(), entry.blue = colour.Blue();
+      colour.Values(entry.red, entry.green, entry.blue, Quantity_TOC_sRGB);
     }
     if (!entry.name.empty() || entry.has_colour) file.labels.push_back(entry);
   }

@@ -15,7 +15,7 @@ struct ShapeFile {
     TopoDS_Shape part;
     std::string name;
     bool has_colour = false;
-    double red = 0, green = 0, blue = 0;
+    double red = 0, green = 0, blue = 0;  ///< 0 to 1, sRGB
   };
   std::vector<Label> labels;
   std::string unit;  ///< of its coordinates, "" when the file does not say

@@ -94,7 +94,7 @@ void MshReader::physical_names() {
     const std::string_view quoted = in_.rest_of_line();
     if (quoted.size() < 2 || quoted.front() != '"' || quoted.back() != '"')
       in_.fail(at, "the name of a physical group should stand between quotation marks, not " + shown(quoted));
-    names_[{dimension, tag}] = quoted.substr(1, quoted.size() - 2);
+    names_[{dimension, tag}] = without_controls(quoted.substr(1, quoted.size() - 2));
   }
 }
 

@@ -74,7 +74,7 @@ class TextReader {
   }
 
   void solid() {
-    solids_.push_back({.name = std::string(in_.rest_of_line())});
+    solids_.push_back({.name = without_controls(in_.rest_of_line())});
     for (;;) {
       const std::string_view word = in_.word();
       if (word.empty()) in_.fail(in_.end(), "the file ends inside a solid: it may be truncated");

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "io/mesh_writers.h"
+#include "io/text.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -98,10 +99,9 @@ std::string stl_bytes(const FlatMesh& mesh) {
 std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix) {
   std::string name;
   for (const FlatFace& face : mesh.faces)
-    if (face.ref == ref) name = face.name;
+    if (face.ref == ref) name = without_controls(face.name);
   if (name.empty()) return prefix + std::to_string(ref);
-  for (char& c : name)
-    if (static_cast<unsigned char>(c) < ' ' || c == '"' || c == '\x7f') c = '_';
+  std::replace(name.begin(), name.end(), '"', '_');
   return name;
 }
 

@@ -15,6 +15,13 @@ int line_at(std::string_view text, std::size_t offset) noexcept {
   return 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
 }
 
+std::string without_controls(std::string_view name) {
+  std::string text(name);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '_');
+  return text;
+}
+
 std::string shown(std::string_view word) {
   constexpr std::size_t longest = 40;
   std::string text = "'";

@@ -13,6 +13,9 @@ std::string_view without_byte_order_mark(std::string_view text) noexcept;
 /// Line, from 1, of the character at `offset` (or of the end of the text).
 int line_at(std::string_view text, std::size_t offset) noexcept;
 
+/// A name with '_' in place of control characters, which other formats could not hold.
+std::string without_controls(std::string_view name);
+
 /// A word of a file as a message shows it: in quotes, at most 40 characters, others than printable ASCII replaced by
 /// '?'.
 std::string shown(std::string_view word);

@@ -54,6 +54,7 @@ class VtuReader {
   void add_fields(VtuArrays& numbers);
   void add_cell_field(const VtuArray& array, int components, const std::vector<double>& values);
   std::vector<std::int32_t> refs(const VtuArray& array, const std::vector<std::int64_t>& values) const;
+  void add_strings(VtuArrays& numbers, const VtuArray& array, std::string FlatFace::*text);
   void add_faces(VtuArrays& numbers);
 
   std::string_view content_;
@@ -198,6 +199,7 @@ void VtuReader::add_cell_field(const VtuArray& array, int components, const std:
 }
 
 void VtuReader::add_fields(VtuArrays& numbers) {
+  const bool of_faces = sections_["FieldData"].contains("face_status");
   for (const char* section : {"PointData", "CellData"}) {
     const bool on_vertices = section == std::string("PointData");
     const std::size_t count = on_vertices ? mesh_.vertices.size() : cells_;
@@ -212,6 +214,8 @@ void VtuReader::add_fields(VtuArrays& numbers) {
         continue;
       }
       if (each.tag.name != "DataArray") continue;  // strings
+      // Made of what is known of faces: add_faces() has it.
+      if (of_faces && !on_vertices && (name == "status" || name == "rgb")) continue;
       const std::string given = each.tag.attribute("NumberOfComponents");
       int components = 1;
       constexpr int most = 1000;  // so that numbers of values cannot overflow
@@ -228,30 +232,40 @@ void VtuReader::add_fields(VtuArrays& numbers) {
   mesh_.edge_refs.resize(mesh_.edges.size(), 0);
 }
 
+void VtuReader::add_strings(VtuArrays& numbers, const VtuArray& array, std::string FlatFace::*text) {
+  std::size_t face = 0;
+  for (const std::int64_t code : numbers.all_integers(array)) {
+    if (face == mesh_.faces.size() || code < 0 || code > 255)
+      tags_.fail(array.tag.at, array.shown_name() + " has more strings than there are faces, or no text");
+    if (code == 0)
+      ++face;
+    else
+      mesh_.faces[face].*text += static_cast<char>(code);
+  }
+}
+
 /// What the writer tells of faces.
 void VtuReader::add_faces(VtuArrays& numbers) {
   const Arrays& arrays = sections_["FieldData"];
   const auto found = arrays.find("face_reference"), status = arrays.find("face_status"),
-             names = arrays.find("face_name");
-  if (found == arrays.end() || status == arrays.end() || names == arrays.end()) return;
+             colours = arrays.find("face_rgb");
+  if (found == arrays.end() || status == arrays.end()) return;
   for (const std::int32_t ref : refs(found->second, numbers.all_integers(found->second)))
     mesh_.faces.push_back({.ref = ref});
-  const std::vector<std::int64_t> states = numbers.integers(status->second, mesh_.faces.size()),
-                                  codes = numbers.all_integers(names->second);
-  for (std::size_t f = 0; f < states.size(); ++f) {
+  const std::size_t n = mesh_.faces.size();
+  const std::vector<std::int64_t> states = numbers.integers(status->second, n);
+  for (std::size_t f = 0; f < n; ++f) {
     if (states[f] < 0 || states[f] > static_cast<std::int64_t>(FaceStatus::collapsed))
       tags_.fail(status->second.tag.at, "there is no status " + std::to_string(states[f]));
     mesh_.faces[f].status = static_cast<FaceStatus>(states[f]);
   }
-  std::size_t face = 0;
-  for (const std::int64_t code : codes) {
-    if (face == mesh_.faces.size() || code < 0 || code > 255)
-      tags_.fail(names->second.tag.at, "the names of faces are more than faces, or not text");
-    if (code == 0)
-      ++face;
-    else
-      mesh_.faces[face].name += static_cast<char>(code);
+  if (colours != arrays.end()) {
+    const std::vector<std::int32_t> rgb = refs(colours->second, numbers.integers(colours->second, n));
+    for (std::size_t f = 0; f < n; ++f) mesh_.faces[f].rgb = rgb[f] >= 0 && rgb[f] <= 0xFFFFFF ? rgb[f] : -1;
   }
+  if (const auto names = arrays.find("face_name"); names != arrays.end())
+    add_strings(numbers, names->second, &FlatFace::name);
+  if (const auto why = arrays.find("face_why"); why != arrays.end()) add_strings(numbers, why->second, &FlatFace::why);
 }
 
 }  // namespace

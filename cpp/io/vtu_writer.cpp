@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
+#include <map>
 
 #include "io/mesh_writers.h"
 
@@ -108,12 +109,34 @@ void add_cells(VtuFile& file, const FlatMesh& mesh) {
   file.xml("</Cells>\n");
 }
 
+/// For each cell what programs that look at cells only would not find: the status of its face (edges: 0), and its
+/// colour when any face has one.
+void add_face_data(VtuFile& file, const FlatMesh& mesh) {
+  if (mesh.faces.empty()) return;
+  std::map<std::int32_t, const FlatFace*> by_ref;
+  bool coloured = false;
+  for (const FlatFace& face : mesh.faces) by_ref.emplace(face.ref, &face), coloured = coloured || face.rgb >= 0;
+  constexpr std::int32_t grey = 0xC0C0C0;  // of cells without a colour
+  const std::size_t cells = mesh.triangles.size() + mesh.edges.size();
+  std::vector<std::uint8_t> status(cells, 0), rgb;
+  for (std::size_t c = 0; c < cells; ++c) {
+    const auto face = c < mesh.triangles.size() ? by_ref.find(ref_of(mesh.triangle_refs, c)) : by_ref.end();
+    const bool known = face != by_ref.end();
+    if (known) status[c] = static_cast<std::uint8_t>(face->second->status);
+    const std::int32_t colour = known && face->second->rgb >= 0 ? face->second->rgb : grey;
+    for (const int shift : {16, 8, 0}) rgb.push_back(static_cast<std::uint8_t>(colour >> shift & 255));
+  }
+  file.array("status", 1, status);
+  if (coloured) file.array("rgb", 3, rgb);
+}
+
 void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
   std::vector<std::int32_t> refs = all_refs(mesh.triangle_refs, mesh.triangles.size());
   const std::vector<std::int32_t> edge_refs = all_refs(mesh.edge_refs, mesh.edges.size());
   refs.insert(refs.end(), edge_refs.begin(), edge_refs.end());
   file.xml("<CellData Scalars=\"reference\">\n");
   file.array("reference", 1, refs);
+  add_face_data(file, mesh);
   for (const MeshField& field : mesh.fields) {
     if (field.on_vertices) continue;
     // VTK wants a value for every cell; NaN says that a cell has none and is left out of colour ranges.
@@ -128,23 +151,33 @@ void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
   file.xml("</CellData>\n");
 }
 
-/// Field data: reference, status and name of each face. Strings are arrays of character codes, each string ended by a
-/// zero, as VTK reads them.
+/// Strings are arrays of character codes, each string ended by a zero, as VTK reads them.
+void add_strings(VtuFile& file, const std::string& name, const FlatMesh& mesh, std::string FlatFace::*text) {
+  std::string codes;
+  for (const FlatFace& face : mesh.faces) {
+    for (const char c : face.*text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
+    codes += "0\n";
+  }
+  file.xml("<Array type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(mesh.faces.size()) +
+           "\" format=\"ascii\">\n" + codes + "</Array>\n");
+}
+
+/// Field data: what is known of each face.
 void add_faces(VtuFile& file, const FlatMesh& mesh) {
   if (mesh.faces.empty()) return;
-  std::vector<std::int32_t> refs, status;
-  std::string codes;
+  std::vector<std::int32_t> refs, status, colours;
   for (const FlatFace& face : mesh.faces) {
     refs.push_back(face.ref);
     status.push_back(static_cast<std::int32_t>(face.status));
-    for (const char c : face.name) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
-    codes += "0\n";
+    colours.push_back(face.rgb);
   }
   file.xml("<FieldData>\n");
   file.field("face_reference", refs);
   file.field("face_status", status);
-  file.xml("<Array type=\"String\" Name=\"face_name\" NumberOfTuples=\"" + std::to_string(refs.size()) +
-           "\" format=\"ascii\">\n" + codes + "</Array>\n</FieldData>\n");
+  file.field("face_rgb", colours);
+  add_strings(file, "face_name", mesh, &FlatFace::name);
+  add_strings(file, "face_why", mesh, &FlatFace::why);
+  file.xml("</FieldData>\n");
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 namespace carreau {
 
+FlatFace flat_face(const FaceMesh& face) {
+  return {.ref = face.ref, .status = face.status, .name = face.name, .why = face.why, .rgb = face.rgb};
+}
+
 FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges) {
   FlatMesh flat;
   flat.vertices = mesh.vertices;
@@ -12,7 +16,7 @@ FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges) {
     for (const auto& t : face.triangles)
       flat.triangles.push_back({face.vertex[t[0]], face.vertex[t[1]], face.vertex[t[2]]});
     flat.triangle_refs.resize(flat.triangles.size(), face.ref);
-    flat.faces.push_back({face.ref, face.status, face.name});
+    flat.faces.push_back(flat_face(face));
   }
   if (!with_edges) return flat;
   flat.edges.reserve(mesh.edge_count());

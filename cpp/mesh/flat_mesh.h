@@ -24,6 +24,8 @@ struct FlatFace {
   std::int32_t ref = 0;
   FaceStatus status = FaceStatus::not_meshed;
   std::string name = {};  ///< empty: none
+  std::string why = {};   ///< sentence for `mended`, `failed` and `collapsed`
+  std::int32_t rgb = -1;  ///< 0xRRGGBB (sRGB); -1: none
 };
 
 struct FlatMesh {
@@ -37,6 +39,9 @@ struct FlatMesh {
   std::vector<MeshField> fields;
   std::vector<FlatFace> faces = {};  ///< may be empty, or lack references of triangles
 };
+
+/// All of it but the triangles.
+FlatFace flat_face(const FaceMesh& face);
 
 /// The whole mesh in space, faces in order; with_edges: the edges of the curves too.
 FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges);

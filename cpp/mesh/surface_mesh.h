@@ -18,6 +18,7 @@ enum class FaceStatus : int { not_meshed = 0, meshed = 1, mended = 2, failed = 3
 struct FaceMesh {
   int ref = 0;
   std::string name = {};  ///< given by the host; empty: none
+  std::int32_t rgb = -1;  ///< given by the host, 0xRRGGBB (sRGB); -1: none
   FaceStatus status = FaceStatus::not_meshed;
   std::string why;                                     ///< sentence for `mended`, `failed` and `collapsed`
   std::vector<Vec2> uv;                                ///< of local vertices

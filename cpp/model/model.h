@@ -1,6 +1,7 @@
 // Faces, curves and points with their references: the content of x.pardom (RT-0232 sec. 3.2).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct Face {
   std::vector<FaceCurve> curves;
   std::vector<FacePoint> points;
   std::string name = {};  ///< for people and for files that hold names; empty: none
+  std::int32_t rgb = -1;  ///< colour for files that hold colours, 0xRRGGBB (sRGB); -1: none
   int line = 0;
 };
 

@@ -50,7 +50,7 @@ class FaceAppender {
   void append(const FaceMesh& face, std::size_t first) {
     rank_.assign(plane_ ? face.uv.size() : mesh_.vertices.size(), -1);
     edges_.clear();
-    flat_.faces.push_back({face.ref, face.status, face.name});
+    flat_.faces.push_back(flat_face(face));
     for (const auto& t : face.triangles) {
       append_triangle(face, t);
       triangle_source_.push_back(static_cast<std::int64_t>(first++));

@@ -100,6 +100,7 @@ class Pipeline {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       result_.mesh.faces[f].ref = model_.faces[f].ref;
       result_.mesh.faces[f].name = model_.faces[f].name;
+      result_.mesh.faces[f].rgb = model_.faces[f].rgb;
     }
     left_ = options_.max_triangles;
     mesh_faces();

@@ -72,6 +72,38 @@ class Formats(unittest.TestCase):
         arrays = mesh_files.read_vtu(self.files("named_faces.step", "--size", "0.4")["vtu"]).arrays
         self.assertEqual(arrays["FieldData", "face_status"], 6 * [1])
 
+    def test_colours_of_faces_are_in_vtu_and_in_pictures(self):
+        path = self.files("named_faces.step", "--size", "0.4")["vtu"]
+        vtu = mesh_files.read_vtu(path)
+        top = {ref for ref, label in vtu.names.items() if label == "top"}
+        rgb = vtu.arrays["CellData", "rgb"]
+        for cell, ref in enumerate(vtu.refs):
+            wanted = (255, 128, 0) if ref in top else (64, 160, 48)  # of the box, which the others are parts of
+            for found, value in zip(rgb[3 * cell:3 * cell + 3], wanted):
+                self.assertAlmostEqual(found, value, delta=1)
+        for ref, colour in zip(vtu.arrays["FieldData", "face_reference"], vtu.arrays["FieldData", "face_rgb"]):
+            self.assertAlmostEqual(colour >> 16, 255 if ref in top else 64, delta=1)
+        # Orange has no blue, grey and the palette have: drawn without light and shade a row of the top would be orange.
+        picture = os.path.join(self.folder, "top.png")
+        subprocess.run([PROGRAM, "picture", path, "-o", picture, "--view", "top", "--no-edges", "--size", "64x64"], check=True, timeout=60)
+        red, green, blue = mesh_files.read_png(picture)[20][40]
+        self.assertGreater(red, green + 30)
+        self.assertLess(blue, green - 30)
+
+    def test_all_formats_are_read_back(self):
+        import json
+        results = {}
+        for name, path in self.files("named_faces.step", "--size", "0.4").items():
+            done = subprocess.run([PROGRAM, "check", path, "--closed", "--json"], capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+            results[name] = json.loads(done.stdout)
+        for name, result in results.items():
+            for key in ("vertices", "triangles", "faces", "quality"):
+                self.assertEqual(result[key], results["mesh"][key], (name, key))
+            for face, same in zip(result["report"]["faces"], results["mesh"]["report"]["faces"]):
+                self.assertEqual(face["triangles"], same["triangles"], name)
+                self.assertEqual(face["name"], "" if "mesh" in name else results["vtu"]["report"]["faces"][face["reference"] - 1]["name"])
+
     def test_gmsh_reads_both_of_its_formats(self):
         try:
             import gmsh

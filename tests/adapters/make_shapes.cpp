@@ -1,7 +1,7 @@
 // make_shapes FOLDER: files for the tests of the command, made by OpenCASCADE itself.
 //   NAME.step, NAME.brep   each shape of the torture set
 //   assembly.step          two boxes of one part "block", placed apart, and a "ball", in an assembly "rig"
-//   named_faces.step       a box whose six faces are called bottom, top and side
+//   named_faces.step       a box whose six faces are called bottom, top and side; the box is green, its top orange
 //   inch.step              a cube of one inch
 //   open.igs               five faces of a box, each on its own
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
@@ -15,6 +15,7 @@
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
 #include <TDataStd_Name.hxx>
@@ -22,6 +23,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <cstdio>
@@ -81,9 +83,15 @@ void write_named_faces(const std::string& path) {
   const TopoDS_Face bottom = box.BottomFace(), top = box.TopFace();
   const TDF_Label whole = shapes->AddShape(box.Shape(), Standard_False);
   name(whole, "box");
+  const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
+  const auto colour = [](int red, int green, int blue) {
+    return Quantity_Color(red / 255.0, green / 255.0, blue / 255.0, Quantity_TOC_sRGB);
+  };
+  colours->SetColor(whole, colour(64, 160, 48), XCAFDoc_ColorGen);
   for (TopExp_Explorer e(box.Shape(), TopAbs_FACE); e.More(); e.Next()) {
     const TDF_Label face = shapes->AddSubShape(whole, e.Current());
     name(face, e.Current().IsSame(bottom) ? "bottom" : e.Current().IsSame(top) ? "top" : "side");
+    if (e.Current().IsSame(top)) colours->SetColor(face, colour(255, 128, 0), XCAFDoc_ColorSurf);
   }
   write_document(document, path);
 }

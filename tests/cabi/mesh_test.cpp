@@ -325,6 +325,7 @@ TEST_F(MeshFileTest, NamesOfFacesAreInTheMeshAndInFiles) {
   ASSERT_EQ(carreau_mesh_face(mesh(), 0, &face), CARREAU_OK);
   EXPECT_STREQ(face.name, "dish");
   EXPECT_STREQ(face.why, "");
+  EXPECT_EQ(face.rgb, -1);
   const auto content = [&](const char* suffix) {
     EXPECT_EQ(carreau_mesh_write(mesh(), (path + suffix).c_str()), CARREAU_OK) << carreau_mesh_last_error(mesh());
     std::ifstream file(path + suffix, std::ios::binary);
@@ -334,6 +335,30 @@ TEST_F(MeshFileTest, NamesOfFacesAreInTheMeshAndInFiles) {
   EXPECT_NE(content(".msh").find("\n2 1 \"dish\"\n"), std::string::npos);
   EXPECT_NE(content(".msh2").find("\n2 1 \"dish\"\n"), std::string::npos);
   EXPECT_NE(content(".vtu").find(">\n100 105 115 104 0\n<"), std::string::npos);
+  for (const char* suffix : {".vtu", ".msh", ".msh2", ".stl"}) {
+    ASSERT_EQ(carreau_mesh_read(read, (path + suffix).c_str()), CARREAU_OK) << read_error();
+    ASSERT_EQ(carreau_mesh_face(read, 0, &face), CARREAU_OK);
+    EXPECT_STREQ(face.name, "dish") << suffix;
+    EXPECT_EQ(face.ref, 1) << suffix;
+    EXPECT_EQ(face.rgb, -1) << suffix;
+  }
+}
+
+TEST_F(MeshFileTest, ColoursOfFacesAreInTheMeshAndInVtu) {
+  use_paraboloid(0.8);
+  EXPECT_EQ(carreau_model_color_face(session, 2, 0), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_color_face(session, 1, 0x1000000), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_model_color_face(session, 1, -2), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_model_color_face(session, 1, 0xFF8001), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  auto face = sized<carreau_face>();
+  ASSERT_EQ(carreau_mesh_face(mesh(), 0, &face), CARREAU_OK);
+  EXPECT_EQ(face.rgb, 0xFF8001);
+  ASSERT_EQ(carreau_mesh_write(mesh(), (path + ".vtu").c_str()), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_read(read, (path + ".vtu").c_str()), CARREAU_OK) << read_error();
+  ASSERT_EQ(carreau_mesh_face(read, 0, &face), CARREAU_OK);
+  EXPECT_EQ(face.rgb, 0xFF8001);
+  EXPECT_EQ(face.status, CARREAU_FACE_MESHED);
 }
 
 TEST_F(MeshFileTest, ExportsWhatTheParametersSay) {

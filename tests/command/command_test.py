@@ -11,6 +11,8 @@ import tempfile
 import unittest
 import zlib
 
+from mesh_files import read_png
+
 PROGRAM = sys.argv[1]
 
 # The unit square in the plane z = 1, two triangles with references 1 and 2.
@@ -30,37 +32,6 @@ End
 
 def run(*arguments):
     return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60)
-
-
-def read_png(path):
-    """Rows of (r, g, b)."""
-    with open(path, "rb") as file:
-        data = file.read()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    at, packed = 8, b""
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
-        if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
-            assert (depth, colour) == (8, 2)
-        elif kind == b"IDAT":
-            packed += body
-        at += 12 + length
-    raw, step = zlib.decompress(packed), 3 * width
-    rows, above = [], bytearray(step)
-    for y in range(height):
-        method, line = raw[y * (step + 1)], bytearray(raw[y * (step + 1) + 1:(y + 1) * (step + 1)])
-        for i in range(step):
-            left = line[i - 3] if i >= 3 else 0
-            corner = above[i - 3] if i >= 3 else 0
-            p = left + above[i] - corner
-            paeth = min((abs(p - left), 0, left), (abs(p - above[i]), 1, above[i]), (abs(p - corner), 2, corner))[2]
-            line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, paeth)[method]) & 255
-        rows.append([tuple(line[3 * x:3 * x + 3]) for x in range(width)])
-        above = line
-    return rows
 
 
 class Command(unittest.TestCase):

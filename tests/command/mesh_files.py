@@ -25,13 +25,13 @@ class Mesh:
         return [sum((a - b) ** 2 for a, b in zip(self.vertices[i], self.vertices[j])) ** 0.5 for i, j in edges]
 
 
-def read_mesh(path):
+def read_mesh(path, dimension=3):
     with open(path) as file:
         words = iter(file.read().split())
     mesh = Mesh([], [], [])
     for word in words:
         if word == "Vertices":
-            mesh.vertices = [tuple(float(next(words)) for _ in range(4))[:3] for _ in range(int(next(words)))]
+            mesh.vertices = [tuple(float(next(words)) for _ in range(dimension + 1))[:dimension] for _ in range(int(next(words)))]
         elif word == "Triangles":
             for _ in range(int(next(words))):
                 i, j, k, ref = (int(next(words)) for _ in range(4))
@@ -228,3 +228,34 @@ def read_vtu(path):
         elif kind == 3:
             mesh.edges.append((*cell, ref))
     return mesh
+
+
+def read_png(path):
+    """Rows of (r, g, b)."""
+    with open(path, "rb") as file:
+        data = file.read()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    at, packed = 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", body[:10])
+            assert (depth, colour) == (8, 2)
+        elif kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    raw, step = zlib.decompress(packed), 3 * width
+    rows, above = [], bytearray(step)
+    for y in range(height):
+        method, line = raw[y * (step + 1)], bytearray(raw[y * (step + 1) + 1:(y + 1) * (step + 1)])
+        for i in range(step):
+            left = line[i - 3] if i >= 3 else 0
+            corner = above[i - 3] if i >= 3 else 0
+            p = left + above[i] - corner
+            paeth = min((abs(p - left), 0, left), (abs(p - above[i]), 1, above[i]), (abs(p - corner), 2, corner))[2]
+            line[i] = (line[i] + (0, left, above[i], (left + above[i]) // 2, paeth)[method]) & 255
+        rows.append([tuple(line[3 * x:3 * x + 3]) for x in range(width)])
+        above = line
+    return rows

@@ -106,6 +106,46 @@ class Inputs(Folder):
         self.assertIn("face 2", faces[1]["why"])
         self.assertGreater(faces[0]["triangles"], 100)
 
+    def test_what_there_is_of_a_failed_face_is_dumped(self):
+        both = self.write("both.pardom", "2\n" + FACE.format(1) + FACE.format(2))
+        done = self.run_mesh(both, "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3", "--json", "--dump-failed", "dump", code=1)
+        self.assertEqual(sorted(os.listdir(self.path("dump"))), ["face_2.exr", "face_2.mesh"])
+        self.assertEqual(json.loads(done.stdout)["dumped"], ["dump/face_2.mesh", "dump/face_2.exr"])
+        self.assertRegex(done.stderr, r"(?m)^  face 2 failed: .+$")
+        self.assertRegex(done.stderr, r"(?m)^dumped +dump/face_2\.mesh$")
+        with open(self.path("dump/face_2.mesh")) as file:
+            self.assertIn("Dimension 2", file.read())
+        domain = mesh_files.read_mesh(self.path("dump/face_2.mesh"), dimension=2)
+        self.assertEqual({abs(x) for x, y in domain.vertices if abs(y) < 2.5}, {2.5})  # the square of the host
+        self.assertEqual(len(domain.edges), 4 * 64)
+        subprocess.run([PROGRAM, "picture", "dump/face_2.mesh", "-o", "domain.png", "--size", "100x100"], check=True, timeout=60, cwd=self.folder)
+        rows = mesh_files.read_png(self.path("domain.png"))
+        self.assertLess(min(max(pixel) for pixel in rows[50][3:6]), 200)  # a side of the square, 4 % from the border
+        self.assertGreater(min(rows[50][50]), 240)  # nothing inside
+        with open(self.path("dump/face_2.exr"), "rb") as file:
+            self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
+        # Nothing fails: an empty folder. No face is left: the dump is there all the same.
+        self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.5", "--dump-failed", "none")
+        self.assertEqual(os.listdir(self.path("none")), [])
+        bad = self.write("bad.pardom", "1\n" + FACE.format(2))
+        done = self.run_mesh(bad, "--host", HOSTS[0], "-o", "b.mesh", "--dump-failed", "last", code=2)
+        self.assertEqual(sorted(os.listdir(self.path("last"))), ["face_2.exr", "face_2.mesh"])
+        self.assertRegex(done.stderr, r"(?m)^dumped +last/face_2\.exr$")
+        self.write("file", "")
+        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "file", sentence="the folder 'file' cannot be used: it is no folder")
+        self.refused(both, "--host", HOSTS[0], "-o", "c.mesh", "--dump-failed", "no/such", sentence="the folder 'no/such' cannot be used: No such file")
+
+    def test_a_file_is_not_written_twice_nor_over_what_is_read(self):
+        square = self.write("square.bpt", SQUARE)
+        os.mkdir(self.path("d"))
+        os.symlink(self.path("a.mesh"), self.path("link.mesh"))
+        self.write("a.mesh", "old")
+        for name in ("a.mesh", "./a.mesh", "d/../a.mesh", "link.mesh", self.path("a.mesh")):
+            self.refused(square, "-o", "a.mesh", "-o", name, sentence="'" + name + "' cannot be written: it is named twice")
+        self.refused(square, "-o", "d/b.mesh", "-o", "d/../d/b.mesh", sentence="it is named twice")
+        self.write("a.sol", "")
+        self.refused(square, "-o", "link.mesh", "--size-map", "a.sol", sentence="'link.mesh' cannot be written: it is what is read")
+
     def test_no_face_with_a_mesh_is_status_2_and_no_file(self):
         self.refused(self.write("bad.pardom", "1\n" + FACE.format(2)), "--host", HOSTS[0], "-o", "out.mesh", "--size", "0.3",
                      sentence="face 2")
@@ -296,7 +336,7 @@ class Results(Folder):
     def test_a_summary_ends_the_run_and_a_quiet_one_says_nothing(self):
         done = self.run_mesh(TEAPOT, "-o", "a.mesh", "-o", "a.vtu", "--size", "0.3")
         for pattern in (r"(?m)^faces +32 meshed, 0 mended, 0 failed$", r"(?m)^edges +[\d.e-]+ to [\d.]+, mean 0\.\d+; \d+ open$", r"(?m)^written +a\.mesh$",
-                        r"(?m)^written +a\.vtu$", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
+                        r"(?m)^written +a\.vtu$", r"(?m)^interfaces \d+ curves of two faces, 0 seams, \d+ open", r"(?m)^seconds +reading \d+\.\d+, meshing", r"(?m)^shape quality Q2: mean 0\.9",
                         r"\d+ triangles"):
             self.assertRegex(done.stderr, pattern)
         self.assertEqual(done.stdout, "")

@@ -48,6 +48,8 @@ void expect_same_faces(const FlatMesh& a, const FlatMesh& b) {
     EXPECT_EQ(a.faces[f].ref, b.faces[f].ref);
     EXPECT_EQ(a.faces[f].name, b.faces[f].name);
     EXPECT_EQ(a.faces[f].status, b.faces[f].status);
+    EXPECT_EQ(a.faces[f].why, b.faces[f].why);
+    EXPECT_EQ(a.faces[f].rgb, b.faces[f].rgb);
   }
 }
 
@@ -58,7 +60,8 @@ TEST(MeshReaders, VtuGivesEverythingBack) {
     expect_same_geometry(back(mesh, MeshFormat::vtu), in_space(mesh));
   }
   FlatMesh mesh = named_square();
-  mesh.faces.push_back({12, FaceStatus::failed, "lost"});
+  mesh.faces.push_back({12, FaceStatus::failed, "lost", "its boundary crosses itself at (1, 2)"});
+  mesh.faces[1].rgb = 0xFF8000;
   mesh.fields = {{"a", false, 2, {1, 2, 3, 4}, {5, 6, 7, 8, 9, 10, 11, 12}},
                  {"b", false, 1, {}, {1, 2, 3, 4}},
                  {"c & <d>", false, 1, {1, 2}},
