@@ -22,8 +22,9 @@ Vec3 unit(Vec3 v) noexcept {
 
 class NarrowZones {
  public:
-  NarrowZones(const GradationGraph& graph, const std::vector<std::uint8_t>& sides, Monitor& monitor)
-      : graph_(graph), sides_(sides), monitor_(monitor), on_boundary_(graph.xyz.size(), 0) {}
+  NarrowZones(const GradationGraph& graph, const std::vector<std::uint8_t>& sides, const std::vector<double>& wanted,
+              Monitor& monitor)
+      : graph_(graph), sides_(sides), wanted_(wanted), monitor_(monitor), on_boundary_(graph.xyz.size(), 0) {}
 
   std::vector<NarrowPlace> run() {
     mark_boundaries();
@@ -58,10 +59,10 @@ class NarrowZones {
         angle[a] += std::acos(std::clamp(dot(p, q), -1., 1.));
         if ((sides_[t] >> i & 1) != 0) on_boundary_[vertex(a)] = on_boundary_[vertex(b)] = 1;
       }
-    for (std::size_t p = 0; p < inward_.size(); ++p) {
+    for (int p = 0; p < static_cast<int>(inward_.size()); ++p) {
       inward_[p] = unit(inward_[p]);
-      if (on_boundary_[vertex(static_cast<int>(p))] != 0 && angle[p] < sharp_corner)
-        corners_.push_back(position(static_cast<int>(p)));
+      if (on_boundary_[vertex(p)] != 0 && angle[p] < sharp_corner)
+        corners_.push_back({position(p), wanted_[vertex(p)]});
     }
   }
 
@@ -80,8 +81,8 @@ class NarrowZones {
   }
 
   void report(double gap, Vec3 across, Vec3 middle, std::initializer_list<int> vertices) {
-    for (const Vec3 corner : corners_)
-      if (norm(corner - middle) < reach_of_corner * gap) return;
+    for (const Corner& corner : corners_)
+      if (norm(corner.xyz - middle) < std::max(reach_of_corner * gap, corner.wanted)) return;
     for (const int v : vertices)
       if (v >= 0) found_.push_back({v, gap, across});
   }
@@ -148,10 +149,15 @@ class NarrowZones {
 
   const GradationGraph& graph_;
   const std::vector<std::uint8_t>& sides_;
+  const std::vector<double>& wanted_;
   Monitor& monitor_;
   std::vector<char> on_boundary_;  // by vertex
   std::vector<Vec3> inward_;       // by place
-  std::vector<Vec3> corners_;
+  struct Corner {
+    Vec3 xyz;
+    double wanted;
+  };
+  std::vector<Corner> corners_;
   GradationFronts fronts_;
   std::vector<NarrowPlace> found_;
 };
@@ -159,8 +165,8 @@ class NarrowZones {
 }  // namespace
 
 std::vector<NarrowPlace> find_narrow_places(const GradationGraph& graph, const std::vector<std::uint8_t>& sides,
-                                            Monitor& monitor) {
-  return NarrowZones(graph, sides, monitor).run();
+                                            const std::vector<double>& wanted, Monitor& monitor) {
+  return NarrowZones(graph, sides, wanted, monitor).run();
 }
 
 }  // namespace carreau

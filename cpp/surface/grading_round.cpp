@@ -272,7 +272,9 @@ void GradingRound::add_triangles(const FaceDomain& domain, GradedFace& face, std
 void GradingRound::bound_narrow_zones() {
   const double layers = options_.proximity, share = 1 / std::max(layers, (layers - 1) * std::numbers::sqrt2);
   if (metrics_) collect_places();
-  for (const NarrowPlace& n : find_narrow_places(graph_, sides_, monitor_)) {
+  std::vector<double> wanted = h_;  // diag where nothing is known
+  for (double& h : wanted) h = std::min(h, largest_ / graph_share);
+  for (const NarrowPlace& n : find_narrow_places(graph_, sides_, wanted, monitor_)) {
     const double h = n.gap * share;
     if (!metrics_) {
       h_[n.vertex] = std::min(h_[n.vertex], h);
