@@ -13,6 +13,8 @@ namespace {
 constexpr double head_on = 0.8;
 // Angle of a corner whose sides are near each other because it is a corner; its reach in gaps.
 constexpr double sharp_corner = 100 * std::numbers::pi / 180, reach_of_corner = 2;
+// Below this the reach in gaps does not hold the tip: there the gap is 2 tan(angle / 2) of the distance from it.
+constexpr double wedge = 28 * std::numbers::pi / 180;
 constexpr std::size_t triangles_between_checks = 1 << 14;
 
 Vec3 unit(Vec3 v) noexcept {
@@ -62,7 +64,7 @@ class NarrowZones {
     for (int p = 0; p < static_cast<int>(inward_.size()); ++p) {
       inward_[p] = unit(inward_[p]);
       if (on_boundary_[vertex(p)] != 0 && angle[p] < sharp_corner)
-        corners_.push_back({position(p), wanted_[vertex(p)]});
+        corners_.push_back({position(p), angle[p] < wedge ? wanted_[vertex(p)] : 0});
     }
   }
 
