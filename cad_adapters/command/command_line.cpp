@@ -202,13 +202,14 @@ void CommandLine::add_completion() {
 }
 
 int CommandLine::run(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "-";
+  const std::string first = argc > 1 ? argv[1] : "";
   std::string known;
-  bool found = first[0] == '-';
+  bool found = first.starts_with('-');
   for (const CLI::App* sub : app_.get_subcommands({})) {
     known += (known.empty() ? "" : ", ") + sub->get_name();
     found = found || sub->get_name() == first;
   }
+  if (first.empty()) throw Failure("A command is wanted: " + known + ". More: carreau --help, man carreau.");
   if (!found) throw Failure("There is no command '" + first + "'; there are " + known + ".");
   try {
     app_.parse(argc, argv);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -105,21 +106,27 @@ std::string reason(const FaceResult& face) {
   return ": " + face.why;
 }
 
-/// A line for each face that is not simply meshed, with the reason.
+/// A line for each face that failed; faces that are mended or collapsed for one reason share a line.
 std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
-  constexpr std::size_t listed = 50;
+  constexpr int listed = 50, numbers = 15;  // lines, and faces in one
   std::vector<std::string> lines;
-  std::size_t more = 0;
+  std::map<std::string, std::vector<std::int32_t>> alike;
+  int failed = 0;
   for (const FaceResult& face : faces) {
-    if (face.status == CARREAU_FACE_MESHED) continue;
-    if (lines.size() == listed) {
-      ++more;
-      continue;
-    }
-    lines.push_back("  face " + std::to_string(face.ref) + (face.name.empty() ? "" : " (" + face.name + ")") + " " +
-                    status_word(face.status) + reason(face));
+    const std::string what = status_word(face.status) + reason(face);
+    if (face.status == CARREAU_FACE_MENDED || face.status == CARREAU_FACE_COLLAPSED)
+      alike[what].push_back(face.ref);
+    else if (face.status != CARREAU_FACE_MESHED && ++failed <= listed)
+      lines.push_back("  face " + std::to_string(face.ref) + (face.name.empty() ? " " : " (" + face.name + ") ") +
+                      what);
   }
-  if (more > 0) lines.push_back("  and " + std::to_string(more) + " more: --json lists all");
+  if (failed > listed) lines.push_back("  and " + std::to_string(failed - listed) + " more, which --json lists");
+  for (const auto& [what, refs] : alike) {
+    std::string list;
+    for (std::size_t i = 0; i < refs.size() && i < numbers; ++i) list += (i > 0 ? ", " : "") + std::to_string(refs[i]);
+    lines.push_back((refs.size() == 1 ? "  face " : "  faces ") + list + (refs.size() > numbers ? ", ... " : " ") +
+                    what);
+  }
   return lines;
 }
 

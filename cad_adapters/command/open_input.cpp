@@ -8,6 +8,9 @@ namespace command {
 bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; }
 
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host) {
+  for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
+    if (suffix_of(path) == suffix)
+      throw Failure("'" + path + "' is a mesh already: carreau check and carreau picture read meshes.");
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
     return open_pardom(path, host);
