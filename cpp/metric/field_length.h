@@ -12,12 +12,12 @@ template <typename Field>
 double field_length(const Field& at, Vec2 p, Vec2 q, double lss = 0.5, int depth = 20) {
   const Vec2 d = q - p;
   const auto speed = [&](double t) { return length(at(lerp(p, q, t)), d); };
-  struct Interval {
+  struct FieldPiece {
     double start, width, end_speed;
   };
   // Left to right; what is still to do lies on the right, each piece at most as wide as the next: depth entries
   // suffice.
-  Interval todo[64];
+  FieldPiece todo[64];
   depth = depth < 1 ? 1 : (depth > 60 ? 60 : depth);
   double narrowest = 1;
   for (int k = 0; k < depth; ++k) narrowest *= 0.5;
@@ -25,7 +25,7 @@ double field_length(const Field& at, Vec2 p, Vec2 q, double lss = 0.5, int depth
   double total = 0, left = speed(0);
   todo[size++] = {0, 1, speed(1)};
   while (size > 0) {
-    const Interval piece = todo[--size];
+    const FieldPiece piece = todo[--size];
     const double trapezoid = piece.width * 0.5 * (left + piece.end_speed);
     if (piece.width < 1 && (trapezoid <= lss || piece.width <= narrowest)) {
       total += trapezoid;

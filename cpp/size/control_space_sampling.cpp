@@ -44,6 +44,8 @@ constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 constexpr std::size_t least_of_max_samples = 1000;
 // Cells at suspects are split while they are wider than this, in edges of the mesh.
 constexpr double suspect_width = 0.5;
+// Each such step is followed by the cells around: a dozen.
+constexpr double samples_per_suspect = 80;
 constexpr int most_looks = 24;
 
 }  // namespace
@@ -56,12 +58,14 @@ ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const Su
       on_surface_(on_surface),
       options_(options),
       monitor_(monitor),
+      spare_samples_(most_spare_samples),
       vertex_sampled_(domain.vertices.size(), 0) {
   options_.max_samples = std::max(options_.max_samples, least_of_max_samples);
 }
 
 void ControlSpaceSampling::run() {
-  const Survey s = survey(domain_, locator_, [this](std::span<const Vec2> uv) { return ask(uv); });
+  const Survey s = survey(
+      domain_, locator_, [this](std::span<const Vec2> uv) { return ask(uv); }, on_surface_);
   choose_grid(s);
   for (std::size_t k = 0; k < s.vertices.size(); ++k) {
     border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of_boxed(s.metrics[k]));
@@ -92,12 +96,17 @@ void ControlSpaceSampling::look_at_suspects() {
     for (const Vec2 uv : options_.suspects) {
       const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv));
       if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
-      if (std::sqrt((*tree_)[leaf].vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
+      // A sample at the very place may be much smaller than the one in the middle.
+      double vertices = (*tree_)[leaf].vertices;
+      for (const std::int32_t n : (*tree_)[leaf].node)
+        if (lattice_->sampled(n)) vertices = std::max(vertices, vertices_of((*tree_)[leaf], lattice_->value(n)));
+      if (std::sqrt(vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     const double left = static_cast<double>(options_.max_samples) - static_cast<double>(samples_);
     if (cells.empty() || left < worst_cost * static_cast<double>(cells.size())) return;
+    spare_samples_ += samples_per_suspect * static_cast<double>(cells.size());
     settle(refine(cells));
   }
 }
@@ -362,7 +371,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     list.resize(count);
   };
   double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(crowd.size());
-  cut(must, most_spare_samples + most_samples_per_vertex * vertices_ - spent, usual_cost);
+  cut(must, spare_samples_ + most_samples_per_vertex * vertices_ - spent, usual_cost);
   spent += usual_cost * static_cast<double>(must.size());
   cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());

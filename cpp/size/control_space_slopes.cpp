@@ -30,8 +30,9 @@ void ControlSpaceSampling::keep_border(int vertex, Metric2 metric, std::size_t r
   if (on_surface_) at_border_.push_back({vertex, {metric, last_forms_[rank]}});
 }
 
+// Polynomials between samples that obey exceed the slope by half of the tolerance, about.
 void ControlSpaceSampling::bound_slopes(double slope) {
-  slope_ = slope;
+  slope_ = (1 - 0.5 * options_.tolerance) * slope;
   SampledField field;
   std::vector<std::int32_t> node, rank(static_cast<std::size_t>(lattice_->size()), -1);
   for (std::int32_t n = 0; n < lattice_->size(); ++n) {
@@ -49,7 +50,7 @@ void ControlSpaceSampling::bound_slopes(double slope) {
     for (const std::int32_t n : (*tree_)[leaf].node)
       if (rank[n] >= 0) field.links.push_back({here, rank[n]});
   }
-  for (const std::int32_t s : carreau::bound_slopes(field, slope, monitor_)) {
+  for (const std::int32_t s : carreau::bound_slopes(field, slope_, monitor_)) {
     const Metric2 root = root_of(field.samples[s].metric);
     if (static_cast<std::size_t>(s) < node.size()) {
       at_node_[node[s]].metric = field.samples[s].metric;
@@ -82,7 +83,8 @@ Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& l
     low = std::max(low, size_of(there) - reach);
     high = std::min(high, size_of(there) + reach);
   }
-  return low <= high && h > 0 ? (h / std::clamp(h, low, high)) * root : root;
+  if (low > high) low = high = 0.5 * (low + high);  // by rounding, along a straight front
+  return h > 0 ? (h / std::clamp(h, low, high)) * root : root;
 }
 
 // Triangles around the centre where that is known. Where too few nodes are, links.

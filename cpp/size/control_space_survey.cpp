@@ -84,7 +84,7 @@ double ratio_of_changes(std::span<const Metric2> m, double floor) {
 }  // namespace
 
 Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
-              const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask) {
+              const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask, bool square) {
   Survey s;
   find_box(domain, s);
   std::vector<Vec2> uv;
@@ -115,7 +115,7 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
   s.floor = floor_from(std::move(shortest), longest);
   s.vertices_in_box = density / static_cast<double>(uv.size()) / area_per_vertex;
   if (along_u > 0 && along_v > 0) s.aspect = along_u / along_v;
-  if (inner.size() == inner_points * inner_points) {
+  if (!square && inner.size() == inner_points * inner_points) {
     // Cells as long as the field allows, but not too far from what exploration wants.
     const double ratio = ratio_of_changes(std::span(s.metrics).subspan(s.vertices.size()), s.floor);
     s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);

@@ -24,9 +24,9 @@ struct SampledField {
 };
 
 /// Shrinks isotropic sizes to the largest that obey: at a corner of a triangle no size exceeds that at any point of the
-/// opposite side, along which sizes are linear, by more than `slope` times the distance in space. (Plane fronts are exact,
-/// those of one small sample up to 6 % steeper.) Returns the samples that have changed, in increasing order. Linear in
-/// the number of samples but for those that change.
+/// opposite side, along which sizes are linear, by more than `slope` times the distance in space. (Plane fronts are
+/// exact, those of one small sample up to 6 % steeper.) Returns the samples that have changed, in increasing order.
+/// Linear in the number of samples but for those that change.
 std::vector<std::int32_t> bound_slopes(SampledField& field, double slope, Monitor& monitor);
 
 }  // namespace carreau

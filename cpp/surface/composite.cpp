@@ -28,8 +28,6 @@ namespace {
 constexpr double bytes_per_triangle = 300;
 // Shares of the progress fraction.
 constexpr double curves_share = 0.1, patches_share = 0.85;
-// Of the control spaces of graded sizes.
-constexpr double graded_tolerance = 0.005;
 // Share of the whole that the gradation takes before these, when there is one.
 constexpr double gradation_share = 0.3;
 
@@ -124,10 +122,6 @@ class Pipeline {
     result_.report.gradation_rounds = graded_.rounds;
     result_.report.gradation_triangles = graded_.triangles;
     result_.report.seconds_gradation = seconds_since(start);
-  }
-  // Where cones of sizes meet, edges of the mesh are seen to break the gradation before they are seen to be too long.
-  [[nodiscard]] double tolerance() const noexcept {
-    return graded_.field ? graded_tolerance : ControlSpaceOptions{}.tolerance;
   }
   [[nodiscard]] double slope() const noexcept {
     return graded_.field && !rules_.uses_metrics() ? graded_.field->slope() : 0;
@@ -240,8 +234,7 @@ class Pipeline {
                                                .constant_size = graded_.field ? std::nullopt : rules_.constant(),
                                                .isotropic = !rules_.uses_metrics(),
                                                .limits = limits(),
-                                               .slope = slope(),
-                                               .tolerance = tolerance()},
+                                               .slope = slope()},
                                     cad_, rules_, options_, reentrant));
       job(jobs_.size() - 1).limit_triangles(options_.max_triangles);
       face_of_job_.push_back(f);

@@ -8,6 +8,7 @@
 
 #include "cad/fundamental_forms.h"
 #include "mesh/quality.h"
+#include "metric/field_length.h"
 #include "surface/degenerate_sides.h"
 #include "surface/gauss.h"
 #include "surface/triangle_distance.h"
@@ -40,6 +41,9 @@ std::array<Barycentric, 7> triangle_rule() {
   }
   return rule;
 }
+
+// Trapezoids of a length in a control space are no longer than that.
+constexpr double fine_length = 0.1;
 
 double degrees(double radians) noexcept { return radians * 180 / std::numbers::pi; }
 double angle_between(Vec3 p, Vec3 q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
@@ -157,10 +161,9 @@ class Measurement {
   }
 
   // The size that is prescribed along d at a vertex; NaN at a singular one.
-  [[nodiscard]] double size_along(std::int32_t v, Vec2 d) const {
-    if (!normal_[v]) return nan;
-    const AtVertex& place = at_vertex_[v];
-    return norm(d.x * place.su + d.y * place.sv) / length(place.metric, d);
+  [[nodiscard]] double size_along(std::int32_t v, Vec2 d) const { return size_along(v, d, at_vertex_[v].metric); }
+  [[nodiscard]] double size_along(std::int32_t v, Vec2 d, Metric2 metric) const {
+    return normal_[v] ? norm(d.x * at_vertex_[v].su + d.y * at_vertex_[v].sv) / length(metric, d) : nan;
   }
 
   // The size of the circle of the same area as the unit ellipse of the tangent plane at a vertex.
@@ -260,11 +263,20 @@ class Measurement {
     longest_[v] = std::max(longest_[v], l);
   }
 
+  [[nodiscard]] const ControlSpace* governing_space() const {
+    const auto f = static_cast<std::size_t>(face_index_);
+    return f < options_.spaces.size() && options_.spaces[f] ? &*options_.spaces[f] : nullptr;
+  }
+
   void set_gradation(std::int32_t edge, std::int32_t a, std::int32_t b) {
-    const Vec2 d = face_->uv[b] - face_->uv[a];
-    double p = size_along(a, d), q = size_along(b, d);
-    if (const auto h = curve_sizes(edge, a)) p = (*h)[0], q = (*h)[1];
-    const double l = of(DeliveredKind::length)[edge];
+    const Vec2 from = face_->uv[a], to = face_->uv[b], d = to - from;
+    double p = size_along(a, d), q = size_along(b, d), l = of(DeliveredKind::length)[edge];
+    if (const auto h = curve_sizes(edge, a)) {
+      p = (*h)[0], q = (*h)[1];
+    } else if (const ControlSpace* space = governing_space()) {
+      p = size_along(a, d, space->at(from)), q = size_along(b, d, space->at(to));
+      l = field_length([space](Vec2 uv) { return space->at(uv); }, from, to, fine_length);
+    }
     if (!(p > 0) || !(q > 0) || !(l > 0)) return;
     of(DeliveredKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / l);
   }

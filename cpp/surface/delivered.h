@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "cad/cad.h"
 #include "mesh/surface_mesh.h"
 #include "metric/metric2.h"
+#include "size/control_space.h"
 #include "size/size_law.h"
 #include "support/monitor.h"
 #include "surface/mesh_edges.h"
@@ -36,7 +38,8 @@ enum class DeliveredKind : int {
   /// ends are singular.
   edge_angle = 2,
   /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along it at its two ends
-  /// (Borouchaki, Hecht, Frey: H-shock of an edge). NaN where an end is singular.
+  /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in DeliveredOptions::spaces
+  /// where there are any. NaN where an end is singular.
   gradation = 3,
   /// Of a vertex: longest over shortest of its edges, lengths in space; where the metric has directions, each divided
   /// by the size along it over the mean size, so that they compare. NaN without triangles.
@@ -81,6 +84,8 @@ struct DeliveredOptions {
   /// there are none: what the first face with the edge prescribes.
   std::span<const std::vector<double>> curve_size = {};
   SizeLaw law = SizeLaw::linear;
+  /// [face]: the fields that governed the mesh, on which a gradation is to hold; may be empty.
+  std::span<const std::optional<ControlSpace>> spaces = {};
 };
 
 /// Values counted in classes: class i holds bound[i] <= x < bound[i + 1]; the first bound is -infinity, the last one

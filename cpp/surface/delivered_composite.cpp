@@ -37,6 +37,7 @@ Delivered measure_composite(const Model& model, const Topology& topology, Cad& c
   measure.deviation_limit = geometric.deviation;
   if (options.gradation > 0) {
     measure.gradation_limit = options.gradation;
+    measure.spaces = result.spaces;
     measure.length_ratio_limit = adjacent_lengths * options.gradation;
   }
   return measure_delivered(result.mesh, cad, metric, measure, monitor);

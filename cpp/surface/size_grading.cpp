@@ -52,6 +52,7 @@ void GradingRound::find_tips(GradedFace& face) {
     for (int i = 0; i < 3; ++i)
       for (int k = 1; k < 3; ++k) {
         const std::int32_t v = t[i], w = t[(i + k) % 3];
+        if (face.xyz[v] == face.xyz[w]) continue;  // a pole has several vertices
         const GradationFront& f = face.front[w];
         if (dot(f.line, f.line) == 0 || f.source_h != face.h[v]) tip[v] = 0;
       }
