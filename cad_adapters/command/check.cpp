@@ -179,9 +179,8 @@ int check(const CheckOptions& options) {
   std::printf("vertices    %" PRId64 "\ntriangles   %" PRId64 "\nfaces       %" PRId64 "\ncurve edges %" PRId64 "\n",
               c.vertices, c.triangles, c.faces, c.edges);
   for (const FaceResult& face : c.not_meshed)
-    std::printf("%-11s face %d%s: %s\n", status_word(face.status), static_cast<int>(face.ref),
-                face.name.empty() ? "" : (" (" + face.name + ")").c_str(),
-                face.why.empty() ? "no triangles" : face.why.c_str());
+    std::printf("%-11s face %d%s%s\n", status_word(face.status), static_cast<int>(face.ref),
+                face.name.empty() ? "" : (" (" + face.name + ")").c_str(), reason_of(face).c_str());
   if (c.measured) {
     print_quality(c.quality, c.report);
     print_report(c.report, options.faces);

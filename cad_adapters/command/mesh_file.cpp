@@ -29,6 +29,14 @@ const char* status_word(std::int32_t status) {
   }
 }
 
+std::string reason_of(const FaceResult& face) {
+  if (face.why.empty()) return "";
+  const std::string name = "face " + std::to_string(face.ref);
+  for (const char* after : {", ", ": "})
+    if (face.why.starts_with(name + after)) return ": " + face.why.substr(name.size() + 2);
+  return ": " + face.why;
+}
+
 std::vector<FaceResult> faces_of(carreau_mesh* mesh) {
   std::vector<FaceResult> faces;
   std::int64_t n = 0;

@@ -35,6 +35,9 @@ struct FaceResult {
 /// "meshed", "mended", "collapsed", "failed".
 const char* status_word(std::int32_t status);
 
+/// ": why", without the face, which is named before; "" without a reason.
+std::string reason_of(const FaceResult& face);
+
 /// In the order of the mesh. Throws Failure.
 std::vector<FaceResult> faces_of(carreau_mesh* mesh);
 

@@ -97,15 +97,6 @@ std::string interfaces_line(const std::vector<carreau_interface>& interfaces) {
   return line;
 }
 
-/// ": why", without the face, which is named before.
-std::string reason(const FaceResult& face) {
-  if (face.why.empty()) return "";
-  const std::string name = "face " + std::to_string(face.ref);
-  for (const char* after : {", ", ": "})
-    if (face.why.starts_with(name + after)) return ": " + face.why.substr(name.size() + 2);
-  return ": " + face.why;
-}
-
 /// A line for each face that failed; faces that are mended or collapsed for one reason share a line.
 std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
   constexpr int listed = 50, numbers = 15;  // lines, and faces in one
@@ -113,7 +104,7 @@ std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
   std::map<std::string, std::vector<std::int32_t>> alike;
   int failed = 0;
   for (const FaceResult& face : faces) {
-    const std::string what = status_word(face.status) + reason(face);
+    const std::string what = status_word(face.status) + reason_of(face);
     if (face.status == CARREAU_FACE_MENDED || face.status == CARREAU_FACE_COLLAPSED)
       alike[what].push_back(face.ref);
     else if (face.status != CARREAU_FACE_MESHED && ++failed <= listed)

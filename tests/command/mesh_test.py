@@ -124,6 +124,17 @@ class Inputs(Folder):
         self.assertGreater(min(rows[50][50]), 240)  # nothing inside
         with open(self.path("dump/face_2.exr"), "rb") as file:
             self.assertEqual(file.read(4), b"\x76\x2f\x31\x01")
+        # A domain that is the outside of its boundary: the mesher has seen it, and the mesh tells of it.
+        turned = self.write("turned.pardom", "2\n" + FACE.format(1) + FACE.format(3).replace("3 1 4", "3 -1 4"))
+        done = self.run_mesh(turned, "--host", HOSTS[0], "-o", "turned.vtu", "--size", "0.5", "--dump-failed", "turned", code=1)
+        self.assertEqual(sorted(os.listdir(self.path("turned"))), ["face_3.exr", "face_3.mesh"])
+        self.assertRegex(done.stderr, r"(?m)^  face 3 failed: curve 1: the boundary is turned the wrong way")
+        vtu = mesh_files.read_vtu(self.path("turned.vtu"))
+        self.assertEqual((vtu.arrays["FieldData", "face_reference"], vtu.arrays["FieldData", "face_status"]), ([1, 3], [1, 3]))
+        checked = subprocess.run([PROGRAM, "check", "turned.vtu"], capture_output=True, text=True, timeout=60, cwd=self.folder)
+        self.assertIn("failed      face 3: curve 1: the boundary is turned", checked.stdout)
+        domain = mesh_files.read_mesh(self.path("turned/face_3.mesh"), dimension=2)
+        self.assertEqual({abs(x) for x, y in domain.vertices if abs(y) < 2.5}, {2.5})
         # Nothing fails: an empty folder. No face is left: the dump is there all the same.
         self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.5", "--dump-failed", "none")
         self.assertEqual(os.listdir(self.path("none")), [])
