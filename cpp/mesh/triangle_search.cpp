@@ -126,6 +126,13 @@ double TriangleSearch::squared_distance(const Box& box, Vec3 p) noexcept {
 /// `distance` of best is squared here.
 void TriangleSearch::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept {
   const auto& c = corners_[static_cast<std::size_t>(triangle)];
+  // The triangle's box costs less than the triangle.
+  const auto beyond = [](double x, double a, double b, double d) {
+    return std::max({std::min({a, b, d}) - x, x - std::max({a, b, d}), 0.0});
+  };
+  const double x = beyond(p.x, c[0].x, c[1].x, c[2].x), y = beyond(p.y, c[0].y, c[1].y, c[2].y),
+               z = beyond(p.z, c[0].z, c[1].z, c[2].z);
+  if (x * x + y * y + z * z > best.distance) return;
   const std::array<double, 3> w = nearest_weights(p, c);
   const Vec3 point = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];
   const double squared = dot(point - p, point - p);

@@ -44,8 +44,6 @@ constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 constexpr std::size_t least_of_max_samples = 1000;
 // Cells at suspects are split while they are wider than this, in edges of the mesh.
 constexpr double suspect_width = 0.5;
-// Each such step is followed by the cells around: a dozen.
-constexpr double samples_per_suspect = 80;
 constexpr int most_looks = 24;
 
 }  // namespace
@@ -58,7 +56,6 @@ ControlSpaceSampling::ControlSpaceSampling(const SampledDomain& domain, const Su
       on_surface_(on_surface),
       options_(options),
       monitor_(monitor),
-      spare_samples_(most_spare_samples),
       vertex_sampled_(domain.vertices.size(), 0) {
   options_.max_samples = std::max(options_.max_samples, least_of_max_samples);
 }
@@ -106,7 +103,6 @@ void ControlSpaceSampling::look_at_suspects() {
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     const double left = static_cast<double>(options_.max_samples) - static_cast<double>(samples_);
     if (cells.empty() || left < worst_cost * static_cast<double>(cells.size())) return;
-    spare_samples_ += samples_per_suspect * static_cast<double>(cells.size());
     settle(refine(cells));
   }
 }
@@ -371,7 +367,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     list.resize(count);
   };
   double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(crowd.size());
-  cut(must, spare_samples_ + most_samples_per_vertex * vertices_ - spent, usual_cost);
+  cut(must, most_spare_samples + most_samples_per_vertex * vertices_ - spent, usual_cost);
   spent += usual_cost * static_cast<double>(must.size());
   cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());

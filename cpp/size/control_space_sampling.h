@@ -89,7 +89,6 @@ class ControlSpaceSampling {
   std::optional<Lattice> lattice_;
   std::optional<BorderSamples> border_;
   std::optional<Tree> tree_;
-  double spare_samples_;  // beyond those for each vertex, where the tolerance is violated
   std::vector<char> vertex_sampled_;
   std::size_t samples_ = 0;
   // What a surface told: J^T J at the last points that it was asked at, at nodes and at samples of the border.
