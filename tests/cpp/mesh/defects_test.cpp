@@ -16,8 +16,8 @@ SurfaceMesh two_squares() {
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
   mesh.vertex_ref.assign(6, 0);
   const std::vector<Vec2> uv{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  mesh.faces.push_back({1, "", FaceStatus::meshed, "", uv, {0, 1, 2, 3}, {{0, 1, 2}, {0, 2, 3}}, {}});
-  mesh.faces.push_back({2, "", FaceStatus::meshed, "", uv, {1, 4, 5, 2}, {{0, 1, 2}, {0, 2, 3}}, {}});
+  mesh.faces.push_back({1, "", -1, FaceStatus::meshed, "", uv, {0, 1, 2, 3}, {{0, 1, 2}, {0, 2, 3}}, {}});
+  mesh.faces.push_back({2, "", -1, FaceStatus::meshed, "", uv, {1, 4, 5, 2}, {{0, 1, 2}, {0, 2, 3}}, {}});
   mesh.curves = {{1, {0, 1}, {{0, false}}},
                  {2, {1, 2}, {{0, false}, {1, false}}},
                  {3, {2, 3, 0}, {{0, false}}},
