@@ -4,6 +4,7 @@
 #include <carreau.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -48,6 +49,8 @@ class CadInput {
   virtual bool exclude(int face, const std::string& why) = 0;
   /// Faces that are left out, with the reason.
   [[nodiscard]] virtual std::vector<std::pair<int, std::string>> excluded() const = 0;
+  /// What the file holds and the geometry does not, since it could not be read: a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
   /// What went wrong in a callback on this face; "" when nothing did.
@@ -58,11 +61,14 @@ class CadInput {
 bool needs_host(const std::string& path);
 
 /// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; or
-/// what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use.
-std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host);
+/// what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
+/// the share that is done, where it is known.
+using ReadingProgress = std::function<void(double fraction)>;
+std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
+                                     const ReadingProgress& progress = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
-std::unique_ptr<CadInput> open_cad(const std::string& path);
+std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);
 
 struct InfoOptions;
 /// `carreau info` on STEP, IGES and BREP files. Returns the exit code; throws Failure.

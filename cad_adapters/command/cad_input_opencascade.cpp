@@ -17,7 +17,13 @@ namespace {
 
 class OpenCascadeInput final : public CadInput {
  public:
-  explicit OpenCascadeInput(const std::string& path) : file_(carreau_occ::read_shape(path)), host_(file_) {}
+  OpenCascadeInput(const std::string& path, const ReadingProgress& progress)
+      : file_(carreau_occ::read_shape(path,
+                                      [&](double fraction) {
+                                        if (progress) progress(fraction);
+                                        return true;
+                                      })),
+        host_(file_) {}
 
   carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
   [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
@@ -45,6 +51,7 @@ class OpenCascadeInput final : public CadInput {
     u = uv[0], v = uv[1];
     return true;
   }
+  [[nodiscard]] std::vector<std::string> losses() const override { return file_.losses; }
 
   [[nodiscard]] std::string gaps() const override {
     const carreau_occ::Gaps gaps = carreau_occ::measure_gaps(file_);
@@ -111,7 +118,10 @@ void print_report(const carreau_occ::ShapeReport& r, const carreau_occ::ShapeFil
               number(r.largest_tolerance).c_str(), number(r.largest_gap).c_str());
   std::map<std::string, int> count;
   for (const carreau_occ::Danger& danger : r.dangers) ++count[danger.kind];
-  if (count.empty()) std::puts("nothing looks dangerous");
+  if (!file.losses.empty()) std::printf("not read: %d\n", static_cast<int>(file.losses.size()));
+  for (std::size_t i = 0; i < file.losses.size() && i <= static_cast<std::size_t>(limit); ++i)
+    std::printf("  %s\n", i == static_cast<std::size_t>(limit) ? "..." : file.losses[i].c_str());
+  if (count.empty() && file.losses.empty()) std::puts("nothing looks dangerous");
   std::map<std::string, int> told;
   for (const carreau_occ::Danger& danger : r.dangers) {
     int& n = told[danger.kind];
@@ -151,6 +161,7 @@ nlohmann::ordered_json json_of(const carreau_occ::ShapeReport& r, const carreau_
           {"shortest_edge", r.shortest_edge},
           {"largest_tolerance", r.largest_tolerance},
           {"largest_gap", r.largest_gap},
+          {"not_read", file.losses},
           {"dangers", dangers}};
 }
 
@@ -174,9 +185,9 @@ int print_cad_info(const InfoOptions& options) try {
   throw Failure(error.what());
 }
 
-std::unique_ptr<CadInput> open_cad(const std::string& path) {
+std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress) {
   try {
-    return std::make_unique<OpenCascadeInput>(path);
+    return std::make_unique<OpenCascadeInput>(path, progress);
   } catch (const std::bad_alloc&) {
     throw Failure("'" + path + "': out of memory.");
   } catch (const std::exception& error) {

@@ -70,6 +70,9 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
               Progress& progress) {
   progress.listen_to(run.session);
   set_parameters(run.session, options, input, map);
+  constexpr std::size_t told = 20;
+  const std::vector<std::string> losses = input.losses();
+  for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
   for (const auto& [face, why] : input.excluded()) progress.error("face " + std::to_string(face) + ": " + why);
   const std::clock_t start = std::clock();
   generate(run.session, input, map, failed, progress);
@@ -104,7 +107,8 @@ int mesh(const MeshOptions& options) {
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
   const Stopwatch reading;
-  const std::unique_ptr<CadInput> input = open_input(options.input, options.host);
+  const std::unique_ptr<CadInput> input =
+      open_input(options.input, options.host, [&](double fraction) { progress.reading(fraction); });
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
@@ -116,7 +120,7 @@ int mesh(const MeshOptions& options) {
     throw;
   }
   run.dumped = dumped.files();
-  const std::string failed = failed_faces(run.faces);
+  const std::string failed = failed_faces(run.faces), lost = lost_entities(*input);
   const bool any =
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
@@ -126,8 +130,9 @@ int mesh(const MeshOptions& options) {
   if (!options.quiet)
     for (const std::string& line : summary_lines(run)) progress.line(line);
   if (options.json) print_json(run);
-  if (failed.empty()) return all_faces;
-  progress.error(failed);
+  if (failed.empty() && lost.empty()) return all_faces;
+  for (const std::string& sentence : {lost, failed})
+    if (!sentence.empty()) progress.error(sentence);
   return some_faces;
 }
 

@@ -162,6 +162,17 @@ std::string failed_faces(const std::vector<FaceResult>& faces) {
          (failed > listed ? ", ..." : "");
 }
 
+std::string lost_entities(const CadInput& input) {
+  constexpr std::size_t listed = 20;
+  const std::vector<std::string> losses = input.losses();
+  if (losses.empty()) return "";
+  std::string list;
+  for (std::size_t i = 0; i < losses.size() && i < listed; ++i)
+    list += (i == 0 ? "" : ", ") + losses[i].substr(0, losses[i].find(": "));
+  return std::to_string(losses.size()) + (losses.size() == 1 ? " entity" : " entities") +
+         " of the file could not be read: " + list + (losses.size() > listed ? ", ..." : "");
+}
+
 std::vector<std::string> summary_lines(const MeshRun& run) {
   const carreau_quality q = quality_of(run.mesh);
   const carreau_report r = report_of(run.session);
@@ -204,6 +215,7 @@ void print_json(const MeshRun& run) {
                                           {"threads", threads_of(run.session)},
                                           {"mesh", quality_json(q)},
                                           {"faces", faces},
+                                          {"not_read", run.input.losses()},
                                           {"interfaces", interfaces_json(interfaces_of(run.session))},
                                           {"calls",
                                            {{"surf0", r.surf0_calls},

@@ -29,6 +29,9 @@ std::vector<FaceResult> with_excluded(std::vector<FaceResult> faces, const CadIn
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.
 std::string failed_faces(const std::vector<FaceResult>& faces);
 
+/// "2 entities of the file could not be read: #12 ADVANCED_FACE, ..."; "" when all could.
+std::string lost_entities(const CadInput& input);
+
 /// A table: faces, lengths, times, files; the library's own messages tell counts, shape and the times of its phases.
 std::vector<std::string> summary_lines(const MeshRun& run);
 

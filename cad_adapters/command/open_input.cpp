@@ -7,7 +7,8 @@ namespace command {
 
 bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; }
 
-std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host) {
+std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
+                                     const ReadingProgress& progress) {
   for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
     if (suffix_of(path) == suffix)
       throw Failure("'" + path + "' is a mesh already: carreau check and carreau picture read meshes.");
@@ -16,7 +17,7 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const std::string&
     return open_pardom(path, host);
   }
   if (!host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
-  return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path);
+  return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path, progress);
 }
 
 }  // namespace command

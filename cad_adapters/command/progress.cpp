@@ -11,9 +11,13 @@ namespace {
 
 constexpr int bar_width = 30;
 constexpr std::chrono::milliseconds redraw{100};
+constexpr std::chrono::seconds between_lines{1};
+constexpr std::int32_t phase_reading = -2;  // not one of the library's
 
 const char* phase_name(std::int32_t phase) {
   switch (phase) {
+    case phase_reading:
+      return "reading";
     case CARREAU_PHASE_MODEL:
       return "model";
     case CARREAU_PHASE_CURVES:
@@ -42,7 +46,8 @@ std::string entity_name(std::int32_t phase, std::int32_t entity) {
 
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(is_terminal()), colours_(shows_colours()) {}
+Progress::Progress(bool quiet)
+    : quiet_(quiet), terminal_(is_terminal()), colours_(shows_colours()), drawn_(Clock::now()) {}
 Progress::~Progress() { clear(); }
 
 void Progress::listen_to(carreau_session* session) {
@@ -81,6 +86,13 @@ void Progress::on_message(std::int32_t level, const char* text, void* user) {
     self.warning(text);
   else
     self.line(text);
+}
+
+void Progress::reading(double fraction) {
+  const auto now = Clock::now();
+  if (!terminal_ && now - drawn_ < between_lines) return;
+  if (!terminal_) drawn_ = now;
+  show(phase_reading, 0, fraction);
 }
 
 std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user) {

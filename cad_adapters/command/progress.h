@@ -20,6 +20,8 @@ class Progress {
 
   /// Messages and progress of this session come here; it must not outlive this object.
   void listen_to(carreau_session* session);
+  /// How much of a file is read; a log gets a line a second.
+  void reading(double fraction);
   /// A line of its own: what has begun, or a result.
   void line(const std::string& text);
   /// Something that may be wrong.

@@ -1,6 +1,7 @@
 #include "brep_host.h"
 
 #include <BRepBndLib.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Geom2d_Curve.hxx>
@@ -9,6 +10,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
@@ -25,6 +27,7 @@
 #include <stdexcept>
 
 #include "evaluators.h"
+#include "face_check.h"
 #include "faults.h"
 
 namespace carreau_occ {
@@ -66,11 +69,13 @@ struct BrepHost::State {
   Evaluators evaluators;
   std::mutex mutex;                     // of what follows: callbacks come from several threads
   std::map<int, std::string> failures;  // by face
-  // Faces with a failure, by number - 1: not asked again, since a fault may have left locks behind.
-  std::unique_ptr<std::atomic<bool>[]> has_failed;
+  // By number - 1: faces whose surface, or curves, failed or could not be had. Not asked again, since a fault may have
+  // left locks behind.
+  std::unique_ptr<std::atomic<bool>[]> surface_failed, curves_failed;
 
   void collect();
   void collect_names(const ShapeFile& file);
+  void collect_doubts(const ShapeFile& file);
   void collect_face(int number);
 
   static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
@@ -94,7 +99,10 @@ void BrepHost::State::collect() {
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
   evaluators.resize(host_faces.size());
-  has_failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
+  for (auto* failed : {&surface_failed, &curves_failed}) {
+    *failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
+    for (std::size_t f = 0; f < host_faces.size(); ++f) (*failed)[f] = true;
+  }
   for (int f = 1; f <= faces.Extent(); ++f) {
     HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
     try {
@@ -131,6 +139,8 @@ void BrepHost::State::collect_face(int number) {
     host.curves.push_back(curve);
   }
   evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
+  for (const auto* failed : {&surface_failed, &curves_failed}) (*failed)[static_cast<std::size_t>(number - 1)] = false;
+  refuse_unusable(forward);
 }
 
 // Wide parts first, so that the name of the narrowest part stays.
@@ -152,6 +162,15 @@ void BrepHost::State::collect_names(const ShapeFile& file) {
       if (!label->name.empty()) face.name = label->name;
       if (label->has_colour) face.rgb = byte(label->red) << 16 | byte(label->green) << 8 | byte(label->blue);
     }
+}
+
+void BrepHost::State::collect_doubts(const ShapeFile& file) {
+  for (const auto& [doubtful, why] : file.doubtful)
+    for (TopExp_Explorer e(doubtful, TopAbs_FACE); e.More(); e.Next())
+      for (int f = 1; f <= faces.Extent(); ++f)  // wherever an assembly puts it
+        if (HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
+            faces(f).IsPartner(e.Current()) && face.broken.empty())
+          face.broken = why;
 }
 
 void BrepHost::State::collect_sizes() {
@@ -197,14 +216,14 @@ int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcep
     failures[face] = "face " + std::to_string(face) + ": " + sentence_of(why);
   } catch (...) {  // no memory for a sentence
   }
-  has_failed[static_cast<std::size_t>(face - 1)] = true;
   return 1;
 }
 
 int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
                                        double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept {
   auto& state = *static_cast<State*>(user);
-  if (state.has_failed[static_cast<std::size_t>(face - 1)]) return 1;
+  std::atomic<bool>& failed = state.surface_failed[static_cast<std::size_t>(face - 1)];
+  if (failed) return 1;
   const auto evaluate = [&] {
     const bool swapped = state.host_faces[static_cast<std::size_t>(face - 1)].swapped;
     const Evaluators::Surface surface = state.evaluators.surface(static_cast<std::size_t>(face - 1));
@@ -229,6 +248,7 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
     guarded(evaluate);
     return 0;
   } catch (const Standard_Failure& failure) {
+    failed = true;
     return state.fail(face, failure);
   } catch (...) {
     return state.fail(face, Standard_Failure("out of memory"));
@@ -246,7 +266,8 @@ int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b
 int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
                                void* user) noexcept {
   auto& state = *static_cast<State*>(user);
-  if (state.has_failed[static_cast<std::size_t>(face - 1)]) return 1;
+  std::atomic<bool>& failed = state.curves_failed[static_cast<std::size_t>(face - 1)];
+  if (failed) return 1;
   const auto evaluate = [&] {
     const Evaluators::Curve curve =
         state.evaluators.curve(static_cast<std::size_t>(face - 1), static_cast<std::size_t>(ic - 1));
@@ -267,32 +288,17 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
     guarded(evaluate);
     return 0;
   } catch (const Standard_Failure& failure) {
+    failed = true;
     return state.fail(face, failure);
   } catch (...) {
     return state.fail(face, Standard_Failure("out of memory"));
   }
 }
 
-double diagonal_of(const TopoDS_Shape& shape) {
-  Bnd_Box box;
-  try {
-    guarded([&] { BRepBndLib::AddOptimal(shape, box, Standard_False, Standard_False); });
-  } catch (const Standard_Failure&) {  // a face cannot be evaluated: the others count
-    box.SetVoid();
-    for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) try {
-        Bnd_Box of_face;
-        guarded([&] { BRepBndLib::AddOptimal(f.Current(), of_face, Standard_False, Standard_False); });
-        box.Add(of_face);
-      } catch (const Standard_Failure&) {
-      }
-  }
-  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
-}
-
 BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
   state_->shape = file.shape;
   try {
-    guarded([&] { state_->collect(), state_->collect_names(file); });
+    guarded([&] { state_->collect(), state_->collect_names(file), state_->collect_doubts(file); });
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
   }
@@ -385,7 +391,19 @@ bool BrepHost::on_curve(int face, int ic, double share, double* uv) const noexce
   return State::curve(face, ic, t, 0, uv, nullptr, nullptr, state_.get()) == 0;
 }
 
-double BrepHost::diagonal() const { return diagonal_of(state_->shape); }
+double BrepHost::diagonal() const {
+  // Faces that are broken may reach anywhere.
+  TopoDS_Compound good;
+  const BRep_Builder builder;
+  builder.MakeCompound(good);
+  bool all = true;
+  for (int f = 1; f <= state_->faces.Extent(); ++f)
+    if (state_->host_faces[static_cast<std::size_t>(f - 1)].broken.empty())
+      builder.Add(good, state_->faces(f));
+    else
+      all = false;
+  return diagonal_of(all ? state_->shape : good);
+}
 
 double BrepHost::glue_tolerance() const try {
   double tolerance = 0;

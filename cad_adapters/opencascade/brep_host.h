@@ -12,9 +12,6 @@
 
 namespace carreau_occ {
 
-/// Diagonal of the box of a shape; of the faces that OpenCASCADE can evaluate when it fails on some. 0: of none.
-double diagonal_of(const TopoDS_Shape& shape);
-
 /// Faces, edges and vertices of a shape, numbered from 1 as OpenCASCADE's maps of the shape number them: those numbers
 /// are the references of faces, curves and points. A face that is reversed gets u and v exchanged, so that triangles,
 /// which are counterclockwise in (u, v), look outwards of a solid. Callbacks may come from several threads at a time.
@@ -36,7 +33,8 @@ class BrepHost {
 
   /// Leaves a face out of what give_to hands over, for a reason that excluded() tells again.
   void exclude(int face, const std::string& why);
-  /// Faces that are left out: those that OpenCASCADE fails on, and those of exclude(). Ascending, with the reason.
+  /// Faces that are left out: those that OpenCASCADE fails on, those whose data has an error or reaches too far, and
+  /// those of exclude(). Ascending, with the reason.
   [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const;
 
   /// Own name of a face, or that of the smallest part that holds it; "": none. Numbers from 1.
@@ -44,7 +42,7 @@ class BrepHost {
   [[nodiscard]] int face_count() const noexcept;
   [[nodiscard]] int edge_count() const noexcept;
   [[nodiscard]] int vertex_count() const noexcept;
-  /// Diagonal of the box of all edges.
+  /// Diagonal of the box of the faces that are not left out.
   [[nodiscard]] double diagonal() const;
   /// How far apart edges of one face only may be that are one in space (parameters glue_open and eps_glue): what the
   /// tolerances of the file's own edges and vertices allow, but no more than a tenth of the shortest such edge. 0:

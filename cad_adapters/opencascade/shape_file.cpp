@@ -6,6 +6,7 @@
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
+#include <Message_ProgressIndicator.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Failure.hxx>
@@ -20,10 +21,12 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <fstream>
 #include <stdexcept>
 
+#include "entity_check.h"
 #include "faults.h"
 
 namespace carreau_occ {
@@ -103,8 +106,26 @@ void collect_labels(const Handle(XCAFDoc_ShapeTool) & shapes, const Handle(XCAFD
     collect_labels(shapes, colours, child.Value(), place, file);
 }
 
+/// Hands on how far a translation is.
+class Indicator final : public Message_ProgressIndicator {
+ public:
+  explicit Indicator(const ReadingProgress& progress) : progress_(progress) {}
+  Standard_Boolean UserBreak() override { return stopped_; }
+  void Show(const Message_ProgressScope&, Standard_Boolean) override {
+    if (progress_ && !stopped_ && !progress_(GetPosition())) stopped_ = true;
+  }
+  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
+
+ private:
+  const ReadingProgress& progress_;
+  std::atomic<bool> stopped_{false};
+};
+
+Handle(XSControl_WorkSession) session_of(STEPCAFControl_Reader& reader) { return reader.ChangeReader().WS(); }
+Handle(XSControl_WorkSession) session_of(IGESCAFControl_Reader& reader) { return reader.WS(); }
+
 template <typename Reader>
-void read_document(const std::string& path, const char* kind, ShapeFile& file) {
+void read_document(const std::string& path, const char* kind, const Handle(Indicator) & indicator, ShapeFile& file) {
   // Names of faces are kept, and no names are invented.
   XCAFDoc_ShapeTool::SetAutoNaming(Standard_False);
   Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
@@ -114,8 +135,13 @@ void read_document(const std::string& path, const char* kind, ShapeFile& file) {
   reader.SetColorMode(Standard_True);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     refuse(path, std::string("is not a readable ") + kind + " file");
-  if (!reader.Transfer(document))
-    refuse(path, std::string("the ") + kind + " file holds no shape that can be translated");
+  const EntityCheck check(session_of(reader));
+  const bool translated = reader.Transfer(document, indicator->Start());
+  file.losses = check.losses();
+  if (!translated)
+    refuse(path, std::string("the ") + kind + " file holds no shape that can be translated" +
+                     (file.losses.empty() ? "" : " (" + file.losses.front() + ")"));
+  file.doubtful = check.doubtful();
   const auto shapes = XCAFDoc_DocumentTool::ShapeTool(document->Main());
   const auto colours = XCAFDoc_DocumentTool::ColorTool(document->Main());
   TDF_LabelSequence roots;
@@ -133,24 +159,31 @@ void read_document(const std::string& path, const char* kind, ShapeFile& file) {
   file.unit = "mm";
 }
 
-void read_as(Format format, const std::string& path, ShapeFile& file) {
-  switch (format) {
-    case Format::step:
-      read_document<STEPCAFControl_Reader>(path, "STEP", file);
-      break;
-    case Format::iges:
-      read_document<IGESCAFControl_Reader>(path, "IGES", file);
-      break;
-    default: {
-      BRep_Builder builder;
-      if (!BRepTools::Read(file.shape, path.c_str(), builder)) refuse(path, "is not a readable BREP file");
-    }
+// OpenCASCADE's reader of BREP files looks for words without end when there is nothing left to read; and it goes on
+// with what it had when a number is none.
+void read_brep(const std::string& path, const Handle(Indicator) & indicator, ShapeFile& file) {
+  std::ifstream stream(path, std::ios::binary);
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
+  const BRep_Builder builder;
+  try {
+    BRepTools::Read(file.shape, stream, builder, indicator->Start());
+  } catch (const std::ios_base::failure&) {
+    refuse(path, "is not a readable BREP file: it is cut off, or a number in it is none");
   }
+}
+
+void read_as(Format format, const std::string& path, const Handle(Indicator) & indicator, ShapeFile& file) {
+  if (format == Format::step)
+    read_document<STEPCAFControl_Reader>(path, "STEP", indicator, file);
+  else if (format == Format::iges)
+    read_document<IGESCAFControl_Reader>(path, "IGES", indicator, file);
+  else
+    read_brep(path, indicator, file);
 }
 
 }  // namespace
 
-ShapeFile read_shape(const std::string& path) {
+ShapeFile read_shape(const std::string& path, const ReadingProgress& progress) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) refuse(path, "cannot be opened");
   const Format content = format_by_content(stream);
@@ -164,12 +197,16 @@ ShapeFile read_shape(const std::string& path) {
   }
   const Silence silence;
   ShapeFile file;
+  const Handle(Indicator) indicator = new Indicator(progress);
   try {
-    guarded([&] { read_as(format, path, file); });
+    guarded([&] { read_as(format, path, indicator, file); });
   } catch (const Standard_Failure& failure) {
     refuse(path, std::string("OpenCASCADE cannot read it: ") + failure.GetMessageString());
   }
-  if (file.shape.IsNull() || !TopExp_Explorer(file.shape, TopAbs_FACE).More()) refuse(path, "holds no face");
+  if (indicator->stopped()) refuse(path, "was not read to its end: it was asked to stop");
+  if (file.shape.IsNull() || !TopExp_Explorer(file.shape, TopAbs_FACE).More())
+    refuse(path, std::string("holds no face") +
+                     (file.losses.empty() ? "" : " that can be read (" + file.losses.front() + ")"));
   return file;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <TopoDS_Shape.hxx>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace carreau_occ {
@@ -19,11 +21,18 @@ struct ShapeFile {
   };
   std::vector<Label> labels;
   std::string unit;  ///< of its coordinates, "" when the file does not say
+  /// What the file holds and the shape does not, or not as it should: a sentence each, which names the entity.
+  std::vector<std::string> losses{};
+  /// Faces of the shape that stand on data with an error, and why.
+  std::vector<std::pair<TopoDS_Shape, std::string>> doubtful{};
 };
+
+/// Told while a file is translated, with the share that is done. False stops.
+using ReadingProgress = std::function<bool(double fraction)>;
 
 /// Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep) as the suffix, or else the first bytes, say. Lengths
 /// are in millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. Throws std::runtime_error with a
 /// sentence that names the file.
-ShapeFile read_shape(const std::string& path);
+ShapeFile read_shape(const std::string& path, const ReadingProgress& progress = {});
 
 }  // namespace carreau_occ

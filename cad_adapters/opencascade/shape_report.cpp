@@ -22,6 +22,7 @@
 #include <gp_Pnt2d.hxx>
 #include <map>
 
+#include "face_check.h"
 #include "faults.h"
 
 namespace carreau_occ {

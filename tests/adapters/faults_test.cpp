@@ -44,8 +44,8 @@ TEST(Faults, BecomeTheErrorOfTheFace) {
   const carreau_occ::FaultTrap trap;
   for (const Fault& fault : faults)
     for (const int threads : {1, 2}) {
-      carreau_occ::BrepHost host(file_of(adapters::odd_cylinder([&](double u) {
-        if (u > 3) fault.happens();
+      carreau_occ::BrepHost host(file_of(adapters::odd_cylinder([&](double u, double v) {
+        if (adapters::is_inside(u, v)) fault.happens();
       })));
       const auto run = [&] {
         return adapters::mesh_and_measure(host, 0.2,
@@ -60,6 +60,23 @@ TEST(Faults, BecomeTheErrorOfTheFace) {
       EXPECT_EQ(others.trouble(false), "");
       EXPECT_NEAR(others.quality.area, 2 * std::acos(-1.0), 0.05);  // the two lids
     }
+}
+
+// What fails on its boundary is known before anything is meshed, and costs no second run.
+TEST(Faults, OnTheBoundaryLeaveTheFaceOutAtOnce) {
+  const carreau_occ::FaultTrap trap;
+  for (const Fault& fault : faults) {
+    carreau_occ::BrepHost host(file_of(adapters::odd_cylinder([&](double, double v) {
+      if (v > 1.9) fault.happens();
+    })));
+    ASSERT_EQ(host.excluded().size(), 1U);
+    EXPECT_EQ(host.excluded().front().first, 1);
+    EXPECT_NE(host.excluded().front().second.find(fault.name), std::string::npos);
+    EXPECT_NEAR(host.diagonal(), 2 * std::sqrt(3.0), 1e-6);
+    const adapters::MeasuredMesh others = adapters::mesh_and_measure(host, 0.2);
+    EXPECT_EQ(others.trouble(false), "");
+    EXPECT_NEAR(others.quality.area, 2 * std::acos(-1.0), 0.05);  // the two lids
+  }
 }
 
 TEST(Faults, OfAnyThreadAreItsOwn) {
@@ -118,7 +135,7 @@ TEST(Faults, SignalsStayThoseOfTheProgram) {
     EXPECT_EQ(found.sa_handler, own_handler);
   }
   // Reading and meshing change nothing either.
-  carreau_occ::BrepHost host(file_of(adapters::odd_cylinder([](double) {})));
+  carreau_occ::BrepHost host(file_of(adapters::odd_cylinder([](double, double) {})));
   EXPECT_EQ(adapters::mesh_and_measure(host, 0.5).trouble(true), "");
   for (std::size_t i = 0; i < signals.size(); ++i) {
     sigaction(signals[i], &before[i], &found);

@@ -4,9 +4,11 @@
 //   named_faces.step       a box whose six faces are called bottom, top and side; the box is green, its top orange
 //   inch.step              a cube of one inch
 //   open.igs               five faces of a box, each on its own
+//   plate.step, .brep, .igs   a plate with a hole, all of NURBS
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepTools.hxx>
@@ -104,6 +106,15 @@ void write_open_iges(const std::string& path) {
   require(writer.Write(path.c_str()), path);
 }
 
+void write_plate(const std::string& path) {
+  const TopoDS_Shape plate = BRepBuilderAPI_NurbsConvert(shapes::make("box_with_hole"), Standard_True).Shape();
+  write_step(plate, path + ".step");
+  require(BRepTools::Write(plate, (path + ".brep").c_str()), path);
+  IGESControl_Writer writer("MM", 1);  // 1: faces of solids
+  writer.AddShape(plate);
+  require(writer.Write((path + ".igs").c_str()), path);
+}
+
 void write_free_edges(const std::string& path) {
   const TopoDS_Face plain = BRepBuilderAPI_MakeFace(gp_Pln(), 0, 4, 0, 4).Face();
   BRep_Builder builder;
@@ -134,6 +145,7 @@ int main(int argc, char** argv) {
     }
     write_assembly(folder + "assembly.step");
     write_named_faces(folder + "named_faces.step");
+    write_plate(folder + "plate");
     Interface_Static::SetCVal("write.step.unit", "INCH");
     write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");
     write_open_iges(folder + "open.igs");

@@ -18,25 +18,25 @@ namespace {
 
 class OddCylinder : public Geom_CylindricalSurface {
  public:
-  OddCylinder(const gp_Cylinder& cylinder, std::function<void(double)> before)
+  OddCylinder(const gp_Cylinder& cylinder, std::function<void(double, double)> before)
       : Geom_CylindricalSurface(cylinder), before_(std::move(before)) {}
-  void D0(double u, double v, gp_Pnt& p) const override { before_(u), Geom_CylindricalSurface::D0(u, v, p); }
+  void D0(double u, double v, gp_Pnt& p) const override { before_(u, v), Geom_CylindricalSurface::D0(u, v, p); }
   void D1(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv) const override {
-    before_(u), Geom_CylindricalSurface::D1(u, v, p, su, sv);
+    before_(u, v), Geom_CylindricalSurface::D1(u, v, p, su, sv);
   }
   void D2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const override {
-    before_(u), Geom_CylindricalSurface::D2(u, v, p, su, sv, suu, svv, suv);
+    before_(u, v), Geom_CylindricalSurface::D2(u, v, p, su, sv, suu, svv, suv);
   }
   // Another type than Geom_CylindricalSurface: adaptors evaluate that one themselves.
   DEFINE_STANDARD_RTTI_INLINE(OddCylinder, Geom_CylindricalSurface)
 
  private:
-  std::function<void(double)> before_;
+  std::function<void(double, double)> before_;
 };
 
 }  // namespace
 
-TopoDS_Shape odd_cylinder(std::function<void(double)> before) {
+TopoDS_Shape odd_cylinder(std::function<void(double, double)> before) {
   const TopoDS_Shape solid = BRepPrimAPI_MakeCylinder(1, 2).Shape();
   const TopoDS_Face round = TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current());
   const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(BRep_Tool::Surface(round));

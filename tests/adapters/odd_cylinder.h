@@ -6,8 +6,11 @@
 
 namespace adapters {
 
-/// A cylinder of radius 1 and height 2. `before(u)` is called before each evaluation of its round face, which is
+/// A cylinder of radius 1 and height 2. `before(u, v)` is called before each evaluation of its round face, which is
 /// face 1.
-TopoDS_Shape odd_cylinder(std::function<void(double)> before);
+TopoDS_Shape odd_cylinder(std::function<void(double, double)> before);
+
+/// Of its parameters, which lie in [0, 2 pi] x [0, 2]: away from the boundary.
+inline bool is_inside(double u, double v) { return u > 3 && u < 6 && v > 0.1 && v < 1.9; }
 
 }  // namespace adapters

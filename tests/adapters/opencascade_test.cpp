@@ -85,9 +85,8 @@ TEST(BrepHost, ThreadsDoNotChangeTheMesh) {
 
 TEST(BrepHost, ExceptionsOfOpenCascadeNameTheFace) {
   for (const int threads : {1, 2}) {
-    // OpenCASCADE cannot evaluate it on one half of its turn.
-    const TopoDS_Shape solid = adapters::odd_cylinder([](double u) {
-      if (u > 3) throw Standard_NumericError("on purpose");
+    const TopoDS_Shape solid = adapters::odd_cylinder([](double u, double v) {
+      if (adapters::is_inside(u, v)) throw Standard_NumericError("on purpose");
     });
     carreau_occ::BrepHost host(file_of(solid));
     const auto run = [&] {

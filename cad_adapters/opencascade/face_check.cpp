@@ -1,0 +1,80 @@
+#include "face_check.h"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_BSplineSurface.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <cmath>
+#include <gp_Pnt.hxx>
+#include <gp_Pnt2d.hxx>
+#include <stdexcept>
+#include <string>
+
+#include "faults.h"
+
+namespace carreau_occ {
+namespace {
+
+constexpr int samples = 4;  // intervals of an edge
+
+bool is_near(const gp_Pnt& p) { return usable(p.X()) && usable(p.Y()) && usable(p.Z()); }
+
+bool usable_poles(const Geom_BSplineSurface& surface) {
+  for (int i = 1; i <= surface.NbUPoles(); ++i)
+    for (int j = 1; j <= surface.NbVPoles(); ++j)
+      if (!is_near(surface.Pole(i, j)) || !usable(surface.Weight(i, j))) return false;
+  return true;
+}
+
+}  // namespace
+
+bool usable(double x) noexcept { return std::abs(x) <= largest_coordinate; }
+
+void refuse_unusable(const TopoDS_Face& face) {
+  const auto require = [](bool good, const char* what) {
+    if (!good) throw std::runtime_error(std::string(what) + " is not finite, or beyond 1e15");
+  };
+  for (TopExp_Explorer v(face, TopAbs_VERTEX); v.More(); v.Next()) {
+    const TopoDS_Vertex vertex = TopoDS::Vertex(v.Current());
+    require(is_near(BRep_Tool::Pnt(vertex)), "a vertex");
+    require(usable(BRep_Tool::Tolerance(vertex)), "the tolerance of a vertex");
+  }
+  const auto spline = Handle(Geom_BSplineSurface)::DownCast(BRep_Tool::Surface(face));
+  require(spline.IsNull() || usable_poles(*spline), "a pole of the surface");
+  const BRepAdaptor_Surface surface(face, Standard_False);
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    double a = 0, b = 0;
+    const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Current()), face, a, b);
+    for (int i = 0; i <= samples && !image.IsNull(); ++i) {
+      const gp_Pnt2d uv = image->Value(a + (b - a) * i / samples);
+      require(usable(uv.X()) && usable(uv.Y()) && is_near(surface.Value(uv.X(), uv.Y())), "the boundary");
+    }
+  }
+}
+
+double diagonal_of(const TopoDS_Shape& shape) {
+  const auto add = [](const TopoDS_Shape& part, Bnd_Box& box) {
+    try {
+      guarded([&] { BRepBndLib::AddOptimal(part, box, Standard_False, Standard_False); });
+      return box.IsVoid() || usable(std::sqrt(box.SquareExtent()));
+    } catch (const Standard_Failure&) {
+      return false;
+    }
+  };
+  Bnd_Box box;
+  if (!add(shape, box)) {  // a face cannot be evaluated, or is nowhere: the others count
+    box.SetVoid();
+    for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next())
+      if (Bnd_Box of_face; add(f.Current(), of_face)) box.Add(of_face);
+  }
+  return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+}
+
+}  // namespace carreau_occ

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""command_broken_test.py CARREAU MAKE_SHAPES: `carreau mesh` on files that are broken: a sentence and a status each."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, MAKE_SHAPES = sys.argv[1:3]
+SHAPES = tempfile.mkdtemp(prefix="carreau shapes ")
+ALL_FACES, SOME_FACES, NONE = 0, 1, 2
+
+
+def content(name):
+    with open(os.path.join(SHAPES, name)) as file:
+        return file.read()
+
+
+class Broken(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau broken ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def mesh(self, name, text, size="5%"):
+        """Status, standard error, and the summary (None: no mesh)."""
+        path, out = (os.path.join(self.folder, each) for each in (name, "out.mesh"))
+        with open(path, "w") as file:
+            file.write(text)
+        # In bounded time: such a file takes a fraction of a second.
+        done = subprocess.run([PROGRAM, "mesh", path, "-o", out, "--size", size, "-q", "--json"], capture_output=True,
+                              text=True, timeout=60)
+        self.assertEqual(os.path.exists(out), done.returncode in (ALL_FACES, SOME_FACES), done.stderr)
+        if os.path.exists(out):
+            os.remove(out)
+        return done.returncode, done.stderr, json.loads(done.stdout) if done.stdout else None
+
+    def refused(self, name, text, *sentences):
+        status, error, _ = self.mesh(name, text)
+        self.assertEqual(status, NONE, error)
+        self.assertIn(name, error)
+        for sentence in sentences:
+            self.assertIn(sentence, error)
+
+    def lost(self, name, text, *sentences, faces=7):
+        """The plate but for some faces, which are told; those left have the area that they have in the whole plate."""
+        status, error, summary = self.mesh(name, text)
+        self.assertEqual(status, SOME_FACES, error)
+        for sentence in sentences:
+            self.assertIn(sentence, error)
+        meshed = [face for face in summary["faces"] if face["status"] == "meshed"]
+        told = len(summary["not_read"]) + len(summary["faces"]) - len(meshed)
+        self.assertGreaterEqual(told, 1)
+        self.assertEqual(len(meshed) + told, faces, error)
+        self.assertGreaterEqual(len(meshed), 1)
+        self.assertLessEqual(summary["mesh"]["area"], self.area() * (1 + 1e-6))
+        return summary
+
+    @classmethod
+    def area(cls):
+        if not hasattr(cls, "whole"):
+            done = subprocess.run([PROGRAM, "info", os.path.join(SHAPES, "plate.step"), "--json"], capture_output=True, text=True)
+            cls.whole = json.loads(done.stdout)["area"]
+        return cls.whole
+
+    # The surface of the hole: the only rational one. Each list of numbers of it, with the place in the text.
+    def spline(self, text):
+        surface = re.search(r"B_SPLINE_SURFACE_WITH_KNOTS\((\([\d,\s]+\)),(\([\d,\s]+\)),(\([^)]*\)),(\([^)]*\)),\.UNSPECIFIED\.\)\s*"
+                            r"GEOMETRIC_REPRESENTATION_ITEM\(\)\s*RATIONAL_B_SPLINE_SURFACE\((\(.*?\)\s*)\) REPRESENTATION", text, re.S)
+        self.assertIsNotNone(surface)
+        return surface
+
+    def with_list(self, number, change):
+        text = content("plate.step")
+        surface = self.spline(text)
+        values = surface.group(number)[1:-1].split(",")
+        return text[:surface.start(number)] + "(" + ",".join(change(values)) + ")" + text[surface.end(number):]
+
+    def test_the_plate_is_whole(self):
+        for suffix in ("step", "brep", "igs"):
+            status, error, summary = self.mesh("plate." + suffix, content("plate." + suffix))
+            self.assertEqual((status, error, len(summary["faces"]), summary["not_read"]), (ALL_FACES, "", 7, []))
+            self.assertTrue(summary["closed"])
+
+    def test_weights_of_step_that_are_none(self):
+        text = content("plate.step")
+        surface = self.spline(text)
+        weights = surface.group(5)
+        for value in ("0.", "-1.", "NaN", "1.E30", "1.E999", "'a'", "$", ""):
+            for count in (0, 1):  # all, one
+                broken = text[:surface.start(5)] + re.sub(r"[\d.]+", value, weights, count=count) + text[surface.end(5):]
+                self.lost("weights.step", broken, "ADVANCED_FACE: #", "B_SPLINE_SURFACE_WITH_KNOTS: ", "weights")
+        for value in ("1.E-300",):  # positive, but the surface is another one
+            broken = text[:surface.start(5)] + re.sub(r"0\.5", value, weights, count=1) + text[surface.end(5):]
+            self.lost("weights.step", broken, "1 of 7 faces have no mesh")
+
+    def test_knots_of_step_that_do_not_ascend(self):
+        for change in (lambda k: k[::-1], lambda k: [k[1], k[0]] + k[2:], lambda k: k[:-1] + ["1.E30"], lambda k: ["NaN"] + k[1:],
+                       lambda k: len(k) * [k[0]]):
+            self.lost("knots.step", self.with_list(3, change), "ADVANCED_FACE: #", "B_SPLINE_SURFACE_WITH_KNOTS: ")
+
+    def test_multiplicities_of_step_without_sense(self):
+        for change in (lambda m: ["9"] + m[1:], lambda m: ["0"] + m[1:], lambda m: ["-3"] + m[1:], lambda m: ["2000000000"] + m[1:],
+                       lambda m: m[1:], lambda m: ["x"] + m[1:]):
+            self.lost("multiplicities.step", self.with_list(1, change), "ADVANCED_FACE: #", "B_SPLINE_SURFACE_WITH_KNOTS: ")
+
+    def test_coordinates_of_step_that_are_none(self):
+        text = content("plate.step")
+        points = list(re.finditer(r"#(\d+) = CARTESIAN_POINT\('',\(([^,()]*),([^,()]*),([^,()]*)\)\)", text))
+        # Of vertices and poles: each stands in one to three faces. The first is the origin of the whole part.
+        for i in range(1, len(points), 12):
+            for value in ("NaN", "1.E30", "1.E300", "-1.E999", "$", "'x'", ""):
+                broken = text[:points[i].start(2)] + value + text[points[i].end(2):]
+                status, error, summary = self.mesh("points.step", broken)
+                self.assertEqual(status, SOME_FACES, (points[i].group(0), value, error))
+                self.assertIn(f"#{points[i].group(1)} CARTESIAN_POINT: ", error)
+                self.assertLess(summary["diagonal"], 10)
+        for value in ("NaN", "1.E30", "$"):
+            broken = text[:points[0].start(2)] + value + text[points[0].end(2):]
+            status, error, _ = self.mesh("origin.step", broken)
+            self.assertEqual(status, SOME_FACES)
+            self.assertIn(f"#{points[0].group(1)} CARTESIAN_POINT: ", error)
+
+    def test_faces_that_step_loses_are_told(self):
+        text = content("plate.step")
+        face = list(re.finditer(r"#(\d+) = ADVANCED_FACE\('',\((.*?)\),(#\d+),\.[TF]\.\);", text, re.S))[2]
+        name = f"#{face.group(1)} ADVANCED_FACE: "
+
+        def swapped(group, value):
+            return text[:face.start(group)] + value + text[face.end(group):]
+        for group, value in ((3, "$"), (3, "#99999"), (3, "#12"), (3, face.group(3) + ",#12"), (2, "#99999"), (2, "$")):
+            self.lost("face.step", swapped(group, value), name)
+        for line in ("", face.group(0).replace("ADVANCED_FACE", "ADVENTURE_FACE"), face.group(0).replace("#", "", 1)):
+            self.lost("face.step", text[:face.start()] + line + text[face.end():], "CLOSED_SHELL: ")
+        summary = self.lost("face.step", swapped(3, "$"), "1 entity of the file could not be read: " + name[:-2])
+        self.assertEqual(len(summary["faces"]), 6)
+        info = subprocess.run([PROGRAM, "info", os.path.join(self.folder, "face.step")], capture_output=True, text=True)
+        self.assertIn("not read: 1\n  " + name, info.stdout)
+
+    def test_what_is_no_geometry_may_be_wrong(self):
+        text = content("plate.step")
+        broken = re.sub(r"(#\d+ = PRODUCT_DEFINITION_CONTEXT\()'[^']*'", r"\g<1>$", text)
+        self.assertNotEqual(broken, text)
+        self.assertEqual(self.mesh("context.step", broken)[0], ALL_FACES)
+
+    def test_brep_files_with_numbers_without_sense(self):
+        text = content("plate.brep")
+        start = text.index("\n9 0 1 1 0 ")  # the surface of the hole
+        end = text.index("\nTriangulations")
+        surface = text[start:end]
+
+        def swapped(old, new, count=1):
+            self.assertIn(old, surface)
+            return text[:start] + surface.replace(old, new, count) + text[end:]
+        lines = surface.split("\n")
+        for weight in ("0", "-1", "nan", "inf", "1e30"):
+            status, error, _ = self.mesh("weights.brep", swapped("  0.5 ", f"  {weight} "))
+            self.assertIn(status, (SOME_FACES, NONE), weight)
+            self.assertTrue(error)
+        for coordinate in ("nan", "inf", "1e30", "1e300", "x", ""):
+            status, error, _ = self.mesh("poles.brep", swapped("0.90000000000000013", coordinate))
+            self.assertIn(status, (SOME_FACES, NONE), coordinate)
+            self.assertTrue(error)
+        knots = [line for line in lines if line.startswith(("2.09", "4.18"))]
+        self.assertEqual(len(knots), 2)
+        for old, new in ((knots[0], knots[1]), (knots[0], "1e30 2"), (knots[0], "nan 2"), (knots[0], "2.1 9"), (knots[0], "2.1 0"),
+                         (knots[0], "2.1 -5"), (knots[0], "2.1 2000000000")):
+            status, error, _ = self.mesh("knots.brep", swapped(old, new))
+            self.assertIn(status, (SOME_FACES, NONE), (old, new))
+            self.assertTrue(error)
+
+    def test_iges_files_with_numbers_without_sense(self):
+        lines = content("plate.igs").split("\n")
+        rows = [i for i, line in enumerate(lines) if len(line) > 72 and line[72] == "P" and line.startswith("128,")]
+        self.assertEqual(len(rows), 7)
+        rows = [i for i in range(rows[-1], len(lines)) if lines[i][72:73] == "P" and lines[i][64:72] == lines[rows[-1]][64:72]]
+        for row in rows[:-1]:  # the last one tells the range of the parameters, which nobody needs
+            number = max(re.finditer(r"[\d.]{5,}", lines[row][:64]), key=lambda m: len(m.group()), default=None)
+            for value in ("1D30", "NAN", "1D300") if number else ():
+                line = (lines[row][:number.start()] + value + lines[row][number.end():64]).ljust(64) + lines[row][64:]
+                status, error, _ = self.mesh("surface.igs", "\n".join(lines[:row] + [line] + lines[row + 1:]))
+                self.assertIn(status, (SOME_FACES, NONE), line)
+                self.assertTrue(error)
+
+    def test_files_that_are_cut_off(self):
+        for suffix in ("step", "brep", "igs"):
+            text = content("plate." + suffix)
+            for percent in (1, 5, 10, 25, 50, 60, 70, 80, 90, 94, 97, 99):
+                status, error, _ = self.mesh("cut." + suffix, text[:len(text) * percent // 100])
+                self.assertIn(status, (SOME_FACES, NONE), (suffix, percent))
+                self.assertTrue(error)
+
+    def test_files_that_hold_nothing(self):
+        for suffix in ("step", "brep", "igs"):
+            self.refused("empty." + suffix, "", "suffix")
+            self.refused("zeros." + suffix, 4096 * "\0", "suffix")
+        self.refused("head.step", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n")
+        self.refused("head.brep", "DBRep_DrawableShape\n")
+        lines = content("plate.igs").split("\n")
+        self.refused("head.igs", "\n".join(line for line in lines if line[72:73] in "SGT"))
+        step = content("plate.step")
+        self.refused("noface.step", re.sub(r"#\d+ = ADVANCED_FACE\(.*?;", "", step, flags=re.S))
+        self.refused("names.step", step.replace("ADVANCED_FACE", "NO_SUCH_THING"))
+
+
+if __name__ == "__main__":
+    try:
+        subprocess.run([MAKE_SHAPES, SHAPES], check=True, timeout=120, stdout=subprocess.DEVNULL)
+        unittest.main(argv=sys.argv[:1])
+    finally:
+        shutil.rmtree(SHAPES)
