@@ -93,11 +93,7 @@ void ControlSpaceSampling::look_at_suspects() {
     for (const Vec2 uv : options_.suspects) {
       const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv));
       if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
-      // A sample at the very place may be much smaller than the one in the middle.
-      double vertices = (*tree_)[leaf].vertices;
-      for (const std::int32_t n : (*tree_)[leaf].node)
-        if (lattice_->sampled(n)) vertices = std::max(vertices, vertices_of((*tree_)[leaf], lattice_->value(n)));
-      if (std::sqrt(vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
+      if (std::sqrt((*tree_)[leaf].vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
