@@ -18,7 +18,7 @@ constexpr double cocircular = 1e-9;
 // A swap for the sake of degrees leaves no triangle worse than this.
 constexpr double swap_quality = 0.6;
 constexpr int degree_passes = 2;
-// Units: longer than any edge that points a unit apart leave.
+// Units, and shortest edges of the triangle: longer than any edge that points a unit apart leave.
 constexpr double long_edge = 3;
 
 }  // namespace
@@ -125,12 +125,14 @@ void Optimiser::swap_to_delaunay() {
   make_delaunay_in_metric(mesh_, work_, monitor_);
 }
 
+// Beside a fine border sizes may be longer than a strip is wide: there edges are long that are none of three units.
 bool Optimiser::has_long_edge(const Triangle& T) const {
+  double shortest2 = 1, longest2 = 0;
   for (int i = 0; i < 3; ++i) {
-    const Vertex &p = mesh_.vertices[T.v[i]], &q = mesh_.vertices[T.v[next3[i]]];
-    if (squared_length(0.5 * (p.metric() + q.metric()), q.point() - p.point()) > long_edge * long_edge) return true;
+    const double l2 = mesh_.squared_length(T.v[i], T.v[next3[i]]);
+    shortest2 = std::min(shortest2, l2), longest2 = std::max(longest2, l2);
   }
-  return false;
+  return longest2 > long_edge * long_edge * shortest2;
 }
 
 // Degrees are counted in triangles. On the border a vertex of angle w wants w / 60 degrees of them.

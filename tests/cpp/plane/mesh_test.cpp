@@ -66,7 +66,8 @@ TEST(MeshPlane, IsTheSameBitForBit) {
 }
 
 // A strip ninety times as long as wide in the metric, in parameters that make it a square, with a cut end: the points
-// of that end are Delaunay neighbours of half the strip in (u, v), and of a few edges in the metric.
+// of that end are Delaunay neighbours of half the strip in (u, v), and of a few edges in the metric. Also where all of
+// it is shorter than three sizes.
 TEST(MeshPlane, LongStripsAreDelaunayInTheMetric) {
   constexpr int along = 130;
   const double h = 1.0 / along, cut = 0.004;
@@ -77,15 +78,18 @@ TEST(MeshPlane, LongStripsAreDelaunayInTheMetric) {
   for (int i = along; i >= 0; --i) p.push_back({i * h - cut * i * h, 1});
   for (int i = 0; i < static_cast<int>(p.size()); ++i)
     c.domain.edges.push_back({i, (i + 1) % static_cast<int>(p.size()), PlaneEdgeKind::boundary, 0, i});
-  const ControlSpace space = ControlSpace::constant({along * along, 0, 0.7 * 0.7});
-  Monitor monitor;
-  const PlaneMesh mesh = mesh_plane(c.domain, space, {}, monitor);
-  EXPECT_EQ(find_plane_defects(c.domain, mesh), Defects{});
-  double longest = 0;
-  for (const auto& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i)
-      longest = std::max(longest, std::abs(mesh.vertices[t[i]].x - mesh.vertices[t[(i + 1) % 3]].x) / h);
-  EXPECT_LT(longest, 1.5);
+  for (const double size : {1., 45., 130.}) {
+    SCOPED_TRACE(size);
+    const ControlSpace space = ControlSpace::constant(1 / (size * size) * Metric2{along * along, 0, 0.7 * 0.7});
+    Monitor monitor;
+    const PlaneMesh mesh = mesh_plane(c.domain, space, {}, monitor);
+    EXPECT_EQ(find_plane_defects(c.domain, mesh), Defects{});
+    double longest = 0;
+    for (const auto& t : mesh.triangles)
+      for (int i = 0; i < 3; ++i)
+        longest = std::max(longest, std::abs(mesh.vertices[t[i]].x - mesh.vertices[t[(i + 1) % 3]].x) / h);
+    EXPECT_LT(longest, 1.5);
+  }
 }
 
 TEST(MeshPlane, DoesNotDependOnTheUnitOfTheParameters) {
