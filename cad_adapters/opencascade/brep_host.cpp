@@ -119,7 +119,9 @@ void BrepHost::State::collect() {
 void BrepHost::State::collect_face(int number) {
   const TopoDS_Face face = TopoDS::Face(faces(number));
   HostFace& host = host_faces[static_cast<std::size_t>(number - 1)];
-  host.swapped = face.Orientation() == TopAbs_REVERSED;
+  // A placement that mirrors turns the surface inside out and leaves the orientation of the face.
+  host.swapped =
+      (face.Orientation() == TopAbs_REVERSED) != (face.Location().Transformation().IsNegative() == Standard_True);
   // Wires are turned for the face taken forward.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
   std::vector<Handle(Geom2d_Curve)> images;
