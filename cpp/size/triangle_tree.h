@@ -16,7 +16,7 @@ struct TrianglePlace {
   bool inside = false;  ///< within rounding
 };
 
-/// A TriangleSearch in units of the box of all vertices: units of u and v may have nothing in common. find() is safe
+/// A TriangleSearch in units of the mean edge in u and in v, which may have nothing in common. find() is safe
 /// from several threads.
 class TriangleTree {
  public:
@@ -30,6 +30,7 @@ class TriangleTree {
 
  private:
   Vec2 low_, scale_{1, 1};
+  double inside_ = 0;  // distance that rounding may leave between a triangle and a point of it, scaled
   TriangleSearch search_;
 };
 
