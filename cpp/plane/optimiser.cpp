@@ -8,8 +8,6 @@ namespace {
 // these leave (Chebyshev's semi-iteration, its longest moves cut off for the sake of triangles that turn over).
 constexpr double far_first[] = {1.6, 1.6}, short_last[] = {1, 0.7};
 constexpr double spread[] = {1, 2.5, 1.4, 0.7};
-constexpr double settle[] = {1.6, 1}, spread_graded[] = {1, 4, 0.8},
-                 spread_more[] = {1, 4, 0.8, 1.6, 0.7, 1, 4, 0.8, 1.6, 0.7}, after_rescue[] = {0.7, 0.5};
 constexpr double pull_even = 0.05, pull_graded = 0.1;
 // Steps of a pair along its row.
 constexpr int reach_even = 1, reach_graded = 3;
@@ -30,18 +28,17 @@ void Optimiser::run() {
     cancel_pairs(reach_even);
     sweep_all(spread, {.pull = pull_even, .by_size = false});
   } else {
-    // Where pairs cancel, what they held apart must move: there is more to relax, and again after the rescue.
+    // There is more to relax. Where pairs cancel, what they held apart must move, and again after the rescue.
     const Aim aim{.pull = pull_graded, .by_size = true};
     cancel_pairs(reach_graded);
-    sweep_all(settle, aim);
+    relax({.sweeps = 2, .slowest = 0.2}, aim);
     thin_out();
     cancel_pairs(reach_graded);
-    sweep_all(spread_graded, aim);
-    sweep_all(spread_more, aim);
-    swap_to_delaunay();
+    relax({.sweeps = 6, .slowest = 0.05}, aim);
+    update_metrics();  // the others move little
     rescue_worst();
     drop_removed();
-    sweep_all(after_rescue, aim);
+    relax({.sweeps = 2, .slowest = 0.5}, aim);
   }
   swap_to_delaunay();
   rescue_worst();

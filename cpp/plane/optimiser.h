@@ -43,19 +43,32 @@ class Optimiser {
   void drop_removed();
 
   // sweeps.cpp
+  /// Sweeps that damp waves of the mesh evenly: all those of whose lack they return `slowest` or more.
+  struct Relaxation {
+    int sweeps;
+    double slowest;
+  };
   /// What moves are after.
   struct Aim {
     double pull;   ///< 0: equilateral triangles; 1: unit lengths
     bool by_size;  ///< triangles count by the inverse of the size wanted
   };
+  struct Sweep {
+    double relaxation;  ///< share of the way to the mean of the proposals
+    double momentum;    ///< share of the last move
+  };
   void sweep_all(std::span<const double> relaxations, Aim aim);
+  void relax(Relaxation relaxation, Aim aim);
+  void sweep_all(std::span<const Sweep> sweeps, Aim aim);
   // `bends`: whether the field may bend, so that each triangle must be asked.
   template <bool by_size, bool bends>
-  void sweep(double relaxation, double pull);
+  void sweep(Sweep how, double pull, bool first);
   void update_metrics();
   template <bool by_size, bool bends>
   void propose(double pull);
   void propose_in_chart(const Triangle& T, double weight);
+  template <bool bends>
+  void find_spoiled();
   template <bool bends>
   void undo_spoiling_moves();
   bool undo(int v);
@@ -76,7 +89,7 @@ class Optimiser {
   void collapse(int v, int k);
   bool collect_star(int v);
   [[nodiscard]] bool has_imposed_spoke(int v) const;
-  double star_penalty(int v);
+  double star_penalty(int v, double enough);
   [[nodiscard]] double shape(int p, int q, int r) const;
 
   Triangulation& mesh_;
@@ -88,8 +101,9 @@ class Optimiser {
     double x = 0, y = 0;
     double weight = 0;
   };
-  std::vector<Proposal> proposals_;   // afterwards: the old places
-  std::vector<std::int32_t> undone_;  // vertices of moves taken back
+  std::vector<Proposal> proposals_;
+  std::vector<Vec2> before_;                    // places before the last sweep
+  std::vector<std::int32_t> spoiled_, undone_;  // triangles spoiled by moves; vertices whose moves were taken back
   std::vector<HalfEdge> edges_;
   std::vector<std::int32_t> work_, next_;
   std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise

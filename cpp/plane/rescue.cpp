@@ -74,10 +74,11 @@ bool Optimiser::has_imposed_spoke(int v) const {
   });
 }
 
-double Optimiser::star_penalty(int v) {
+// Once it is `enough` the rest does not matter.
+double Optimiser::star_penalty(int v, double enough) {
   ++stars_;
   double sum = 0;
-  for (std::size_t k = 0; k < ring_.size(); ++k)
+  for (std::size_t k = 0; k < ring_.size() && sum < enough; ++k)
     sum += penalty(shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
   return sum;
 }
@@ -102,7 +103,7 @@ bool Optimiser::move_to_best(int v) {
   constexpr double root3 = 0.8660254037844386;
   constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
   Vertex& P = mesh_.vertices[v];
-  const double before = star_penalty(v);
+  const double before = star_penalty(v, std::numeric_limits<double>::infinity());
   double best = before;
   for (double step = 0.24; step > 0.02; step *= 0.5) {
     const double p = std::sqrt(P.a), q = P.b / p, r = std::sqrt(std::max(P.c - q * q, 1e-12 * P.c));
@@ -111,10 +112,11 @@ bool Optimiser::move_to_best(int v) {
       const Vertex kept = P;
       const double dy = step * d.y / r, dx = (step * d.x - q * dy) / p;
       P.x = centre.x + dx, P.y = centre.y + dy;
-      P.set_metric(field_.at(P.point()));
-      const double now = star_penalty(v);
+      // Shapes depend on it only where the field bends.
+      if (!mesh_.bends.empty()) P.set_metric(field_.at(P.point()));
+      const double now = star_penalty(v, best);
       if (now < best)
-        best = now;
+        best = now, P.set_metric(field_.at(P.point()));
       else
         P = kept;
     }

@@ -35,11 +35,6 @@ void Shapes::set_metric(int v) const noexcept {
   mesh_.bends[v] = field_.bend(slopes, {V.point(), slopes});
 }
 
-double Shapes::squared_length(int u, int v) const noexcept {
-  if (!mesh_.is_bent(u, v)) return mesh_.squared_length(u, v);
-  return carreau::squared_length(field_.at(0.5 * (mesh_.at(u) + mesh_.at(v))), mesh_.at(u) - mesh_.at(v));
-}
-
 double Shapes::squared_radius(int t) const noexcept {
   const Triangle& T = mesh_.triangles[t];
   return is_bent(T) ? lengths(T.v[0], T.v[1], T.v[2]).radius2() : mesh_.squared_radius(t);

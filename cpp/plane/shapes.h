@@ -57,7 +57,10 @@ class Shapes {
     return {field_, mesh_.at(T.v[0]), mesh_.at(T.v[1]), mesh_.at(T.v[2])};
   }
   /// Of an edge: that of the tensor halfway is right up to third order, as a chart is.
-  [[nodiscard]] double squared_length(int u, int v) const noexcept;
+  [[nodiscard]] double squared_length(int u, int v) const noexcept {
+    if (!mesh_.is_bent(u, v)) return mesh_.squared_length(u, v);
+    return carreau::squared_length(field_.at(0.5 * (mesh_.at(u) + mesh_.at(v))), mesh_.at(u) - mesh_.at(v));
+  }
   [[nodiscard]] Lengths lengths(int p, int q, int r) const noexcept {
     return {squared_length(q, r), squared_length(r, p), squared_length(p, q)};
   }

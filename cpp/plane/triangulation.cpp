@@ -144,13 +144,6 @@ void Triangulation::impose(HalfEdge he, bool degenerate) noexcept {
   if (other != no_edge) set(other);
 }
 
-double Triangulation::squared_length(int u, int v) const noexcept {
-  const Vertex &P = vertices[u], &Q = vertices[v];
-  const double dx = Q.x - P.x, dy = Q.y - P.y;
-  return 0.5 * ((static_cast<double>(P.a) + Q.a) * dx * dx + 2.0 * (static_cast<double>(P.b) + Q.b) * dx * dy +
-                (static_cast<double>(P.c) + Q.c) * dy * dy);
-}
-
 double Triangulation::squared_radius(int t) const noexcept {
   const Triangle& T = triangles[t];
   const Vertex &A = vertices[T.v[0]], &B = vertices[T.v[1]], &C = vertices[T.v[2]];

@@ -138,7 +138,12 @@ class Triangulation {
   /// Marks the edge imposed in both its triangles.
   void impose(HalfEdge he, bool degenerate) noexcept;
   /// Squared length of an edge in the mean of its ends' metrics.
-  [[nodiscard]] double squared_length(int u, int v) const noexcept;
+  [[nodiscard]] double squared_length(int u, int v) const noexcept {
+    const Vertex &P = vertices[u], &Q = vertices[v];
+    const double dx = Q.x - P.x, dy = Q.y - P.y;
+    return 0.5 * ((static_cast<double>(P.a) + Q.a) * dx * dx + 2.0 * (static_cast<double>(P.b) + Q.b) * dx * dy +
+                  (static_cast<double>(P.c) + Q.c) * dy * dy);
+  }
   /// Squared circumradius in the mean metric of the corners.
   [[nodiscard]] double squared_radius(int t) const noexcept;
   /// Q2 (HDR eq. 1.6) of the corners in their mean metric; 0 unless counterclockwise (exactly).
