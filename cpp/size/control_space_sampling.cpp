@@ -26,8 +26,10 @@ constexpr double crowded = 1.6;
 constexpr double negligible_length = 0.03;
 // The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
 // mesh, than half an edge, than a quarter of one. Smaller cells serve nobody. An edge crosses several of the narrow
-// ones, where errors of both signs are beside each other: prediction overshoots kinks.
+// ones, and its length is a mean of theirs: prediction errs to both sides of a kink.
 constexpr double share_wide = 0.25, share_edge = 2, share_half = 3;
+// The same where slopes matter.
+constexpr double strict_edge = 0.5, strict_half = 1;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
 constexpr double border_relief = 0.25;
 
@@ -334,8 +336,9 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
   if (width > 1) return share_wide * options_.tolerance;
-  if (width > 0.5) return share_edge * options_.tolerance;
-  if (width > 0.25) return share_half * options_.tolerance;
+  const bool strict = options_.exact_slopes;
+  if (width > 0.5) return (strict ? strict_edge : share_edge) * options_.tolerance;
+  if (width > 0.25) return (strict ? strict_half : share_half) * options_.tolerance;
   return std::numeric_limits<double>::infinity();
 }
 
