@@ -7,7 +7,7 @@ namespace {
 // Relaxations of successive sweeps: long moves carry strain far, the short ones beside them take back the ripples that
 // these leave (Chebyshev's semi-iteration, its longest moves cut off for the sake of triangles that turn over).
 constexpr double far_first[] = {1.6, 1.6}, short_last[] = {1, 0.7};
-constexpr double spread[] = {1, 2.5, 1.4, 0.7};
+constexpr double spread[] = {1, 2.5, 1.4, 0.7}, settle[] = {1.6, 1};
 constexpr double pull_even = 0.05, pull_graded = 0.1;
 // Steps of a pair along its row.
 constexpr int reach_even = 1, reach_graded = 3;
@@ -31,10 +31,10 @@ void Optimiser::run() {
     // There is more to relax. Where pairs cancel, what they held apart must move, and again after the rescue.
     const Aim aim{.pull = pull_graded, .by_size = true};
     cancel_pairs(reach_graded);
-    relax({.sweeps = 2, .slowest = 0.2}, aim);
+    sweep_all(settle, aim);
     thin_out();
     cancel_pairs(reach_graded);
-    relax({.sweeps = 6, .slowest = 0.05}, aim);
+    relax({.sweeps = 8, .slowest = 0.05}, aim);
     update_metrics();  // the others move little
     rescue_worst();
     drop_removed();

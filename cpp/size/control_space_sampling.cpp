@@ -27,7 +27,7 @@ constexpr double negligible_length = 0.03;
 // The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
 // mesh, than half an edge, than a quarter of one. Smaller cells serve nobody. An edge crosses several of the narrow
 // ones, and its length is a mean of theirs: prediction errs to both sides of a kink.
-constexpr double share_wide = 0.25, share_edge = 2, share_half = 3;
+constexpr double share_wide = 0.25, share_edge = 1, share_half = 2;
 // The same where slopes matter.
 constexpr double strict_edge = 0.5, strict_half = 1;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
