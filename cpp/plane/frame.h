@@ -19,6 +19,8 @@ struct Frame {
 /// Bend of a chart from which on it takes the place of the tensor: a size that grows by a tenth, or directions that
 /// turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors.
 inline constexpr double least_bend = 0.4;
+/// Triangles below which charts are not used: in coarse meshes of patches with poles and creases they reach too far.
+inline constexpr double least_bent_measure = 10'000;
 
 /// The control space as seen from the frame.
 class Field {
@@ -29,7 +31,7 @@ class Field {
         aa_(unscale_.x * unscale_.x),
         ab_(unscale_.x * unscale_.y),
         bb_(unscale_.y * unscale_.y),
-        bends_(space.largest_bend() > least_bend) {}
+        bends_(space.measure() >= least_bent_measure && space.largest_bend() > least_bend) {}
 
   [[nodiscard]] Metric2 at(Vec2 p) const noexcept {
     const Metric2 m = space_.at({p.x * unscale_.x, p.y * unscale_.y});
@@ -40,7 +42,12 @@ class Field {
     const auto inward = [&](Metric2 m, double k) { return Metric2{k * aa_ * m.a, k * ab_ * m.b, k * bb_ * m.c}; };
     return {inward(s.metric, 1), inward(s.by_u, unscale_.x), inward(s.by_v, unscale_.y)};
   }
-  [[nodiscard]] Chart chart(Vec2 p) const noexcept { return {p, slopes(p)}; }
+  /// `curved` false: of the tensor alone.
+  [[nodiscard]] Chart chart(Vec2 p, bool curved = true) const noexcept {
+    if (curved) return {p, slopes(p)};
+    constexpr Metric2 none{0, 0, 0};
+    return {p, {at(p), none, none}};
+  }
   /// Whether there may be places where it bends.
   [[nodiscard]] bool bends() const noexcept { return bends_; }
   /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).

@@ -121,7 +121,7 @@ Filler::Candidate Filler::apex_in_charts(const FrontEdge& edge, Vec2 first) cons
   const Vec2 a = mesh_.at(edge.a), b = mesh_.at(edge.b);
   Vec2 top = first;
   for (int k = 0; k < turns; ++k) {
-    const ChartedTriangle y(field_, a, b, top);
+    const ChartedTriangle y(field_, a, b, top, !mesh_.is_kinked(edge.a, edge.b));
     const Vec2 e = y.b - y.a;
     const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, least_height2) / l2);
     top = y.chart.point(0.5 * (y.a + y.b) + height * Vec2{-e.y, e.x}, top);

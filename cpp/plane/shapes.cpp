@@ -8,8 +8,7 @@
 namespace carreau::plane {
 
 // Kinks of the field, or bends too strong for second order, make charts that lie: what one tells of distances in six
-// directions must be what the tensors halfway do. Elsewhere means of tensors err less than those halfway: in coarse
-// meshes these differ by much from one edge of a triangle to the next.
+// directions must be what the tensors halfway do.
 Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
   if (!(bend_of_shapes(slopes) > least_bend)) return Bend::none;
   constexpr double tolerance = 0.1, root3 = 0.8660254037844386;
@@ -20,7 +19,7 @@ Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept 
     const double aside = norm(chart.at_offset(e) - d);
     if (aside > 1) e = (1 / std::sqrt(aside)) * e;
     const double told = norm(chart.at_offset(e)), halfway = length(at(chart.origin() + 0.5 * e), e);
-    if (!(std::abs(told - halfway) <= tolerance * halfway)) return Bend::none;
+    if (!(std::abs(told - halfway) <= tolerance * halfway)) return Bend::kinked;
   }
   return Bend::smooth;
 }

@@ -19,8 +19,9 @@ struct ChartedTriangle {
   Chart chart;
   Vec2 a, b, c;
 
-  ChartedTriangle(const Field& field, Vec2 p, Vec2 q, Vec2 r) noexcept
-      : chart(field.chart((1.0 / 3) * (p + q + r))), a(chart.at(p)), b(chart.at(q)), c(chart.at(r)) {}
+  /// `curved` false: the chart is the tensor alone.
+  ChartedTriangle(const Field& field, Vec2 p, Vec2 q, Vec2 r, bool curved) noexcept
+      : chart(field.chart((1.0 / 3) * (p + q + r), curved)), a(chart.at(p)), b(chart.at(q)), c(chart.at(r)) {}
 };
 
 /// Squared lengths of the edges of a triangle, and what follows from them (Heron). They need not be those of any plane
@@ -54,7 +55,8 @@ class Shapes {
 
   [[nodiscard]] bool is_bent(const Triangle& T) const noexcept { return mesh_.is_bent(T.v[0], T.v[1], T.v[2]); }
   [[nodiscard]] ChartedTriangle charted(const Triangle& T) const noexcept {
-    return {field_, mesh_.at(T.v[0]), mesh_.at(T.v[1]), mesh_.at(T.v[2])};
+    const bool curved = !mesh_.is_kinked(T.v[0], T.v[1]) && !mesh_.is_kinked(T.v[1], T.v[2]);
+    return {field_, mesh_.at(T.v[0]), mesh_.at(T.v[1]), mesh_.at(T.v[2]), curved};
   }
   /// Of an edge: that of the tensor halfway is right up to third order, as a chart is.
   [[nodiscard]] double squared_length(int u, int v) const noexcept {

@@ -26,8 +26,9 @@ struct Vertex {
 
 /// How the directions and shapes of the field change about a vertex.
 enum class Bend : std::uint8_t {
-  none,    ///< mean tensors of vertices do, or nothing better is known: a kink
+  none,    ///< mean tensors of vertices do
   smooth,  ///< a chart tells distances
+  kinked,  ///< the field must be asked halfway, neither will do
 };
 
 /// Half-edge i of triangle t lies opposite to its corner i and is written 4 t + i; -1: nothing beyond.
@@ -133,6 +134,9 @@ class Triangulation {
   }
   [[nodiscard]] bool is_bent(int u, int v, int w) const noexcept {
     return !bends.empty() && (bends[u] != Bend::none || bends[v] != Bend::none || bends[w] != Bend::none);
+  }
+  [[nodiscard]] bool is_kinked(int u, int v) const noexcept {
+    return !bends.empty() && (bends[u] == Bend::kinked || bends[v] == Bend::kinked);
   }
   [[nodiscard]] bool is_imposed(int t, int i) const noexcept { return (triangles[t].imposed >> i & 1) != 0; }
   /// Marks the edge imposed in both its triangles.
