@@ -27,8 +27,6 @@ struct ControlSpaceOptions {
   /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
   /// the mesh.
   double tolerance = 0.01;
-  /// Whether differences over an edge matter, not lengths alone: cells narrower than an edge are checked as others are.
-  bool exact_slopes = false;
   /// Samples for each vertex of the mesh to come, on fields that are smooth: more only where the tolerance is violated.
   double samples_per_vertex = 1.5;
   std::size_t min_samples = 60;       ///< approximate

@@ -25,11 +25,8 @@ constexpr double crowded = 1.6;
 // Lengths of a cell below this many edges do not matter.
 constexpr double negligible_length = 0.03;
 // The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
-// mesh, than half an edge, than a quarter of one. Smaller cells serve nobody. An edge crosses several of the narrow
-// ones, and its length is a mean of theirs: prediction errs to both sides of a kink.
-constexpr double share_wide = 0.25, share_edge = 1, share_half = 2;
-// The same where slopes matter.
-constexpr double strict_edge = 0.5, strict_half = 1;
+// mesh, than half an edge, than a quarter of one. Smaller cells serve nobody.
+constexpr double share_wide = 0.25, share_edge = 0.5, share_half = 1;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
 constexpr double border_relief = 0.25;
 
@@ -336,9 +333,8 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
   if (width > 1) return share_wide * options_.tolerance;
-  const bool strict = options_.exact_slopes;
-  if (width > 0.5) return (strict ? strict_edge : share_edge) * options_.tolerance;
-  if (width > 0.25) return (strict ? strict_half : share_half) * options_.tolerance;
+  if (width > 0.5) return share_edge * options_.tolerance;
+  if (width > 0.25) return share_half * options_.tolerance;
   return std::numeric_limits<double>::infinity();
 }
 

@@ -46,7 +46,6 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;
-  space_options.exact_slopes = input.limits.field != nullptr;
   space_options.tolerance = std::max(input.tolerance, rules.source_accuracy());
   const SampledDomain domain = sampled_domain(input.domain->plane);
   if (input.slope > 0) return ControlSpace::build_graded(domain, sampler, input.slope, space_options, monitor);

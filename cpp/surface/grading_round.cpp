@@ -180,7 +180,6 @@ ControlSpace GradingRound::sample(const PatchInput& input) {
   };
   ControlSpaceOptions options;
   options.tolerance = input.tolerance;
-  options.exact_slopes = true;
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor_);
 }
 
