@@ -1,5 +1,7 @@
 // Standard_ErrorHandler.hxx makes OCC_CATCH_SIGNALS do something only when asked.
+#if !defined(OCC_CONVERT_SIGNALS)  // its packages define it for some configurations
 #define OCC_CONVERT_SIGNALS
+#endif
 #include "faults.h"
 
 #include <OSD_SIGBUS.hxx>
