@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
+#include "surface/near_vertices.h"
 
 namespace carreau {
 
@@ -36,45 +36,6 @@ constexpr double balance_to_look_at = 1.6;
 
 /// Segments to split, by curve.
 using Splits = std::map<int, std::set<int>>;
-
-/// Vertices in the order of the coordinate along which they are spread most.
-class NearVertices {
- public:
-  explicit NearVertices(const std::vector<Vec3>& points) : points_(points), order_(points.size()) {
-    Vec3 low = points.empty() ? Vec3{} : points.front(), high = low;
-    for (const Vec3 p : points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const Vec3 extent = high - low;
-    axis_ = extent.x >= extent.y && extent.x >= extent.z ? &Vec3::x : extent.y >= extent.z ? &Vec3::y : &Vec3::z;
-    std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [this](int v, int w) { return points_[v].*axis_ < points_[w].*axis_; });
-  }
-
-  /// Vertices within `reach` of the segment (a, b) that are at neither end of it, until `visit` says false.
-  template <typename Visit>
-  void each_beside(Vec3 a, Vec3 b, double reach, Visit&& visit) const {
-    const double low = std::min(a.*axis_, b.*axis_) - reach, high = std::max(a.*axis_, b.*axis_) + reach;
-    auto it = std::lower_bound(order_.begin(), order_.end(), low,
-                               [this](int v, double value) { return points_[v].*axis_ < value; });
-    for (; it != order_.end() && points_[*it].*axis_ <= high; ++it) {
-      const Vec3 p = points_[*it];
-      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && !visit(*it)) return;
-    }
-  }
-
-  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach) const {
-    bool any = false;
-    each_beside(a, b, reach, [&](int) { return any = true, false; });
-    return any;
-  }
-
- private:
-  const std::vector<Vec3>& points_;
-  std::vector<int> order_;
-  double Vec3::*axis_ = &Vec3::x;
-};
 
 class Refiner {
  public:
