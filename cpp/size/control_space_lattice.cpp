@@ -46,19 +46,31 @@ Vec2 Lattice::parameters(GridPoint p) const noexcept {
           p.j == end_.j ? high_.y : low_.y + y * (high_.y - low_.y)};
 }
 
-std::int32_t Lattice::node(GridPoint p, Place place) {
-  const BlockIndex::Position at = BlockIndex::position(p);
+std::int32_t Lattice::block_at(GridPoint p, const BlockIndex::Position& at) {
   const auto [block, added] = index_.insert(at);
   if (added) {
     const std::int32_t mask = ~(4 << at.spacing) + 1;
     blocks_.push_back({{p.i & mask, p.j & mask}, at.spacing});
     nodes_.resize(nodes_.size() + 16);
   }
-  const std::int32_t number = 16 * block + at.rank;
-  if (!nodes_[number].exists) {
-    nodes_[number].exists = true;
-    nodes_[number].inside = place == Place::inside || (place == Place::unknown && domain_.contains(parameters(p)));
-  }
+  return 16 * block;
+}
+
+std::int32_t Lattice::block(GridPoint corner, std::int32_t spacing) {
+  return block_at(corner, BlockIndex::position(corner, std::countr_zero(static_cast<std::uint32_t>(spacing))));
+}
+
+void Lattice::create(std::int32_t node, Place place) {
+  if (nodes_[node].exists) return;
+  nodes_[node].exists = true;
+  nodes_[node].inside =
+      place == Place::inside || (place == Place::unknown && domain_.contains(parameters(point(node))));
+}
+
+std::int32_t Lattice::node(GridPoint p, Place place) {
+  const BlockIndex::Position at = BlockIndex::position(p);
+  const std::int32_t number = block_at(p, at) + at.rank;
+  create(number, place);
   return number;
 }
 
@@ -80,29 +92,21 @@ const Metric2* Lattice::sample(GridPoint p) const noexcept {
 
 std::int32_t Lattice::valued_node(GridPoint p) {
   if (!contains(p)) return -1;
-  std::int32_t n = find(p);
-  if (n < 0) n = node(p);
-  if (nodes_[n].sampled) return n;
-  return nodes_[n].inside && predict(n).order >= 2 ? n : -1;
+  const std::int32_t n = find(p);
+  return valued(n >= 0 ? n : node(p));
 }
 
-// From the neighbours at odd distances along a line. `coarser`: whether they belong to a coarser grid. If not they are
-// centres of cells, which have been sampled or are not yet wanted.
-Prediction Lattice::predict_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser) {
-  const auto neighbour = [&](int k) {
-    const GridPoint q = horizontal ? GridPoint{p.i + k * spacing, p.j} : GridPoint{p.i, p.j + k * spacing};
-    return coarser ? valued_node(q) : sampled_node(q);
-  };
-  const std::int32_t before = neighbour(-1), after = neighbour(1);
-  if (before < 0 && after < 0) return {};
-  if (before < 0 || after < 0) {
-    const std::int32_t next = before < 0 ? after : before, second = neighbour(before < 0 ? 3 : -3);
-    const Metric2 near = nodes_[next].root;
-    if (second < 0) return {near, 1};
-    const Metric2 linear = 1.5 * near + -0.5 * nodes_[second].root;
-    return {plausible(linear, near, near) ? linear : near, 1};
-  }
-  const std::int32_t first = neighbour(-3), last = neighbour(3);
+// From the neighbours at odd distances along a line, two on one side.
+Prediction Lattice::extrapolate(std::int32_t near, std::int32_t far) const noexcept {
+  const Metric2 root = nodes_[near].root;
+  if (far < 0) return {root, 1};
+  const Metric2 linear = 1.5 * root + -0.5 * nodes_[far].root;
+  return {plausible(linear, root, root) ? linear : root, 1};
+}
+
+// The same from both sides.
+Prediction Lattice::interpolate(std::int32_t first, std::int32_t before, std::int32_t after,
+                                std::int32_t last) const noexcept {
   const Metric2 p0 = nodes_[before].root, p1 = nodes_[after].root, mean = 0.5 * (p0 + p1);
   Prediction result{mean, 2};
   if (first >= 0 && last >= 0)
@@ -115,27 +119,26 @@ Prediction Lattice::predict_along(GridPoint p, std::int32_t spacing, bool horizo
   return result;
 }
 
+void Lattice::remember(std::int32_t node, const Prediction& result) noexcept {
+  nodes_[node].pass = pass_;
+  nodes_[node].order = static_cast<std::int8_t>(result.order);
+  if (!nodes_[node].sampled) nodes_[node].root = result.root;
+}
+
 Prediction Lattice::predict(std::int32_t node) {
   if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
   const GridPoint p = point(node);
   const std::int32_t bits = p.i | p.j, spacing = bits & -bits;
-  Prediction result;
-  if (spacing != 0 && spacing < step_) {
-    const bool odd_i = (p.i & spacing) != 0, odd_j = (p.j & spacing) != 0;
-    result = predict_along(p, spacing, true, odd_i);
-    // At a centre both directions give the same product of cubics.
-    if (result.order < 4 || !(odd_i && odd_j)) {
-      const Prediction column = predict_along(p, spacing, false, odd_j);
-      if (result.order == column.order)
-        result.root = 0.5 * (result.root + column.root);
-      else if (column.order > result.order)
-        result = column;
-    }
+  if (spacing == 0 || spacing >= step_) {
+    remember(node, {});
+    return {};
   }
-  nodes_[node].pass = pass_;
-  nodes_[node].order = static_cast<std::int8_t>(result.order);
-  if (!nodes_[node].sampled) nodes_[node].root = result.root;
-  return result;
+  const bool odd_i = (p.i & spacing) != 0, odd_j = (p.j & spacing) != 0;
+  return predict_from(node, odd_i, odd_j, [&](bool horizontal, int k) {
+    const GridPoint q = horizontal ? GridPoint{p.i + k * spacing, p.j} : GridPoint{p.i, p.j + k * spacing};
+    // Those of the same grid are centres of cells, which have been sampled or are not yet wanted.
+    return (horizontal ? odd_i : odd_j) ? valued_node(q) : sampled_node(q);
+  });
 }
 
 }  // namespace carreau::detail

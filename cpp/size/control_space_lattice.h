@@ -30,8 +30,11 @@ class BlockIndex {
     int spacing, rank;  ///< logarithm of the spacing; place in the block, row by row
   };
   static Position position(GridPoint p) noexcept {
+    return position(p, std::countr_zero(static_cast<std::uint32_t>(p.i | p.j) | 1U << 30));
+  }
+  /// Of a point that belongs to a coarser grid: where it would be among those of this spacing.
+  static Position position(GridPoint p, int spacing) noexcept {
     const auto i = static_cast<std::uint32_t>(p.i), j = static_cast<std::uint32_t>(p.j);
-    const int spacing = std::countr_zero(i | j | 1U << 30);
     const std::uint64_t key = (static_cast<std::uint64_t>(j >> spacing >> 2) << 29 | i >> spacing >> 2) << 5 |
                               static_cast<std::uint64_t>(spacing);
     return {key + 1, spacing, static_cast<int>((j >> spacing & 3) << 2 | (i >> spacing & 3))};
@@ -102,6 +105,12 @@ class Lattice {
 
   /// The number of a node, created when new.
   std::int32_t node(GridPoint p, Place place = Place::unknown);
+  /// Of the nodes corner + {0, 1, 2, 3} x `spacing` in both directions, row by row, numbers of those that belong to no
+  /// coarser grid: the first node's, were it one of them, and on from there. `corner`: of a cell of four times the
+  /// spacing. They have yet to be created.
+  std::int32_t block(GridPoint corner, std::int32_t spacing);
+  /// Creates a node of a block when it is new.
+  void create(std::int32_t node, Place place);
   [[nodiscard]] GridPoint point(std::int32_t node) const noexcept {
     const Block& b = blocks_[node >> 4];
     return {b.corner.i + ((node & 3) << b.spacing), b.corner.j + ((node >> 2 & 3) << b.spacing)};
@@ -118,6 +127,31 @@ class Lattice {
   /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
   Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
+  /// The same where others know the neighbours: `neighbour(horizontal, k)` is the number of the node at k = -3, -1, 1,
+  /// 3 times the spacing on a line through this one, or -1 where it has no value(). `odd_i`, `odd_j`: whether
+  /// neighbours on the horizontal, on the vertical line belong to a coarser grid.
+  template <class Neighbour>
+  Prediction predict_from(std::int32_t node, bool odd_i, bool odd_j, const Neighbour& neighbour) {
+    if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
+    const auto along = [&](bool horizontal) { return predict_along([&](int k) { return neighbour(horizontal, k); }); };
+    Prediction result = along(true);
+    // At a centre both directions give the same product of cubics.
+    if (result.order < 4 || !(odd_i && odd_j)) {
+      const Prediction column = along(false);
+      if (result.order == column.order)
+        result.root = 0.5 * (result.root + column.root);
+      else if (column.order > result.order)
+        result = column;
+    }
+    remember(node, result);
+    return result;
+  }
+  /// The node itself when it has a value, sampled or predicted from two nodes at least; else -1.
+  std::int32_t valued(std::int32_t node) {
+    return nodes_[node].sampled || (nodes_[node].inside && predict(node).order >= 2) ? node : -1;
+  }
+  /// The same of the node at a place, which is created when new: predictions are remembered in nodes.
+  std::int32_t valued_node(GridPoint p);
 
  private:
   struct Node {
@@ -136,10 +170,21 @@ class Lattice {
     const std::int32_t block = index_.find(at);
     return block >= 0 && nodes_[16 * block + at.rank].exists ? 16 * block + at.rank : -1;
   }
-  // Numbers of nodes with a value, or -1: sampled ones, predicted ones too, of the line through p.
   [[nodiscard]] std::int32_t sampled_node(GridPoint p) const noexcept;
-  std::int32_t valued_node(GridPoint p);
-  Prediction predict_along(GridPoint p, std::int32_t spacing, bool horizontal, bool coarser);
+  std::int32_t block_at(GridPoint p, const BlockIndex::Position& at);
+  void remember(std::int32_t node, const Prediction& result) noexcept;
+  template <class Neighbour>
+  Prediction predict_along(const Neighbour& neighbour) const {
+    const std::int32_t before = neighbour(-1), after = neighbour(1);
+    if (before < 0 && after < 0) return {};
+    if (before < 0) return extrapolate(after, neighbour(3));
+    if (after < 0) return extrapolate(before, neighbour(-3));
+    const std::int32_t first = neighbour(-3), last = neighbour(3);
+    return interpolate(first, before, after, last);
+  }
+  [[nodiscard]] Prediction extrapolate(std::int32_t near, std::int32_t far) const noexcept;
+  [[nodiscard]] Prediction interpolate(std::int32_t first, std::int32_t before, std::int32_t after,
+                                       std::int32_t last) const noexcept;
 
   Vec2 low_, high_, cell_;
   std::int32_t step_;

@@ -130,6 +130,7 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
   lattice_.emplace(s.low, s.high, columns, rows, step, locator_);
   border_.emplace(*lattice_);
   tree_.emplace(domain_, locator_, *lattice_);
+  predictor_.emplace(*lattice_, *tree_);
   floor_ = s.floor;
   box_ = s.high - s.low;
 }
@@ -177,41 +178,12 @@ void ControlSpaceSampling::sample_roots() {
   for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
 }
 
-// What the samples known so far say about a node.
-Metric2 ControlSpaceSampling::expected_at(std::int32_t node, std::int32_t size) {
-  const Prediction guess = lattice_->predict(node);
+// What the samples known so far say about node `k` of a cell.
+Metric2 ControlSpaceSampling::expected_at(const TreeCell& cell, int k) {
+  const Prediction guess = predictor_->predict(cell, k);
   if (guess.order >= 3) return guess.root;
-  const GridPoint p = lattice_->point(node);
-  return border_->fit({static_cast<double>(p.i), static_cast<double>(p.j)}, size);
-}
-
-// A centre from the twelve nearest corners of a grid of cells, exact for cubics. False where some are not known.
-bool ControlSpaceSampling::predict_centre(const TreeCell& cell, Metric2& root) const {
-  Metric2 inner{0, 0, 0}, outer{0, 0, 0};
-  for (const int k : corners_of_cell) {
-    if (!lattice_->sampled(cell.node[k])) return false;
-    inner = inner + lattice_->value(cell.node[k]);
-  }
-  for (int side = 0; side < 4; ++side) {
-    if (cell.beside[side] < 0) return false;
-    const TreeCell& next = (*tree_)[cell.beside[side]];
-    for (int end = 0; end < 2; ++end) {
-      const Metric2* corner = nullptr;
-      if (next.size == cell.size) {
-        const std::int32_t n = next.node[ends_of_sides[side][end]];
-        if (lattice_->sampled(n)) corner = &lattice_->value(n);
-      } else {
-        const GridPoint at = cell.point(ends_of_sides[side][end]);
-        const std::int32_t d = side % 2 == 0 ? -cell.size : cell.size;
-        corner = lattice_->sample(side < 2 ? GridPoint{at.i, at.j + d} : GridPoint{at.i + d, at.j});
-      }
-      if (corner == nullptr) return false;
-      outer = outer + *corner;
-    }
-  }
-  root = 0.3125 * inner + -0.03125 * outer;
-  const auto value = [&](int k) { return lattice_->value(cell.node[corners_of_cell[k]]); };
-  return plausible(root, 0.5 * (value(0) + value(3)), 0.5 * (value(1) + value(2)));
+  const GridPoint p = lattice_->point(cell.node[k]);
+  return border_->fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size);
 }
 
 // Of the corners and the centre.
@@ -229,7 +201,8 @@ std::vector<ControlSpaceSampling::NodeProbe> ControlSpaceSampling::centres_of(st
     const std::int32_t n = cell.centre();
     if (!lattice_->inside(n)) continue;
     probes.push_back({.node = n, .cell = c});
-    if (!predict_centre(cell, probes.back().expected)) probes.back().expected = expected_at(n, cell.size);
+    Metric2& expected = probes.back().expected;
+    if (!predictor_->predict_centre(cell, expected)) expected = expected_at(cell, 4);
   }
   return probes;
 }
@@ -413,7 +386,7 @@ std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const s
                probes.end());
   std::vector<Vec2> uv;
   for (NodeProbe& p : probes) {
-    p.expected = expected_at(p.node, (*tree_)[p.cell].size);
+    p.expected = expected_at((*tree_)[p.cell], middles_of_sides[p.side]);
     uv.push_back(lattice_->parameters(lattice_->point(p.node)));
   }
   const std::vector<Metric2> metric = ask(uv);

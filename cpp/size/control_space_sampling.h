@@ -9,6 +9,7 @@
 #include "size/control_space.h"
 #include "size/control_space_border.h"
 #include "size/control_space_lattice.h"
+#include "size/control_space_prediction.h"
 #include "size/control_space_survey.h"
 #include "size/control_space_tree.h"
 #include "size/space_gradation.h"
@@ -32,6 +33,7 @@ class ControlSpaceSampling {
 
   [[nodiscard]] Tree& tree() noexcept { return *tree_; }
   [[nodiscard]] Lattice& lattice() noexcept { return *lattice_; }
+  [[nodiscard]] NodePredictor& predictor() noexcept { return *predictor_; }
   [[nodiscard]] const BorderSamples& border() const noexcept { return *border_; }
   [[nodiscard]] const PolygonLocator& locator() const noexcept { return locator_; }
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
@@ -57,12 +59,11 @@ class ControlSpaceSampling {
   [[nodiscard]] Metric2 root_of(Metric2 metric) const noexcept;
   [[nodiscard]] Metric2 root_of_boxed(Metric2 metric) const noexcept;
   void sample_roots();
-  [[nodiscard]] Metric2 expected_at(std::int32_t node, std::int32_t size);
+  [[nodiscard]] Metric2 expected_at(const TreeCell& cell, int k);
 
   void settle(std::vector<std::int32_t> active);
   void look_at_suspects();
   void test(std::span<const std::int32_t> cells);
-  [[nodiscard]] bool predict_centre(const TreeCell& cell, Metric2& root) const;
   [[nodiscard]] int nodes_inside(const TreeCell& cell) const noexcept;
   [[nodiscard]] std::vector<NodeProbe> centres_of(std::span<const std::int32_t> cells);
   [[nodiscard]] std::vector<BorderPoint> border_points_of(std::span<const std::int32_t> cells);
@@ -89,6 +90,7 @@ class ControlSpaceSampling {
   std::optional<Lattice> lattice_;
   std::optional<BorderSamples> border_;
   std::optional<Tree> tree_;
+  std::optional<NodePredictor> predictor_;
   std::vector<char> vertex_sampled_;
   std::size_t samples_ = 0;
   // What a surface told: J^T J at the last points that it was asked at, at nodes and at samples of the border.

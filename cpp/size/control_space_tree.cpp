@@ -74,15 +74,34 @@ Place Tree::complete(TreeCell& cell, std::span<const std::int32_t> candidates, P
   return cut ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
 }
 
+// The block of the nodes that a split of the cell adds: of those in its interior and on its lower and left sides, or of
+// those on its upper or right `side`.
+std::int32_t Tree::block_of(std::int32_t number, int side) {
+  const TreeCell& cell = cells_[number];
+  if (const std::int32_t beyond = cell.beside[side]; beyond >= 0 && cells_[beyond].size == cell.size)
+    return block_of(beyond);
+  const GridPoint corner{cell.i + (side == 3 ? cell.size : 0), cell.j + (side == 1 ? cell.size : 0)};
+  return lattice_.block(corner, cell.size / 4);
+}
+
+std::int32_t Tree::block_of(std::int32_t number) {
+  TreeCell& cell = cells_[number];
+  if (cell.block < 0) cell.block = lattice_.block({cell.i, cell.j}, cell.size / 4);
+  return cell.block;
+}
+
 void Tree::split(std::int32_t number) {
+  cells_[number].child = size();
+  // Those of the nodes on the upper and right side belong to the cells beyond.
+  const std::int32_t own = block_of(number), right = block_of(number, 3), above = block_of(number, 1);
   const TreeCell cell = cells_[number];
   const std::int32_t half = cell.size / 2;
   candidates_.assign(edges_.begin() + cell.edges_begin, edges_.begin() + cell.edges_end);
-  cells_[number].child = size();
   const Place whole = !candidates_.empty() ? Place::unknown : cell.relevant ? Place::inside : Place::outside;
   // The 5 x 5 nodes of the parts, nine of which are those of the cell.
   std::array<std::int32_t, 25> node;
-  node.fill(-1);
+  for (int r = 0; r < 5; ++r)
+    for (int c = 0; c < 5; ++c) node[5 * r + c] = r == 4 ? above + c : c == 4 ? right + 4 * r : own + 4 * r + c;
   for (int k = 0; k < 9; ++k) node[10 * (k / 3) + 2 * (k % 3)] = cell.node[k];
   for (int k = 0; k < 4; ++k) {
     TreeCell child{.i = cell.i + (k % 2) * half, .j = cell.j + (k / 2) * half, .size = half};
@@ -90,9 +109,8 @@ void Tree::split(std::int32_t number) {
     child.vertices = cell.vertices / 4;
     const Place place = complete(child, candidates_, whole);
     for (int n = 0; n < 9; ++n) {
-      std::int32_t& known = node[5 * (2 * (k / 2) + n / 3) + 2 * (k % 2) + n % 3];
-      if (known < 0) known = lattice_.node(child.point(n), place);
-      child.node[n] = known;
+      child.node[n] = node[5 * (2 * (k / 2) + n / 3) + 2 * (k % 2) + n % 3];
+      lattice_.create(child.node[n], place);
     }
     cells_.push_back(child);
   }

@@ -15,6 +15,7 @@ namespace carreau::detail {
 struct TreeCell {
   std::int32_t i = 0, j = 0, size = 0;
   std::int32_t child = -1;                      ///< first of four, -1: a leaf
+  std::int32_t block = -1;                      ///< Lattice::block() of its parts' nodes, -1: not yet known
   std::int32_t edges_begin = 0, edges_end = 0;  ///< range of boundary edges that meet the closed cell
   bool relevant = false;                        ///< has points of the domain
   bool tested = false;                          ///< its centre was sampled, or cannot be
@@ -60,6 +61,8 @@ class Tree {
  private:
   /// `whole`: where all of the cell lies, when that is known.
   [[nodiscard]] Place complete(TreeCell& cell, std::span<const std::int32_t> candidates, Place whole);
+  std::int32_t block_of(std::int32_t number);
+  std::int32_t block_of(std::int32_t number, int side);
   void join_parts(std::int32_t number);
   void point_to_parts(std::int32_t number, int side);
   [[nodiscard]] bool meets(const TreeCell& cell, std::int32_t edge) const noexcept;

@@ -1,8 +1,10 @@
 #include "size/control_space_writer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "metric/metric2_algebra.h"
 
@@ -26,6 +28,14 @@ constexpr int share_points = 4;
 double smaller_eigenvalue(Metric2 m) noexcept {
   const double half = 0.5 * (m.a - m.c);
   return 0.5 * (m.a + m.c) - std::sqrt(half * half + m.b * m.b);
+}
+
+// Cheap and nearly always enough to tell that the smaller eigenvalue of `inner` exceeds least_share of those of p and
+// q: it is larger than determinant over trace, those are no larger than half of a trace; a factor of two is left for
+// rounding.
+bool surely_definite(Metric2 inner, Metric2 p, Metric2 q) noexcept {
+  const double trace = inner.a + inner.c;
+  return trace > 0 && determinant(inner) > least_share * std::min(p.a + p.c, q.a + q.c) * trace;
 }
 
 // straight + theta (bent - straight) with the largest theta of 1, 7/8, ... 0 for which it is definite enough.
@@ -73,21 +83,30 @@ void ControlSpaceWriter::balance() {
   }
 }
 
+// By size, those of the same size in the order of the tree.
 void ControlSpaceWriter::sort_leaves() {
+  constexpr std::size_t sizes = 32;
+  const auto rank = [](const TreeCell& cell) {
+    return sizes - 1 - static_cast<std::size_t>(std::countr_zero(static_cast<std::uint32_t>(cell.size)));
+  };
+  std::array<std::size_t, sizes + 1> begin{};
   for (std::int32_t c = 0; c < tree_.size(); ++c)
-    if (tree_[c].child < 0) leaves_.push_back(c);
-  std::stable_sort(leaves_.begin(), leaves_.end(),
-                   [this](std::int32_t p, std::int32_t q) { return tree_[p].size > tree_[q].size; });
+    if (tree_[c].child < 0) ++begin[rank(tree_[c]) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  leaves_.resize(begin.back());
+  for (std::int32_t c = 0; c < tree_.size(); ++c)
+    if (tree_[c].child < 0) leaves_[begin[rank(tree_[c])]++] = c;
 }
 
 // False when the node lies far outside.
-bool ControlSpaceWriter::set_value(std::int32_t node, const TreeCell& cell) {
+bool ControlSpaceWriter::set_value(const TreeCell& cell, int k) {
+  const std::int32_t node = cell.node[k];
   if (lattice_.sampled(node)) {
     value_[node] = lattice_.value(node);
     return true;
   }
   if (lattice_.inside(node)) {
-    const detail::Prediction guess = lattice_.predict(node);
+    const detail::Prediction guess = sampling_.predictor().predict(cell, k);
     if (guess.order >= 3) {
       value_[node] = sampling_.within_slopes(node, cell, guess.root);
       return true;
@@ -109,8 +128,15 @@ void ControlSpaceWriter::set_values() {
   for (auto leaf = leaves_.rbegin(); leaf != leaves_.rend(); ++leaf) {
     if (++count % 1024 == 0) monitor_.checkpoint();
     const TreeCell& cell = tree_[*leaf];
-    for (const std::int32_t n : cell.node)
-      if (known_[n] == 0 && set_value(n, cell)) known_[n] = 1;
+    const auto set = [&](int k) {
+      const std::int32_t n = cell.node[k];
+      if (known_[n] == 0 && set_value(cell, k)) known_[n] = 1;
+    };
+    set(4);
+    for (const int k : detail::corners_of_cell) set(k);
+    // A side that is half of a coarser one takes its middle from there.
+    for (int side = 0; side < 4; ++side)
+      if (!cell.relevant || coarser_beside(cell, side) < 0) set(detail::middles_of_sides[side]);
   }
 }
 
@@ -149,11 +175,13 @@ void ControlSpaceWriter::straighten_sides() {
   for (const std::int32_t leaf : leaves_) {
     const TreeCell& cell = tree_[leaf];
     for (int side = 0; side < 4; ++side) {
+      if (coarser_beside(cell, side) >= 0) continue;
       const Metric2 a = value_[cell.node[detail::ends_of_sides[side][0]]];
       const Metric2 b = value_[cell.node[detail::ends_of_sides[side][1]]];
       Metric2& middle = value_[cell.node[detail::middles_of_sides[side]]];
       const Metric2 mean = 0.5 * (a + b);
       const Metric2 inner = 2.0 * middle + -1.0 * mean;
+      if (surely_definite(inner, a, b)) continue;
       const double least = least_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
       if (smaller_eigenvalue(inner) >= least) continue;
       middle = 0.5 * (mean + definite_between(mean, inner, least));
@@ -184,6 +212,7 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
   const Metric2 inner_sides = 2.0 * (v[1] + v[3] + v[5] + v[7]) + -1.0 * corners;
   const Metric2 straight = 0.25 * inner_sides;
   const Metric2 inner = 4.0 * v[4] + -0.25 * corners + -0.5 * inner_sides;
+  if (surely_definite(inner, straight, straight)) return v;
   const double least = least_share * smaller_eigenvalue(straight);
   if (smaller_eigenvalue(inner) < least) {
     const Metric2 definite = definite_between(straight, inner, least);
@@ -199,7 +228,8 @@ void ControlSpaceWriter::add_measure(const TreeCell& cell, const Nine& v) {
   double sum = 0;
   for (int k = 0; k < 9; ++k) sum += weight[k] / 36 * accurate_determinant(v[k]);
   double share = 1;
-  if (std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t n) { return !lattice_.inside(n); })) {
+  const bool cut = cell.edges_begin != cell.edges_end;
+  if (cut && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t n) { return !lattice_.inside(n); })) {
     int inside = 0;
     for (int k = 0; k < share_points * share_points; ++k) {
       const double x = (k % share_points + 0.5) / share_points, y = (k / share_points + 0.5) / share_points;

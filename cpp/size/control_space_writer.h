@@ -24,7 +24,7 @@ class ControlSpaceWriter {
   void balance();
   void sort_leaves();
   void set_values();
-  [[nodiscard]] bool set_value(std::int32_t node, const detail::TreeCell& cell);
+  [[nodiscard]] bool set_value(const detail::TreeCell& cell, int k);
   void fill_outside();
   void straighten_sides();
   [[nodiscard]] Nine values_in(const detail::TreeCell& cell) const;
