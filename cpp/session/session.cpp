@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <thread>
 
 #include "cad/checked_cad.h"
 #include "io/delivered_json.h"
@@ -16,6 +15,8 @@
 #include "session/export.h"
 #include "session/field_files.h"
 #include "session/gluing.h"
+#include "session/messages.h"
+#include "session/options.h"
 #include "support/format.h"
 #include "surface/delivered_composite.h"
 
@@ -82,61 +83,6 @@ struct Session::State {
 
 namespace {
 
-GeometricCriterion criterion_of(const std::string& rule) {
-  if (rule == "chord") return GeometricCriterion::chord;
-  if (rule == "both") return GeometricCriterion::both;
-  return rule == "radii" ? GeometricCriterion::radii : GeometricCriterion::angle;
-}
-
-int threads_of(const Parameters& parameters) {
-  const int threads = parameters.integer("threads");
-  return threads != 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-NarrowFaces narrow_faces_of(const std::string& word) {
-  return word == "collapse" ? NarrowFaces::collapse : word == "one_layer" ? NarrowFaces::one_layer : NarrowFaces::keep;
-}
-
-CompositeOptions composite_options(const Parameters& parameters, double diag) {
-  CompositeOptions options;
-  SizeParameters& size = options.size;
-  size.hphy_flag = parameters.integer("hphy_flag");
-  size.hgeo_flag = parameters.integer("hgeo_flag");
-  size.hphydef = parameters.real("hphydef", diag);
-  size.hphymin = parameters.real("hphymin", diag);
-  size.hphymax = parameters.real("hphymax", diag);
-  size.hgeomin = parameters.real("hgeomin", diag);
-  size.hgeomax = parameters.real("hgeomax", diag);
-  size.hmean_flag = parameters.integer("hmean_flag");
-  size.hinterpol_flag = parameters.integer("hinterpol_flag");
-  size.angle_mesh = parameters.real("angle_mesh");
-  size.geo_rule = criterion_of(parameters.text("geo_rule"));
-  size.eps_chord = parameters.real("eps_chord", diag);
-  size.geo_guarantee = parameters.integer("geo_guarantee") != 0;
-  size.geo_anisotropic = parameters.integer("geo_metric") != 0;
-  size.anisotropy_max = parameters.real("anisotropy_max");
-  size.metric_combination = static_cast<MetricCombination>(parameters.integer("metric_combination"));
-  options.angle_smo = std::min(parameters.real("angle_smo"), size.angle_mesh);  // RT-0232 sec. 3.3
-  options.lss = parameters.real("LSS");
-  options.gradation = parameters.real("gradation");
-  options.proximity = parameters.integer("proximity");
-  if (options.proximity > 0 && options.gradation == 0)
-    throw InvalidArgument(
-        "parameter proximity needs a gradation greater than 1 (1.3, say): sizes of narrow zones must "
-        "grow into those around");
-  options.eps_ends = parameters.real("eps_ends", diag);
-  options.check_close_edges = parameters.integer("CheckCloseEdges");
-  options.check_adjacent_edges = parameters.integer("CheckAdjacentEdges");
-  options.check_well_defined = parameters.integer("CheckWellDefined");
-  options.coef_rectangle = parameters.real("CoefRectangle");
-  options.narrow_faces = narrow_faces_of(parameters.text("narrow_faces"));
-  options.narrow_ratio = parameters.real("narrow_ratio");
-  options.frontal = parameters.integer("frontal") != 0;
-  options.max_triangles = parameters.integer("max_triangles");
-  options.threads = threads_of(parameters);
-  return options;
-}
-
 // Finite differences of a host without derivatives stay inside the box of each domain.
 void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad) {
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
@@ -161,26 +107,6 @@ std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
   return mesh.empty() ? set : read_background(mesh, sol);
 }
 
-// A message for each curve whose ends are nearer than eps_ends, which is sometimes an error (RT-0232 sec. 3.3).
-void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor) {
-  for (std::size_t f = 0; f < model.faces.size(); ++f)
-    for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) {
-      const CurveSupport& support = supports.of_face[f][c];
-      const double gap = norm(support.xyz.back() - support.xyz.front());
-      if (gap >= eps_ends) continue;
-      const Where where{.face = model.faces[f].ref,
-                        .curve_index = host_rank(model.faces[f], c),
-                        .curve = model.faces[f].curves[c].ref};
-      // Closed curves and degenerate sides have one reference at both ends and are legal.
-      const FaceCurve& curve = model.faces[f].curves[c];
-      monitor.message(
-          curve.end1 == curve.end2 ? Level::detail : Level::warning,
-          where.prefix() + "its ends are " + format_number(gap) +
-              " apart, less than eps_ends = " + format_number(eps_ends) +
-              (support.length() < eps_ends ? "; the whole curve is that small" : "; the curve is closed or nearly so"));
-    }
-}
-
 // x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
 void write_glued(const Model& model, std::vector<std::string>& remarks) {
   const bool has_parts = std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
@@ -195,53 +121,11 @@ void write_glued(const Model& model, std::vector<std::string>& remarks) {
   }
 }
 
-// The few lines that a person wants after a run.
-void describe_result(const CompositeResult& result, int threads, Monitor& monitor) {
-  const SurfaceMesh& mesh = result.mesh;
-  const auto whole = [](std::int64_t n) { return std::to_string(n); };
-  const auto count = [&](FaceStatus status) {
-    return std::count_if(mesh.faces.begin(), mesh.faces.end(),
-                         [&](const FaceMesh& face) { return face.status == status; });
-  };
-  std::string faces =
-      whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
-  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them mended";
-  if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
-  if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
-  monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
-                                      " vertices, " + whole(static_cast<std::int64_t>(mesh.triangle_count())) +
-                                      " triangles, " + whole(static_cast<std::int64_t>(mesh.edge_count())) +
-                                      " edges on curves");
-  const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
-  const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
-  monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
-                                      short_text(q.q2.p1) + ", worst " + short_text(q.q2.min) + "; angles " +
-                                      short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
-  const CompositeReport& r = result.report;
-  if (r.gradation_rounds > 0)
-    monitor.message(Level::summary,
-                    "gradation: sizes graded on " + whole(static_cast<std::int64_t>(r.gradation_triangles)) +
-                        " triangles" +
-                        (r.gradation_rounds > 1 ? ", made " + whole(r.gradation_rounds) + " times" : "") + "; " +
-                        short_text(r.seconds_gradation) + " s");
-  monitor.message(Level::summary, "diag " + short_text(r.diag) + "; " + whole(r.calls.surface()) +
-                                      " evaluations of surfaces; " + short_text(r.seconds_total) + " s (curves " +
-                                      short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +
-                                      ", plane meshes " + short_text(r.seconds_plane) + ", lift " +
-                                      short_text(r.seconds_lift) + ")");
-}
-
 Delivered measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
   CheckedCad whole_cad(*meshed.cad);
   PartCad cad(whole_cad, parts_of(meshed.model));
   set_parameter_boxes(meshed.model, meshed.supports, cad);
   return measure_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
-}
-
-void describe_delivered(const Delivered& delivered, Monitor& monitor) {
-  const DeliveredText text = describe(delivered);
-  for (const std::string& line : text.summary) monitor.message(Level::summary, line);
-  for (const std::string& sentence : text.not_met) monitor.message(Level::warning, sentence);
 }
 
 }  // namespace

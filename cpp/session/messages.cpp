@@ -1,0 +1,72 @@
+#include "session/messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesh/quality.h"
+#include "support/format.h"
+
+namespace carreau {
+
+void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor) {
+  for (std::size_t f = 0; f < model.faces.size(); ++f)
+    for (std::size_t c = 0; c < model.faces[f].curves.size(); ++c) {
+      const CurveSupport& support = supports.of_face[f][c];
+      const double gap = norm(support.xyz.back() - support.xyz.front());
+      if (gap >= eps_ends) continue;
+      const Where where{.face = model.faces[f].ref,
+                        .curve_index = host_rank(model.faces[f], c),
+                        .curve = model.faces[f].curves[c].ref};
+      // Closed curves and degenerate sides have one reference at both ends and are legal.
+      const FaceCurve& curve = model.faces[f].curves[c];
+      monitor.message(
+          curve.end1 == curve.end2 ? Level::detail : Level::warning,
+          where.prefix() + "its ends are " + format_number(gap) +
+              " apart, less than eps_ends = " + format_number(eps_ends) +
+              (support.length() < eps_ends ? "; the whole curve is that small" : "; the curve is closed or nearly so"));
+    }
+}
+
+void describe_result(const CompositeResult& result, int threads, Monitor& monitor) {
+  const SurfaceMesh& mesh = result.mesh;
+  const auto whole = [](std::int64_t n) { return std::to_string(n); };
+  const auto count = [&](FaceStatus status) {
+    return std::count_if(mesh.faces.begin(), mesh.faces.end(),
+                         [&](const FaceMesh& face) { return face.status == status; });
+  };
+  std::string faces =
+      whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
+  if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them mended";
+  if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
+  if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
+  monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
+                                      " vertices, " + whole(static_cast<std::int64_t>(mesh.triangle_count())) +
+                                      " triangles, " + whole(static_cast<std::int64_t>(mesh.edge_count())) +
+                                      " edges on curves");
+  const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
+  const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
+  monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
+                                      short_text(q.q2.p1) + ", worst " + short_text(q.q2.min) + "; angles " +
+                                      short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
+  const CompositeReport& r = result.report;
+  if (r.gradation_rounds > 0)
+    monitor.message(Level::summary,
+                    "gradation: sizes graded on " + whole(static_cast<std::int64_t>(r.gradation_triangles)) +
+                        " triangles" +
+                        (r.gradation_rounds > 1 ? ", made " + whole(r.gradation_rounds) + " times" : "") + "; " +
+                        short_text(r.seconds_gradation) + " s");
+  monitor.message(Level::summary, "diag " + short_text(r.diag) + "; " + whole(r.calls.surface()) +
+                                      " evaluations of surfaces; " + short_text(r.seconds_total) + " s (curves " +
+                                      short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +
+                                      ", plane meshes " + short_text(r.seconds_plane) + ", lift " +
+                                      short_text(r.seconds_lift) + ")");
+}
+
+void describe_delivered(const Delivered& delivered, Monitor& monitor) {
+  const DeliveredText text = describe(delivered);
+  for (const std::string& line : text.summary) monitor.message(Level::summary, line);
+  for (const std::string& sentence : text.not_met) monitor.message(Level::warning, sentence);
+}
+
+}  // namespace carreau

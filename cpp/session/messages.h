@@ -1,0 +1,20 @@
+// What a session says before and after a run. Private to session/.
+#pragma once
+
+#include "model/model.h"
+#include "support/monitor.h"
+#include "surface/composite.h"
+#include "surface/delivered.h"
+
+namespace carreau {
+
+/// A message for each curve whose ends are nearer than `eps_ends`, which is sometimes an error (RT-0232 sec. 3.3).
+void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor);
+
+/// The few lines that a person wants after a run.
+void describe_result(const CompositeResult& result, int threads, Monitor& monitor);
+
+/// Histograms as a summary, and a warning for each prescription that is not met.
+void describe_delivered(const Delivered& delivered, Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,16 @@
+// What the parameters of a session mean for a run. Private to session/.
+#pragma once
+
+#include "session/parameters.h"
+#include "surface/composite.h"
+
+namespace carreau {
+
+/// `threads`, or as many as the machine runs at a time where it is 0.
+int threads_of(const Parameters& parameters);
+
+/// All but the sources of prescriptions. `diag`: of the model, for values relative to it. Throws InvalidArgument where
+/// parameters contradict each other.
+CompositeOptions composite_options(const Parameters& parameters, double diag);
+
+}  // namespace carreau
