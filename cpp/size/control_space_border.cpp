@@ -57,6 +57,36 @@ struct NormalEquations {
   }
 };
 
+// A root between these bounds of the eigenvalues of others, where it usually is: they are found only where it may not
+// be.
+template <class Samples>
+Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
+  // Of each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant over
+  // trace.
+  double above = 0, below = std::numeric_limits<double>::infinity();
+  for (const auto& s : near) {
+    const double trace = s.root.a + s.root.c;
+    above = std::max(above, 0.5 * trace);
+    below = std::min(below, 2 * determinant(s.root) / trace);
+  }
+  const auto spread = [](Metric2 m) {
+    const double across = m.a - m.c;
+    return std::sqrt(across * across + 4 * m.b * m.b);
+  };
+  constexpr double rounding = 1e-6;
+  const double trace = root.a + root.c, s = spread(root);
+  if (0.5 * (trace + s) < (1 - rounding) * most_extrapolation * above &&
+      0.5 * (trace - s) > rounding * trace + below / most_extrapolation)
+    return root;
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const auto& sample : near) {
+    const double major = 0.5 * (sample.root.a + sample.root.c + spread(sample.root));
+    low = std::min(low, accurate_determinant(sample.root) / major);
+    high = std::max(high, major);
+  }
+  return clamp_eigenvalues(root, low / most_extrapolation, most_extrapolation * high);
+}
+
 }  // namespace
 
 BorderSamples::BorderSamples(const Lattice& lattice)
@@ -117,17 +147,12 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) const {
     if (more.size() > near.size()) near.swap(more);
   }
   NormalEquations equations;
-  double low = std::numeric_limits<double>::infinity(), high = 0;
   for (const Sample& s : near) {
     const Vec2 d = (1 / scale) * (s.position - position);
     const double q = softness + dot(d, d);
     equations.add(d.x, d.y, 1 / (q * q), s.root);
-    const double across = s.root.a - s.root.c, trace = s.root.a + s.root.c;
-    const double spread = std::sqrt(across * across + 4 * s.root.b * s.root.b);
-    low = std::min(low, accurate_determinant(s.root) / (0.5 * (trace + spread)));
-    high = std::max(high, 0.5 * (trace + spread));
   }
-  return clamp_eigenvalues(equations.value_at_origin(), low / most_extrapolation, most_extrapolation * high);
+  return clamped_to(near, equations.value_at_origin());
 }
 
 }  // namespace carreau::detail

@@ -60,13 +60,6 @@ std::int32_t Lattice::block(GridPoint corner, std::int32_t spacing) {
   return block_at(corner, BlockIndex::position(corner, std::countr_zero(static_cast<std::uint32_t>(spacing))));
 }
 
-void Lattice::create(std::int32_t node, Place place) {
-  if (nodes_[node].exists) return;
-  nodes_[node].exists = true;
-  nodes_[node].inside =
-      place == Place::inside || (place == Place::unknown && domain_.contains(parameters(point(node))));
-}
-
 std::int32_t Lattice::node(GridPoint p, Place place) {
   const BlockIndex::Position at = BlockIndex::position(p);
   const std::int32_t number = block_at(p, at) + at.rank;
@@ -77,17 +70,6 @@ std::int32_t Lattice::node(GridPoint p, Place place) {
 void Lattice::set_sample(std::int32_t node, Metric2 root) noexcept {
   nodes_[node].root = root;
   nodes_[node].sampled = true;
-}
-
-std::int32_t Lattice::sampled_node(GridPoint p) const noexcept {
-  if (!contains(p)) return -1;
-  const std::int32_t n = find(p);
-  return n >= 0 && nodes_[n].sampled ? n : -1;
-}
-
-const Metric2* Lattice::sample(GridPoint p) const noexcept {
-  const std::int32_t n = sampled_node(p);
-  return n >= 0 ? &nodes_[n].root : nullptr;
 }
 
 std::int32_t Lattice::valued_node(GridPoint p) {

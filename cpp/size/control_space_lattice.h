@@ -110,7 +110,12 @@ class Lattice {
   /// spacing. They have yet to be created.
   std::int32_t block(GridPoint corner, std::int32_t spacing);
   /// Creates a node of a block when it is new.
-  void create(std::int32_t node, Place place);
+  void create(std::int32_t node, Place place) {
+    Node& n = nodes_[node];
+    if (n.exists) return;
+    n.exists = true;
+    n.inside = place == Place::inside || (place == Place::unknown && domain_.contains(parameters(point(node))));
+  }
   [[nodiscard]] GridPoint point(std::int32_t node) const noexcept {
     const Block& b = blocks_[node >> 4];
     return {b.corner.i + ((node & 3) << b.spacing), b.corner.j + ((node >> 2 & 3) << b.spacing)};
@@ -123,7 +128,10 @@ class Lattice {
   [[nodiscard]] const Metric2& value(std::int32_t node) const noexcept { return nodes_[node].root; }
 
   /// Null when p was not sampled.
-  [[nodiscard]] const Metric2* sample(GridPoint p) const noexcept;
+  [[nodiscard]] const Metric2* sample(GridPoint p) const noexcept {
+    const std::int32_t n = sampled_node(p);
+    return n >= 0 ? &nodes_[n].root : nullptr;
+  }
   /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
   Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
@@ -170,7 +178,11 @@ class Lattice {
     const std::int32_t block = index_.find(at);
     return block >= 0 && nodes_[16 * block + at.rank].exists ? 16 * block + at.rank : -1;
   }
-  [[nodiscard]] std::int32_t sampled_node(GridPoint p) const noexcept;
+  [[nodiscard]] std::int32_t sampled_node(GridPoint p) const noexcept {
+    if (!contains(p)) return -1;
+    const std::int32_t n = find(p);
+    return n >= 0 && nodes_[n].sampled ? n : -1;
+  }
   std::int32_t block_at(GridPoint p, const BlockIndex::Position& at);
   void remember(std::int32_t node, const Prediction& result) noexcept;
   template <class Neighbour>

@@ -194,8 +194,8 @@ int ControlSpaceSampling::nodes_inside(const TreeCell& cell) const noexcept {
   return count;
 }
 
-std::vector<ControlSpaceSampling::NodeProbe> ControlSpaceSampling::centres_of(std::span<const std::int32_t> cells) {
-  std::vector<NodeProbe> probes;
+std::vector<ControlSpaceSampling::CentreProbe> ControlSpaceSampling::centres_of(std::span<const std::int32_t> cells) {
+  std::vector<CentreProbe> probes;
   for (const std::int32_t c : cells) {
     const TreeCell& cell = (*tree_)[c];
     const std::int32_t n = cell.centre();
@@ -233,10 +233,10 @@ std::vector<ControlSpaceSampling::BorderPoint> ControlSpaceSampling::border_poin
 // Samples what tells whether cells need splitting, and finds their errors and numbers of vertices.
 void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   lattice_->forget();
-  const std::vector<NodeProbe> centres = centres_of(cells);
+  const std::vector<CentreProbe> centres = centres_of(cells);
   const std::vector<BorderPoint> points = border_points_of(cells);
   std::vector<Vec2> uv;
-  for (const NodeProbe& p : centres) uv.push_back(lattice_->parameters(lattice_->point(p.node)));
+  for (const CentreProbe& p : centres) uv.push_back(lattice_->parameters(lattice_->point(p.node)));
   for (const BorderPoint& p : points) uv.push_back(domain_.vertices[p.vertex]);
   const std::vector<Metric2> metric = ask(uv);
   std::vector<double> before;
@@ -256,8 +256,8 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   }
   for (std::size_t k = 0; k < centres.size(); ++k) {
     TreeCell& cell = (*tree_)[centres[k].cell];
-    const Metric2 truth = root_of(metric[k]);
     set_sample(centres[k].node, metric[k], k);
+    const Metric2 truth = lattice_->value(centres[k].node);
     cell.error = std::max(cell.error, error_between(centres[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
@@ -369,50 +369,68 @@ std::vector<std::int32_t> ControlSpaceSampling::refine(std::span<const std::int3
   return fresh;
 }
 
+// The middles of the sides of cells that can be sampled, each once, by increasing node.
+std::vector<ControlSpaceSampling::SideProbe> ControlSpaceSampling::middles_of(std::span<const std::int32_t> cells) {
+  std::vector<std::uint64_t> found;  // node, then its place among the sides of all cells
+  for (std::size_t c = 0; c < cells.size(); ++c)
+    for (std::size_t side = 0; side < 4; ++side) {
+      const std::int32_t n = (*tree_)[cells[c]].node[middles_of_sides[side]];
+      if (!lattice_->inside(n) || lattice_->sampled(n)) continue;
+      found.push_back(static_cast<std::uint64_t>(n) << 32 | (4 * c + side));
+    }
+  std::sort(found.begin(), found.end());
+  std::vector<SideProbe> probes;
+  for (const std::uint64_t f : found) {
+    const auto node = static_cast<std::int32_t>(f >> 32);
+    if (!probes.empty() && probes.back().node == node) continue;
+    const auto place = static_cast<std::uint32_t>(f);
+    probes.push_back({.node = node, .cell = cells[place / 4], .side = static_cast<int>(place % 4)});
+  }
+  return probes;
+}
+
+// The tested leaves on both sides of a side, or -1: those just made will be tested by their own centres.
+std::array<std::int32_t, 2> ControlSpaceSampling::tested_beside(const SideProbe& probe) const noexcept {
+  const TreeCell& own = (*tree_)[probe.cell];
+  std::array<std::int32_t, 2> leaves{probe.cell, own.beside[probe.side]};
+  if (leaves[1] >= 0) {
+    const GridPoint p = lattice_->point(probe.node);
+    leaves[1] = tree_->leaf_below(leaves[1], {probe.side == 2 ? p.i - 1 : p.i, probe.side == 0 ? p.j - 1 : p.j});
+  }
+  for (std::int32_t& leaf : leaves)
+    if (leaf >= 0 && !((*tree_)[leaf].child < 0 && (*tree_)[leaf].relevant && (*tree_)[leaf].tested)) leaf = -1;
+  return leaves;
+}
+
 // Samples the middles of the sides of cells; returns the leaves beside those where prediction was wrong.
 std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const std::int32_t> cells) {
   lattice_->forget();
-  std::vector<NodeProbe> probes;
-  for (const std::int32_t c : cells)
-    for (const int k : middles_of_sides) {
-      const std::int32_t n = (*tree_)[c].node[k];
-      if (!lattice_->inside(n) || lattice_->sampled(n)) continue;
-      probes.push_back({.node = n, .cell = c, .side = k == 1 ? 0 : k == 7 ? 1 : k == 3 ? 2 : 3});
-    }
-  std::stable_sort(probes.begin(), probes.end(),
-                   [](const NodeProbe& p, const NodeProbe& q) { return p.node < q.node; });
-  probes.erase(std::unique(probes.begin(), probes.end(),
-                           [](const NodeProbe& p, const NodeProbe& q) { return p.node == q.node; }),
-               probes.end());
+  std::vector<SideProbe> probes = middles_of(cells);
   std::vector<Vec2> uv;
-  for (NodeProbe& p : probes) {
-    p.expected = expected_at((*tree_)[p.cell], middles_of_sides[p.side]);
+  for (SideProbe& p : probes) {
+    p.beside = tested_beside(p);
+    // Where nobody wants to know whether the prediction is right there is none.
+    if (p.beside[0] >= 0 || p.beside[1] >= 0) p.expected = expected_at((*tree_)[p.cell], middles_of_sides[p.side]);
     uv.push_back(lattice_->parameters(lattice_->point(p.node)));
   }
   const std::vector<Metric2> metric = ask(uv);
-  std::vector<std::int32_t> beside;
+  std::vector<std::int32_t> wrong;
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    const Metric2 truth = root_of(metric[k]);
     set_sample(probes[k].node, metric[k], k);
-    // The leaves on both sides; those just made will be tested by their own centres.
-    const auto [node, own, side, expected] = probes[k];
-    const std::int32_t beyond = (*tree_)[own].beside[side];
-    const GridPoint p = lattice_->point(node);
-    const GridPoint q{side == 2 ? p.i - 1 : p.i, side == 0 ? p.j - 1 : p.j};
-    for (const std::int32_t leaf : {own, beyond >= 0 ? tree_->leaf_below(beyond, q) : own}) {
+    for (const std::int32_t leaf : probes[k].beside) {
+      if (leaf < 0) continue;
       TreeCell& cell = (*tree_)[leaf];
-      if (cell.child >= 0 || !cell.relevant || !cell.tested) continue;
-      const double error = error_between(expected, truth, cell);
+      const double error = error_between(probes[k].expected, lattice_->value(probes[k].node), cell);
       if (cell.filled ? cell.decay * error <= allowed_error(0.25 * cell.vertices)
                       : error <= allowed_error(cell.vertices))
         continue;
       cell.error = std::max(cell.error, error);
-      beside.push_back(leaf);
+      wrong.push_back(leaf);
     }
   }
-  std::sort(beside.begin(), beside.end());
-  beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
-  return beside;
+  std::sort(wrong.begin(), wrong.end());
+  wrong.erase(std::unique(wrong.begin(), wrong.end()), wrong.end());
+  return wrong;
 }
 
 }  // namespace carreau::detail

@@ -1,6 +1,7 @@
 // Decides where a control space is sampled. Private to size/.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,10 +45,16 @@ class ControlSpaceSampling {
     std::int32_t cell;
     Metric2 expected{};
   };
-  /// A node about to be sampled: the centre of cell `cell`, or amid its side `side`.
-  struct NodeProbe {
+  /// A centre about to be sampled.
+  struct CentreProbe {
     std::int32_t node, cell;
-    int side = 0;
+    Metric2 expected{};
+  };
+  /// A node amid a side of a cell, with the tested leaves on both sides.
+  struct SideProbe {
+    std::int32_t node, cell;
+    int side;
+    std::array<std::int32_t, 2> beside{-1, -1};
     Metric2 expected{};
   };
 
@@ -65,7 +72,7 @@ class ControlSpaceSampling {
   void look_at_suspects();
   void test(std::span<const std::int32_t> cells);
   [[nodiscard]] int nodes_inside(const TreeCell& cell) const noexcept;
-  [[nodiscard]] std::vector<NodeProbe> centres_of(std::span<const std::int32_t> cells);
+  [[nodiscard]] std::vector<CentreProbe> centres_of(std::span<const std::int32_t> cells);
   [[nodiscard]] std::vector<BorderPoint> border_points_of(std::span<const std::int32_t> cells);
   void estimate_vertices();
 
@@ -75,6 +82,8 @@ class ControlSpaceSampling {
   [[nodiscard]] double vertices_of(const TreeCell& cell, Metric2 root) const noexcept;
   [[nodiscard]] std::vector<std::int32_t> affordable(std::vector<std::int32_t> cells, std::size_t untested) const;
   std::vector<std::int32_t> refine(std::span<const std::int32_t> cells);
+  [[nodiscard]] std::vector<SideProbe> middles_of(std::span<const std::int32_t> cells);
+  [[nodiscard]] std::array<std::int32_t, 2> tested_beside(const SideProbe& probe) const noexcept;
   [[nodiscard]] std::vector<std::int32_t> sample_middles(std::span<const std::int32_t> cells);
 
   const SampledDomain& domain_;

@@ -109,8 +109,9 @@ void Tree::split(std::int32_t number) {
     child.vertices = cell.vertices / 4;
     const Place place = complete(child, candidates_, whole);
     for (int n = 0; n < 9; ++n) {
-      child.node[n] = node[5 * (2 * (k / 2) + n / 3) + 2 * (k % 2) + n % 3];
-      lattice_.create(child.node[n], place);
+      const int row = 2 * (k / 2) + n / 3, column = 2 * (k % 2) + n % 3;
+      child.node[n] = node[5 * row + column];
+      if (row % 2 == 1 || column % 2 == 1) lattice_.create(child.node[n], place);
     }
     cells_.push_back(child);
   }
