@@ -11,6 +11,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
+#include "surface/finest_lengths.h"
 #include "surface/near_vertices.h"
 
 namespace carreau {
@@ -76,14 +77,17 @@ class Refiner {
               edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
           found.edges.insert(found.edges.end(), close.begin(), close.end());
         });
-    remember_finest();
+    if (rules_.uses_metrics()) finest_.emplace(topology_, curves_);
     repeat(
         options_.check_adjacent_edges, [this](int f) { return Found{.ask_metric = may_be_unbalanced(f)}; },
         [this](int f, Found& found) {
           if (!found.ask_metric) return;
           const PlaneDomain& plane = result_.domain[f]->plane;
           found.edges = edges_to_split_for_balance(plane, space_of(f));
-          std::erase_if(found.edges, [&](int e) { return is_fine_enough(plane.edges[e]); });
+          if (!finest_) return;
+          std::erase_if(found.edges, [&](int e) {
+            return finest_->reached_by(curves_[plane.edges[e].curve], plane.edges[e].segment);
+          });
         });
     for (int i = 0; i < options_.check_well_defined; ++i) uncross();
     uncross();
@@ -295,39 +299,6 @@ class Refiner {
                        [](const Range& range) { return range.high > balance_to_look_at * range.low; });
   }
 
-  // Where metrics have directions, three faces at a corner can each find its second edge too long beside its first, for
-  // ever.
-  void remember_finest() {
-    finest_.clear();
-    if (!rules_.uses_metrics()) return;
-    std::vector<double> at_point(topology_.points.size(), std::numeric_limits<double>::infinity());
-    const auto bound = [&](int point, double length) { at_point[point] = std::min(at_point[point], length); };
-    finest_.resize(curves_.size());
-    for (std::size_t c = 0; c < curves_.size(); ++c) {
-      const DiscreteCurve& d = curves_[c];
-      const auto length = [&](std::size_t k) { return norm(d.xyz[k + 1] - d.xyz[k]); };
-      const std::size_t last = d.r.size() - 1;
-      for (std::size_t k = 1; k < last; ++k) finest_[c][d.r[k]] = std::min(length(k - 1), length(k));
-      if (topology_.curves[c].degenerate) continue;
-      bound(topology_.curves[c].end1, length(0));
-      bound(topology_.curves[c].end2, length(last - 1));
-    }
-    for (std::size_t c = 0; c < curves_.size(); ++c) {
-      finest_[c][curves_[c].r.front()] = at_point[topology_.curves[c].end1];
-      finest_[c][curves_[c].r.back()] = at_point[topology_.curves[c].end2];
-    }
-  }
-  // As short as the shortest edge at one of its ends was before edges were balanced.
-  [[nodiscard]] bool is_fine_enough(const PlaneEdge& edge) const {
-    if (finest_.empty()) return false;
-    const DiscreteCurve& d = curves_[edge.curve];
-    double finest = std::numeric_limits<double>::infinity();
-    for (const int node : {edge.segment, edge.segment + 1})
-      if (const auto known = finest_[edge.curve].find(d.r[node]); known != finest_[edge.curve].end())
-        finest = std::min(finest, known->second);
-    return norm(d.xyz[edge.segment + 1] - d.xyz[edge.segment]) <= finest;
-  }
-
   // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
   // however far they are on the surface. Curves that meet at a corner are left to the check in the metric, which knows
   // angles.
@@ -435,8 +406,7 @@ class Refiner {
     int fruitless = 0;                                        // halvings in a row that left it as it was
   };
   std::map<int, Crossing> crossings_;
-  // [curve][r of a node]: length in space of the shortest edge there before edges were balanced. Empty without metrics.
-  std::vector<std::map<double, double>> finest_;
+  std::optional<FinestLengths> finest_;  // before edges were balanced; none without metrics
   std::map<int, std::optional<ControlSpace>> spaces_;
 };
 
