@@ -12,7 +12,7 @@ namespace carreau::plane {
 
 namespace {
 
-constexpr int rays = 65;
+constexpr int rays = 33;                                         // 0.2 units apart round a pole
 constexpr double step = 0.05;                                    // unit lengths
 constexpr double enough_room = 1.5;                              // a row fits between the ring and what is beyond it
 constexpr double least_room = 0.5;                               // below, no ring

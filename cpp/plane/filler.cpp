@@ -46,6 +46,10 @@ void Filler::judge(int t) {
   if (T.done != Done::frozen) T.done = shapes_.squared_radius(t) < done_radius * done_radius ? Done::yes : Done::no;
 }
 
+void Filler::judge_all() {
+  for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) judge(t);
+}
+
 bool Filler::near_degenerate_edge(Vec2 p, Metric2 metric) const {
   for (const DegenerateEdge& edge : degenerate_) {
     if (edge.surrounded) continue;

@@ -48,6 +48,7 @@ class Filler {
 
   // filler.cpp
   void judge(int t);
+  void judge_all();
   bool try_insert(Vec2 p, int start, double distance, double height);
   void insert_at(Vec2 p, Metric2 metric, Bend bend);
   [[nodiscard]] bool near_degenerate_edge(Vec2 p, Metric2 metric) const;

@@ -16,6 +16,7 @@ constexpr int attempts = 4;
 constexpr double crowded_distance = 0.25;
 // 1 % of points more where the radius is less by 0.045, but never as small as that of many that rows make.
 constexpr double radius_a_share = 4.5, largest_reduction = 0.1;
+static_assert(leftover_radius - largest_reduction > done_radius);
 constexpr int most_pieces = 4096;  // of one edge in one pass; the next passes see to the rest
 
 }  // namespace
@@ -50,6 +51,7 @@ bool Filler::shorten(int t) {
     const HalfEdge o = T.n[i];
     if (shapes_.squared_length(T.v[i], mesh_.triangles[o >> 2].v[o & 3]) > gain * gain * l2) continue;
     mesh_.swap_edge(t, i);
+    mesh_.triangles[t].done = mesh_.triangles[o >> 2].done = Done::no;
     return true;
   }
   return false;
@@ -83,8 +85,8 @@ void Filler::fill_leftovers(double radius, double distance) {
   const double radius2 = radius * radius, graded2 = graded * graded;
   for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {
     tick();
-    for (int attempt = 0; attempt < attempts; ++attempt) {
-      if (mesh_.triangles[t].done == Done::frozen) break;
+    // Those that are done, nearly all, have a smaller radius.
+    for (int attempt = 0; attempt < attempts && mesh_.triangles[t].done == Done::no; ++attempt) {
       const double r2 = shapes_.squared_radius(t);
       if (!(r2 > graded2) || (r2 <= radius2 && shapes_.change(t) <= graded_change)) break;
       if (!shorten(t) && !fill_at(circumcentre(t), t, distance) && !halve(t)) break;
@@ -94,6 +96,7 @@ void Filler::fill_leftovers(double radius, double distance) {
 }
 
 void Filler::split_long_edges() {
+  judge_all();
   for (;;) {
     row_.clear();
     for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) {

@@ -82,6 +82,7 @@ class Optimiser {
   bool rescue_by_move(int v);
   bool rescue_by_removal(int v, bool crowded);
   [[nodiscard]] bool is_crowded(int t) const;
+  [[nodiscard]] bool is_good(const Triangle& T) const;
   bool rescue_by_insertion(int t);
   bool rescue_by_halving(int t);
   bool insert_to_improve(Vec2 p, int t, bool spaced);

@@ -292,11 +292,23 @@ bool Optimiser::rescue(int t) {
   return rescue_by_insertion(t) || any;
 }
 
+// Neither crowded nor suspect, beyond any doubt of rounding: what is true of nearly all triangles, in one go.
+bool Optimiser::is_good(const Triangle& T) const {
+  constexpr double sure = 1 + 1e-9, quality2 = sure * suspect_quality * suspect_quality / 12;
+  const Vertex &P = mesh_.vertices[T.v[0]], &Q = mesh_.vertices[T.v[1]], &R = mesh_.vertices[T.v[2]];
+  const Metric2 mp = P.metric(), mq = Q.metric(), mr = R.metric(), pq = mp + mq, m = pq + mr;
+  const Vec2 u = Q.point() - P.point(), v = R.point() - P.point(), w = v - u;
+  const double shortest2 = std::min({squared_length(pq, u), squared_length(mq + mr, w), squared_length(mr + mp, v)});
+  const double area = cross(u, v), sum = squared_length(m, u) + squared_length(m, v) + squared_length(m, w);
+  return shortest2 > sure * 2 * crowded_length2 && area > 0 && area * area * determinant(m) > quality2 * sum * sum;
+}
+
 void Optimiser::rescue_worst() {
   const auto total = static_cast<std::int32_t>(mesh_.triangles.size());
+  const bool bends = !mesh_.bends.empty();
   const auto is_bad = [&](std::int32_t t) {
     const Triangle& T = mesh_.triangles[t];
-    if (T.v[0] < 0 || T.done == Done::frozen) return false;
+    if (T.v[0] < 0 || T.done == Done::frozen || (!bends && is_good(T))) return false;
     return is_crowded(t) ||
            (shapes_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality && shape(T.v[0], T.v[1], T.v[2]) < bad_quality);
   };

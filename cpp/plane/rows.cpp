@@ -159,7 +159,7 @@ void Filler::insert_row() {
 }
 
 void Filler::march() {
-  for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t) judge(t);
+  judge_all();
   find_front(true);
   while (!front_.empty()) {
     monitor_.checkpoint();

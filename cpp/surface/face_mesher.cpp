@@ -12,17 +12,15 @@ namespace {
 // Points to evaluate at a time: large enough for hosts that like batches, small enough to stop soon.
 constexpr std::size_t batch = 512;
 
-std::vector<Vec3> lift(int face, std::span<const Vec2> uv, Cad& cad, Monitor& monitor) {
-  std::vector<Vec3> xyz;
-  xyz.reserve(uv.size());
+// Of the vertices from `xyz.size()` on.
+void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
   std::vector<SurfaceJet> jets(batch);
-  for (std::size_t i = 0; i < uv.size(); i += batch) {
+  for (std::size_t i = xyz.size(); i < uv.size(); i += batch) {
     monitor.checkpoint();
     const std::size_t n = std::min(batch, uv.size() - i);
     cad.surface(face, want_position, uv.subspan(i, n), std::span(jets).first(n));
     for (std::size_t k = 0; k < n; ++k) xyz.push_back(jets[k].s);
   }
-  return xyz;
 }
 
 }  // namespace
@@ -62,10 +60,9 @@ PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const P
 }
 
 void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
-  const std::span<const Vec2> uv = mesh.plane.vertices;
+  mesh.xyz.reserve(mesh.plane.vertices.size());
   mesh.xyz = input.curve_xyz;
-  const std::vector<Vec3> rest = lift(input.ref, uv.subspan(input.curve_xyz.size()), cad, monitor);
-  mesh.xyz.insert(mesh.xyz.end(), rest.begin(), rest.end());
+  lift(input.ref, mesh.plane.vertices, cad, mesh.xyz, monitor);
   if (input.isotropic) improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
 }
 

@@ -117,8 +117,9 @@ class SpaceRefinement {
     const Vec3 n = normal_of(t);
     if (!known_) {
       // It is on the side of the minority at two corners or more.
-      const auto against = [&](std::int32_t v) { return dot(n, normal[v]) < 0 ? 1 : 0; };
-      return against(t[0]) + against(t[1]) + against(t[2]) > 1;
+      const auto against = [&](std::int32_t v) { return dot(n, normal[v]) < 0; };
+      const bool first = against(t[0]), second = against(t[1]);
+      return first != second ? against(t[2]) : first;
     }
     const double least = suspicious * suspicious * dot(n, n);
     for (const std::int32_t v : t) {
