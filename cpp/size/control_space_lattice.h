@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -126,6 +127,15 @@ class Lattice {
   [[nodiscard]] bool sampled(std::int32_t node) const noexcept { return nodes_[node].sampled; }
   void set_sample(std::int32_t node, Metric2 root) noexcept;
   [[nodiscard]] const Metric2& value(std::int32_t node) const noexcept { return nodes_[node].root; }
+  /// Gives a node its last value, when all predictions have been made.
+  void settle(std::int32_t node, Metric2 root) noexcept {
+    nodes_[node].root = root;
+    nodes_[node].pass = settled;
+  }
+  /// Whether value() tells something: a sample, a prediction since forget(), the last value.
+  [[nodiscard]] bool known(std::int32_t node) const noexcept {
+    return nodes_[node].sampled || nodes_[node].pass >= pass_;
+  }
 
   /// Null when p was not sampled.
   [[nodiscard]] const Metric2* sample(GridPoint p) const noexcept {
@@ -162,6 +172,7 @@ class Lattice {
   std::int32_t valued_node(GridPoint p);
 
  private:
+  static constexpr std::int32_t settled = std::numeric_limits<std::int32_t>::max();
   struct Node {
     Metric2 root{};  // a sample, or the prediction of pass `pass`
     std::int32_t pass = -1;

@@ -29,6 +29,7 @@ class ControlSpaceSampling {
   void run();
   /// Call once, after run(): carreau::bound_slopes() for the samples, joined in each leaf. They must be on_surface.
   void bound_slopes(double slope);
+  [[nodiscard]] bool bounds_slopes() const noexcept { return slope_ != 0; }
   /// A value predicted at a node of a leaf, made to obey the slope between it and the leaf's samples.
   [[nodiscard]] Metric2 within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const;
 

@@ -98,45 +98,46 @@ void ControlSpaceWriter::sort_leaves() {
     if (tree_[c].child < 0) leaves_[begin[rank(tree_[c])]++] = c;
 }
 
-// False when the node lies far outside.
-bool ControlSpaceWriter::set_value(const TreeCell& cell, int k) {
-  const std::int32_t node = cell.node[k];
-  if (lattice_.sampled(node)) {
-    value_[node] = lattice_.value(node);
-    return true;
-  }
-  if (lattice_.inside(node)) {
-    const detail::Prediction guess = sampling_.predictor().predict(cell, k);
-    if (guess.order >= 3) {
-      value_[node] = sampling_.within_slopes(node, cell, guess.root);
-      return true;
-    }
-  } else if (!cell.relevant) {
-    return false;
-  }
-  const GridPoint p = lattice_.point(node);
-  value_[node] = sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size);
-  return true;
-}
-
-// From fine to coarse: a node outside is extrapolated from the nearest samples that there are.
-void ControlSpaceWriter::set_values() {
-  value_.resize(static_cast<std::size_t>(lattice_.size()));
-  known_.resize(static_cast<std::size_t>(lattice_.size()), 0);
+// Predicts what can be predicted. The rest has to wait until all predictions are made: it must not take part in them.
+void ControlSpaceWriter::predict_values() {
   lattice_.forget();
   std::size_t count = 0;
+  // From fine to coarse: a node outside is extrapolated from the nearest samples that there are.
   for (auto leaf = leaves_.rbegin(); leaf != leaves_.rend(); ++leaf) {
     if (++count % 1024 == 0) monitor_.checkpoint();
     const TreeCell& cell = tree_[*leaf];
-    const auto set = [&](int k) {
+    if (!cell.relevant) continue;
+    const auto predict = [&](int k) {
       const std::int32_t n = cell.node[k];
-      if (known_[n] == 0 && set_value(cell, k)) known_[n] = 1;
+      if (lattice_.sampled(n)) return;
+      if (!lattice_.inside(n) || sampling_.predictor().predict(cell, k).order < 3 || sampling_.bounds_slopes())
+        late_.push_back({*leaf, k});
     };
-    set(4);
-    for (const int k : detail::corners_of_cell) set(k);
+    predict(4);
+    for (const int k : detail::corners_of_cell) predict(k);
     // A side that is half of a coarser one takes its middle from there.
     for (int side = 0; side < 4; ++side)
-      if (!cell.relevant || coarser_beside(cell, side) < 0) set(detail::middles_of_sides[side]);
+      if (coarser_beside(cell, side) < 0) predict(detail::middles_of_sides[side]);
+  }
+}
+
+void ControlSpaceWriter::set_values() {
+  predict_values();
+  std::vector<char> done(static_cast<std::size_t>(lattice_.size()), 0);
+  for (const auto& [leaf, k] : late_) {
+    const TreeCell& cell = tree_[leaf];
+    const std::int32_t n = cell.node[k];
+    if (done[n] != 0) continue;
+    done[n] = 1;
+    if (lattice_.inside(n)) {
+      const detail::Prediction guess = sampling_.predictor().predict(cell, k);
+      if (guess.order >= 3) {
+        lattice_.settle(n, sampling_.within_slopes(n, cell, guess.root));
+        continue;
+      }
+    }
+    const GridPoint p = lattice_.point(n);
+    lattice_.settle(n, sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size));
   }
 }
 
@@ -151,13 +152,13 @@ void ControlSpaceWriter::fill_outside() {
       Metric2 sum{0, 0, 0};
       int known = 0;
       for (const std::int32_t n : tree_[leaf].node)
-        if (known_[n] != 0) sum = sum + value_[n], ++known;
+        if (lattice_.known(n)) sum = sum + lattice_.value(n), ++known;
       if (known == 0) {
         later.push_back(leaf);
         continue;
       }
       for (const std::int32_t n : tree_[leaf].node)
-        if (known_[n] == 0) value_[n] = (1.0 / known) * sum, known_[n] = 1;
+        if (!lattice_.known(n)) lattice_.settle(n, (1.0 / known) * sum);
     }
     if (later.size() == todo.size()) break;  // nothing is known anywhere: cannot happen after a sample
     todo.swap(later);
@@ -176,15 +177,16 @@ void ControlSpaceWriter::straighten_sides() {
     const TreeCell& cell = tree_[leaf];
     for (int side = 0; side < 4; ++side) {
       if (coarser_beside(cell, side) >= 0) continue;
-      const Metric2 a = value_[cell.node[detail::ends_of_sides[side][0]]];
-      const Metric2 b = value_[cell.node[detail::ends_of_sides[side][1]]];
-      Metric2& middle = value_[cell.node[detail::middles_of_sides[side]]];
+      const Metric2 a = lattice_.value(cell.node[detail::ends_of_sides[side][0]]);
+      const Metric2 b = lattice_.value(cell.node[detail::ends_of_sides[side][1]]);
+      const std::int32_t at = cell.node[detail::middles_of_sides[side]];
+      const Metric2 middle = lattice_.value(at);
       const Metric2 mean = 0.5 * (a + b);
       const Metric2 inner = 2.0 * middle + -1.0 * mean;
       if (surely_definite(inner, a, b)) continue;
       const double least = least_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
       if (smaller_eigenvalue(inner) >= least) continue;
-      middle = 0.5 * (mean + definite_between(mean, inner, least));
+      lattice_.settle(at, 0.5 * (mean + definite_between(mean, inner, least)));
     }
   }
 }
@@ -192,16 +194,16 @@ void ControlSpaceWriter::straighten_sides() {
 // Where a side is half of a coarser one its middle lies on that one's quadratic.
 ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) const {
   Nine v;
-  for (int k = 0; k < 9; ++k) v[k] = value_[cell.node[k]];
+  for (int k = 0; k < 9; ++k) v[k] = lattice_.value(cell.node[k]);
   for (int side = 0; side < 4; ++side) {
     const std::int32_t other = coarser_beside(cell, side);
     if (other < 0) continue;
     const TreeCell& coarser = tree_[other];
     // The same side as seen from beyond: lower and upper, left and right change places.
     const int facing = side ^ 1;
-    const Metric2 low = value_[coarser.node[detail::ends_of_sides[facing][0]]];
-    const Metric2 middle = value_[coarser.node[detail::middles_of_sides[facing]]];
-    const Metric2 high = value_[coarser.node[detail::ends_of_sides[facing][1]]];
+    const Metric2 low = lattice_.value(coarser.node[detail::ends_of_sides[facing][0]]);
+    const Metric2 middle = lattice_.value(coarser.node[detail::middles_of_sides[facing]]);
+    const Metric2 high = lattice_.value(coarser.node[detail::ends_of_sides[facing][1]]);
     const bool first_half = side < 2 ? cell.i == coarser.i : cell.j == coarser.j;
     // The quadratic at 1/4 or 3/4.
     v[detail::middles_of_sides[side]] =

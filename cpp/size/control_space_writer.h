@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "size/control_space.h"
@@ -23,8 +24,8 @@ class ControlSpaceWriter {
 
   void balance();
   void sort_leaves();
+  void predict_values();
   void set_values();
-  [[nodiscard]] bool set_value(const detail::TreeCell& cell, int k);
   void fill_outside();
   void straighten_sides();
   [[nodiscard]] Nine values_in(const detail::TreeCell& cell) const;
@@ -39,10 +40,9 @@ class ControlSpaceWriter {
   detail::Tree& tree_;
   detail::Lattice& lattice_;
   Monitor& monitor_;
-  std::vector<std::int32_t> leaves_;  // from coarse to fine
-  std::vector<Metric2> value_;        // by node of the lattice
-  std::vector<char> known_;
-  std::int32_t table_step_ = 1;  // units of the finest grid
+  std::vector<std::int32_t> leaves_;                // from coarse to fine
+  std::vector<std::pair<std::int32_t, int>> late_;  // leaf, rank of a node that gets its value after predictions
+  std::int32_t table_step_ = 1;                     // units of the finest grid
   ControlSpace space_;
 };
 
