@@ -57,6 +57,7 @@ typedef struct c_cad {
     int (*point_size)();
     int (*surface_radius)();
     int (*curve_radius)();
+    int (*failure)();
 } c_cad;
 typedef struct c_cad_m {
     long struct_size;
@@ -277,6 +278,7 @@ int carreau_model_color_face (void *session, int face_ref, int rgb);
 int carreau_model_count (void *session, long *faces, long *curves, long *points);
 int carreau_model_curves (void *session, long capacity, int *face_refs, int *types, int *refs, int *ends);
 int carreau_model_faces (void *session, long capacity, int *refs, int *orientations);
+int carreau_model_leave_out_face (void *session, int face_ref, const char *why);
 int carreau_model_name_face (void *session, int face_ref, const char *name);
 int carreau_model_points (void *session, long capacity, int *face_refs, int *refs, double *uv);
 int carreau_model_read_pardom (void *session, const char *path);

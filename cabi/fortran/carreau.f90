@@ -19,14 +19,14 @@ module carreau
   public :: carreau_init_fn, carreau_surf0_fn, carreau_surf1_fn, carreau_surf2_fn, carreau_curv_int_fn, carreau_curv_fn
   public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
   public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
-  public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn
+  public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn, carreau_failure_fn
   public :: carreau_surface_metric_fn, carreau_curve_metric_fn, carreau_point_metric_fn
   public :: carreau_message_fn, carreau_progress_fn
   public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
-  public :: carreau_model_name_face, carreau_model_color_face
+  public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
   public :: carreau_parameter_count, carreau_parameter_info
@@ -320,6 +320,15 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_point_value_fn
 
+    !> text: c_loc of characters that end with a c_null_char and outlive the call, or c_null_ptr.
+    function carreau_failure_fn(face, user) result(text) bind(c)
+      import :: c_int32_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face
+      type(c_ptr), value :: user
+      type(c_ptr) :: text
+    end function carreau_failure_fn
+
     function carreau_surface_metric_fn(face, u, v, kind, value, user) result(status) bind(c)
       import :: c_double, c_int32_t, c_ptr
       implicit none
@@ -499,7 +508,8 @@ contains
 
   !> surface_order and curve_order: 2 when they are left out. user: c_loc of a target, c_null_ptr when left out.
   subroutine carreau_set_cad(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
-      reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius)
+      reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, &
+      failure)
     type(carreau_session), intent(in) :: session
     procedure(carreau_surface_fn) :: surface
     procedure(carreau_interval_fn) :: curve_interval
@@ -512,6 +522,7 @@ contains
     procedure(carreau_surface_value_fn), optional :: surface_size, surface_radius
     procedure(carreau_curve_value_fn), optional :: curve_size, curve_radius
     procedure(carreau_point_value_fn), optional :: point_size
+    procedure(carreau_failure_fn), optional :: failure
     type(c_cad) :: callbacks
     callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
     callbacks%surface_order = 2
@@ -529,6 +540,7 @@ contains
     if (present(point_size)) callbacks%point_size = c_funloc(point_size)
     if (present(surface_radius)) callbacks%surface_radius = c_funloc(surface_radius)
     if (present(curve_radius)) callbacks%curve_radius = c_funloc(curve_radius)
+    if (present(failure)) callbacks%failure = c_funloc(failure)
     status = c_set_cad(session%handle, callbacks)
   end subroutine carreau_set_cad
 
@@ -593,6 +605,15 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_color_face(session%handle, face_ref, rgb)
   end subroutine carreau_model_color_face
+
+  !> "": it is meshed.
+  subroutine carreau_model_leave_out_face(session, face_ref, why, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref
+    character(len=*), intent(in) :: why
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_leave_out_face(session%handle, face_ref, c_text(why))
+  end subroutine carreau_model_leave_out_face
 
   subroutine carreau_model_read_pardom(session, path, status)
     type(carreau_session), intent(in) :: session

@@ -29,6 +29,7 @@ module carreau_c
     type(c_funptr) :: curve_interval = c_null_funptr, curve = c_null_funptr
     type(c_funptr) :: surface_size = c_null_funptr, curve_size = c_null_funptr, point_size = c_null_funptr
     type(c_funptr) :: surface_radius = c_null_funptr, curve_radius = c_null_funptr
+    type(c_funptr) :: failure = c_null_funptr
   end type c_cad
 
   type, bind(c) :: c_metric_callbacks
@@ -277,6 +278,15 @@ module carreau_c
       integer(c_int32_t), value :: face_ref, rgb
       integer(c_int32_t) :: status
     end function c_model_color_face
+
+    function c_model_leave_out_face(session, face_ref, why) result(status) bind(c, name="carreau_model_leave_out_face")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref
+      character(kind=c_char), intent(in) :: why(*)
+      integer(c_int32_t) :: status
+    end function c_model_leave_out_face
 
     function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
       import :: c_char, c_int32_t, c_ptr

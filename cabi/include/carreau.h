@@ -193,6 +193,9 @@ typedef int32_t (*carreau_curve_fn)(int32_t face, int32_t ic, double t, int32_t 
 typedef int32_t (*carreau_surface_value_fn)(int32_t face, double u, double v, double* value, void* user);
 typedef int32_t (*carreau_curve_value_fn)(int32_t face, int32_t ic, double t, double* value, void* user);
 typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* user);
+/* Why a callback has failed on a face, for people: part of the sentence of the error. Called right after the callback,
+ * from the same thread. The text is copied; NULL or "": nothing to say. */
+typedef const char* (*carreau_failure_fn)(int32_t face, void* user);
 
 typedef struct carreau_cad {
   size_t struct_size;
@@ -210,6 +213,7 @@ typedef struct carreau_cad {
   carreau_point_value_fn point_size;
   carreau_surface_value_fn surface_radius;
   carreau_curve_value_fn curve_radius;
+  carreau_failure_fn failure;
 } carreau_cad;
 
 /* Registers the callbacks in place of any earlier geometry. The struct is copied; what `user` points to is not.
@@ -265,6 +269,11 @@ CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
  * on the left (right) of its k-th curve, which must be a boundary. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation);
 
+/* Leaves a face out of what is meshed, for a reason that is not "" (NULL or "": it is meshed, as at first). It is in
+ * the mesh, as failed with this reason; its geometry is not asked, and it may have no curves. Those that fail during a
+ * run are left out when the parameter failing_faces is "leave_out". Errors: ARGUMENT (no such face). */
+CARREAU_API carreau_status carreau_model_leave_out_face(carreau_session* session, int32_t face_ref, const char* why);
+
 /* Appends a curve to face `face_ref`; it is number ic = 1, 2, ... of that face. ref: the same for curves that are one
  * in space (twice in one face: a seam). end1, end2: references of the points at t = a and t = b. When the first curve
  * of the model has ref 0, all references of curves and ends are found by comparing positions (parameter eps_glue);
@@ -278,8 +287,8 @@ CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int
 CARREAU_API carreau_status carreau_model_add_point(carreau_session* session, int32_t face_ref, int32_t ref, double u,
                                                    double v);
 
-/* Names a face, for files that hold names (.vtu, .msh, .stl) and for people; several faces may have one name; "" takes it
- * away. Errors: ARGUMENT (no such face, NULL). */
+/* Names a face, for files that hold names (.vtu, .msh, .stl) and for people; several faces may have one name; "" takes
+ * it away. Errors: ARGUMENT (no such face, NULL). */
 CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name);
 /* Colours a face, for files that hold colours (.vtu): rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour away.
  * Errors: ARGUMENT (no such face, no such colour). */
@@ -576,11 +585,12 @@ CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* NULL is allowed */
 /* Sentence of the last call on the mesh, "" after success. Lives until the next call on it. */
 CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 
-/* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, not compressed),
- * .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and binary). What
- * carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names where the format
- * holds them (.vtu: all, and status and colour of faces; .msh: references of faces and curves, corners' if positive; .stl: solids as faces).
- * On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of a session). */
+/* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, not
+ * compressed), .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and binary).
+ * What carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names where the
+ * format holds them (.vtu: all, and status and colour of faces; .msh: references of faces and curves, corners' if
+ * positive; .stl: solids as faces). On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of a session).
+ */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
 /* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face), .msh and
@@ -630,13 +640,13 @@ typedef struct carreau_face {
   int32_t ref;       /* reference of the face */
   int32_t status;    /* CARREAU_FACE_... */
   int64_t triangles; /* their number; they follow those of the faces before */
-  const char* why;   /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
-  const char* name;  /* given by carreau_model_name_face, else ""; lives as `why` does */
-  int32_t rgb;       /* given by carreau_model_color_face, 0xRRGGBB, or -1 */
+  const char* why; /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
+  const char* name; /* given by carreau_model_name_face, else ""; lives as `why` does */
+  int32_t rgb;      /* given by carreau_model_color_face, 0xRRGGBB, or -1 */
 } carreau_face;
 
-/* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending, and others that it tells of.
- * Errors: ARGUMENT, SEQUENCE. */
+/* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending, and others that it tells
+ * of. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
 
 /* Shape and size of the triangles. q1 = 2 sqrt(3) inradius / longest edge, q2 = 4 sqrt(3) area / sum of squared edges;

@@ -62,7 +62,8 @@ HostTable table_of(const carreau_cad& callbacks) {
           .curve_size = callbacks.curve_size,
           .point_size = callbacks.point_size,
           .surface_radius = callbacks.surface_radius,
-          .curve_radius = callbacks.curve_radius};
+          .curve_radius = callbacks.curve_radius,
+          .failure = callbacks.failure};
 }
 
 /// Obeys a stop after each callback: a host may be slow, and the engine asks for many points at a time.

@@ -88,6 +88,10 @@ carreau_status carreau_model_color_face(carreau_session* session, int32_t face_r
   });
 }
 
+carreau_status carreau_model_leave_out_face(carreau_session* session, int32_t face_ref, const char* why) {
+  return guarded(session, [&] { face_of(session->edited_model(), face_ref).left_out = why != nullptr ? why : ""; });
+}
+
 carreau_status carreau_model_read_pardom(carreau_session* session, const char* path) {
   return guarded(session, [&] {
     session->session.load_pardom(required(path, "path"));

@@ -67,7 +67,7 @@ class BezierInput final : public ModelInput {
   static FaceModel model_of(std::size_t count) {
     FaceModel model;
     for (std::size_t k = 1; k <= count; ++k) {
-      FaceModel::Face face{.ref = static_cast<std::int32_t>(k), .curves = {}, .points = {}, .excluded = {}};
+      FaceModel::Face face{.ref = static_cast<std::int32_t>(k), .curves = {}, .points = {}};
       face.curves.resize(4);  // references 0: sides that meet are found
       model.faces.push_back(std::move(face));
     }

@@ -21,7 +21,8 @@ struct Place {
 class CadInput {
  public:
   virtual ~CadInput() = default;
-  /// Hands geometry, model and names of faces to a session. A status of carreau.h; the sentence is in the session.
+  /// Hands geometry, model and names of faces to a session, and why faces are left out. A status of carreau.h; the
+  /// sentence is in the session.
   virtual carreau_status give_to(carreau_session* session) = 0;
   /// Diagonal of the box of the geometry.
   [[nodiscard]] virtual double diagonal() const = 0;
@@ -45,16 +46,10 @@ class CadInput {
   /// (u, v), as callbacks of the session get them, at a share of curve number ic, from 1. False: the geometry fails.
   [[nodiscard]] virtual bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
                                       double& v) const noexcept = 0;
-  /// Leaves a face out of what give_to hands over. False: it is not there, or left out already.
-  virtual bool exclude(int face, const std::string& why) = 0;
-  /// Faces that are left out, with the reason.
-  [[nodiscard]] virtual std::vector<std::pair<int, std::string>> excluded() const = 0;
   /// What the file holds and the geometry does not, since it could not be read: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
-  /// What went wrong in a callback on this face; "" when nothing did.
-  [[nodiscard]] virtual std::string failure(int face) const = 0;
 };
 
 /// Whether the name says that the file has no geometry of its own (.pardom): a shared library gives it.

@@ -30,7 +30,6 @@ class OpenCascadeInput final : public CadInput {
   [[nodiscard]] double glue_tolerance() const override { return host_.glue_tolerance(); }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
-  [[nodiscard]] std::string failure(int face) const override { return host_.failure(face); }
   bool set_face_size(const std::string& face, double size) override { return host_.set_face_size(face, size); }
 
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
@@ -60,15 +59,6 @@ class OpenCascadeInput final : public CadInput {
                   gaps.largest, gaps.edge, gaps.face, gaps.beyond);
     return text;
   }
-
-  bool exclude(int face, const std::string& why) override {
-    if (face < 1 || face > host_.face_count()) return false;
-    for (const auto& [number, reason] : host_.excluded())
-      if (number == face) return false;
-    host_.exclude(face, why);
-    return true;
-  }
-  [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const override { return host_.excluded(); }
 
   [[nodiscard]] std::string summary() const override {
     const auto count = [](int n, const char* one, const char* many) {

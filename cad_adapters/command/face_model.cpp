@@ -32,7 +32,7 @@ FaceModel read_pardom(const std::string& path) {
   FaceModel model;
   std::size_t curve = 0, point = 0;
   for (std::size_t i = 0; i < faces; ++i) {
-    FaceModel::Face face{.ref = refs[i], .orientation = orientations[i], .curves = {}, .points = {}, .excluded = {}};
+    FaceModel::Face face{.ref = refs[i], .orientation = orientations[i], .curves = {}, .points = {}};
     for (; curve < curves && of_curve[curve] == face.ref; ++curve)
       face.curves.push_back({types[curve], curve_refs[curve], ends[2 * curve], ends[2 * curve + 1]});
     for (; point < points && of_point[point] == face.ref; ++point)
@@ -45,7 +45,6 @@ FaceModel read_pardom(const std::string& path) {
 carreau_status give_model(const FaceModel& model, carreau_session* session) {
   carreau_status status = carreau_model_clear(session);
   for (const FaceModel::Face& face : model.faces) {
-    if (!face.excluded.empty()) continue;
     if (status == CARREAU_OK) status = carreau_model_add_face(session, face.ref, face.orientation);
     for (const FaceModel::Curve& c : face.curves)
       if (status == CARREAU_OK) status = carreau_model_add_curve(session, face.ref, c.type, c.ref, c.end1, c.end2);

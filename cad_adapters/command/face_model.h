@@ -1,4 +1,4 @@
-// A model in memory: what a session is told of faces, and what it should not be told.
+// A model in memory: what a session is told of faces.
 #pragma once
 
 #include <carreau.h>
@@ -23,8 +23,7 @@ struct FaceModel {
     std::int32_t ref = 0, orientation = 1;
     std::vector<Curve> curves;
     std::vector<Point> points;
-    double size = 0;       ///< wanted on this face; 0: none of its own
-    std::string excluded;  ///< why it is left out; "": it is not
+    double size = 0;  ///< wanted on this face; 0: none of its own
   };
   std::vector<Face> faces;
 
@@ -36,7 +35,7 @@ struct FaceModel {
 /// The model in a file x.pardom. Throws Failure with the library's sentence.
 FaceModel read_pardom(const std::string& path);
 
-/// Replaces the model of a session by the faces that are not left out.
+/// Replaces the model of a session.
 carreau_status give_model(const FaceModel& model, carreau_session* session);
 
 }  // namespace command

@@ -130,20 +130,35 @@ void FailedFaces::dump_without_mesh(carreau_session* session, const CadInput& in
   }
 }
 
-void FailedFaces::dump_of_mesh(carreau_session* session, carreau_mesh* mesh, const std::vector<FaceResult>& faces) {
-  if (folder_.empty()) return;
+// False: the mesher has left the face out.
+bool FailedFaces::dump_meshed(carreau_session* session, carreau_mesh* mesh, const FaceResult& face) {
   const ExportKept kept(session);
-  for (const FaceResult& face : faces) {
-    if (face.status != CARREAU_FACE_FAILED) continue;
-    const std::string path = stem(face.ref, face.name);
-    require(session, carreau_set_text(session, "option", "onesurf2d"));
-    require(session, carreau_set_integer(session, "refs", face.ref));
-    OutputFiles({path + ".mesh"}, {".mesh"}).write([&](const std::vector<std::string>& hidden) {
-      require(mesh, carreau_mesh_write(mesh, hidden.front().c_str()));
-    });
-    files_.push_back(path + ".mesh");
-    write_fields(session, face.ref, false, path + ".exr");
+  const std::string path = stem(face.ref, face.name);
+  require(session, carreau_set_text(session, "option", "onesurf2d"));
+  require(session, carreau_set_integer(session, "refs", face.ref));
+  bool known = true;
+  const auto write = [&](const std::vector<std::string>& hidden) {
+    const carreau_status status = carreau_mesh_write(mesh, hidden.front().c_str());
+    known = status != CARREAU_ERR_ARGUMENT;
+    require(mesh, status);
+  };
+  try {
+    OutputFiles({path + ".mesh"}, {".mesh"}).write(write);
+  } catch (const Failure&) {
+    if (known) throw;
+    return false;
   }
+  files_.push_back(path + ".mesh");
+  write_fields(session, face.ref, false, path + ".exr");
+  return true;
+}
+
+void FailedFaces::dump_of_mesh(carreau_session* session, carreau_mesh* mesh, const CadInput& input,
+                               const std::vector<FaceResult>& faces, Progress& progress) {
+  if (folder_.empty()) return;
+  for (const FaceResult& face : faces)
+    if (face.status == CARREAU_FACE_FAILED && !dump_meshed(session, mesh, face))
+      dump_without_mesh(session, input, face.ref, progress);
 }
 
 }  // namespace command

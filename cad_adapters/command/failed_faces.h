@@ -21,13 +21,16 @@ class FailedFaces {
 
   /// A face whose geometry failed, while `session` has the model with it. The sentence of the session is lost.
   void dump_without_mesh(carreau_session* session, const CadInput& input, std::int32_t face, Progress& progress);
-  /// Faces of a mesh that have no triangles, as the mesher has seen them.
-  void dump_of_mesh(carreau_session* session, carreau_mesh* mesh, const std::vector<FaceResult>& faces);
+  /// Faces of a mesh that have no triangles: as the mesher has seen them, and as the input has them where it did not
+  /// get so far.
+  void dump_of_mesh(carreau_session* session, carreau_mesh* mesh, const CadInput& input,
+                    const std::vector<FaceResult>& faces, Progress& progress);
 
   [[nodiscard]] const std::vector<std::string>& files() const noexcept { return files_; }
 
  private:
   [[nodiscard]] std::string stem(std::int32_t ref, const std::string& name) const;
+  bool dump_meshed(carreau_session* session, carreau_mesh* mesh, const FaceResult& face);
   void write_fields(carreau_session* session, std::int32_t face, bool raw, const std::string& path);
 
   std::string folder_;

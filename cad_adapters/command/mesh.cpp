@@ -45,25 +45,19 @@ std::vector<std::int32_t> faces_of_model(carreau_session* session) {
   return refs;
 }
 
-/// Throws Failure when there is no mesh. A face whose geometry fails is left out, and the others are meshed.
+/// Throws Failure when there is no mesh.
 void generate(carreau_session* session, CadInput& input, const SizeMap& map, FailedFaces& failed, Progress& progress) {
-  for (;;) {
-    require(session, input.give_to(session));
-    const carreau_status status = carreau_mesh_generate(session);
-    std::string sentence = carreau_last_error(session);
-    if (!map.failure().empty()) throw Failure(map.failure());
-    if (status == CARREAU_OK || status == CARREAU_ERR_PARTIAL) return;
-    const bool of_a_face = status == CARREAU_ERR_CALLBACK || status == CARREAU_ERR_MODEL;
-    const std::int32_t face = of_a_face ? face_of_error(session) : 0;
-    const std::string why = status == CARREAU_ERR_CALLBACK ? input.failure(face) : "";
-    if (!why.empty()) sentence += " (" + why + ")";
-    if (face != 0) failed.dump_without_mesh(session, input, face, progress);
-    if (status == CARREAU_ERR_DOMAIN)  // no face could be meshed
-      for (const std::int32_t each : faces_of_model(session)) failed.dump_without_mesh(session, input, each, progress);
-    if (!input.exclude(face, sentence)) throw Failure(sentence);
-    progress.error(sentence);
-    progress.line("meshing again without face " + std::to_string(face));
-  }
+  require(session, input.give_to(session));
+  const carreau_status status = carreau_mesh_generate(session);
+  const std::string sentence = carreau_last_error(session);
+  if (!map.failure().empty()) throw Failure(map.failure());
+  if (status == CARREAU_OK || status == CARREAU_ERR_PARTIAL) return;
+  const std::int32_t face = face_of_error(session);
+  if (status == CARREAU_ERR_DOMAIN)  // no face could be meshed
+    for (const std::int32_t each : faces_of_model(session)) failed.dump_without_mesh(session, input, each, progress);
+  else if (face != 0)
+    failed.dump_without_mesh(session, input, face, progress);
+  throw Failure(sentence);
 }
 
 void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, FailedFaces& failed,
@@ -73,14 +67,12 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
   for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
-  for (const auto& [face, why] : input.excluded()) progress.error("face " + std::to_string(face) + ": " + why);
   const std::clock_t start = std::clock();
   generate(run.session, input, map, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
-  const std::vector<FaceResult> meshed = faces_of(run.mesh);
-  failed.dump_of_mesh(run.session, run.mesh, meshed);
-  run.faces = with_excluded(meshed, input);
+  run.faces = faces_of(run.mesh);
+  failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 
 void write_all(const MeshRun& run, const std::vector<std::string>& paths) {

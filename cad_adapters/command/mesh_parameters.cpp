@@ -144,6 +144,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
   set(session, "CheckAdjacentEdges", 20);
   set(session, "flag", 1);
+  // One bad face in a thousand is no reason to have no mesh.
+  require(session, carreau_set_text(session, "failing_faces", "leave_out"));
   // Faces that are not sewn in the file; the others keep what the file says of them.
   if (const double tolerance = input.glue_tolerance(); tolerance > 0) {
     set(session, "glue_open", 1);

@@ -137,18 +137,6 @@ nlohmann::ordered_json interfaces_json(const std::vector<carreau_interface>& int
 
 }  // namespace
 
-std::vector<FaceResult> with_excluded(std::vector<FaceResult> faces, const CadInput& input) {
-  for (const auto& [ref, why] : input.excluded())
-    faces.push_back({.ref = ref,
-                     .status = CARREAU_FACE_FAILED,
-                     .triangles = 0,
-                     .name = input.face_name(ref),
-                     .why = why,
-                     .rgb = -1});
-  std::stable_sort(faces.begin(), faces.end(), [](const FaceResult& a, const FaceResult& b) { return a.ref < b.ref; });
-  return faces;
-}
-
 std::string failed_faces(const std::vector<FaceResult>& faces) {
   constexpr int listed = 20;
   const std::int64_t failed = count(faces, CARREAU_FACE_FAILED);

@@ -19,12 +19,9 @@ struct MeshRun {
   carreau_session* session = nullptr;
   carreau_mesh* mesh = nullptr;
   double seconds_reading = 0, seconds_writing = 0, seconds_processor = 0;
-  std::vector<FaceResult> faces;    ///< of with_excluded()
+  std::vector<FaceResult> faces;
   std::vector<std::string> dumped;  ///< files of faces that failed
 };
-
-/// Faces of the mesh and faces that are left out, by reference.
-std::vector<FaceResult> with_excluded(std::vector<FaceResult> faces, const CadInput& input);
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.
 std::string failed_faces(const std::vector<FaceResult>& faces);

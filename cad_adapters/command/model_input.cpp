@@ -112,18 +112,4 @@ std::vector<std::int32_t> ModelInput::curves(std::int32_t face) const {
   return refs;
 }
 
-bool ModelInput::exclude(int face, const std::string& why) {
-  FaceModel::Face* const found = model_.find(face);
-  if (found == nullptr || !found->excluded.empty()) return false;
-  found->excluded = why;
-  return true;
-}
-
-std::vector<std::pair<int, std::string>> ModelInput::excluded() const {
-  std::vector<std::pair<int, std::string>> list;
-  for (const FaceModel::Face& face : model_.faces)
-    if (!face.excluded.empty()) list.emplace_back(face.ref, face.excluded);
-  return list;
-}
-
 }  // namespace command

@@ -33,9 +33,6 @@ class ModelInput : public CadInput {
   [[nodiscard]] bool answers_face_sizes() const final { return false; }
   [[nodiscard]] double face_size(std::int32_t face) const final;
   [[nodiscard]] std::vector<std::int32_t> curves(std::int32_t face) const final;
-  bool exclude(int face, const std::string& why) final;
-  [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const final;
-  [[nodiscard]] std::string failure(int) const final { return ""; }
 
  protected:
   explicit ModelInput(FaceModel model) : model_(std::move(model)) {}

@@ -24,17 +24,15 @@ class BrepHost {
   BrepHost& operator=(const BrepHost&) = delete;
 
   /// Gives geometry and model to a session, which must not outlive this object. A status of carreau.h; the sentence is
-  /// in the session.
+  /// in the session. It names the face and says what OpenCASCADE did when a callback fails.
   carreau_status give_to(carreau_session* session);
 
   /// Size wanted on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
   /// size of its faces. Before give_to. False: there is no such face.
   bool set_face_size(const std::string& face, double size);
 
-  /// Leaves a face out of what give_to hands over, for a reason that excluded() tells again.
-  void exclude(int face, const std::string& why);
-  /// Faces that are left out: those that OpenCASCADE fails on, those whose data has an error or reaches too far, and
-  /// those of exclude(). Ascending, with the reason.
+  /// Faces that give_to leaves out of meshes: those that OpenCASCADE fails on, those whose data has an error or reaches
+  /// too far. Ascending, with the reason.
   [[nodiscard]] std::vector<std::pair<int, std::string>> excluded() const;
 
   /// Own name of a face, or that of the smallest part that holds it; "": none. Numbers from 1.

@@ -1,5 +1,6 @@
 #include "entity_check.h"
 
+#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESGeom_BSplineCurve.hxx>
 #include <IGESGeom_BSplineSurface.hxx>
 #include <IGESGeom_BoundedSurface.hxx>
@@ -14,6 +15,7 @@
 #include <StepGeom_BSplineSurfaceWithKnots.hxx>
 #include <StepGeom_BSplineSurfaceWithKnotsAndRationalBSplineSurface.hxx>
 #include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Direction.hxx>
 #include <StepGeom_Pcurve.hxx>
 #include <StepGeom_Surface.hxx>
@@ -169,6 +171,23 @@ std::string type_of(std::string name) {
   return longest;
 }
 
+std::string number(double x) {
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
+/// What OpenCASCADE 7.6 does not do with a placement that scales; "" for all other entities.
+std::string lost_scale(const Entity& entity) {
+  if (const auto place = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
+      !place.IsNull() && place->HasScale() && place->Scale() != 1)
+    return "its scale of " + number(place->Scale()) + " is not applied: what it places has the size of its part";
+  if (const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(entity);
+      !instance.IsNull() && instance->HasScaleFactor() && instance->ScaleFactor() != 1)
+    return "an instance with the scale " + number(instance->ScaleFactor()) + " is not placed";
+  return "";
+}
+
 /// Entities of which a faulty one is a part. A surface knows the images of edges on it, which belong to the edges:
 /// those have neighbours that are sound; a faulty image is a fault of its surface.
 std::vector<Entity> wholes_of(const Entity& entity, const Interface_Graph& graph) {
@@ -256,6 +275,7 @@ std::vector<std::string> EntityCheck::losses() const {
       blame(errors.Number(), label(model_->Value(errors.Number())) + ": " + why, faces, all);
   for (int i = 1; i <= model_->NbEntities(); ++i) {
     const Entity entity = model_->Value(i);
+    if (const std::string why = lost_scale(entity); !why.empty()) all.emplace(i, label(entity) + ": " + why);
     if (!is_face(entity)) continue;
     const auto found = faces.find(i);
     const bool made = !TransferBRep::ShapeResult(process, entity).IsNull();

@@ -19,8 +19,8 @@ class EntityCheck {
   /// that OpenCASCADE never sees them.
   explicit EntityCheck(const Handle(XSControl_WorkSession) & session);
 
-  /// After the translation: a sentence for each face of the file that no shape came from, and for each entity with an
-  /// error that no such face explains. "#123 ADVANCED_FACE: ...".
+  /// After the translation: a sentence for each face of the file that no shape came from, for each placement that
+  /// scales, and for each entity with an error that no such face explains. "#123 ADVANCED_FACE: ...".
   [[nodiscard]] std::vector<std::string> losses() const;
 
   /// After the translation: faces that were made although an entity below them has an error, with the sentence of it.

@@ -97,12 +97,6 @@ class CadMHost : public Cad {
   CallCounter counter_;
 };
 
-void check_status(std::int32_t status, const Where& where, const char* callback) {
-  if (status != 0)
-    throw CallbackError(where,
-                        std::string("the callback ") + callback + " returned the status " + std::to_string(status));
-}
-
 /// Of a C host.
 class CHost : public Cad {
  public:
@@ -175,9 +169,8 @@ class CHost : public Cad {
     const std::int32_t status = table_.surface_batch(face, static_cast<std::int64_t>(n), points.data(), order, array(0),
                                                      array(1), array(2), array(3), array(4), array(5), table_.user);
     if (status != 0)
-      throw CallbackError(Where{.face = face, .uv = uv.front()},
-                          "the callback surface_batch returned the status " + std::to_string(status) + " for " +
-                              std::to_string(n) + " points, of which this is the first");
+      fail(status, {.face = face, .uv = uv.front()}, "surface_batch",
+           " for " + std::to_string(n) + " points, of which this is the first");
     const auto vector = [&](std::size_t k, std::size_t i) {
       const double* const v = array(k);
       return v != nullptr ? Vec3{v[3 * i], v[3 * i + 1], v[3 * i + 2]} : Vec3{};
@@ -186,7 +179,18 @@ class CHost : public Cad {
       merge({vector(0, i), vector(1, i), vector(2, i), vector(3, i), vector(4, i), vector(5, i)}, want, out[i]);
   }
 
-  static std::optional<double> answer(std::int32_t status, double value, const Where& where, const char* callback) {
+  [[noreturn]] void fail(std::int32_t status, const Where& where, const char* callback, const std::string& more) const {
+    const char* const why =
+        table_.failure != nullptr && where.face != 0 ? table_.failure(where.face, table_.user) : nullptr;
+    throw CallbackError(where, std::string("the callback ") + callback + " returned the status " +
+                                   std::to_string(status) + more +
+                                   (why != nullptr && *why != '\0' ? " (" + std::string(why) + ")" : ""));
+  }
+  void check_status(std::int32_t status, const Where& where, const char* callback) const {
+    if (status != 0) fail(status, where, callback, "");
+  }
+
+  std::optional<double> answer(std::int32_t status, double value, const Where& where, const char* callback) const {
     if (status == no_answer_status) return {};
     check_status(status, where, callback);
     return answer_of(value);

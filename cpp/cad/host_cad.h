@@ -48,6 +48,8 @@ struct HostTable {
   std::int32_t (*point_size)(std::int32_t point, double* value, void* user) = nullptr;
   std::int32_t (*surface_radius)(std::int32_t face, double u, double v, double* value, void* user) = nullptr;
   std::int32_t (*curve_radius)(std::int32_t face, std::int32_t ic, double t, double* value, void* user) = nullptr;
+  /// Why a callback has just failed on the face, for people; nullptr or "": nothing to say.
+  const char* (*failure)(std::int32_t face, void* user) = nullptr;
 };
 
 /// What a size or radius holds before the host is asked (`hvide`, RT-0232 sec. 3.1.3): left there, it is no answer.

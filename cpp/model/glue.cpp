@@ -174,8 +174,15 @@ class Gluer {
 
 }  // namespace
 
+const FaceCurve* first_curve(const Model& model) {
+  for (const Face& face : model.faces)
+    if (face.left_out.empty()) return face.curves.empty() ? nullptr : &face.curves.front();
+  return nullptr;
+}
+
 bool needs_gluing(const Model& model) {
-  return !model.faces.empty() && !model.faces.front().curves.empty() && model.faces.front().curves.front().ref == 0;
+  const FaceCurve* const first = first_curve(model);
+  return first != nullptr && first->ref == 0;
 }
 
 std::vector<std::vector<char>> curves_to_glue(const Model& model) {

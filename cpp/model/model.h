@@ -45,6 +45,8 @@ struct Face {
   std::string name = {};  ///< for people and for files that hold names; empty: none
   std::int32_t rgb = -1;  ///< colour for files that hold colours, 0xRRGGBB (sRGB); -1: none
   int line = 0;
+  /// Why the face is not meshed: nothing is asked of its geometry, and its curves may break any rule; empty: it is.
+  std::string left_out = {};
 };
 
 /// The rank by which the host knows a curve (index in Face::curves).

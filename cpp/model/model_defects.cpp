@@ -18,6 +18,7 @@ class ModelChecker {
     if (model_.faces.empty()) add({.file = model_.source}, "the model has no face");
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       check_face(f);
+      if (!model_.faces[f].left_out.empty()) continue;
       check_orientation(f);
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
         check_type(f, c);
@@ -90,7 +91,7 @@ class ModelChecker {
     if (curve.ref == 0 && curve.end1 == 0 && curve.end2 == 0) return;
     add(place_of(model_, f, c), "references (" + references(curve) +
                                     ") are mixed with zero ones: the first curve of the model has the reference 0" +
-                                    of_line(model_.faces[0].curves[0].line) + ", so that all have to be found");
+                                    of_line(first_curve(model_)->line) + ", so that all have to be found");
   }
 
   bool check_positive(std::size_t f, std::size_t c) {

@@ -70,19 +70,20 @@ class Splitter {
     const Entry& entry = entries_[k];
     const Box box = box_of(entry.trace);
     const double length = trace_length(entry.trace);
+    const double reach = eps_ + trace_deviation(entry.trace);  // an arc bulges off its trace by more than eps, say
     std::map<std::size_t, CurveSplit> by_set;
     std::vector<std::size_t> near;
-    const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x - eps_, std::size_t{0}});
-    for (auto it = from; it != by_x_.end() && it->first <= box.high.x + eps_; ++it) near.push_back(it->second);
+    const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x - reach, std::size_t{0}});
+    for (auto it = from; it != by_x_.end() && it->first <= box.high.x + reach; ++it) near.push_back(it->second);
     std::sort(near.begin(), near.end());  // of several ends as near as one another the first one cuts
     for (const std::size_t i : near) {
       const Entry& other = entries_[i / 2];
       const Vec3 end = i % 2 == 0 ? other.trace.front() : other.trace.back();
-      if (other.face == entry.face || !box.holds(end, eps_)) continue;
+      if (other.face == entry.face || !box.holds(end, reach)) continue;
       const std::size_t set = points_.find(i);
       if (set == points_.find(2 * k) || set == points_.find(2 * k + 1)) continue;
       const TracePlace foot = nearest_on_trace(entry.trace, end);
-      if (foot.distance > eps_ || foot.arc <= eps_ || foot.arc >= length - eps_) continue;
+      if (foot.distance > reach || foot.arc <= eps_ || foot.arc >= length - eps_) continue;
       const auto [place, is_new] =
           by_set.try_emplace(set, CurveSplit{entry.face, entry.curve, foot.arc, end, foot.distance});
       if (!is_new && foot.distance < place->second.gap)

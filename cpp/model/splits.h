@@ -13,10 +13,11 @@ struct CurveSplit {
   std::size_t face = 0, curve = 0;  ///< indices of the curve that is to be cut
   double arc = 0;                   ///< usual length along its trace, from its start
   Vec3 end;                         ///< the end that lies there
-  double gap = 0;                   ///< distance of both, at most eps
+  double gap = 0;                   ///< distance of the end from the trace
 };
 
-/// By face, curve and arc. Ends that are one (merged within eps) cut a curve once, at their nearest. Nothing is cut
+/// By face, curve and arc: ends within eps of a curve, as far as its trace can tell; the trace may be off the curve by
+/// more. Ends that are one (merged within eps) cut a curve once, at their nearest. Nothing is cut
 /// within eps of its own ends. Internal curves cut and are cut like boundaries. Only curves_to_glue() take part. Throws
 /// InvalidArgument when traces are missing.
 std::vector<CurveSplit> find_splits(const Model& model, const CurveTraces& traces, double eps);

@@ -45,7 +45,7 @@ struct Topology {
 /// model was read from a file; empty when the model is sound. Before gluing (needs_gluing) all references must be zero;
 /// else all are positive, ends agree between the curves of one reference and every boundary closes by its references.
 /// Seams (a boundary reference twice in one face) and curves that return to their starting point (closed, degenerate)
-/// are legal, although the manual forbade them.
+/// are legal, although the manual forbade them. Of faces that are left out only the references are looked at.
 std::vector<std::string> find_model_defects(const Model& model);
 /// The same with their places, to leave a face out.
 struct ModelDefect {
@@ -58,6 +58,8 @@ std::vector<ModelDefect> list_model_defects(const Model& model);
 /// Polylines that stand for the curves in space, from t = a to t = b: traces[face][curve], at least two points each.
 using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
 
+/// That of the first face that is not left out; nullptr: it has none. It decides whether references are known.
+const FaceCurve* first_curve(const Model& model);
 /// True when references are to be found by gluing: the very first curve has reference 0.
 bool needs_gluing(const Model& model);
 
@@ -81,15 +83,15 @@ struct GlueReport {
 
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
-/// distance is below eps_glue plus what their traces may be off the curves. Two sides of one face become a seam when they agree a thousand times better (HDR's two
-/// tolerances), as far as the traces can tell. A curve that lies within eps_glue of a point keeps a reference of its
-/// own; its ends become one. Internal points keep their references. Ends are numbered 2k - 1 and 2k for the k-th curve
-/// of the model, curves k; what is merged takes the smallest number (the numbering of RT-0232 sec. 6.1, HDR fig. 4.18).
-/// `remarks` (may be null) receives a sentence for each curve whose ends are merged although they differ by more than
-/// rounding; `report` (may be null) what was found. Curves that overlap in part only are one when they have been cut
-/// first (model/splits.h). References that the model has are kept: only what curves_to_glue() tells is compared, and
-/// what becomes one takes the reference of its first curve or end. Throws InvalidArgument when eps_glue is not positive
-/// or traces are missing.
+/// distance is below eps_glue plus what their traces may be off the curves. Two sides of one face become a seam when
+/// they agree a thousand times better (HDR's two tolerances), as far as the traces can tell. A curve that lies within
+/// eps_glue of a point keeps a reference of its own; its ends become one. Internal points keep their references. Ends
+/// are numbered 2k - 1 and 2k for the k-th curve of the model, curves k; what is merged takes the smallest number (the
+/// numbering of RT-0232 sec. 6.1, HDR fig. 4.18). `remarks` (may be null) receives a sentence for each curve whose ends
+/// are merged although they differ by more than rounding; `report` (may be null) what was found. Curves that overlap in
+/// part only are one when they have been cut first (model/splits.h). References that the model has are kept: only what
+/// curves_to_glue() tells is compared, and what becomes one takes the reference of its first curve or end. Throws
+/// InvalidArgument when eps_glue is not positive or traces are missing.
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr,
            GlueReport* report = nullptr);
 

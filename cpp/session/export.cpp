@@ -225,8 +225,11 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
   const bool plane = option == "allsurf2d" || option == "onesurf2d", whole = option.empty() || option == "allsurf3d";
   if (!plane && !whole && option != "onesurf3d") throw InvalidArgument("export: unknown option \"" + option + "\"");
   if (option == "onesurf2d")
-    if (const std::size_t f = face_of_reference(source.mesh, face); source.mesh.faces[f].triangles.empty())
+    if (const std::size_t f = face_of_reference(source.mesh, face); source.mesh.faces[f].triangles.empty()) {
+      if (!source.model.faces[f].left_out.empty())
+        throw InvalidArgument(Where{.face = face}, "the face was left out of the mesh: nothing is known of its domain");
       return boundary_in_the_plane(source, f);
+    }
   FlatMesh flat;
   FlatSources sources;
   if (whole) {

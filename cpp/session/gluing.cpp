@@ -24,7 +24,9 @@ bool cut_once(Model& model, ModelSupports& supports, Cad& host, const Gluing& op
     const double a = support.t.front(), b = support.t.back();
     const int face = model.faces[split.face].ref, ic = static_cast<int>(split.curve) + 1;
     const double guess = support.t_at_arc(split.arc);
-    const double t = refine_t(cad, face, ic, support, guess, a, b, split.end).t;
+    const CurvePoint foot = refine_t(cad, face, ic, support, guess, a, b, split.end);
+    if (split.gap > options.eps && foot.distance > options.eps) continue;  // it is near the trace only
+    const double t = foot.t;
     auto& cut = cuts.try_emplace({split.face, split.curve}, CurveCut{split.face, split.curve, a, b, {}}).first->second;
     const double last = cut.t.empty() ? a : cut.t.back();
     if (t > last && t < b) cut.t.push_back(t);
@@ -94,7 +96,7 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
   };
   for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
   }
-  report.open.clear();
+  report = {};
   Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report);
   tell(glued, report, count_curves(cut) - count_curves(model), monitor);
   return glued;
@@ -124,7 +126,10 @@ std::vector<Interface> list_interfaces(const Model& model, const Topology& topol
     interfaces.push_back(entry);
   }
   for (const GlueReport::Pair& pair : report.pairs) {
-    Interface& entry = interfaces[static_cast<std::size_t>(topology.curve_of[pair.a.face][pair.a.curve])];
+    // A face that was left out since has no curves.
+    const GlueReport::Place& known = model.faces[pair.a.face].curves.empty() ? pair.b : pair.a;
+    if (model.faces[known.face].curves.empty()) continue;
+    Interface& entry = interfaces[static_cast<std::size_t>(topology.curve_of[known.face][known.curve])];
     entry.glued = true;
     entry.gap = std::max(entry.gap, pair.gap);
   }

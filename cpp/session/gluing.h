@@ -33,7 +33,7 @@ struct Interface {
 /// Gives references to a model without any: cuts curves where curves of other faces end, then glues (model/splits.h,
 /// model/topology.h). A model with references keeps them; what curves_to_glue() tells is compared. `supports` are those
 /// of the model, before and after. Tells what it has found: a summary, and in detail each pair with its gap and each
-/// curve that stays open. `report` keeps the pairs of earlier calls. `remarks`: as glue(). Throws what the host throws.
+/// curve that stays open. `remarks`: as glue(). Throws what the host throws.
 Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                       std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 

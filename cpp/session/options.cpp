@@ -22,6 +22,8 @@ NarrowFaces narrow_faces_of(const std::string& word) {
 
 }  // namespace
 
+bool leaves_out(const Parameters& parameters) { return parameters.text("failing_faces") == "leave_out"; }
+
 int threads_of(const Parameters& parameters) {
   const int threads = parameters.integer("threads");
   return threads != 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -61,6 +63,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.coef_rectangle = parameters.real("CoefRectangle");
   options.narrow_faces = narrow_faces_of(parameters.text("narrow_faces"));
   options.narrow_ratio = parameters.real("narrow_ratio");
+  options.failing_faces_alone = leaves_out(parameters);
   options.frontal = parameters.integer("frontal") != 0;
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);

@@ -15,6 +15,7 @@
 #include "session/export.h"
 #include "session/field_files.h"
 #include "session/gluing.h"
+#include "session/left_out.h"
 #include "session/messages.h"
 #include "session/options.h"
 #include "support/format.h"
@@ -71,6 +72,16 @@ struct Session::State {
     return all;
   }
 
+  /// Faces that were left out of gluing stay as they are, and only the host's own reasons to leave them out are kept.
+  void keep_glued(const Model& part, const GlueReport& found) {
+    Model whole = part;
+    give_back(model, whole);
+    for (std::size_t f = 0; f < whole.faces.size(); ++f) whole.faces[f].left_out = model.faces[f].left_out;
+    model = std::move(whole);
+    glued.pairs.insert(glued.pairs.end(), found.pairs.begin(), found.pairs.end());
+    glued.open = found.open;
+  }
+
   void check_model(const Model& candidate) const {
     const std::vector<ModelDefect> defects = list_model_defects(candidate);
     if (defects.empty()) return;
@@ -112,7 +123,11 @@ void write_glued(const Model& model, std::vector<std::string>& remarks) {
   const bool has_parts = std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
     return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& c) { return c.part_of != 0; });
   });
-  if (has_parts) {
+  const bool whole =
+      std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.left_out.empty(); });
+  if (!whole) {
+    remarks.push_back(model.source + ".new is not written: a face was left out");
+  } else if (has_parts) {
     remarks.push_back(model.source +
                       ".new is not written: curves were cut where others end, which its layout cannot "
                       "say; keep the file without references");
@@ -126,6 +141,25 @@ Delivered measure(const Meshed& meshed, const CompositeResult& result, Monitor& 
   PartCad cad(whole_cad, parts_of(meshed.model));
   set_parameter_boxes(meshed.model, meshed.supports, cad);
   return measure_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
+}
+
+/// The model as it is meshed, and its supports. Faces of `known` whose curves cannot be had are left out when that is
+/// wanted.
+std::pair<Model, ModelSupports> supports_of(Model& known, Cad& whole_cad, double angle_smo,
+                                            const Parameters& parameters, Monitor& monitor) {
+  for (;;) {
+    Model given = without_left_out(known);
+    if (std::none_of(given.faces.begin(), given.faces.end(), [](const Face& face) { return face.left_out.empty(); }))
+      throw DomainError("no face could be meshed: " + given.faces.front().left_out);
+    PartCad cad(whole_cad, parts_of(given));
+    std::vector<std::string> failures;
+    ModelSupports supports = build_supports(given, cad, angle_smo, threads_of(parameters), monitor,
+                                            leaves_out(parameters) ? &failures : nullptr);
+    bool complete = true;
+    for (std::size_t f = 0; f < failures.size(); ++f)
+      if (!failures[f].empty()) known.faces[f].left_out = failures[f], complete = false;
+    if (complete) return {std::move(given), std::move(supports)};
+  }
 }
 
 }  // namespace
@@ -150,6 +184,7 @@ const BackgroundReport& Session::background_report() const noexcept { return sta
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
 
 void Session::set_model(Model model) {
+  if (leaves_out(state_->parameters)) leave_out_defects(model);
   state_->check_model(model);
   state_->model = std::move(model);
   state_->glued = {};
@@ -197,23 +232,37 @@ void Session::make_mesh() {
   s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  Model known = s.model;
+  for (;;) try {
+      make_mesh_of(known);
+      return;
+    } catch (const Error& error) {
+      if (!leaves_out(s.parameters) || !leave_out(known, error)) throw;
+      s.monitor.message(Level::warning, "meshing again without face " + std::to_string(error.where().face));
+      // What was glued stays so.
+      for (std::size_t f = 0; f < known.faces.size(); ++f) known.faces[f].curves = s.model.faces[f].curves;
+    }
+}
+
+// Leaves out faces of `known` whose curves cannot be had, when that is wanted.
+void Session::make_mesh_of(Model& known) {
+  State& s = *state_;
   CheckedCad whole_cad(*s.cad);
   s.monitor.progress(Phase::model, 0, 0);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
-  PartCad known_cad(whole_cad, parts_of(s.model));
-  ModelSupports supports = build_supports(s.model, known_cad, angle_smo, threads_of(s.parameters), s.monitor);
+  auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
-  set_parameter_boxes(s.model, supports, whole_cad);
-  Model model = s.model;
+  set_parameter_boxes(model, supports, whole_cad);
   std::vector<std::string> remarks;
   if (const bool all = needs_gluing(model); all || s.parameters.integer("glue_open") != 0) {
     const double eps_glue = s.parameters.real("eps_glue", supports.diag);
-    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .angle_smo = angle_smo}, remarks, s.glued,
+    GlueReport found;
+    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .angle_smo = angle_smo}, remarks, found,
                             s.monitor);
     s.check_model(model);
     if (all && s.model_from_file) write_glued(model, remarks);
-    s.model = model;
+    s.keep_glued(model, found);
   }
   PartCad cad(whole_cad, parts_of(model));
   const CurveTraces traces = traces_of(supports);

@@ -40,7 +40,8 @@ class Session {
   void set_background(std::shared_ptr<BackgroundField> background);
   /// How the background mesh of the last make_mesh() was used; zero when there was none.
   [[nodiscard]] const BackgroundReport& background_report() const noexcept;
-  /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken.
+  /// Checks the rules of RT-0232 sec. 3.2; throws InvalidModel and keeps the old model when one is broken. Faces that
+  /// break one are left out when the parameter failing_faces says so.
   void set_model(Model model);
   void load_pardom(const std::string& path);
   void clear_model() noexcept;  ///< the mesh made of it stays
@@ -51,7 +52,9 @@ class Session {
 
   /// `call inimesh`: supports, sizes, curves, domains, patches, assembly. An earlier mesh is kept when this throws.
   /// References that are zero are found first (gluing); the glued model replaces the model, and is written to
-  /// `<source>.new` when the model was read from a file.
+  /// `<source>.new` when the model was read from a file. Faces that are left out are in the mesh, as failed. When the
+  /// parameter failing_faces is "leave_out" those on which the host fails are left out of this run, and what was made
+  /// with them is made again; DomainError when none is left.
   void make_mesh();
 
   /// Throws InvalidArgument before the first make_mesh().
@@ -103,6 +106,7 @@ class Session {
   void read_env(const std::string& path);
 
  private:
+  void make_mesh_of(Model& known);
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
   std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);
   [[nodiscard]] bool has_model_from_host() const noexcept;

@@ -60,6 +60,10 @@ class Refiner {
     changed_.assign(n, 1);
     crossable_.assign(n, 1);
     left_out_.assign(n, 0);
+    for (std::size_t f = 0; f < n; ++f) {
+      result_.failure[f] = model_.faces[f].left_out;
+      if (!result_.failure[f].empty()) left_out_[f] = 1;
+    }
     for (const NarrowFace& face : narrow_.strips) left_out_[face.face] = 1;
     if (!narrow_.vanishing.curve.empty())
       for (const NarrowFace& face : narrow_.points) left_out_[face.face] = 1;

@@ -39,6 +39,8 @@ struct CompositeOptions {
   /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
   /// for.
   int proximity = 0;
+  /// A face that the host fails on while its patch is meshed fails alone; false: its CallbackError comes out.
+  bool failing_faces_alone = false;
   bool frontal = true;
   std::int64_t max_triangles = 0;  ///< 0: by memory
   /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
@@ -82,8 +84,10 @@ struct ModelSupports {
   std::vector<std::vector<CurveSupport>> of_face;  ///< [face][curve]
   double diag = 0;
 };
-/// `threads`: at most; a host that is not re-entrant is called from the caller's thread only.
-ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int threads, Monitor& monitor);
+/// `threads`: at most; a host that is not re-entrant is called from the caller's thread only. `failures`: gets, by
+/// face, why the host failed on its curves, which are then not complete, or ""; null: the CallbackError comes out.
+ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int threads, Monitor& monitor,
+                             std::vector<std::string>* failures = nullptr);
 CurveTraces traces_of(const ModelSupports& supports);
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,

@@ -61,6 +61,10 @@ void FaceJob::step(Monitor& monitor) {
     const std::string what = error.what();
     failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
     next_ = Step::none;
+  } catch (const CallbackError& error) {
+    if (!options_.failing_faces_alone || error.where().face != input_.ref) throw;
+    failure_ = error.what();
+    next_ = Step::none;
   }
 }
 

@@ -6,8 +6,10 @@
 
 namespace carreau {
 
-ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int threads, Monitor& monitor) {
+ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int threads, Monitor& monitor,
+                             std::vector<std::string>* failures) {
   ModelSupports supports;
+  if (failures != nullptr) failures->assign(model.faces.size(), "");
   supports.of_face.resize(model.faces.size());
   const auto build = [&](std::size_t f, Monitor& of_task) {
     for (int c = 0; c < static_cast<int>(model.faces[f].curves.size()); ++c) {
@@ -15,7 +17,15 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
       supports.of_face[f].push_back(build_support(cad, model.faces[f].ref, c + 1, {.angle_deg = angle_smo}));
     }
   };
-  run_each(model.faces.size(), !cad.reentrant(), threads, build, monitor);
+  const auto build_or_say_why = [&](std::size_t f, Monitor& of_task) {
+    try {
+      build(f, of_task);
+    } catch (const CallbackError& error) {
+      if (failures == nullptr) throw;
+      (*failures)[f] = error.what();
+    }
+  };
+  run_each(model.faces.size(), !cad.reentrant(), threads, build_or_say_why, monitor);
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec3 low{far, far, far}, high{-far, -far, -far};
   for (const auto& of_face : supports.of_face)

@@ -47,17 +47,19 @@ TEST(Faults, BecomeTheErrorOfTheFace) {
       carreau_occ::BrepHost host(file_of(adapters::odd_cylinder([&](double u, double v) {
         if (adapters::is_inside(u, v)) fault.happens();
       })));
-      const auto run = [&] {
-        return adapters::mesh_and_measure(host, 0.2,
-                                          [&](carreau_session* s) { carreau_set_integer(s, "threads", threads); });
+      const auto run = [&](const char* failing_faces) {
+        return adapters::mesh_and_measure(host, 0.2, [&](carreau_session* s) {
+          carreau_set_integer(s, "threads", threads);
+          carreau_set_text(s, "failing_faces", failing_faces);
+        });
       };
-      const adapters::MeasuredMesh failed = run();
+      const adapters::MeasuredMesh failed = run("stop");
       EXPECT_EQ(failed.status, CARREAU_ERR_CALLBACK);
       EXPECT_NE(failed.error.find("face 1"), std::string::npos) << failed.error;
       EXPECT_NE(host.failure(1).find(fault.name), std::string::npos) << host.failure(1);
-      host.exclude(1, host.failure(1));
-      const adapters::MeasuredMesh others = run();
-      EXPECT_EQ(others.trouble(false), "");
+      const adapters::MeasuredMesh others = run("leave_out");
+      EXPECT_EQ(others.status, CARREAU_ERR_PARTIAL);
+      EXPECT_EQ(others.failed.size(), 1U);
       EXPECT_NEAR(others.quality.area, 2 * std::acos(-1.0), 0.05);  // the two lids
     }
 }
@@ -74,7 +76,9 @@ TEST(Faults, OnTheBoundaryLeaveTheFaceOutAtOnce) {
     EXPECT_NE(host.excluded().front().second.find(fault.name), std::string::npos);
     EXPECT_NEAR(host.diagonal(), 2 * std::sqrt(3.0), 1e-6);
     const adapters::MeasuredMesh others = adapters::mesh_and_measure(host, 0.2);
-    EXPECT_EQ(others.trouble(false), "");
+    EXPECT_EQ(others.status, CARREAU_ERR_PARTIAL);
+    ASSERT_EQ(others.failed.size(), 1U);
+    EXPECT_NE(others.failed.front().find(fault.name), std::string::npos);
     EXPECT_NEAR(others.quality.area, 2 * std::acos(-1.0), 0.05);  // the two lids
   }
 }

@@ -89,30 +89,24 @@ TEST(BrepHost, ExceptionsOfOpenCascadeNameTheFace) {
       if (adapters::is_inside(u, v)) throw Standard_NumericError("on purpose");
     });
     carreau_occ::BrepHost host(file_of(solid));
-    const auto run = [&] {
-      return adapters::mesh_and_measure(host, 0.2,
-                                        [&](carreau_session* s) { carreau_set_integer(s, "threads", threads); });
+    const auto run = [&](const char* failing_faces) {
+      return adapters::mesh_and_measure(host, 0.2, [&](carreau_session* s) {
+        carreau_set_integer(s, "threads", threads);
+        carreau_set_text(s, "failing_faces", failing_faces);
+      });
     };
-    const adapters::MeasuredMesh failed = run();
+    const adapters::MeasuredMesh failed = run("stop");
     EXPECT_EQ(failed.status, CARREAU_ERR_CALLBACK);
     EXPECT_NE(failed.error.find("face 1"), std::string::npos) << failed.error;
     EXPECT_NE(host.failure(1).find("Standard_NumericError: on purpose"), std::string::npos) << host.failure(1);
     EXPECT_EQ(host.failure(2), "");
-    host.exclude(1, host.failure(1));
-    const adapters::MeasuredMesh others = run();
-    EXPECT_EQ(others.trouble(false), "");
+    EXPECT_NE(failed.error.find("Standard_NumericError: on purpose"), std::string::npos) << failed.error;
+    const adapters::MeasuredMesh others = run("leave_out");
+    EXPECT_EQ(others.status, CARREAU_ERR_PARTIAL);
+    ASSERT_EQ(others.failed.size(), 1U);
+    EXPECT_NE(others.failed.front().find("Standard_NumericError: on purpose"), std::string::npos);
     EXPECT_NEAR(others.quality.area, 2 * std::acos(-1.0), 0.05);  // the two lids
   }
-}
-
-TEST(BrepHost, AFaceLeftOutLeavesTheOthers) {
-  carreau_occ::BrepHost host(file_of(BRepPrimAPI_MakeBox(1, 1, 1).Shape()));
-  host.exclude(3, "a reason");
-  ASSERT_EQ(host.excluded(), (std::vector<std::pair<int, std::string>>{{3, "a reason"}}));
-  const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.2);
-  EXPECT_EQ(m.trouble(false), "");
-  EXPECT_NEAR(m.quality.area, 5, 1e-12);
-  EXPECT_EQ(m.open_edges, 4 * 5);
 }
 
 TEST(BrepHost, SizesOfFacesHoldOnTheirEdges) {

@@ -3,22 +3,34 @@
 #include <shape_file.h>
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepToIGES_BREntity.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <IGESBasic_Group.hxx>
+#include <IGESBasic_SingularSubfigure.hxx>
+#include <IGESBasic_SubfigureDef.hxx>
+#include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
+#include <IGESData_HArray1OfIGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS_Compound.hxx>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <gp_Ax1.hxx>
 #include <gp_Ax2.hxx>
 #include <gp_Trsf.hxx>
+#include <gp_XYZ.hxx>
+#include <iterator>
 #include <numbers>
 
 #include "measured_mesh.h"
@@ -140,6 +152,156 @@ TEST(Placements, FacesThatSolidsShareAreMeshedOnce) {
   EXPECT_EQ(m.crowded_edges, 4 * 13);  // the middle edge, and four from its ends each, to four edges' length each
   EXPECT_NEAR(m.quality.area, 20, 1e-9);
   std::filesystem::remove(path);
+}
+
+/// An IGES file of entities that the caller builds on a writer's model.
+template <typename Build>
+std::string iges_file(const std::string& name, Build&& build) {
+  IGESControl_Controller::Init();
+  const std::string path = path_of(name);
+  IGESControl_Writer writer("MM", 0);
+  BRepToIGES_BREntity tool;
+  tool.SetModel(writer.Model());
+  build(writer, tool);
+  writer.ComputeModel();
+  EXPECT_TRUE(writer.Write(path.c_str()));
+  return path;
+}
+
+Handle(IGESData_HArray1OfIGESEntity) list_of(const std::vector<Handle(IGESData_IGESEntity)>& entities) {
+  const Handle(IGESData_HArray1OfIGESEntity) list =
+      new IGESData_HArray1OfIGESEntity(1, static_cast<int>(entities.size()));
+  for (std::size_t i = 0; i < entities.size(); ++i) list->SetValue(static_cast<int>(i + 1), entities[i]);
+  return list;
+}
+
+Handle(IGESBasic_SubfigureDef)
+    subfigure(int depth, const char* name, const std::vector<Handle(IGESData_IGESEntity)>& entities) {
+  const Handle(IGESBasic_SubfigureDef) definition = new IGESBasic_SubfigureDef;
+  definition->Init(depth, new TCollection_HAsciiString(name), list_of(entities));
+  return definition;
+}
+
+Handle(IGESBasic_SingularSubfigure) instance(const Handle(IGESBasic_SubfigureDef) & of, double x, double scale = 1) {
+  const Handle(IGESBasic_SingularSubfigure) placed = new IGESBasic_SingularSubfigure;
+  placed->Init(of, gp_XYZ(x, 0, 0), scale != 1, scale);
+  return placed;
+}
+
+struct Read {
+  carreau_occ::ShapeFile file;
+  adapters::MeasuredMesh mesh;
+};
+Read read_and_mesh(const std::string& path, double size) {
+  Read read{carreau_occ::read_shape(path), {}};
+  carreau_occ::BrepHost host(read.file);
+  read.mesh = adapters::mesh_and_measure(host, size, [&](carreau_session* session) {
+    if (host.glue_tolerance() > 0) {
+      carreau_set_integer(session, "glue_open", 1);
+      carreau_set_real(session, "eps_glue", host.glue_tolerance());
+    }
+  });
+  std::filesystem::remove(path);
+  return read;
+}
+
+// A pair of blocks, twice: entities 308 and 408 on two levels.
+TEST(Placements, OfSubfiguresAreThoseOfIges) {
+  const std::string path = iges_file("subfigures.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
+    const auto block = subfigure(0, "BLOCK", {tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape())});
+    const auto pair = subfigure(1, "PAIR", {instance(block, 0), instance(block, 5)});
+    for (const double x : {0., 20.}) writer.AddEntity(instance(pair, x));
+  });
+  const Read read = read_and_mesh(path, 0.5);
+  EXPECT_TRUE(read.file.losses.empty()) << read.file.losses.front();
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  EXPECT_NEAR(read.mesh.quality.area, 4 * 22, 1e-9);
+  EXPECT_NEAR(read.mesh.volume, 4 * 6, 1e-9);
+  double far = 0;
+  for (const auto& p : read.mesh.vertices) far = std::max(far, p[0]);
+  EXPECT_NEAR(far, 26, 1e-9);
+}
+
+TEST(Placements, OfSubfiguresThatScaleAreTold) {
+  const std::string path = iges_file("scaled.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
+    const auto block = subfigure(0, "BLOCK", {tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape())});
+    writer.AddEntity(instance(block, 0));
+    writer.AddEntity(instance(block, 10, 2));
+  });
+  const Read read = read_and_mesh(path, 0.5);
+  ASSERT_EQ(read.file.losses.size(), 1U);
+  EXPECT_NE(read.file.losses.front().find("an instance with the scale 2 is not placed"), std::string::npos)
+      << read.file.losses.front();
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  EXPECT_NEAR(read.mesh.quality.area, 22, 1e-9);
+}
+
+TEST(Placements, GroupsOfIgesAreWhole) {
+  const std::string path = iges_file("group.igs", [](IGESControl_Writer& writer, BRepToIGES_BREntity& tool) {
+    const Handle(IGESBasic_Group) group = new IGESBasic_Group;
+    group->Init(list_of({tool.TransferShape(BRepPrimAPI_MakeBox(1, 2, 3).Shape()),
+                         tool.TransferShape(BRepPrimAPI_MakeBox(gp_Pnt(5, 0, 0), 1, 1, 1).Shape())}));
+    writer.AddEntity(group);
+  });
+  const Read read = read_and_mesh(path, 0.5);
+  EXPECT_TRUE(read.file.losses.empty()) << read.file.losses.front();
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  EXPECT_NEAR(read.mesh.quality.area, 22 + 6, 1e-9);
+}
+
+TEST(Placements, ThatScaleAreThoseOfBrep) {
+  gp_Trsf twice;
+  twice.SetScale(gp_Pnt(1, 0, 0), 2);
+  const TopoDS_Shape post = placed(BRepPrimAPI_MakeCylinder(1, 4).Shape(), twice);
+  const std::string path = path_of("scaled.brep");
+  ASSERT_TRUE(BRepTools::Write(post, path.c_str()));
+  const Read read = read_and_mesh(path, 0.3);
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  EXPECT_NEAR(read.mesh.volume / (8 * 4 * std::numbers::pi), 1, 0.01);
+  double low = 0;
+  for (const auto& p : read.mesh.vertices) low = std::min(low, p[0]);
+  EXPECT_NEAR(low, -3, 0.02);
+}
+
+// OpenCASCADE's writer has no placement that scales: one of its own becomes one.
+TEST(Placements, ThatScaleAreToldOfStep) {
+  const TopoDS_Shape block = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
+  gp_Trsf move;
+  move.SetTranslation(gp_Vec(10, 0, 0));
+  const std::string path = path_of("scaled.step");
+  STEPControl_Writer writer;
+  ASSERT_EQ(writer.Transfer(together({block, placed(block, move)}), STEPControl_AsIs), IFSelect_RetDone);
+  ASSERT_EQ(writer.Write(path.c_str()), IFSelect_RetDone);
+  std::ifstream in(path);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  in.close();
+  const std::string rigid = "ITEM_DEFINED_TRANSFORMATION(";
+  const std::size_t from = text.rfind(rigid);
+  ASSERT_NE(from, std::string::npos);
+  const std::size_t to = text.find(';', from);
+  text.replace(from, to - from,
+               "CARTESIAN_TRANSFORMATION_OPERATOR_3D('','','',$,$,#900001,2.,$);\n"
+               "#900001 = CARTESIAN_POINT('',(10.,0.,0.))");
+  std::ofstream(path) << text;
+  const Read read = read_and_mesh(path, 0.5);
+  ASSERT_EQ(read.file.losses.size(), 1U);
+  EXPECT_NE(read.file.losses.front().find("its scale of 2 is not applied"), std::string::npos)
+      << read.file.losses.front();
+  EXPECT_EQ(read.mesh.trouble(true), "");
+}
+
+// What no face holds is not meshed, and shares of the diagonal do not count it.
+TEST(Placements, EdgesOfNoFaceChangeNothing) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  const TopoDS_Shape far = BRepBuilderAPI_MakeEdge(gp_Pnt(5, 5, 5), gp_Pnt(90, 90, 90)).Edge();
+  const std::string path = path_of("loose.brep");
+  ASSERT_TRUE(BRepTools::Write(together({box, far}), path.c_str()));
+  const carreau_occ::ShapeFile file = carreau_occ::read_shape(path);
+  EXPECT_NEAR(carreau_occ::BrepHost(file).diagonal(), std::sqrt(3.0), 1e-6);
+  EXPECT_TRUE(carreau_occ::BrepHost(file).is_closed());
+  const Read read = read_and_mesh(path, 0.25);
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  EXPECT_NEAR(read.mesh.quality.area, 6, 1e-12);
 }
 
 }  // namespace

@@ -2,12 +2,13 @@
 """Meshes CAD files by Gmsh's Frontal-Delaunay and by `carreau mesh`, in one run, and prints a table of speed and quality.
 
     apt-get install gmsh python3-gmsh python3-numpy
-    python3 tests/bench/compare_gmsh_cad.py CARREAU FILE... [--share 50]... [--repeat N] [--json FILE]
+    python3 tests/bench/compare_gmsh_cad.py CARREAU FILE... [--share 50]... [--repeat N] [--same-count] [--json FILE]
 
 Each size is the diagonal of the file's box divided by a share (100 by default). Times are those of the processor, one
 thread, the best of N runs (3 by default): of surface meshing alone (Gmsh's generate(1) and generate(2); for Carreau all that
 is between reading and writing), and of the whole processes `gmsh` and `carreau mesh`, which read the file and write a binary
-mesh. Quality is 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6). Exit status 1 when a file is worse than Gmsh's in
+mesh. With --same-count the size of `carreau mesh` is moved until it has as many triangles as Gmsh (Gmsh gives small circles
+seven edges, whatever the size). Quality is 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6). Exit status 1 when a file is worse than Gmsh's in
 anything that is asked: a failure that Gmsh does not have, speed below, mean or worst quality below, or a geometric mean of
 the ratios of speed in surface meshing below 5.
 """
@@ -71,10 +72,30 @@ def by_carreau(program, path, size, folder):
             "failed": sum(face["status"] == "failed" for face in summary["faces"]), "error": ""}
 
 
+def size_of_count(program, path, size, wanted, folder):
+    """A size with which Carreau makes as many triangles as wanted, to 1 % where counts allow it."""
+    low, high = 0.0, math.inf  # sizes with too many and too few triangles
+    best = (math.inf, size)
+    for _ in range(12):
+        row = by_carreau(program, path, size, folder)
+        if row["error"]:
+            return size
+        ratio = row["triangles"] / wanted
+        best = min(best, (abs(math.log(ratio)), size))
+        if best[0] < 0.01:
+            break
+        low, high = (max(low, size), high) if ratio > 1 else (low, min(high, size))
+        guess = size * math.sqrt(ratio)
+        size = guess if low < guess < high else math.sqrt(low * high) if low > 0 and high < math.inf else guess
+    return best[1]
+
+
 def compare(options, path, size):
     """Rows of both, and what is worse in ours."""
     with tempfile.TemporaryDirectory() as folder:
         theirs = [{**by_gmsh(path, size), "whole": whole_gmsh(path, size, folder)} for _ in range(options.repeat)]
+        if options.same_count:
+            size = size_of_count(options.carreau, path, size, theirs[0]["triangles"], folder)
         ours = [by_carreau(options.carreau, path, size, folder) for _ in range(options.repeat)]
     if ours[0]["error"]:
         return theirs[0], ours[0], [ours[0]["error"]]
@@ -103,6 +124,7 @@ def main():
     parser.add_argument("files", nargs="+")
     parser.add_argument("--share", action="append", type=float, help="size = diagonal / share; 100 by default")
     parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--same-count", action="store_true", help="as many triangles as Gmsh, not the same size")
     parser.add_argument("--json", help="file for all figures")
     options = parser.parse_args()
     print(ROW.format("file, program", "diag/", "triangl.", "surface s", "whole s", "failed", "Q2 mean", "p1", "worst", ""))

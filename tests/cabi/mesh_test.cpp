@@ -315,6 +315,47 @@ TEST_F(MeshFileTest, AMeshWrittenIsReadBackBitForBit) {
     EXPECT_EQ(carreau_mesh_write(read, (path + suffix).c_str()), CARREAU_OK) << read_error();
 }
 
+TEST_F(SessionTest, AHostSaysWhyItsCallbackFailed) {
+  carreau_cad cad = paraboloid_cad(&host);
+  cad.failure = [](std::int32_t face, void* user) {
+    return face == 1 && user != nullptr ? "the knots of the spline descend" : "";
+  };
+  ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+  ASSERT_EQ(paraboloid_model(session), CARREAU_OK);
+  host.misbehaviour = HOST_STATUS;
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_CALLBACK);
+  EXPECT_NE(error().find("(the knots of the spline descend)"), std::string::npos) << error();
+  // The only face: there is no mesh without it.
+  ASSERT_EQ(carreau_set_text(session, "failing_faces", "leave_out"), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_DOMAIN);
+  EXPECT_NE(error().find("no face could be meshed: face 1"), std::string::npos) << error();
+  EXPECT_NE(error().find("(the knots of the spline descend)"), std::string::npos) << error();
+}
+
+// A second face that the host knows nothing of.
+TEST_F(MeshFileTest, FacesThatAreLeftOutAreInTheMeshAndInFiles) {
+  use_paraboloid(0.8);
+  EXPECT_EQ(carreau_model_leave_out_face(session, 2, "why"), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_model_add_face(session, 2, 1), CARREAU_OK);
+  ASSERT_EQ(carreau_model_name_face(session, 2, "lid"), CARREAU_OK);
+  ASSERT_EQ(carreau_model_leave_out_face(session, 2, "face 2: its file is lost"), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_ERR_PARTIAL) << error();
+  ASSERT_EQ(carreau_mesh_write(mesh(), (path + ".vtu").c_str()), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_read(read, (path + ".vtu").c_str()), CARREAU_OK) << read_error();
+  for (carreau_mesh* each : {mesh(), read}) {
+    auto face = sized<carreau_face>();
+    ASSERT_EQ(carreau_mesh_face(each, 1, &face), CARREAU_OK);
+    EXPECT_EQ(face.ref, 2);
+    EXPECT_EQ(face.status, CARREAU_FACE_FAILED);
+    EXPECT_EQ(face.triangles, 0);
+    EXPECT_STREQ(face.why, "face 2: its file is lost");
+    EXPECT_STREQ(face.name, "lid");
+  }
+  ASSERT_EQ(carreau_model_leave_out_face(session, 2, nullptr), CARREAU_OK);
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_MODEL);
+  EXPECT_EQ(error(), "face 2: the face has no curve");
+}
+
 TEST_F(MeshFileTest, NamesOfFacesAreInTheMeshAndInFiles) {
   use_paraboloid(0.8);
   EXPECT_EQ(carreau_model_name_face(session, 2, "dish"), CARREAU_ERR_ARGUMENT);

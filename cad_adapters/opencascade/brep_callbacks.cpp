@@ -1,0 +1,134 @@
+// The callbacks of a BrepHost.
+#include <gp_Pnt.hxx>
+#include <gp_Pnt2d.hxx>
+#include <gp_Vec.hxx>
+#include <gp_Vec2d.hxx>
+#include <utility>
+
+#include "brep_state.h"
+#include "faults.h"
+
+namespace carreau_occ {
+
+namespace {
+
+void store(const gp_Pnt& p, double* to) { to[0] = p.X(), to[1] = p.Y(), to[2] = p.Z(); }
+void store(const gp_Vec& v, double* to) { to[0] = v.X(), to[1] = v.Y(), to[2] = v.Z(); }
+
+int32_t answer(double size, double* value) {
+  if (!(size > 0)) return CARREAU_NO_ANSWER;
+  *value = size;
+  return 0;
+}
+}  // namespace
+
+int32_t BrepHost::State::surface_size(int32_t face, double, double, double* value, void* user) noexcept {
+  return answer(static_cast<State*>(user)->host_faces[static_cast<std::size_t>(face - 1)].size, value);
+}
+
+int32_t BrepHost::State::curve_size(int32_t face, int32_t ic, double, double* value, void* user) noexcept {
+  const auto& state = *static_cast<State*>(user);
+  const int edge = state.host_faces[static_cast<std::size_t>(face - 1)].curves[static_cast<std::size_t>(ic - 1)].edge;
+  return answer(state.edge_size[static_cast<std::size_t>(edge - 1)], value);
+}
+
+int32_t BrepHost::State::point_size(int32_t point, double* value, void* user) noexcept {
+  // Gluing numbers points where it cuts curves behind all others.
+  const std::vector<double>& sizes = static_cast<State*>(user)->vertex_size;
+  const auto index = static_cast<std::size_t>(point - 1);
+  return index < sizes.size() ? answer(sizes[index], value) : CARREAU_NO_ANSWER;
+}
+
+int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
+  try {
+    const std::scoped_lock lock(mutex);
+    failures[face] = sentence_of(why);
+  } catch (...) {  // no memory for a sentence
+  }
+  return 1;
+}
+
+const char* BrepHost::State::failure(int32_t face, void* user) noexcept {
+  auto& state = *static_cast<State*>(user);
+  const std::scoped_lock lock(state.mutex);
+  const auto found = state.failures.find(face);  // stays: a face that has failed is not asked again
+  return found == state.failures.end() ? nullptr : found->second.c_str();
+}
+
+int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
+                                       double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept {
+  auto& state = *static_cast<State*>(user);
+  std::atomic<bool>& failed = state.surface_failed[static_cast<std::size_t>(face - 1)];
+  if (failed) return 1;
+  const auto evaluate = [&] {
+    const bool swapped = state.host_faces[static_cast<std::size_t>(face - 1)].swapped;
+    const Evaluators::Surface surface = state.evaluators.surface(static_cast<std::size_t>(face - 1));
+    if (swapped) std::swap(Su, Sv), std::swap(Suu, Svv);
+    gp_Pnt p;
+    gp_Vec d1u, d1v, d2u, d2v, d2uv;
+    for (int64_t i = 0; i < n; ++i) {
+      const double u = uv[2 * i + (swapped ? 1 : 0)], v = uv[2 * i + (swapped ? 0 : 1)];
+      if (order >= 2) {
+        surface.d2(u, v, p, d1u, d1v, d2u, d2v, d2uv);
+        store(d2u, Suu + 3 * i), store(d2uv, Suv + 3 * i), store(d2v, Svv + 3 * i);
+      } else if (order == 1) {
+        surface.d1(u, v, p, d1u, d1v);
+      } else {
+        surface.d0(u, v, p);
+      }
+      store(p, S + 3 * i);
+      if (order >= 1) store(d1u, Su + 3 * i), store(d1v, Sv + 3 * i);
+    }
+  };
+  try {
+    guarded(evaluate);
+    return 0;
+  } catch (const Standard_Failure& failure) {
+    failed = true;
+    return state.fail(face, failure);
+  } catch (...) {
+    return state.fail(face, Standard_Failure("out of memory"));
+  }
+}
+
+int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept {
+  const HostCurve& curve = static_cast<State*>(user)
+                               ->host_faces[static_cast<std::size_t>(face - 1)]
+                               .curves[static_cast<std::size_t>(ic - 1)];
+  *a = curve.first, *b = curve.last;
+  return 0;
+}
+
+int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
+                               void* user) noexcept {
+  auto& state = *static_cast<State*>(user);
+  std::atomic<bool>& failed = state.curves_failed[static_cast<std::size_t>(face - 1)];
+  if (failed) return 1;
+  const auto evaluate = [&] {
+    const Evaluators::Curve curve =
+        state.evaluators.curve(static_cast<std::size_t>(face - 1), static_cast<std::size_t>(ic - 1));
+    gp_Pnt2d p;
+    gp_Vec2d d1, d2;
+    if (order >= 2)
+      curve.d2(t, p, d1, d2);
+    else if (order == 1)
+      curve.d1(t, p, d1);
+    else
+      curve.d0(t, p);
+    const int x = state.host_faces[static_cast<std::size_t>(face - 1)].swapped ? 1 : 0, y = 1 - x;
+    C[x] = p.X(), C[y] = p.Y();
+    if (order >= 1) Ct[x] = d1.X(), Ct[y] = d1.Y();
+    if (order >= 2) Ctt[x] = d2.X(), Ctt[y] = d2.Y();
+  };
+  try {
+    guarded(evaluate);
+    return 0;
+  } catch (const Standard_Failure& failure) {
+    failed = true;
+    return state.fail(face, failure);
+  } catch (...) {
+    return state.fail(face, Standard_Failure("out of memory"));
+  }
+}
+
+}  // namespace carreau_occ

@@ -1,0 +1,103 @@
+// What a BrepHost takes from a shape: topology, names, doubts.
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "brep_state.h"
+#include "face_check.h"
+#include "faults.h"
+
+namespace carreau_occ {
+
+void BrepHost::State::collect() {
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  if (faces.IsEmpty()) throw std::runtime_error("the shape has no face");
+  uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
+  host_faces.resize(static_cast<std::size_t>(faces.Extent()));
+  evaluators.resize(host_faces.size());
+  for (auto* failed : {&surface_failed, &curves_failed}) {
+    *failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
+    for (std::size_t f = 0; f < host_faces.size(); ++f) (*failed)[f] = true;
+  }
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
+    try {
+      guarded([&] { collect_face(f); });
+      if (face.curves.empty()) face.broken = "no edge bounds it";
+    } catch (const Standard_Failure& error) {
+      face.broken = sentence_of(error);
+    } catch (const std::runtime_error& error) {
+      face.broken = error.what();
+    }
+  }
+}
+
+void BrepHost::State::collect_face(int number) {
+  const TopoDS_Face face = TopoDS::Face(faces(number));
+  HostFace& host = host_faces[static_cast<std::size_t>(number - 1)];
+  // A placement that mirrors turns the surface inside out and leaves the orientation of the face.
+  host.swapped =
+      (face.Orientation() == TopAbs_REVERSED) != (face.Location().Transformation().IsNegative() == Standard_True);
+  // Wires are turned for the face taken forward.
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  std::vector<Handle(Geom2d_Curve)> images;
+  for (TopExp_Explorer e(forward, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    if (edge.Orientation() == TopAbs_EXTERNAL) continue;
+    HostCurve curve;
+    images.push_back(BRep_Tool::CurveOnSurface(edge, forward, curve.first, curve.last));
+    if (images.back().IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
+    curve.edge = edges.FindIndex(edge);
+    curve.end1 = vertices.FindIndex(TopExp::FirstVertex(edge, Standard_False));
+    curve.end2 = vertices.FindIndex(TopExp::LastVertex(edge, Standard_False));
+    curve.forward = edge.Orientation() == TopAbs_FORWARD;
+    curve.internal = edge.Orientation() == TopAbs_INTERNAL;
+    if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
+    if (BRep_Tool::Degenerated(edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
+    host.curves.push_back(curve);
+  }
+  evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
+  for (const auto* failed : {&surface_failed, &curves_failed}) (*failed)[static_cast<std::size_t>(number - 1)] = false;
+  refuse_unusable(forward);
+}
+
+// Wide parts first, so that the name of the narrowest part stays.
+void BrepHost::State::collect_names(const ShapeFile& file) {
+  std::vector<std::pair<const ShapeFile::Label*, std::vector<int>>> parts;  // with their faces
+  for (const ShapeFile::Label& label : file.labels) {
+    std::vector<int> held;
+    for (TopExp_Explorer e(label.part, TopAbs_FACE); e.More(); e.Next())
+      if (const int number = faces.FindIndex(e.Current()); number > 0) held.push_back(number);
+    parts.emplace_back(&label, std::move(held));
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto& p, const auto& q) { return p.second.size() > q.second.size(); });
+  const auto byte = [](double share) { return static_cast<int>(std::lround(255 * std::clamp(share, 0.0, 1.0))); };
+  for (const auto& [label, held] : parts)
+    for (const int number : held) {
+      HostFace& face = host_faces[static_cast<std::size_t>(number - 1)];
+      if (!label->name.empty()) face.name = label->name;
+      if (label->has_colour) face.rgb = byte(label->red) << 16 | byte(label->green) << 8 | byte(label->blue);
+    }
+}
+
+void BrepHost::State::collect_doubts(const ShapeFile& file) {
+  for (const auto& [doubtful, why] : file.doubtful)
+    for (TopExp_Explorer e(doubtful, TopAbs_FACE); e.More(); e.Next())
+      for (int f = 1; f <= faces.Extent(); ++f)  // wherever an assembly puts it
+        if (HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
+            faces(f).IsPartner(e.Current()) && face.broken.empty())
+          face.broken = why;
+}
+
+}  // namespace carreau_occ

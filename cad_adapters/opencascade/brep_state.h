@@ -1,0 +1,73 @@
+// What a BrepHost knows of its shape, and the callbacks that a session gets. Private to BrepHost.
+#pragma once
+
+#include <Standard_Failure.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Shape.hxx>
+#include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "brep_host.h"
+#include "evaluators.h"
+
+namespace carreau_occ {
+
+struct HostCurve {
+  double first = 0, last = 1;
+  int edge = 0;            // number of the edge
+  int end1 = 0, end2 = 0;  // numbers of the vertices at first and last
+  bool forward = true;     // the domain lies on the left of the curve, as OpenCASCADE counts (u, v)
+  bool internal = false;
+};
+
+struct HostFace {
+  bool swapped = false;  // u and v exchanged
+  std::vector<HostCurve> curves;
+  std::string name;
+  int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
+  double size = 0;     // 0: no size of its own
+  std::string broken;  // why it cannot be meshed; "": it can
+};
+
+inline std::string sentence_of(const Standard_Failure& failure) {
+  return std::string("OpenCASCADE: ") + failure.DynamicType()->Name() + ": " + failure.GetMessageString();
+}
+
+struct BrepHost::State {
+  TopoDS_Shape shape;
+  TopTools_IndexedMapOfShape faces, edges, vertices;
+  std::vector<HostFace> host_faces;            // face number - 1
+  std::vector<int> uses;                       // of each edge, by its number - 1
+  std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
+  Evaluators evaluators;
+  std::mutex mutex;                     // of what follows: callbacks come from several threads
+  std::map<int, std::string> failures;  // by face
+  // By number - 1: faces whose surface, or curves, failed or could not be had. Not asked again, since a fault may have
+  // left locks behind.
+  std::unique_ptr<std::atomic<bool>[]> surface_failed, curves_failed;
+
+  void collect();
+  /// Own name and colour of each face, or those of the smallest part that holds it and has some.
+  void collect_names(const ShapeFile& file);
+  void collect_doubts(const ShapeFile& file);
+  void collect_face(int number);
+
+  static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
+                               double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept;
+  static int32_t interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept;
+  static int32_t curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
+                       void* user) noexcept;
+  static int32_t surface_size(int32_t face, double u, double v, double* value, void* user) noexcept;
+  static int32_t curve_size(int32_t face, int32_t ic, double t, double* value, void* user) noexcept;
+  static int32_t point_size(int32_t point, double* value, void* user) noexcept;
+  void collect_sizes();
+  [[nodiscard]] double glue_tolerance() const;
+  static const char* failure(int32_t face, void* user) noexcept;
+  int32_t fail(int32_t face, const Standard_Failure& why) noexcept;
+};
+
+}  // namespace carreau_occ

@@ -1,0 +1,54 @@
+#include "session/left_out.h"
+
+#include <algorithm>
+
+#include "model/topology.h"
+
+namespace carreau {
+
+namespace {
+
+bool leave_out(Model& model, const Where& where, const std::string& sentence) {
+  if (where.face == 0) return false;
+  const auto face = std::find_if(model.faces.begin(), model.faces.end(),
+                                 [&](const Face& f) { return f.ref == where.face && f.left_out.empty(); });
+  if (face == model.faces.end()) return false;
+  face->left_out = sentence;
+  return true;
+}
+
+}  // namespace
+
+bool leave_out(Model& model, const Error& error) {
+  const bool of_a_face =
+      dynamic_cast<const CallbackError*>(&error) != nullptr || dynamic_cast<const InvalidModel*>(&error) != nullptr;
+  return of_a_face && leave_out(model, error.where(), error.what());
+}
+
+// Curves have rules in common: without one face others may break none, or another one.
+void leave_out_defects(Model& model) {
+  for (;;) {
+    const std::vector<ModelDefect> defects = list_model_defects(model);
+    if (defects.empty()) return;
+    bool any = false;
+    for (const ModelDefect& defect : defects) any |= leave_out(model, defect.where, defect.text());
+    if (!any) throw InvalidModel(defects.front().where, defects.front().sentence);
+  }
+}
+
+Model without_left_out(const Model& model) {
+  Model part = model;
+  for (Face& face : part.faces)
+    if (!face.left_out.empty()) face.curves.clear(), face.points.clear();
+  return part;
+}
+
+void give_back(const Model& whole, Model& part) {
+  for (std::size_t f = 0; f < part.faces.size(); ++f) {
+    if (part.faces[f].left_out.empty()) continue;
+    part.faces[f].curves = whole.faces[f].curves;
+    part.faces[f].points = whole.faces[f].points;
+  }
+}
+
+}  // namespace carreau

@@ -1,0 +1,22 @@
+// Faces that a run goes without (parameter failing_faces).
+#pragma once
+
+#include "model/model.h"
+#include "support/error.h"
+
+namespace carreau {
+
+/// Leaves out the faces that a host's failure or a broken rule is about: Face::left_out gets the sentence. False, and
+/// nothing has changed, when the error has another cause, is about no face of the model, or about one that is left out
+/// already.
+bool leave_out(Model& model, const Error& error);
+/// Leaves out all faces that break a rule of RT-0232 sec. 3.2, until none does; throws InvalidModel for one that is
+/// about no face.
+void leave_out_defects(Model& model);
+
+/// The model as it is meshed: faces that are left out have no curves and no points.
+Model without_left_out(const Model& model);
+/// What without_left_out() took from the faces of `whole` is given back to `part`, which may have been glued since.
+void give_back(const Model& whole, Model& part);
+
+}  // namespace carreau
