@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "support/format.h"
+#include "surface/adjacent_lengths.h"
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_job.h"
@@ -83,6 +84,7 @@ class Pipeline {
       refine();
       mesh_and_assemble();
     }
+    if (slope() > 0) even_out_lengths(adjacent_lengths * options_.gradation, rules_, cad_, result_, monitor_);
     result_.report.calls = cad_.counts();
     result_.report.seconds_total = seconds_since(start);
     return std::move(result_);

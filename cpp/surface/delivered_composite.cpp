@@ -2,14 +2,9 @@
 
 #include <memory>
 
+#include "surface/adjacent_lengths.h"
+
 namespace carreau {
-
-namespace {
-
-// Edges of a unit mesh differ, by what the gradation allows and as much again as this.
-constexpr double adjacent_lengths = 1.6;
-
-}  // namespace
 
 Delivered measure_composite(const Model& model, const Topology& topology, Cad& cad, const CompositeOptions& options,
                             const CompositeResult& result, Monitor& monitor) {
