@@ -14,6 +14,8 @@ namespace {
 constexpr int terms = 6;  // 1, x, y, x^2, x y, y^2
 // Neighbours wanted before a quadratic is fitted.
 constexpr std::size_t enough = 10;
+// As many as there usually are.
+constexpr std::size_t usual_neighbours = 48;
 // Reach of the neighbourhood in units of the size asked for, and how much the weights prefer near samples.
 constexpr double reach_in_sizes = 2.2, near_share = 0.5, softness = 0.04;
 // Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
@@ -133,6 +135,7 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
 
 Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) const {
   std::vector<Sample> near;
+  near.reserve(usual_neighbours);
   double scale = size;
   const double widest = 2.0 * std::max(lattice_.end().i, lattice_.end().j);
   // At widened reaches the grid is looked at with the spacing of wider cells.

@@ -101,12 +101,6 @@ Prediction Lattice::interpolate(std::int32_t first, std::int32_t before, std::in
   return result;
 }
 
-void Lattice::remember(std::int32_t node, const Prediction& result) noexcept {
-  nodes_[node].pass = pass_;
-  nodes_[node].order = static_cast<std::int8_t>(result.order);
-  if (!nodes_[node].sampled) nodes_[node].root = result.root;
-}
-
 Prediction Lattice::predict(std::int32_t node) {
   if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
   const GridPoint p = point(node);
@@ -116,11 +110,16 @@ Prediction Lattice::predict(std::int32_t node) {
     return {};
   }
   const bool odd_i = (p.i & spacing) != 0, odd_j = (p.j & spacing) != 0;
-  return predict_from(node, odd_i, odd_j, [&](bool horizontal, int k) {
-    const GridPoint q = horizontal ? GridPoint{p.i + k * spacing, p.j} : GridPoint{p.i, p.j + k * spacing};
-    // Those of the same grid are centres of cells, which have been sampled or are not yet wanted.
-    return (horizontal ? odd_i : odd_j) ? valued_node(q) : sampled_node(q);
-  });
+  // Those of the same grid are centres of cells, which have been sampled or are not yet wanted.
+  const auto value_at = [&](GridPoint q, bool coarser) { return coarser ? valued_node(q) : sampled_node(q); };
+  return predict_from(
+      node, odd_i, odd_j,
+      [&](int k) {
+        return value_at({p.i + k * spacing, p.j}, odd_i);
+      },
+      [&](int k) {
+        return value_at({p.i, p.j + k * spacing}, odd_j);
+      });
 }
 
 }  // namespace carreau::detail

@@ -145,21 +145,20 @@ class Lattice {
   /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
   Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
-  /// The same where others know the neighbours: `neighbour(horizontal, k)` is the number of the node at k = -3, -1, 1,
-  /// 3 times the spacing on a line through this one, or -1 where it has no value(). `odd_i`, `odd_j`: whether
-  /// neighbours on the horizontal, on the vertical line belong to a coarser grid.
-  template <class Neighbour>
-  Prediction predict_from(std::int32_t node, bool odd_i, bool odd_j, const Neighbour& neighbour) {
+  /// The same where others know the neighbours: `row(k)` and `column(k)` are the numbers of the nodes at k = -3, -1, 1,
+  /// 3 times the spacing on the horizontal and the vertical line through this one, or -1 where they have no value().
+  /// `odd_i`, `odd_j`: whether those on the horizontal, on the vertical line belong to a coarser grid.
+  template <class Row, class Column>
+  Prediction predict_from(std::int32_t node, bool odd_i, bool odd_j, const Row& row, const Column& column) {
     if (nodes_[node].pass == pass_) return {nodes_[node].root, nodes_[node].order};
-    const auto along = [&](bool horizontal) { return predict_along([&](int k) { return neighbour(horizontal, k); }); };
-    Prediction result = along(true);
+    Prediction result = predict_along(row);
     // At a centre both directions give the same product of cubics.
     if (result.order < 4 || !(odd_i && odd_j)) {
-      const Prediction column = along(false);
-      if (result.order == column.order)
-        result.root = 0.5 * (result.root + column.root);
-      else if (column.order > result.order)
-        result = column;
+      const Prediction other = predict_along(column);
+      if (result.order == other.order)
+        result.root = 0.5 * (result.root + other.root);
+      else if (other.order > result.order)
+        result = other;
     }
     remember(node, result);
     return result;
@@ -195,7 +194,12 @@ class Lattice {
     return n >= 0 && nodes_[n].sampled ? n : -1;
   }
   std::int32_t block_at(GridPoint p, const BlockIndex::Position& at);
-  void remember(std::int32_t node, const Prediction& result) noexcept;
+  void remember(std::int32_t node, const Prediction& result) noexcept {
+    Node& n = nodes_[node];
+    n.pass = pass_;
+    n.order = static_cast<std::int8_t>(result.order);
+    if (!n.sampled) n.root = result.root;
+  }
   template <class Neighbour>
   Prediction predict_along(const Neighbour& neighbour) const {
     const std::int32_t before = neighbour(-1), after = neighbour(1);

@@ -41,8 +41,9 @@ Prediction NodePredictor::predict_middle(const TreeCell& cell, int side) {
     const TreeCell* beyond = like_it_beside(cell, side);
     return centre_if_sampled(k == 1 || k == -1 || beyond == nullptr ? beyond : like_it_beside(*beyond, side));
   };
-  return lattice_.predict_from(cell.node[middles_of_sides[side]], along_i, !along_i,
-                               [&](bool horizontal, int k) { return horizontal == along_i ? along(k) : across(k); });
+  const std::int32_t node = cell.node[middles_of_sides[side]];
+  return along_i ? lattice_.predict_from(node, true, false, along, across)
+                 : lattice_.predict_from(node, false, true, across, along);
 }
 
 std::int32_t NodePredictor::middle_with_value(const TreeCell& cell, int side) {
@@ -51,17 +52,21 @@ std::int32_t NodePredictor::middle_with_value(const TreeCell& cell, int side) {
   return lattice_.inside(n) && predict_middle(cell, side).order >= 2 ? n : -1;
 }
 
+// The node at k = -3, -1, 1, 3 times half of the cell's size from its centre, through the middle of a side.
+std::int32_t NodePredictor::middle_from_centre(const TreeCell& cell, int side, int k) {
+  if (k == -1 || k == 1) return middle_with_value(cell, side);
+  if (cell.beside[side] < 0) return -1;
+  if (const TreeCell* next = like_it_beside(cell, side)) return middle_with_value(*next, side);
+  const GridPoint p = lattice_.point(cell.centre());
+  const std::int32_t d = k * (cell.size / 2);
+  return lattice_.valued_node(side < 2 ? GridPoint{p.i, p.j + d} : GridPoint{p.i + d, p.j});
+}
+
 // A centre from the middles of the sides and those of the cells beyond.
 Prediction NodePredictor::predict_by_middles(const TreeCell& cell) {
-  return lattice_.predict_from(cell.centre(), true, true, [&](bool horizontal, int k) {
-    const int side = (horizontal ? 2 : 0) + (k > 0 ? 1 : 0);
-    if (k == -1 || k == 1) return middle_with_value(cell, side);
-    if (cell.beside[side] < 0) return -1;
-    if (const TreeCell* next = like_it_beside(cell, side)) return middle_with_value(*next, side);
-    const GridPoint p = lattice_.point(cell.centre());
-    const std::int32_t d = k * (cell.size / 2);
-    return lattice_.valued_node(horizontal ? GridPoint{p.i + d, p.j} : GridPoint{p.i, p.j + d});
-  });
+  return lattice_.predict_from(
+      cell.centre(), true, true, [&](int k) { return middle_from_centre(cell, k > 0 ? 3 : 2, k); },
+      [&](int k) { return middle_from_centre(cell, k > 0 ? 1 : 0, k); });
 }
 
 bool NodePredictor::predict_centre(const TreeCell& cell, Metric2& root) const {

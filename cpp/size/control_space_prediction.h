@@ -27,6 +27,7 @@ class NodePredictor {
     return cell != nullptr && lattice_.sampled(cell->centre()) ? cell->centre() : -1;
   }
   std::int32_t corner_beyond(const TreeCell& cell, int side, int end);
+  std::int32_t middle_from_centre(const TreeCell& cell, int side, int k);
   std::int32_t middle_with_value(const TreeCell& cell, int side);
 
   Lattice& lattice_;
