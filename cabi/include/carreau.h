@@ -585,11 +585,12 @@ CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* NULL is allowed */
 /* Sentence of the last call on the mesh, "" after success. Lives until the next call on it. */
 CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 
-/* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, not
- * compressed), .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and binary).
- * What carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names where the
- * format holds them (.vtu: all, and status and colour of faces; .msh: references of faces and curves, corners' if
- * positive; .stl: solids as faces). On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of a session).
+/* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
+ * compressed by zlib), .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and
+ * binary). What carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names
+ * where the format holds them (.vtu: all, and status and colour of faces; .msh: references of faces and curves,
+ * corners' if positive; .stl: solids as faces). On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of
+ * a session).
  */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 

@@ -129,13 +129,15 @@ bool BrepHost::on_curve(int face, int ic, double share, double* uv) const noexce
 }
 
 double BrepHost::diagonal() const {
+  if (state_->diagonal) return *state_->diagonal;
   // Faces that are broken, and edges of no face, may reach anywhere.
   TopoDS_Compound good;
   const BRep_Builder builder;
   builder.MakeCompound(good);
   for (int f = 1; f <= state_->faces.Extent(); ++f)
     if (state_->host_faces[static_cast<std::size_t>(f - 1)].broken.empty()) builder.Add(good, state_->faces(f));
-  return diagonal_of(good);
+  state_->diagonal = diagonal_of(good);
+  return *state_->diagonal;
 }
 
 double BrepHost::glue_tolerance() const try {

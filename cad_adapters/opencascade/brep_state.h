@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct BrepHost::State {
   TopTools_IndexedMapOfShape faces, edges, vertices;
   std::vector<HostFace> host_faces;            // face number - 1
   std::vector<int> uses;                       // of each edge, by its number - 1
+  std::optional<double> diagonal;              // once asked for
   std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
   Evaluators evaluators;
   std::mutex mutex;                     // of what follows: callbacks come from several threads

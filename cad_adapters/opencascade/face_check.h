@@ -17,7 +17,7 @@ bool usable(double x) noexcept;
 /// away, and Standard_Failure when OpenCASCADE does.
 void refuse_unusable(const TopoDS_Face& face);
 
-/// Diagonal of the box of a shape; of the faces that OpenCASCADE can evaluate when it fails on some. 0: of none.
+/// Diagonal of the box of the faces of a shape that OpenCASCADE can evaluate; 0: there is none.
 double diagonal_of(const TopoDS_Shape& shape);
 
 }  // namespace carreau_occ

@@ -2,10 +2,12 @@
 
 #include <bit>
 #include <cmath>
+#include <stdexcept>
 #include <type_traits>
 
 #include "io/raw_numbers.h"
 #include "io/text.h"
+#include "io/zlib_blocks.h"
 #include "support/format.h"
 
 namespace carreau {
@@ -28,8 +30,11 @@ VtuArrays::VtuArrays(std::string_view content, const std::string& name, const Xm
     : content_(content), name_(name) {
   if (root.attribute("type") != "UnstructuredGrid")
     fail(root, "the type of the file is " + shown(root.attribute("type")) + " instead of 'UnstructuredGrid'");
-  if (!root.attribute("compressor").empty())
-    fail(root, "its arrays are compressed; only a file without a compressor is read");
+  if (const std::string compressor = root.attribute("compressor"); !compressor.empty()) {
+    if (compressor != "vtkZLibDataCompressor")
+      fail(root, "its arrays are compressed by " + shown(compressor) + "; only vtkZLibDataCompressor is known");
+    compressed_ = true;
+  }
   const std::string order = root.attribute("byte_order"), header = root.attribute("header_type");
   if (order != "" && order != "LittleEndian" && order != "BigEndian")
     fail(root, "byte_order is " + shown(order) + " instead of LittleEndian or BigEndian");
@@ -77,32 +82,70 @@ std::string VtuArrays::decoded(const VtuArray& array, std::string_view base64, s
   return bytes;
 }
 
-std::string VtuArrays::bytes_of(const VtuArray& array) {
-  std::string_view stored = array.text;
-  const bool appended = array.tag.attribute("format") == "appended", base64 = !appended || appended_base64_;
-  if (appended) {
-    if (!has_appended_) fail(array.tag, array.shown_name() + " lies in AppendedData, which the file does not have");
-    double offset = 0;  // exact up to 2^53
-    const std::string given = array.tag.attribute("offset");
-    if (!parse_number(given, offset) || !(offset >= 0) || offset > static_cast<double>(appended_.size()))
-      fail(array.tag, array.shown_name() + " begins at " + shown(given) + ", which is outside of the data");
-    stored = appended_.substr(static_cast<std::size_t>(offset));
-  }
-  const std::string start = base64 ? decoded(array, stored, length_size_) : std::string(stored.substr(0, length_size_));
-  if (start.size() < length_size_) fail(array.tag, array.shown_name() + " has no length before its bytes");
-  const std::uint64_t length = length_size_ == 8 ? raw_number<std::uint64_t>(start.data(), swapped_)
-                                                 : raw_number<std::uint32_t>(start.data(), swapped_);
+VtuArrays::Stored VtuArrays::stored_of(const VtuArray& array) const {
+  if (array.tag.attribute("format") != "appended") return {array.text, true};
+  if (!has_appended_) fail(array.tag, array.shown_name() + " lies in AppendedData, which the file does not have");
+  double offset = 0;  // exact up to 2^53
+  const std::string given = array.tag.attribute("offset");
+  if (!parse_number(given, offset) || !(offset >= 0) || offset > static_cast<double>(appended_.size()))
+    fail(array.tag, array.shown_name() + " begins at " + shown(given) + ", which is outside of the data");
+  return {appended_.substr(static_cast<std::size_t>(offset)), appended_base64_};
+}
+
+/// The first n bytes, or as many as there are.
+std::string VtuArrays::first(const VtuArray& array, const Stored& stored, std::uint64_t n) const {
+  return stored.base64 ? decoded(array, stored.bytes, n)
+                       : std::string(stored.bytes.substr(0, static_cast<std::size_t>(n)));
+}
+
+/// `length` bytes behind a header.
+std::string VtuArrays::behind(const VtuArray& array, const Stored& stored, std::uint64_t header, std::uint64_t length) {
   // Every array has its own bytes: what is asked for in all is no more than the file holds.
   if (length > content_.size() - taken_)
     fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) +
                         " bytes, more than are left: the file may be truncated");
   taken_ += length;
-  std::string bytes =
-      base64 ? decoded(array, stored, length_size_ + length) : std::string(stored.substr(0, length_size_ + length));
-  if (bytes.size() < length_size_ + length)
+  const std::string bytes = first(array, stored, header + length);
+  if (bytes.size() < header + length)
     fail(array.tag, array.shown_name() + " says that it has " + std::to_string(length) + " bytes, but " +
-                        std::to_string(bytes.size() - length_size_) + " are left: the file may be truncated");
-  return bytes.substr(length_size_, length);
+                        std::to_string(bytes.size() - header) + " are left: the file may be truncated");
+  return bytes.substr(static_cast<std::size_t>(header), static_cast<std::size_t>(length));
+}
+
+std::uint64_t VtuArrays::header_number(std::string_view header, std::size_t i) const {
+  const char* const at = header.data() + i * length_size_;
+  return length_size_ == 8 ? raw_number<std::uint64_t>(at, swapped_) : raw_number<std::uint32_t>(at, swapped_);
+}
+
+std::string VtuArrays::bytes_of(const VtuArray& array) {
+  const Stored stored = stored_of(array);
+  const std::string start = first(array, stored, length_size_);
+  if (start.size() < length_size_) fail(array.tag, array.shown_name() + " has no length before its bytes");
+  const std::uint64_t length = header_number(start, 0);
+  return compressed_ ? inflated_bytes(array, stored, length) : behind(array, stored, length_size_, length);
+}
+
+std::string VtuArrays::inflated_bytes(const VtuArray& array, const Stored& stored, std::uint64_t blocks) {
+  if (blocks == 0) return "";
+  if (blocks > content_.size() / length_size_)
+    fail(array.tag, array.shown_name() + " says that it has " + std::to_string(blocks) +
+                        " compressed blocks, more than the file holds");
+  const std::uint64_t size = (ZlibBlocks::fixed_numbers + blocks) * length_size_;
+  const std::string header = first(array, stored, size);
+  if (header.size() < size) fail(array.tag, array.shown_name() + " ends before the sizes of its compressed blocks");
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t i = 0; i < ZlibBlocks::fixed_numbers + blocks; ++i) numbers.push_back(header_number(header, i));
+  const ZlibBlocks sizes = ZlibBlocks::of(numbers);
+  for (const std::uint64_t each : sizes.compressed)  // before their sum, which could overflow
+    if (each > content_.size())
+      fail(array.tag, array.shown_name() + " says that it has a block of " + std::to_string(each) +
+                          " bytes, more than are left: the file may be truncated");
+  const std::string bytes = behind(array, stored, size, sizes.compressed_size());
+  try {
+    return inflated(sizes, bytes);
+  } catch (const std::runtime_error& error) {
+    fail(array.tag, array.shown_name() + ": " + error.what());
+  }
 }
 
 template <typename T>

@@ -42,8 +42,20 @@ class VtuArrays {
   std::vector<T> numbers_of_bytes(const VtuArray& array, std::string_view bytes) const;
   template <typename T>
   std::vector<T> numbers(const VtuArray& array, bool finite);
+  /// The bytes of an array and what may follow them.
+  struct Stored {
+    std::string_view bytes;
+    bool base64 = false;
+  };
+  [[nodiscard]] Stored stored_of(const VtuArray& array) const;
+  [[nodiscard]] std::string first(const VtuArray& array, const Stored& stored, std::uint64_t n) const;
+  [[nodiscard]] std::string behind(const VtuArray& array, const Stored& stored, std::uint64_t header,
+                                   std::uint64_t length);
   [[nodiscard]] std::string bytes_of(const VtuArray& array);
+  [[nodiscard]] std::string inflated_bytes(const VtuArray& array, const Stored& stored, std::uint64_t blocks);
   [[nodiscard]] std::string decoded(const VtuArray& array, std::string_view base64, std::uint64_t wanted) const;
+  /// Number i of what lies before the bytes of an array.
+  [[nodiscard]] std::uint64_t header_number(std::string_view header, std::size_t i) const;
   void check_count(const VtuArray& array, std::size_t found, std::size_t expected) const;
 
   std::string_view content_;
@@ -51,6 +63,7 @@ class VtuArrays {
   bool swapped_ = false;
   std::size_t length_size_ = 4;  // bytes of the length before the bytes of an array
   std::string_view appended_;    // behind the underscore
+  bool compressed_ = false;      // by zlib
   bool has_appended_ = false, appended_base64_ = false;
   std::uint64_t taken_ = 0;  // bytes of arrays so far
 };

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "cad/part_cad.h"
 #include "model/topology.h"
+#include "session/gluing.h"
+#include "session/options.h"
 
 namespace carreau {
 
@@ -41,6 +44,23 @@ Model without_left_out(const Model& model) {
   for (Face& face : part.faces)
     if (!face.left_out.empty()) face.curves.clear(), face.points.clear();
   return part;
+}
+
+std::pair<Model, ModelSupports> supports_of(Model& known, Cad& whole_cad, double angle_smo,
+                                            const Parameters& parameters, Monitor& monitor) {
+  for (;;) {
+    Model given = without_left_out(known);
+    if (std::none_of(given.faces.begin(), given.faces.end(), [](const Face& face) { return face.left_out.empty(); }))
+      throw DomainError("no face could be meshed: " + given.faces.front().left_out);
+    PartCad cad(whole_cad, parts_of(given));
+    std::vector<std::string> failures;
+    ModelSupports supports = build_supports(given, cad, angle_smo, threads_of(parameters), monitor,
+                                            leaves_out(parameters) ? &failures : nullptr);
+    bool complete = true;
+    for (std::size_t f = 0; f < failures.size(); ++f)
+      if (!failures[f].empty()) known.faces[f].left_out = failures[f], complete = false;
+    if (complete) return {std::move(given), std::move(supports)};
+  }
 }
 
 void give_back(const Model& whole, Model& part) {

@@ -1,8 +1,14 @@
 // Faces that a run goes without (parameter failing_faces).
 #pragma once
 
+#include <utility>
+
+#include "cad/cad.h"
 #include "model/model.h"
+#include "session/parameters.h"
 #include "support/error.h"
+#include "support/monitor.h"
+#include "surface/composite.h"
 
 namespace carreau {
 
@@ -16,6 +22,10 @@ void leave_out_defects(Model& model);
 
 /// The model as it is meshed: faces that are left out have no curves and no points.
 Model without_left_out(const Model& model);
+/// That and its supports. Faces of `known` whose curves cannot be had are left out when the parameter says so. Throws
+/// DomainError when no face is left, and CallbackError.
+std::pair<Model, ModelSupports> supports_of(Model& known, Cad& whole_cad, double angle_smo,
+                                            const Parameters& parameters, Monitor& monitor);
 /// What without_left_out() took from the faces of `whole` is given back to `part`, which may have been glued since.
 void give_back(const Model& whole, Model& part);
 

@@ -143,25 +143,6 @@ Delivered measure(const Meshed& meshed, const CompositeResult& result, Monitor& 
   return measure_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
 }
 
-/// The model as it is meshed, and its supports. Faces of `known` whose curves cannot be had are left out when that is
-/// wanted.
-std::pair<Model, ModelSupports> supports_of(Model& known, Cad& whole_cad, double angle_smo,
-                                            const Parameters& parameters, Monitor& monitor) {
-  for (;;) {
-    Model given = without_left_out(known);
-    if (std::none_of(given.faces.begin(), given.faces.end(), [](const Face& face) { return face.left_out.empty(); }))
-      throw DomainError("no face could be meshed: " + given.faces.front().left_out);
-    PartCad cad(whole_cad, parts_of(given));
-    std::vector<std::string> failures;
-    ModelSupports supports = build_supports(given, cad, angle_smo, threads_of(parameters), monitor,
-                                            leaves_out(parameters) ? &failures : nullptr);
-    bool complete = true;
-    for (std::size_t f = 0; f < failures.size(); ++f)
-      if (!failures[f].empty()) known.faces[f].left_out = failures[f], complete = false;
-    if (complete) return {std::move(given), std::move(supports)};
-  }
-}
-
 }  // namespace
 
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}

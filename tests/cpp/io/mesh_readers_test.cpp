@@ -340,6 +340,37 @@ TEST(MeshReaders, VtuInBase64WithTheLengthApartOrNot) {
   }
 }
 
+/// The one triangle of vtu_text, its corners in base64 of compressed blocks.
+std::string compressed_vtu(const std::string& corners) {
+  std::string text = replaced(vtu_text, "'connectivity' format='ascii'>0 1 2 3 0 1 2 2 1 0",
+                              "'connectivity' format='binary'>\n" + corners + "\n");
+  text = replaced(replaced(text, "3 7 10", "3"), "5 10 4", "5");
+  text = replaced(text, "NumberOfCells='3'", "NumberOfCells='1'");
+  return replaced(text, "version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\"");
+}
+
+TEST(MeshReaders, VtuCompressedInBlocks) {
+  // 0 1 2 as Int32: in blocks of 8 bytes and of 4, and in one of 12.
+  for (const char* corners : {"AgAAAAgAAAAEAAAADgAAAAwAAAA=eJxjYGBgYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
+                              "AQAAAAwAAAAAAAAAEQAAAA==eJxjYGBgYARiJiAGAAAcAAQ="})
+    EXPECT_EQ(read_mesh_vtu(compressed_vtu(corners), "x").triangles,
+              (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
+}
+
+TEST(MeshReaders, VtuBlocksThatAreNotWhatTheirHeaderSays) {
+  const std::string array = "x.vtu, line 16: array 'connectivity'";
+  for (const auto& [corners, sentence] :
+       {std::pair{"AgAAAAgAAAAEAAAADgAAAAwAAAA=eJxjYGCfYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
+                  ": block 1 of its 2 compressed blocks is damaged"},
+        {"AgAAAAAoa+4EAAAADgAAAAwAAAA=eJxjYGBgYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
+         ": block 1 of its 2 compressed blocks is said to hold more than can be compressed into it"},
+        {"AAk9AAgAAAAEAAAACgAAAA==", " says that it has 4000000 compressed blocks, more than the file holds"},
+        {"AgAAAAgAAAAEAAAAAChr7goAAAA=eJxjYGBgYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
+         " says that it has a block of 4000000000 bytes, more than are left: the file may be truncated"},
+        {"AgAAAAgAAAAEAAAADgAAAAwAAAA=", " says that it has 26 bytes, but 0 are left: the file may be truncated"}})
+    EXPECT_EQ(sentence_of<FileError>([&] { read_mesh_vtu(compressed_vtu(corners), "x.vtu"); }), array + sentence);
+}
+
 TEST(MeshReaders, VtuErrorsNameTheLine) {
   const auto sentence = [](const std::string& from, const std::string& to) {
     return sentence_of<FileError>([&] { read_mesh_vtu(replaced(vtu_text, from, to), "x.vtu"); });
@@ -347,8 +378,8 @@ TEST(MeshReaders, VtuErrorsNameTheLine) {
   EXPECT_EQ(sentence("VTKFile", "mesh"), "x.vtu, line 3: a .vtu file starts with VTKFile, not with 'mesh'");
   EXPECT_EQ(sentence("UnstructuredGrid", "PolyData"),
             "x.vtu, line 3: the type of the file is 'PolyData' instead of 'UnstructuredGrid'");
-  EXPECT_EQ(sentence("version=\"0.1\"", "compressor=\"vtkZLibDataCompressor\""),
-            "x.vtu, line 3: its arrays are compressed; only a file without a compressor is read");
+  EXPECT_EQ(sentence("version=\"0.1\"", "compressor=\"vtkLZ4DataCompressor\""),
+            "x.vtu, line 3: its arrays are compressed by 'vtkLZ4DataCompressor'; only vtkZLibDataCompressor is known");
   EXPECT_EQ(sentence("NumberOfPoints='4'", "NumberOfPoints='400000000'"),
             "x.vtu, line 11: array '' has 12 numbers instead of 1200000000");
   EXPECT_EQ(sentence("0 1 0 0 0 1<", "0 1 0 0 0 x<"), "x.vtu, line 13: a number was expected, not 'x'");
