@@ -142,23 +142,24 @@ void Optimiser::thin_out() {
   if (any) drop_removed();
 }
 
-// Removed triangles leave the list.
+// The last triangles of the list take the places of those that are removed.
 void Optimiser::drop_removed() {
   auto& triangles = mesh_.triangles;
-  std::vector<std::int32_t> rank(triangles.size(), -1);
-  std::int32_t kept = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (triangles[t].v[0] >= 0) rank[t] = kept++;
-  for (std::size_t t = 0; t < rank.size(); ++t) {
-    if (rank[t] < 0) continue;
-    Triangle T = triangles[t];
-    for (HalfEdge& n : T.n)
-      if (n != no_edge) n = 4 * rank[n >> 2] + (n & 3);
-    triangles[rank[t]] = T;
+  for (std::size_t t = 0; t < triangles.size();) {
+    if (triangles[t].v[0] >= 0) {
+      ++t;
+      continue;
+    }
+    triangles[t] = triangles.back();
+    triangles.pop_back();
+    if (t == triangles.size() || triangles[t].v[0] < 0) continue;
+    const auto place = static_cast<std::int32_t>(t);
+    for (int i = 0; i < 3; ++i) {
+      const HalfEdge n = triangles[t].n[i];
+      if (n != no_edge) triangles[n >> 2].n[n & 3] = 4 * place + i;
+      mesh_.vertices[triangles[t].v[i]].triangle = place;
+    }
   }
-  triangles.resize(kept);
-  for (Vertex& v : mesh_.vertices)
-    if (v.triangle >= 0) v.triangle = rank[v.triangle];
 }
 
 }  // namespace carreau::plane

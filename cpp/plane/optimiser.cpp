@@ -23,12 +23,16 @@ void Optimiser::run() {
   const Sizes sizes = shapes_.classify();
   if (sizes == Sizes::rough) {
     sweep_all(far_first, {.pull = 0, .by_size = false});
+    update_metrics();
     sweep_all(short_last, {.pull = 0, .by_size = false});
+    update_metrics();
   } else if (sizes == Sizes::even) {
     cancel_pairs(reach_even);
     sweep_all(spread, {.pull = pull_even, .by_size = false});
+    update_metrics();
   } else {
-    // There is more to relax. Where pairs cancel, what they held apart must move, and again after the rescue.
+    // There is more to relax. Where pairs cancel, what they held apart must move, and again after the rescue. Metrics
+    // follow once: to ask where sizes change costs as much as two sweeps, and gains nothing before the long one.
     const Aim aim{.pull = pull_graded, .by_size = true};
     cancel_pairs(reach_graded);
     sweep_all(settle, aim);

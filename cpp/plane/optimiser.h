@@ -64,6 +64,7 @@ class Optimiser {
   template <bool by_size, bool bends>
   void sweep(Sweep how, double pull, bool first);
   void update_metrics();
+  void prepare(bool by_size);
   template <bool by_size, bool bends>
   void propose(double pull);
   void propose_in_chart(const Triangle& T, double weight);
@@ -73,7 +74,7 @@ class Optimiser {
   void undo_spoiling_moves();
   bool undo(int v);
   template <bool bends>
-  [[nodiscard]] bool sound(const Triangle& T) const;
+  [[nodiscard]] bool sound(std::size_t t) const;
 
   // rescue.cpp
   void rescue_worst();
@@ -98,11 +99,14 @@ class Optimiser {
   int fixed_;
   const Field& field_;
   Monitor& monitor_;
-  struct Proposal {
-    double x = 0, y = 0;
-    double weight = 0;
+  /// Of a triangle: the sum of its corners' metrics, the height of equilateral triangles by it, the weight of
+  /// proposals.
+  struct Steady {
+    float a, b, c, height, weight;
   };
-  std::vector<Proposal> proposals_;
+  std::vector<Steady> steady_;                  // over the sweeps at hand, where triangles count by size
+  std::vector<Vec2> proposals_;                 // by vertex, weighed and summed up
+  std::vector<float> weights_;                  // their sums
   std::vector<Vec2> before_;                    // places before the last sweep
   std::vector<std::int32_t> spoiled_, undone_;  // triangles spoiled by moves; vertices whose moves were taken back
   std::vector<HalfEdge> edges_;

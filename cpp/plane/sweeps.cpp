@@ -15,14 +15,28 @@ constexpr int undo_rounds = 20;
 constexpr int triangles_between_checks = 1 << 16;
 constexpr std::size_t prefetch_distance = 12;
 
-// Of the triangle of three vertices, det being the determinant of the sum of their metrics.
-inline bool has_area(const Vertex& A, const Vertex& B, const Vertex& C, double det) noexcept {
+// The same in the plane, over the height of equilateral triangles by the sum of three metrics.
+constexpr double least_area_by_height = 3 * least_area / (0.5 * std::numbers::sqrt3);
+
+// Of the triangle of three vertices. `enough(area)`: whether that is enough of it in the metric.
+template <typename Enough>
+inline bool has_area(const Vertex& A, const Vertex& B, const Vertex& C, const Enough& enough) noexcept {
   // The order of orientation(): its sign is decided by the same bound.
   const double left = (A.x - C.x) * (B.y - C.y), right = (A.y - C.y) * (B.x - C.x), area = left - right;
-  if (!(area > 0 && area * area * det > 9 * least_area * least_area)) return false;
+  if (!(area > 0 && enough(area))) return false;
   return area > detail::orientation_bound * (std::abs(left) + std::abs(right)) + detail::underflow_bound ||
          orientation(A.point(), B.point(), C.point()) > 0;
 }
+
+inline Metric2 sum_of_metrics(const Vertex& A, const Vertex& B, const Vertex& C) noexcept {
+  return A.metric() + B.metric() + C.metric();
+}
+
+// Height of an equilateral triangle over the image of its base under a tensor turned by a quarter.
+inline double equilateral_height(double root_of_determinant) noexcept {
+  return 0.5 * std::numbers::sqrt3 / root_of_determinant;
+}
+inline double root_of_determinant(Metric2 m) noexcept { return std::sqrt(std::max(determinant(m), 1e-300)); }
 
 }  // namespace
 
@@ -33,26 +47,49 @@ void Optimiser::propose_in_chart(const Triangle& T, double weight) {
     const Vec2 from = y[next3[i]], to = y[prev3[i]], e = to - from;
     const Vec2 top =
         triangle.chart.point(0.5 * (from + to) + 0.5 * std::numbers::sqrt3 * Vec2{-e.y, e.x}, mesh_.at(T.v[i]));
-    Proposal& p = proposals_[T.v[i]];
+    Vec2& p = proposals_[T.v[i]];
     p.x += weight * top.x, p.y += weight * top.y;
-    p.weight += weight;
   }
 }
 
 template <bool bends>
-inline bool Optimiser::sound(const Triangle& T) const {
+inline bool Optimiser::sound(std::size_t t) const {
+  const Triangle& T = mesh_.triangles[t];
   const Vertex &A = mesh_.vertices[T.v[0]], &B = mesh_.vertices[T.v[1]], &C = mesh_.vertices[T.v[2]];
   if constexpr (bends)
     if (shapes_.is_bent(T))
       return orientation(A.point(), B.point(), C.point()) > 0 &&
              shapes_.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * least_area * least_area;
-  return has_area(A, B, C, determinant(A.metric() + B.metric() + C.metric()));
+  if (!steady_.empty()) {
+    const double least = least_area_by_height * steady_[t].height;
+    return has_area(A, B, C, [least](double area) { return area > least; });
+  }
+  const double det = determinant(sum_of_metrics(A, B, C));
+  return has_area(A, B, C, [det](double area) { return area * area * det > 9 * least_area * least_area; });
+}
+
+// What sweeps need of the metrics, which stay as they are until the last of them. Where sizes vary triangles count by
+// the inverse of the size. That of its square would make the sum of their defects, each relative to the triangle,
+// least; but where sizes jump it draws vertices to the small ones.
+void Optimiser::prepare(bool by_size) {
+  steady_.clear();
+  if (by_size) steady_.reserve(mesh_.triangles.size());
+  weights_.assign(mesh_.vertices.size(), 0);
+  for (const Triangle& T : mesh_.triangles) {
+    float weight = 1;
+    if (by_size) {
+      const Metric2 m = sum_of_metrics(mesh_.vertices[T.v[0]], mesh_.vertices[T.v[1]], mesh_.vertices[T.v[2]]);
+      const double root = root_of_determinant(m);
+      weight = static_cast<float>(std::sqrt(root));
+      steady_.push_back({static_cast<float>(m.a), static_cast<float>(m.b), static_cast<float>(m.c),
+                         static_cast<float>(equilateral_height(root)), weight});
+    }
+    for (const std::int32_t v : T.v) weights_[v] += weight;
+  }
 }
 
 // Each triangle proposes to each of its vertices the place where it would be equilateral in its metric, or, as far as
-// that is the aim, where its sides would have unit length: lower over long bases, higher over short ones. Where sizes
-// vary triangles count by the inverse of the size. That of its square would make the sum of their defects, each
-// relative to the triangle, least; but where sizes jump it draws vertices to the small ones.
+// that is the aim, where its sides would have unit length: lower over long bases, higher over short ones.
 // Lists the triangles that the moves before have spoiled, since all is at hand: they still tell where they would go.
 template <bool by_size, bool bends>
 void Optimiser::propose(double pull) {
@@ -60,36 +97,50 @@ void Optimiser::propose(double pull) {
   spoiled_.clear();
   const double slope = 2.0 / 3 * pull, third = slope / 3;
   const std::size_t n = mesh_.triangles.size();
+  // Plain addresses: what is written might be their vectors', for all that a compiler can tell.
+  const Triangle* const triangles = mesh_.triangles.data();
+  const Vertex* const vertices = mesh_.vertices.data();
+  const Steady* const steady = steady_.data();
+  Vec2* const proposals = proposals_.data();
   for (std::size_t t = 0; t < n; ++t) {
-    const Triangle& T = mesh_.triangles[t];
-    if (t + prefetch_distance < n)
-      for (const std::int32_t v : mesh_.triangles[t + prefetch_distance].v) {
-        prefetch(&mesh_.vertices[v]);
-        prefetch(&proposals_[v]);
-      }
-    const Vertex &P = mesh_.vertices[T.v[0]], &Q = mesh_.vertices[T.v[1]], &R = mesh_.vertices[T.v[2]];
-    const Metric2 m = P.metric() + Q.metric() + R.metric();
-    const double det = determinant(m);
-    const double root = std::sqrt(std::max(det, 1e-300)), weight = by_size ? std::sqrt(root) : 1;
+    const Triangle& T = triangles[t];
+    for (const std::int32_t v : triangles[std::min(t + prefetch_distance, n - 1)].v) {
+      prefetch(vertices + v);
+      prefetch(proposals + v);
+    }
     if constexpr (bends)
       if (shapes_.is_bent(T)) {
-        if (!sound<true>(T)) spoiled_.push_back(static_cast<std::int32_t>(t));
-        propose_in_chart(T, weight);
+        if (!sound<true>(t)) spoiled_.push_back(static_cast<std::int32_t>(t));
+        propose_in_chart(T, by_size ? steady[t].weight : 1);
         continue;
       }
-    if (!has_area(P, Q, R, det)) spoiled_.push_back(static_cast<std::int32_t>(t));
+    const Vertex &P = vertices[T.v[0]], &Q = vertices[T.v[1]], &R = vertices[T.v[2]];
+    Metric2 m;
+    double k, weight = 1;
+    bool spoiled;
+    if constexpr (by_size) {
+      const Steady& S = steady[t];
+      m = {S.a, S.b, S.c}, k = S.height, weight = S.weight;
+      const double least = least_area_by_height * k;
+      spoiled = !has_area(P, Q, R, [least](double area) { return area > least; });
+    } else {
+      m = sum_of_metrics(P, Q, R);
+      const double det = determinant(m);
+      k = equilateral_height(root_of_determinant(m));
+      spoiled = !has_area(P, Q, R, [det](double area) { return area * area * det > 9 * least_area * least_area; });
+    }
+    if (spoiled) spoiled_.push_back(static_cast<std::int32_t>(t));
     // The height of a unit isosceles triangle over that of an equilateral one is, to first order in the squared base,
     // 1 + slope - slope * base.
-    const double k = 0.5 * std::numbers::sqrt3 / root, k0 = k * (1 + slope), k1 = k * third;
+    const double k0 = k * (1 + slope), k1 = k * third;
     const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
       // The metric's normal of the base, to the left.
       const double ex = to.x - from.x, ey = to.y - from.y, nx = -m.b * ex + -m.c * ey, ny = m.a * ex + m.b * ey;
       const double height = k0 - k1 * std::min(std::max(ex * ny - ey * nx, 1.5), 6.0);
       const double x = 0.5 * (from.x + to.x) + height * nx, y = 0.5 * (from.y + to.y) + height * ny;
-      Proposal& p = proposals_[v];
+      Vec2& p = proposals[v];
       p.x += by_size ? weight * x : x;
       p.y += by_size ? weight * y : y;
-      p.weight += weight;
     };
     tell(T.v[0], Q, R);
     tell(T.v[1], R, P);
@@ -113,7 +164,7 @@ void Optimiser::find_spoiled() {
   for (std::size_t t = 0; t < n; ++t) {
     if (t + prefetch_distance < n)
       for (const std::int32_t v : mesh_.triangles[t + prefetch_distance].v) prefetch(&mesh_.vertices[v]);
-    if (!sound<bends>(mesh_.triangles[t])) spoiled_.push_back(static_cast<std::int32_t>(t));
+    if (!sound<bends>(t)) spoiled_.push_back(static_cast<std::int32_t>(t));
   }
 }
 
@@ -123,8 +174,8 @@ void Optimiser::undo_spoiling_moves() {
   for (int round = 0; round < undo_rounds; ++round) {
     undone_.clear();
     for (const std::int32_t t : spoiled_)
-      if (const Triangle& T = mesh_.triangles[t]; !sound<bends>(T))
-        for (const std::int32_t v : T.v) undo(v);
+      if (!sound<bends>(static_cast<std::size_t>(t)))
+        for (const std::int32_t v : mesh_.triangles[t].v) undo(v);
     if (undone_.empty()) return;
     spoiled_.clear();
     for (const std::int32_t v : undone_) {
@@ -148,10 +199,9 @@ void Optimiser::sweep(Sweep how, double pull, bool first) {
   const auto [relaxation, momentum] = how;
   for (int v = fixed_; v < n; ++v) {
     Vertex& P = mesh_.vertices[v];
-    const Proposal& to = proposals_[v];
-    const Vec2 old = P.point();
-    if (to.weight > 0) {
-      const double share = relaxation / to.weight, kept = momentum - relaxation;
+    const Vec2 to = proposals_[v], old = P.point();
+    if (weights_[v] > 0) {
+      const double share = relaxation / weights_[v], kept = momentum - relaxation;
       P.x += share * to.x + kept * P.x - momentum * before_[v].x;
       P.y += share * to.y + kept * P.y - momentum * before_[v].y;
     }
@@ -162,6 +212,7 @@ void Optimiser::sweep(Sweep how, double pull, bool first) {
 // Moves that spoil a triangle are taken back when the next sweep has seen that, or after the last one.
 void Optimiser::sweep_all(std::span<const Sweep> sweeps, Aim aim) {
   before_.resize(mesh_.vertices.size());
+  prepare(aim.by_size);
   const bool bends = !mesh_.bends.empty();
   bool first = true;
   for (const Sweep& s : sweeps) {
@@ -175,12 +226,11 @@ void Optimiser::sweep_all(std::span<const Sweep> sweeps, Aim aim) {
   bends ? undo_spoiling_moves<true>() : undo_spoiling_moves<false>();
 }
 
-// The metric follows the vertices at the end only: its change along a move is small.
+// The metric follows the vertices afterwards: its change along a move is small.
 void Optimiser::sweep_all(std::span<const double> relaxations, Aim aim) {
   std::vector<Sweep> sweeps;
   for (const double relaxation : relaxations) sweeps.push_back({relaxation, 0});
   sweep_all(sweeps, aim);
-  update_metrics();
 }
 
 // Chebyshev's iteration of second order. In a lattice of equilateral triangles the mean of a vertex' proposals is that
