@@ -112,7 +112,7 @@ class Optimiser {
   std::vector<HalfEdge> edges_;
   std::vector<std::int32_t> work_, next_;
   std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise
-  std::int64_t stars_ = 0;                 // evaluated by the rescue
+  std::int64_t shapes_asked_ = 0;          // of stars, by the rescue
   std::vector<std::uint8_t> degree_, wanted_degree_;
   std::vector<std::pair<std::int32_t, std::int32_t>> glided_;  // diagonals of the swaps of a glide
 };

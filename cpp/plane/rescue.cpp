@@ -20,9 +20,9 @@ constexpr double straight_weight = 2 * 2 * std::numbers::sqrt3;
 constexpr int rescue_passes = 6;
 constexpr double gain = 1e-3;
 // Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad
-// triangles.
-constexpr std::int64_t stars_a_triangle = 4, least_stars = 100'000;
-constexpr int triangles_between_checks = 1 << 16, stars_between_checks = 1 << 12;
+// triangles. It is counted by shapes, since a fine boundary far from all other vertices gives stars of thousands.
+constexpr std::int64_t shapes_a_triangle = 24, least_shapes = 600'000;
+constexpr int triangles_between_checks = 1 << 16, shapes_between_checks = 1 << 15;
 constexpr double short_edge_height = 0.9;       // of a vertex inserted over a short edge, in lengths of the edge
 constexpr double longest_after_removal2 = 2.0;  // squared length
 // Sizes that change much over a triangle leave edges that are too short: one of their vertices goes where no edge
@@ -76,10 +76,11 @@ bool Optimiser::has_imposed_spoke(int v) const {
 
 // Once it is `enough` the rest does not matter.
 double Optimiser::star_penalty(int v, double enough) {
-  ++stars_;
   double sum = 0;
-  for (std::size_t k = 0; k < ring_.size() && sum < enough; ++k)
+  std::size_t k = 0;
+  for (; k < ring_.size() && sum < enough; ++k)
     sum += penalty(shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
+  shapes_asked_ += static_cast<std::int64_t>(k);
   return sum;
 }
 
@@ -227,7 +228,7 @@ bool Optimiser::rescue_by_halving(int t) {
 bool Optimiser::insert_to_improve(Vec2 p, int t, bool spaced) {
   const int start = is_finite(p) ? mesh_.locate(p, t) : -1;
   if (start < 0 || !mesh_.dig(p, field_.at(p), start, {})) return false;
-  ++stars_;
+  shapes_asked_ += static_cast<std::int64_t>(mesh_.cavity().size() + mesh_.rim().size());
   double before = 1, after = 1;
   for (const std::int32_t c : mesh_.cavity()) {
     const Triangle& C = mesh_.triangles[c];
@@ -317,16 +318,16 @@ void Optimiser::rescue_worst() {
     if (t % triangles_between_checks == 0) monitor_.checkpoint();
     if (is_bad(t)) work_.push_back(t);
   }
-  const std::int64_t budget = std::max(least_stars, stars_a_triangle * total);
+  const std::int64_t budget = std::max(least_shapes, shapes_a_triangle * total);
   std::int64_t checked = 0;
-  stars_ = 0;
+  shapes_asked_ = 0;
   for (int pass = 0; pass < rescue_passes && !work_.empty(); ++pass) {
     next_.clear();
     for (const std::int32_t t : work_) {
-      if (stars_ > budget) return;
-      if (stars_ > checked) {
+      if (shapes_asked_ > budget) return;
+      if (shapes_asked_ > checked) {
         monitor_.checkpoint();
-        checked = stars_ + stars_between_checks;
+        checked = shapes_asked_ + shapes_between_checks;
       }
       if (is_bad(t)) rescue(t);
     }

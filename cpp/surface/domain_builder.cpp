@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 
 #include "plane/domain_check.h"
 #include "support/error.h"
@@ -42,6 +43,7 @@ class Builder {
         const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
         for (std::size_t i = 1; i < uv.size(); ++i) joining_reach_ += norm(uv[i] - uv[i - 1]);
       }
+    collect_sides();
     if (turn && vanishes(curve_of_[seed_curve_ - 1])) choose_another_seed();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) add_curve(c);
     for (int p = 0; p < static_cast<int>(face_.points.size()); ++p) add_vertex(face_.points[p].uv, {.point = p}, {});
@@ -70,10 +72,30 @@ class Builder {
     return static_cast<int>(it - uses.begin());
   }
 
+  // Ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first: both ends of a
+  // side of 1e-5 are near each other for the long curves beside it.
+  void collect_sides() {
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      const Curve& shape = topology_.curves[curve_of_[c]];
+      if (!shape.degenerate || vanishes(curve_of_[c])) continue;
+      const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
+      const double reach = std::min(norm(uv[1] - uv[0]), norm(uv.back() - uv[uv.size() - 2]));
+      const auto [side, first] = side_at_.try_emplace(shape.end1, reach);
+      if (!first) side->second = std::min(side->second, reach);
+    }
+  }
+
+  // How far ends at a corner may be apart in (u, v) to be one vertex.
+  [[nodiscard]] double joining_distance(int corner, double reach) const {
+    const auto side = side_at_.find(corner);
+    if (side != side_at_.end()) reach = std::min(reach, side->second);
+    return std::max(joining_share * reach, joining_reach_);
+  }
+
   int join_end(int corner, Vec2 uv, double reach, const DomainVertexOrigin& origin, Sizes size) {
     for (CurveEnd& end : ends_) {
       if (stand_in(end.corner) != stand_in(corner)) continue;
-      if (norm(end.uv - uv) > std::max(joining_share * std::min(end.reach, reach), joining_reach_)) continue;
+      if (norm(end.uv - uv) > joining_distance(corner, std::min(end.reach, reach))) continue;
       end.reach = std::min(end.reach, reach);
       return end.vertex;
     }
@@ -166,6 +188,7 @@ class Builder {
   std::span<const DiscreteCurve> curves_;
   int index_;
   double joining_reach_ = 0;  // length in (u, v) of the curves that vanish
+  std::map<int, double> side_at_;  // by corner: length in (u, v) of the shortest end of a degenerate side there
   FaceDomain domain_;
   std::vector<CurveEnd> ends_;
   int seed_curve_;  // rank, from 1
