@@ -26,7 +26,11 @@ class OpenCascadeInput final : public CadInput {
         host_(file_) {}
 
   carreau_status give_to(carreau_session* session) override { return host_.give_to(session); }
-  [[nodiscard]] double diagonal() const override { return host_.diagonal(); }
+  // Without a usable face there is none: any length will do for a run that tells why of each.
+  [[nodiscard]] double diagonal() const override {
+    const double diagonal = host_.diagonal();
+    return diagonal > 0 ? diagonal : 1;
+  }
   [[nodiscard]] double glue_tolerance() const override { return host_.glue_tolerance(); }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }

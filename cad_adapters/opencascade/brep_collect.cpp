@@ -14,6 +14,7 @@
 #include "brep_state.h"
 #include "face_check.h"
 #include "faults.h"
+#include "missing_curves.h"
 
 namespace carreau_occ {
 
@@ -50,6 +51,7 @@ void BrepHost::State::collect_face(int number) {
       (face.Orientation() == TopAbs_REVERSED) != (face.Location().Transformation().IsNegative() == Standard_True);
   // Wires are turned for the face taken forward.
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  add_missing_curves(forward);
   std::vector<Handle(Geom2d_Curve)> images;
   for (TopExp_Explorer e(forward, TopAbs_EDGE); e.More(); e.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());

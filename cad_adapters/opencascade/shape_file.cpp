@@ -24,6 +24,7 @@
 #include <atomic>
 #include <cctype>
 #include <fstream>
+#include <iostream>
 #include <stdexcept>
 
 #include "entity_check.h"
@@ -63,18 +64,23 @@ Format format_by_content(std::ifstream& file) {
   throw std::runtime_error(path + ": " + why);
 }
 
-/// OpenCASCADE writes to std::cout what it meets; nobody asked for that.
+/// OpenCASCADE writes to std::cout what it meets, through its messengers and, where it reads BREP files, by itself;
+/// nobody asked for that.
 class Silence {
  public:
-  Silence() : printers_(Message::DefaultMessenger()->Printers()) {
+  Silence() : printers_(Message::DefaultMessenger()->Printers()), buffer_(std::cout.rdbuf(nullptr)) {
     Message::DefaultMessenger()->ChangePrinters().Clear();
   }
-  ~Silence() { Message::DefaultMessenger()->ChangePrinters() = printers_; }
+  ~Silence() {
+    Message::DefaultMessenger()->ChangePrinters() = printers_;
+    std::cout.rdbuf(buffer_);  // clears what went wrong without one
+  }
   Silence(const Silence&) = delete;
   Silence& operator=(const Silence&) = delete;
 
  private:
   Message_SequenceOfPrinters printers_;
+  std::streambuf* buffer_;
 };
 
 std::string name_of(const TDF_Label& label) {

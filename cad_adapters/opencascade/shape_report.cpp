@@ -8,6 +8,8 @@
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Precision.hxx>
+#include <ShapeAnalysis_Curve.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -197,7 +199,15 @@ class Inspector {
       for (int i = 0; i <= gap_samples; ++i) {
         const double w = static_cast<double>(i) / gap_samples;
         const gp_Pnt2d uv = image->Value(a + w * (b - a));
-        const double distance = surface.Value(uv.X(), uv.Y()).Distance(curve.Value(from + w * (to - from)));
+        const gp_Pnt place = surface.Value(uv.X(), uv.Y());
+        double distance = place.Distance(curve.Value(from + w * (to - from)));
+        if (distance > gap && distance > BRep_Tool::Tolerance(edge)) {
+          // The two may run along each other at different paces, which leaves no gap.
+          gp_Pnt nearest;
+          double at = 0;
+          distance =
+              std::min(distance, ShapeAnalysis_Curve().Project(curve, place, Precision::Confusion(), nearest, at));
+        }
         if (distance > gap) gap = distance, where = f;
       }
     }

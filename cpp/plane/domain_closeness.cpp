@@ -239,7 +239,8 @@ bool ClosenessCheck::is_near(int edge, int vertex, Metric2 m) const {
   const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
   const double w = std::clamp(dot(m, p - a, b - a) / squared_length(m, b - a), 0.0, 1.0);
   const double d = length(m, p - lerp(a, b, w));
-  return d <= coef_ * sides_.length_of(edge) && d <= sides_.band(edge, vertex, d, coef_) && sees(e, vertex, w);
+  return d >= narrowest_share && d <= coef_ * sides_.length_of(edge) && d <= sides_.band(edge, vertex, d, coef_) &&
+         sees(e, vertex, w);
 }
 
 bool ClosenessCheck::is_too_long(int edge) const {

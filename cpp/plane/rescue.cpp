@@ -20,8 +20,9 @@ constexpr double straight_weight = 2 * 2 * std::numbers::sqrt3;
 constexpr int rescue_passes = 6;
 constexpr double gain = 1e-3;
 // Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad
-// triangles. It is counted by shapes, since a fine boundary far from all other vertices gives stars of thousands.
-constexpr std::int64_t shapes_a_triangle = 24, least_shapes = 600'000;
+// triangles. It is counted by shapes, since a fine boundary far from all other vertices gives stars of thousands; the
+// least is a few tenths of a second.
+constexpr std::int64_t shapes_a_triangle = 24, least_shapes = 4'000'000;
 constexpr int triangles_between_checks = 1 << 16, shapes_between_checks = 1 << 15;
 constexpr double short_edge_height = 0.9;       // of a vertex inserted over a short edge, in lengths of the edge
 constexpr double longest_after_removal2 = 2.0;  // squared length

@@ -321,6 +321,7 @@ class Refiner {
       const auto note_strip = [&](int v) {
         if (meet(edge.curve, domain.origin[v])) return true;
         const double s = fraction_on_segment(xyz[v], a, b);
+        if (norm(xyz[v] - lerp(a, b, s)) < narrowest_share * domain.size[v]) return true;
         const Vec2 nearest = lerp(plane.vertices[edge.a], plane.vertices[edge.b], s);
         const Vec2 middle = lerp(plane.vertices[v], nearest, 0.5);
         if (inside.contains(middle)) strips.push_back({e, v, middle});

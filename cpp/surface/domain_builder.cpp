@@ -187,7 +187,7 @@ class Builder {
   const Topology& topology_;
   std::span<const DiscreteCurve> curves_;
   int index_;
-  double joining_reach_ = 0;  // length in (u, v) of the curves that vanish
+  double joining_reach_ = 0;       // length in (u, v) of the curves that vanish
   std::map<int, double> side_at_;  // by corner: length in (u, v) of the shortest end of a degenerate side there
   FaceDomain domain_;
   std::vector<CurveEnd> ends_;

@@ -147,6 +147,13 @@ class Broken(unittest.TestCase):
         self.assertNotEqual(broken, text)
         self.assertEqual(self.mesh("context.step", broken)[0], ALL_FACES)
 
+    def test_brep_files_without_a_table_say_so_on_standard_error_only(self):
+        for table in ("Surfaces", "Curves ", "TShapes"):
+            status, error, summary = self.mesh("table.brep", content("plate.brep").replace(table, "x" + table))
+            self.assertEqual(status, NONE, error)
+            self.assertIsNone(summary)
+            self.assertIn("table.brep", error)
+
     def test_brep_files_with_numbers_without_sense(self):
         text = content("plate.brep")
         start = text.index("\n9 0 1 1 0 ")  # the surface of the hole
