@@ -49,7 +49,7 @@ Vec2 Lattice::parameters(GridPoint p) const noexcept {
 std::int32_t Lattice::block_at(GridPoint p, const BlockIndex::Position& at) {
   const auto [block, added] = index_.insert(at);
   if (added) {
-    const std::int32_t mask = ~(4 << at.spacing) + 1;
+    const auto mask = static_cast<std::int32_t>(~((4U << at.spacing) - 1U));
     blocks_.push_back({{p.i & mask, p.j & mask}, at.spacing});
     nodes_.resize(nodes_.size() + 16);
   }
