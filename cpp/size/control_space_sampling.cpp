@@ -41,6 +41,8 @@ constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
 constexpr double spare_samples = 100;
 // The same where the tolerance is violated.
 constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
+// Gradation leaves more kinks, and promises something of each.
+constexpr double most_graded_samples_per_vertex = 6;
 constexpr std::size_t least_of_max_samples = 1000;
 // Cells at suspects are split while they are wider than this, in edges of the mesh.
 constexpr double suspect_width = 0.5;
@@ -336,7 +338,8 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     list.resize(count);
   };
   double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(crowd.size());
-  cut(must, most_spare_samples + most_samples_per_vertex * vertices_ - spent, usual_cost);
+  const double most = on_surface_ ? most_graded_samples_per_vertex : most_samples_per_vertex;
+  cut(must, most_spare_samples + most * vertices_ - spent, usual_cost);
   spent += usual_cost * static_cast<double>(must.size());
   cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());

@@ -62,6 +62,7 @@ class ControlSpaceSampling {
   void choose_grid(const Survey& s);
   [[nodiscard]] std::vector<Metric2> ask(std::span<const Vec2> uv);
   void set_sample(std::int32_t node, Metric2 metric, std::size_t rank);
+  void sample_along_border();
   void keep_border(int vertex, Metric2 metric, std::size_t rank);
   void join_leaf(const TreeCell& cell, std::span<const std::int32_t> rank, SampledField& field) const;
   [[nodiscard]] Metric2 root_of(Metric2 metric) const noexcept;

@@ -30,9 +30,27 @@ void ControlSpaceSampling::keep_border(int vertex, Metric2 metric, std::size_t r
   if (on_surface_) at_border_.push_back({vertex, {metric, last_forms_[rank]}});
 }
 
-// Polynomials between samples that obey exceed the slope by half of the tolerance, about.
+// Along the boundary the middles of sides are predicted from one side only, which is off where a field has kinks.
+void ControlSpaceSampling::sample_along_border() {
+  std::vector<std::int32_t> nodes;
+  std::vector<Vec2> uv;
+  for (std::int32_t c = 0; c < tree_->size(); ++c) {
+    const TreeCell& cell = (*tree_)[c];
+    if (cell.child >= 0 || cell.edges_begin == cell.edges_end) continue;
+    for (int side = 0; side < 4; ++side) {
+      const std::int32_t n = cell.node[middles_of_sides[side]];
+      if (cell.beside[side] < 0 && lattice_->inside(n) && !lattice_->sampled(n)) nodes.push_back(n);
+    }
+  }
+  for (const std::int32_t n : nodes) uv.push_back(lattice_->parameters(lattice_->point(n)));
+  const std::vector<Metric2> metric = ask(uv);
+  for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
+}
+
+// Polynomials between samples that obey exceed the slope by the tolerance, at kinks.
 void ControlSpaceSampling::bound_slopes(double slope) {
-  slope_ = (1 - 0.5 * options_.tolerance) * slope;
+  slope_ = (1 - options_.tolerance) * slope;
+  sample_along_border();
   SampledField field;
   std::vector<std::int32_t> node, rank(static_cast<std::size_t>(lattice_->size()), -1);
   for (std::int32_t n = 0; n < lattice_->size(); ++n) {

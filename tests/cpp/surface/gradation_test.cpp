@@ -285,18 +285,6 @@ TEST(GradedModel, ControlSpacesObeyWherePrescribedSizesAreRough) {
     AnalyticCad cad = band();
     EXPECT_LE(steepest_in_control_spaces(cad, host_sizes(beta), &over), 1.02 * beta);
     cad = testing::teapot();
-    const double steepest = steepest_in_control_spaces(cad, curvature(beta), &over);
-    EXPECT_LE(steepest, 1.03 * beta);
-    EXPECT_LE(over, 3e-5) << beta;
-  }
-}
-
-// A known shortfall: with 1.3 one edge of 121 230, on a border between patches, by 3.0 %; with 2 two of 79 122 by 2.4 %,
-// where the samples of a control space are used up.
-TEST(GradedModel, DISABLED_EveryEdgeObeys) {
-  for (const double beta : {1.1, 1.3, 2.}) {
-    double over = 0;
-    AnalyticCad cad = testing::teapot();
     EXPECT_LE(steepest_in_control_spaces(cad, curvature(beta), &over), 1.02 * beta);
   }
 }
