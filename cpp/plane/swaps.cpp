@@ -104,8 +104,10 @@ void Optimiser::swap_to_delaunay() {
       mesh_.swap_edge(t, i);
     }
   }
-  // A bounded number of passes: in a metric that varies swaps can run in circles.
-  for (int pass = 0; pass < passes && !work_.empty(); ++pass) {
+  // A bounded number of passes: in a metric that varies swaps can run in circles. Then both triangles of each swap come
+  // back, and the list doubles with each pass.
+  const std::size_t most_work = 2 * static_cast<std::size_t>(total);
+  for (int pass = 0; pass < passes && !work_.empty() && work_.size() <= most_work; ++pass) {
     monitor_.checkpoint();
     next_.clear();
     for (const std::int32_t t : work_)
