@@ -46,8 +46,10 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
                                       " edges on curves");
   const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
   const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
+  // Parts of a micrometre have a diagonal, and slivers a quality.
+  const auto not_zero = [&](double x) { return x > 0 && x < 0.01 ? format_number(x) : short_text(x); };
   monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
-                                      short_text(q.q2.p1) + ", worst " + short_text(q.q2.min) + "; angles " +
+                                      short_text(q.q2.p1) + ", worst " + not_zero(q.q2.min) + "; angles " +
                                       short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");
   const CompositeReport& r = result.report;
   if (r.gradation_rounds > 0)
@@ -56,7 +58,7 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
                         " triangles" +
                         (r.gradation_rounds > 1 ? ", made " + whole(r.gradation_rounds) + " times" : "") + "; " +
                         short_text(r.seconds_gradation) + " s");
-  monitor.message(Level::summary, "diag " + short_text(r.diag) + "; " + whole(r.calls.surface()) +
+  monitor.message(Level::summary, "diag " + not_zero(r.diag) + "; " + whole(r.calls.surface()) +
                                       " evaluations of surfaces; " + short_text(r.seconds_total) + " s (curves " +
                                       short_text(r.seconds_curves) + ", sampling " + short_text(r.seconds_sampling) +
                                       ", plane meshes " + short_text(r.seconds_plane) + ", lift " +
