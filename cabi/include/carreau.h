@@ -229,7 +229,8 @@ CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carre
  * has the length sqrt(d^T M d), and edges are to have length 1. Sizes along the axes of M are 1 / sqrt(eigenvalue)
  *   TANGENT   value[0..4]: h1, h2 > 0, model lengths, and x, y, z of a direction of any length but zero: size h1 along
  *             it and h2 across it. It should be tangent to the surface
- * What is not finite or not positive definite ends the run with CARREAU_ERR_CALLBACK and a sentence with the place. */
+ * A size that is not finite and positive, or a tensor that is not positive definite, ends the run with
+ * CARREAU_ERR_CALLBACK and a sentence with the place. */
 enum { CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3 };
 
 /* At (u, v) in a face, at t on its curve number ic, at a point (its reference). value: room for 6. */

@@ -152,14 +152,18 @@ std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
 
 // In units of the coarsest cells, of a metric in those of the box.
 Metric2 ControlSpaceSampling::root_of_boxed(Metric2 m) const noexcept {
-  const Metric2 clamped = clamp_eigenvalues(m, floor_, std::numeric_limits<double>::max());
-  const double columns = tree_->columns(), rows = tree_->rows();
-  return square_root({clamped.a / (columns * columns), clamped.b / (columns * rows), clamped.c / (rows * rows)});
+  return root_in_cells(clamp_eigenvalues(m, floor_, std::numeric_limits<double>::max()));
 }
 
-Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept {
-  return root_of_boxed({m.a * box_.x * box_.x, m.b * box_.x * box_.y, m.c * box_.y * box_.y});
+Metric2 ControlSpaceSampling::root_in_cells(Metric2 boxed) const noexcept {
+  const double columns = tree_->columns(), rows = tree_->rows();
+  return square_root({boxed.a / (columns * columns), boxed.b / (columns * rows), boxed.c / (rows * rows)});
 }
+
+Metric2 ControlSpaceSampling::root_of(Metric2 m) const noexcept { return root_of_boxed(boxed(m)); }
+
+// Model lengths, not edges: the least metric is no bound here, or it would count in small models.
+Metric2 ControlSpaceSampling::root_of_form(Metric2 form) const noexcept { return root_in_cells(boxed(form)); }
 
 void ControlSpaceSampling::sample_roots() {
   std::vector<char> wanted(static_cast<std::size_t>(lattice_->size()), 1);

@@ -67,6 +67,11 @@ class ControlSpaceSampling {
   void join_leaf(const TreeCell& cell, std::span<const std::int32_t> rank, SampledField& field) const;
   [[nodiscard]] Metric2 root_of(Metric2 metric) const noexcept;
   [[nodiscard]] Metric2 root_of_boxed(Metric2 metric) const noexcept;
+  [[nodiscard]] Metric2 root_of_form(Metric2 form) const noexcept;
+  [[nodiscard]] Metric2 root_in_cells(Metric2 boxed) const noexcept;
+  [[nodiscard]] Metric2 boxed(Metric2 m) const noexcept {
+    return {m.a * box_.x * box_.x, m.b * box_.x * box_.y, m.c * box_.y * box_.y};
+  }
   void sample_roots();
   [[nodiscard]] Metric2 expected_at(const TreeCell& cell, int k);
 

@@ -89,7 +89,7 @@ Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& l
   const auto& ends = ends_of_sides[side - std::begin(middles_of_sides)];
   const std::int32_t first = leaf.node[ends[0]], last = leaf.node[ends[1]];
   if (!lattice_->sampled(first) || !lattice_->sampled(last)) return root;
-  const Metric2 on_surface = 0.5 * (root_of(at_node_[first].form) + root_of(at_node_[last].form));
+  const Metric2 on_surface = 0.5 * (root_of_form(at_node_[first].form) + root_of_form(at_node_[last].form));
   const double h = (on_surface.a + on_surface.c) / (root.a + root.c);
   double low = 0, high = std::numeric_limits<double>::infinity();
   const Vec2 uv = lattice_->parameters(lattice_->point(node));

@@ -38,8 +38,8 @@ std::string text_of(Metric2 m) {
   return "(a, b, c) = (" + format_number(m.a) + ", " + format_number(m.b) + ", " + format_number(m.c) + ")";
 }
 
-/// A definite metric within 1e-12 of a semi-definite one is not usable either; a size may have any sign (it is
-/// clamped).
+/// A definite metric within 1e-12 of a semi-definite one is not usable either. A size stands for the metric I / h^2:
+/// unlike those of cad_hphys, which may have any sign and are clamped, it must be positive.
 void check(const Prescription& p, const PrescriptionSource& source, const Where& where) {
   const auto refuse = [&](const std::string& what) { throw CallbackError(where, source.name() + " returned " + what); };
   const auto finite = [](auto... x) { return (std::isfinite(x) && ...); };
@@ -48,6 +48,7 @@ void check(const Prescription& p, const PrescriptionSource& source, const Where&
       return;
     case Prescription::Kind::size:
       if (!finite(p.size)) refuse("the size " + format_number(p.size) + ", which is not a finite number");
+      if (!(p.size > 0)) refuse("the size " + format_number(p.size) + ", which is not positive");
       return;
     case Prescription::Kind::space: {
       const Metric3& m = p.space;

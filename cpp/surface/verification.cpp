@@ -1,11 +1,13 @@
 #include "surface/verification.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "cad/fundamental_forms.h"
 #include "metric/metric2_algebra.h"
+#include "support/format.h"
 #include "surface/face_metric.h"
 
 namespace carreau {
@@ -18,6 +20,9 @@ constexpr std::size_t most_places = 500;
 constexpr std::size_t triangles_between_checks = 1 << 16;
 // A change of the control space, in relative length, that is worth another mesh.
 constexpr double notable_change = 0.1;
+// An edge that is so much shorter than another of its triangle is a point of space: triangles of prescribed metrics are
+// some ten thousand times longer than wide at most.
+constexpr double one_point = 1e-6;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -182,6 +187,30 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {
   return std::any_of(places.begin(), places.end(),
                      [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
+}
+
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh) {
+  const auto imposed = static_cast<std::int32_t>(domain.origin.size());
+  for (const auto& t : mesh.plane.triangles) {
+    std::array<double, 3> in_space, in_domain;  // squared
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = t[i], b = t[(i + 1) % 3];
+      const Vec3 edge = mesh.xyz[b] - mesh.xyz[a];
+      const Vec2 uv = mesh.plane.vertices[b] - mesh.plane.vertices[a];
+      in_space[i] = dot(edge, edge), in_domain[i] = dot(uv, uv);
+    }
+    const double far = one_point * one_point * *std::max_element(in_space.begin(), in_space.end());
+    const double apart = one_point * one_point * *std::max_element(in_domain.begin(), in_domain.end());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = t[i], b = t[(i + 1) % 3];
+      if ((a < imposed && b < imposed) || in_space[i] > far || !(in_domain[i] > apart)) continue;
+      const Vec2 to = mesh.plane.vertices[b];
+      return Where{.face = ref, .uv = mesh.plane.vertices[a]}.prefix() +
+             "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x) + ", " +
+             format_number(to.y) + ") is the same point of space";
+    }
+  }
+  return {};
 }
 
 }  // namespace carreau

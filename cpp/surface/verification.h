@@ -1,6 +1,7 @@
 // After the lift: do lengths in space agree with those that the control space promised?
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "size/control_space.h"
@@ -21,5 +22,9 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 
 /// Whether two control spaces differ at one of these places by more than their tolerance explains.
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
+
+/// Sides of a domain may shrink to a point, places inside may not: where vertices inside coincide in space, triangles
+/// have no area. The sentence that says where; empty when there is no such place.
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh);
 
 }  // namespace carreau

@@ -142,6 +142,8 @@ TEST_F(MetricCallbacks, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {
   EXPECT_NE(sentence_of(CARREAU_METRIC_SPACE, {1, 0, 0, nan, 0, 1}).find("which is not finite"), std::string::npos);
   EXPECT_NE(sentence_of(CARREAU_METRIC_SPACE, {1, 0, 0, 1, 0, 0}).find("not positive definite"), std::string::npos);
   EXPECT_NE(sentence_of(CARREAU_METRIC_SIZE, {infinity}).find("which is not a finite number"), std::string::npos);
+  EXPECT_NE(sentence_of(CARREAU_METRIC_SIZE, {-0.5}).find("the size -0.5, which is not positive"), std::string::npos);
+  EXPECT_NE(sentence_of(CARREAU_METRIC_SIZE, {0}).find("the size 0, which is not positive"), std::string::npos);
   EXPECT_NE(sentence_of(CARREAU_METRIC_TANGENT, {1, -1, 1, 0, 0}).find("the sizes 1 and -1, which must be positive"),
             std::string::npos);
   EXPECT_NE(sentence_of(CARREAU_METRIC_TANGENT, {1, 1, 0, 0, 0}).find("the direction (0, 0, 0)"), std::string::npos);

@@ -1,7 +1,9 @@
 // Hosts whose faces, curves and references do not fit together: a sentence, or one face that fails alone.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "common/analytic_cad.h"
 #include "mesh/quality.h"
@@ -141,6 +143,31 @@ TEST(BadModels, SurfaceWithoutArea) {
                   testing::rectangle({0, 0}, {1, 1})};
   const Outcome outcome = try_mesh(cad, testing::unglued(cad));
   EXPECT_TRUE(!outcome.error.empty() || !outcome.failures.empty());
+}
+
+// A double cone whose apex lies in the midst of its domain: the line v = 0 is one point of space.
+TEST(BadModels, SurfaceThatIsOnePointInside) {
+  AnalyticCad cad;
+  cad.faces[2] = {
+      [](Vec2 p) {
+        const double c = std::cos(p.x), s = std::sin(p.x), v = p.y;
+        return SurfaceJet{{v * c, v * s, 2 * v}, {-v * s, v * c, 0}, {c, s, 2}, {-v * c, -v * s, 0}, {-s, c, 0}, {}};
+      },
+      testing::rectangle({0, -1}, {2 * std::numbers::pi, 1})};
+  Monitor monitor;
+  Session session(monitor);
+  session.set_cad(std::make_shared<AnalyticCad>(cad));
+  session.set_model(testing::unglued(cad));
+  session.parameters().set("hphy_flag", 0);
+  session.parameters().set("hgeo_flag", 1);
+  session.parameters().set("gradation", 1.3);
+  try {
+    session.make_mesh();
+    FAIL() << find_defects(session.mesh()).size() << " defects";
+  } catch (const DomainError& error) {
+    EXPECT_NE(std::string(error.what()).find("the surface is degenerate inside its domain"), std::string::npos)
+        << error.what();
+  }
 }
 
 // ---- tiny edges (eps_collapse) ----

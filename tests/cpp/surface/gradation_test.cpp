@@ -462,6 +462,31 @@ TEST(GradedModel, IsTheSameEachTime) {
   }
 }
 
+// The unit of length is the host's: multiples by a power of two have the same mesh, bit for bit.
+TEST(GradedModel, IsTheSameInAnyUnitOfLength) {
+  for (const int anisotropic : {0, 1}) {
+    std::vector<Vec3> one;
+    for (const double unit : {1., 0x1p-20, 0x1p20}) {
+      AnalyticCad cad;
+      cad.faces[1] = {[unit](Vec2 p) {
+                        const SurfaceJet j = testing::torus_jet(p, 1, 0.4);
+                        return SurfaceJet{unit * j.s,   unit * j.su,  unit * j.sv,
+                                          unit * j.suu, unit * j.suv, unit * j.svv};
+                      },
+                      testing::rectangle({0, 0}, {pi / 2, 2 * pi})};
+      const GradedRun run(std::move(cad), 1.1, [&](Parameters& p) {
+        p.set("hphy_flag", 0);
+        p.set("hgeo_flag", 1);
+        p.set("geo_metric", anisotropic);
+      });
+      std::vector<Vec3> vertices = run.session->mesh().vertices;
+      for (Vec3& v : vertices) v = (1 / unit) * v;
+      if (one.empty()) one = vertices;
+      EXPECT_EQ(vertices, one) << unit;
+    }
+  }
+}
+
 // A plate [0, 4] x [-1, 1] with a disc of radius `radius` cut out at the origin of x = 2: gaps of 1 - radius.
 AnalyticCad plate_with_hole(double radius) {
   AnalyticCad cad = square(1);
