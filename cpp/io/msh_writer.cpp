@@ -1,6 +1,7 @@
 // Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"): one surface a triangle reference,
 // one curve an edge reference, one point a vertex reference that no other vertex has.
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "io/mesh_writers.h"
@@ -21,10 +22,20 @@ struct Entity {
 
 using Entities = std::map<std::int32_t, Entity>;  // by reference
 
-/// Tags are positive in the format: other references get numbers above the largest one.
+/// Tags are positive in the format: other references get numbers above the largest one, and the least that are free
+/// where numbers end.
 void give_tags(Entities& entities) {
-  int next = entities.empty() ? 1 : std::max(entities.rbegin()->first, 0) + 1;
-  for (auto& [ref, entity] : entities) entity.tag = ref > 0 ? ref : next++;
+  int next = entities.empty() ? 0 : std::max(entities.rbegin()->first, 0);
+  const auto advance = [&] { next = next == std::numeric_limits<int>::max() ? 1 : next + 1; };
+  for (auto& [ref, entity] : entities) {
+    if (ref > 0) {
+      entity.tag = ref;
+      continue;
+    }
+    do advance();
+    while (entities.contains(next));
+    entity.tag = next;
+  }
 }
 
 void number(std::string& text, double x) { append_number(text, x), text += ' '; }

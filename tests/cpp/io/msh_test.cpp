@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -172,11 +173,14 @@ TEST(Msh, FacesOfOneNameAreOneGroup) {
 
 TEST(Msh, TagsArePositiveWhateverTheReferences) {
   FlatMesh mesh = square();
-  mesh.triangle_refs = {-2, 0};
   mesh.edges.clear(), mesh.edge_refs.clear(), mesh.vertex_refs.clear();
-  const Content content = read_4(mesh_bytes(mesh, MeshFormat::msh));
-  for (const auto& [tag, element] : content.elements) EXPECT_GT(element.entity, 0);
-  EXPECT_NE(content.elements.at(1).entity, content.elements.at(2).entity);
+  constexpr std::int32_t largest = std::numeric_limits<std::int32_t>::max();
+  for (const auto& refs : {std::vector<std::int32_t>{-2, 0}, {-2, largest}, {-2, 1}, {largest - 1, 0}}) {
+    mesh.triangle_refs = refs;
+    const Content content = read_4(mesh_bytes(mesh, MeshFormat::msh));
+    for (const auto& [tag, element] : content.elements) EXPECT_GT(element.entity, 0);
+    EXPECT_NE(content.elements.at(1).entity, content.elements.at(2).entity);
+  }
   mesh.triangle_refs.clear();
   EXPECT_EQ(read_4(mesh_bytes(mesh, MeshFormat::msh)).elements.at(2).entity, 1);
 }
