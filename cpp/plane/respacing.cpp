@@ -9,7 +9,7 @@ namespace carreau::plane {
 
 namespace {
 
-constexpr double merge_gap = 0.55, wide_gap = 1.5, widest_gap = 2.6;
+constexpr double merge_gap = 0.55, wide_gap = 1.5;
 constexpr double narrow_gap = 0.6;
 constexpr int strain_window = 5;
 

@@ -368,7 +368,8 @@ TEST(MeshReaders, VtuBlocksThatAreNotWhatTheirHeaderSays) {
         {"AgAAAAgAAAAEAAAAAChr7goAAAA=eJxjYGBgYARiAAAMAAJ4nGNiYGAAAAAMAAM=",
          " says that it has a block of 4000000000 bytes, more than are left: the file may be truncated"},
         {"AgAAAAgAAAAEAAAADgAAAAwAAAA=", " says that it has 26 bytes, but 0 are left: the file may be truncated"}})
-    EXPECT_EQ(sentence_of<FileError>([&] { read_mesh_vtu(compressed_vtu(corners), "x.vtu"); }), array + sentence);
+    EXPECT_EQ(sentence_of<FileError>([text = compressed_vtu(corners)] { read_mesh_vtu(text, "x.vtu"); }),
+              array + sentence);
 }
 
 TEST(MeshReaders, VtuErrorsNameTheLine) {
