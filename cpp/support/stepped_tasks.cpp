@@ -2,6 +2,7 @@
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -75,7 +76,7 @@ class ThreadedRun {
         monitor_(monitor),
         errors_(tasks.size()),
         done_(tasks.size(), 0),
-        arena_(threads - 1, 0) {
+        arena_(threads, 1) {
     for (std::size_t i = 0; i < tasks.size(); ++i)
       monitors_.push_back(std::make_unique<TaskMonitor>(i, monitor, first_failed_));
     if (run.order.empty()) {
@@ -89,8 +90,15 @@ class ThreadedRun {
   ThreadedRun& operator=(const ThreadedRun&) = delete;
   ~ThreadedRun() {
     first_failed_ = 0;  // what is still at work ends at its next checkpoint
+    {
+      const std::scoped_lock lock(mutex_);
+      waiting_.clear();
+      if (!sent_) return;
+    }
+    // Helpers that no thread has begun with the calling thread ends itself: on a machine with other work it may take
+    // long until the system runs another thread.
+    arena_.execute([this] { helping_.wait(); });
     std::unique_lock lock(mutex_);
-    waiting_.clear();
     changed_.wait(lock, [this] { return helpers_ == 0; });
   }
 
@@ -132,7 +140,10 @@ class ThreadedRun {
   bool make_ready(std::size_t task) {
     const bool bound = tasks_[task]->bound();
     (bound ? bound_ : free_).push_back(task);
-    if (!bound) ++helpers_;
+    if (!bound) {
+      ++helpers_;
+      sent_ = true;
+    }
     return bound;
   }
 
@@ -141,11 +152,12 @@ class ThreadedRun {
     changed_.notify_all();
     if (bound) return;
     try {
-      __tsan_release(&handed_over);
-      arena_.enqueue([this] {
+      tbb::task_handle helper = helping_.defer([this] {
         __tsan_acquire(&handed_over);  // before `this` is read
         help();
       });
+      __tsan_release(&handed_over);
+      arena_.execute([this, &helper] { helping_.run(std::move(helper)); });
     } catch (...) {  // no memory for a helper: the calling thread takes the task
       const std::scoped_lock lock(mutex_);
       --helpers_;
@@ -245,8 +257,10 @@ class ThreadedRun {
   std::deque<std::size_t> bound_, free_;
   std::vector<std::exception_ptr> errors_;
   std::vector<char> done_;
-  int helpers_ = 0;  // sent and not yet back
-  tbb::task_arena arena_;
+  int helpers_ = 0;        // sent and not yet back
+  bool sent_ = false;      // a helper, ever
+  tbb::task_arena arena_;  // of the calling thread and its helpers
+  tbb::task_group helping_;
 };
 
 // Enough that one long range does not keep the others waiting.
