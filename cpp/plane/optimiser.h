@@ -102,11 +102,11 @@ class Optimiser {
   /// Of a triangle: the sum of its corners' metrics, the height of equilateral triangles by it, the weight of
   /// proposals.
   struct Steady {
-    float a, b, c, height, weight;
+    double a, b, c, height, weight;
   };
   std::vector<Steady> steady_;                  // over the sweeps at hand, where triangles count by size
   std::vector<Vec2> proposals_;                 // by vertex, weighed and summed up
-  std::vector<float> weights_;                  // their sums
+  std::vector<double> weights_;                 // their sums: exact, or places would shift by a share of the box
   std::vector<Vec2> before_;                    // places before the last sweep
   std::vector<std::int32_t> spoiled_, undone_;  // triangles spoiled by moves; vertices whose moves were taken back
   std::vector<HalfEdge> edges_;

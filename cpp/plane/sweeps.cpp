@@ -76,13 +76,12 @@ void Optimiser::prepare(bool by_size) {
   if (by_size) steady_.reserve(mesh_.triangles.size());
   weights_.assign(mesh_.vertices.size(), 0);
   for (const Triangle& T : mesh_.triangles) {
-    float weight = 1;
+    double weight = 1;
     if (by_size) {
       const Metric2 m = sum_of_metrics(mesh_.vertices[T.v[0]], mesh_.vertices[T.v[1]], mesh_.vertices[T.v[2]]);
       const double root = root_of_determinant(m);
-      weight = static_cast<float>(std::sqrt(root));
-      steady_.push_back({static_cast<float>(m.a), static_cast<float>(m.b), static_cast<float>(m.c),
-                         static_cast<float>(equilateral_height(root)), weight});
+      weight = std::sqrt(root);
+      steady_.push_back({m.a, m.b, m.c, equilateral_height(root), weight});
     }
     for (const std::int32_t v : T.v) weights_[v] += weight;
   }

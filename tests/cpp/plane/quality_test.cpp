@@ -1,6 +1,7 @@
 // The figures that the plane mesher must reach: Q2 in space (HDR eq. 1.6), edge lengths over sizes, degrees.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -118,6 +119,27 @@ TEST(Graded, QualityAtSlope011) {
   EXPECT_GE(q.mean, 0.991);
   EXPECT_GE(q.p1, 0.925);
   EXPECT_GE(q.degree_six, 0.91);
+}
+
+// Sizes far below the box's: places of vertices must be as exact as their coordinates.
+TEST(Graded, QualityWhereSizesAreAMillionthOfTheBox) {
+  constexpr double h0 = 1e-7, slope = 0.11;
+  constexpr Vec2 centre{0.53, 0.41};
+  PlaneCase c = flat_square(0.1);
+  c.size = [](Vec2 p) { return std::min(0.1, h0 + slope * norm(p - centre)); };
+  Monitor monitor;
+  const PlaneMesh mesh = mesh_plane(c.domain, control_space(c, ControlSpaceOptions{}.tolerance), {}, monitor);
+  EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
+  double sum = 0;
+  int triangles = 0;
+  for (const auto& t : mesh.triangles) {
+    const Vec2 p = mesh.vertices[t[0]], u = mesh.vertices[t[1]] - p, v = mesh.vertices[t[2]] - p;
+    if (norm(p - centre) > 100 * h0) continue;
+    sum += 2 * std::numbers::sqrt3 * cross(u, v) / (dot(u, u) + dot(v, v) + dot(u - v, u - v));
+    ++triangles;
+  }
+  ASSERT_GT(triangles, 100);
+  EXPECT_GE(sum / triangles, 0.985);
 }
 
 }  // namespace
