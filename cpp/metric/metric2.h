@@ -1,6 +1,7 @@
 // Metric tensors of a parameter plane.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/vec.h"
@@ -24,6 +25,27 @@ constexpr double dot(Metric2 m, Vec2 p, Vec2 q) noexcept {
 }
 constexpr double squared_length(Metric2 m, Vec2 d) noexcept { return dot(m, d, d); }
 inline double length(Metric2 m, Vec2 d) noexcept { return std::sqrt(squared_length(m, d)); }
+
+/// Corners of a regular hexagon on the unit circle.
+inline constexpr double half_root3 = 0.8660254037844386;
+inline constexpr Vec2 six_directions[] = {{1, 0},  {0.5, half_root3},   {-0.5, half_root3},
+                                          {-1, 0}, {-0.5, -half_root3}, {0.5, -half_root3}};
+
+/// Maps the unit circle to that of a metric, by the inverse of its Cholesky factor. Metrics that are singular up to
+/// rounding count as if their ratio were at most 1e6.
+class UnitCircle {
+ public:
+  explicit UnitCircle(Metric2 m) noexcept
+      : p_(std::sqrt(m.a)), q_(m.b / p_), r_(std::sqrt(std::max(m.c - q_ * q_, 1e-12 * m.c))) {}
+  /// The vector whose length in the metric is the Euclidean one of d.
+  [[nodiscard]] Vec2 vector(Vec2 d) const noexcept {
+    const double y = d.y / r_;
+    return {(d.x - q_ * y) / p_, y};
+  }
+
+ private:
+  double p_, q_, r_;
+};
 
 /// J^T J / h^2 (RR-2928 eq. 27 for an isotropic size h): the metric that a wanted size h in space
 /// induces on the parameter plane where the surface has first derivatives su, sv.

@@ -102,18 +102,16 @@ bool Optimiser::rescue_by_swap(int t) {
 
 // To the best of places around, at shrinking distances in the metric; whether that gains. Of the ring collected.
 bool Optimiser::move_to_best(int v) {
-  constexpr double root3 = 0.8660254037844386;
-  constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
   Vertex& P = mesh_.vertices[v];
   const double before = star_penalty(v, std::numeric_limits<double>::infinity());
   double best = before;
   for (double step = 0.24; step > 0.02; step *= 0.5) {
-    const double p = std::sqrt(P.a), q = P.b / p, r = std::sqrt(std::max(P.c - q * q, 1e-12 * P.c));
-    const Vertex centre = P;
-    for (const Vec2 d : directions) {
+    const UnitCircle circle(P.metric());
+    const Vec2 centre = P.point();
+    for (const Vec2 d : six_directions) {
       const Vertex kept = P;
-      const double dy = step * d.y / r, dx = (step * d.x - q * dy) / p;
-      P.x = centre.x + dx, P.y = centre.y + dy;
+      const Vec2 to = centre + circle.vector(step * d);
+      P.x = to.x, P.y = to.y;
       // Shapes depend on it only where the field bends.
       if (!mesh_.bends.empty()) P.set_metric(field_.at(P.point()));
       const double now = star_penalty(v, best);

@@ -11,9 +11,8 @@ namespace carreau::plane {
 // directions must be what the tensors halfway do.
 Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
   if (!(bend_of_shapes(slopes) > least_bend)) return Bend::none;
-  constexpr double tolerance = 0.1, root3 = 0.8660254037844386;
-  constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
-  for (const Vec2 d : directions) {
+  constexpr double tolerance = 0.1;
+  for (const Vec2 d : six_directions) {
     Vec2 e = chart.offset(d);
     // Along a strong bend only so far that the curve is about a unit long.
     const double aside = norm(chart.at_offset(e) - d);

@@ -191,21 +191,17 @@ class LengthEvening {
   /// The best place of those tried for a vertex inside, by the judgement of it and its neighbours, which `best`
   /// becomes. None: where it is.
   std::optional<State> best_place(Vertex v, Judgement& best) {
-    constexpr double root3 = 0.8660254037844386;
-    constexpr Vec2 directions[] = {{1, 0}, {0.5, root3}, {-0.5, root3}, {-1, 0}, {-0.5, -root3}, {0.5, -root3}};
     const Vertices around = with_ring(local_->global(v));
     const std::vector<Place>& fan = local_->fan(local_->global(v));
     const State here = state(v);
     const Vec3 mean = local_->mean_normal(fan);
-    const Metric2 m = result_.spaces[v.face]->at(here.uv);
-    const double p = std::sqrt(m.a), q = m.b / p, r = std::sqrt(std::max(m.c - q * q, 1e-12 * m.c));
+    const UnitCircle circle(result_.spaces[v.face]->at(here.uv));
     std::optional<State> found;
     const Judgement before = judge(around);
     best = before;
     for (const double step : steps)
-      for (const Vec2 d : directions) {
-        const double dy = step * d.y / r, dx = (step * d.x - q * dy) / p;
-        mesh_.faces[v.face].uv[v.local] = here.uv + Vec2{dx, dy};
+      for (const Vec2 d : six_directions) {
+        mesh_.faces[v.face].uv[v.local] = here.uv + circle.vector(step * d);
         if (left_ > 0 && local_->are_positive(fan)) {  // so it is inside the domain
           lift(v);
           const Judgement now = judge(around);
