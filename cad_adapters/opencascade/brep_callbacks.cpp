@@ -42,16 +42,29 @@ int32_t BrepHost::State::point_size(int32_t point, double* value, void* user) no
 int32_t BrepHost::State::fail(int32_t face, const Standard_Failure& why) noexcept {
   try {
     const std::scoped_lock lock(mutex);
-    failures[face] = sentence_of(why);
-  } catch (...) {  // no memory for a sentence
+    failures.try_emplace(face, sentence_of(why));  // the first stays: a host may hold its address
+  } catch (...) {                                  // no memory for a sentence
   }
   return 1;
+}
+
+template <typename Evaluate>
+int32_t BrepHost::State::answer_guarded(int32_t face, std::atomic<bool>& failed, const Evaluate& evaluate) noexcept {
+  try {
+    guarded(evaluate);
+    return 0;
+  } catch (const Standard_Failure& failure) {
+    failed = true;
+    return fail(face, failure);
+  } catch (...) {
+    return fail(face, Standard_Failure("out of memory"));
+  }
 }
 
 const char* BrepHost::State::failure(int32_t face, void* user) noexcept {
   auto& state = *static_cast<State*>(user);
   const std::scoped_lock lock(state.mutex);
-  const auto found = state.failures.find(face);  // stays: a face that has failed is not asked again
+  const auto found = state.failures.find(face);
   return found == state.failures.end() ? nullptr : found->second.c_str();
 }
 
@@ -80,15 +93,7 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
       if (order >= 1) store(d1u, Su + 3 * i), store(d1v, Sv + 3 * i);
     }
   };
-  try {
-    guarded(evaluate);
-    return 0;
-  } catch (const Standard_Failure& failure) {
-    failed = true;
-    return state.fail(face, failure);
-  } catch (...) {
-    return state.fail(face, Standard_Failure("out of memory"));
-  }
+  return state.answer_guarded(face, failed, evaluate);
 }
 
 int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept {
@@ -120,15 +125,7 @@ int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order
     if (order >= 1) Ct[x] = d1.X(), Ct[y] = d1.Y();
     if (order >= 2) Ctt[x] = d2.X(), Ctt[y] = d2.Y();
   };
-  try {
-    guarded(evaluate);
-    return 0;
-  } catch (const Standard_Failure& failure) {
-    failed = true;
-    return state.fail(face, failure);
-  } catch (...) {
-    return state.fail(face, Standard_Failure("out of memory"));
-  }
+  return state.answer_guarded(face, failed, evaluate);
 }
 
 }  // namespace carreau_occ

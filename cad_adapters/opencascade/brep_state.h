@@ -68,6 +68,9 @@ struct BrepHost::State {
   static int32_t point_size(int32_t point, double* value, void* user) noexcept;
   void collect_sizes();
   [[nodiscard]] double glue_tolerance() const;
+  /// Runs it; what it throws fails the face, and sets `failed`.
+  template <typename Evaluate>
+  int32_t answer_guarded(int32_t face, std::atomic<bool>& failed, const Evaluate& evaluate) noexcept;
   static const char* failure(int32_t face, void* user) noexcept;
   int32_t fail(int32_t face, const Standard_Failure& why) noexcept;
 };
