@@ -16,6 +16,7 @@
 #include "surface/narrow_faces.h"
 #include "surface/shared_chords.h"
 #include "surface/size_grading.h"
+#include "surface/verification.h"
 
 #if defined(__unix__)
 #include <unistd.h>
@@ -106,6 +107,7 @@ class Pipeline {
     mesh_faces();
     tell(Phase::assembly, 0, curves_share + patches_share);
     separate_chords(model_, topology_, domains_, curves_, cad_, patches_, monitor_);
+    refuse_degenerate();
     assemble(model_, topology_, domains_, curves_, patches_, result_);
     keep_prescriptions();
     say_what_is_narrow();
@@ -267,6 +269,16 @@ class Pipeline {
         {.threads = options_.threads, .order = order_of_jobs(), .on_finished = [this](std::size_t i) { accept(i); }},
         monitor_);
     jobs_.clear();
+  }
+
+  void refuse_degenerate() {
+    for (std::size_t f = 0; f < patches_.size(); ++f) {
+      if (!patches_[f]) continue;
+      const std::string why = degenerate_inside(model_.faces[f].ref, *domains_.domain[f], *patches_[f]);
+      if (why.empty()) continue;
+      fail(f, why);
+      patches_[f].reset();
+    }
   }
 
   void tell_progress(std::size_t next_job) {

@@ -101,7 +101,6 @@ void FaceJob::lift(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_lift);
   const bool kept = options_.size.geo_guarantee && rules_.uses_metrics();
   refine_in_space(input_, cad_, rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
-  refuse_degenerate(input_, *mesh_);
   next_ = Step::none;
 }
 

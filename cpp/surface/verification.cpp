@@ -189,8 +189,8 @@ bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, cons
                      [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
 }
 
-void refuse_degenerate(const PatchInput& input, const PatchMesh& mesh) {
-  const auto imposed = static_cast<std::int32_t>(input.domain->origin.size());
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh) {
+  const auto imposed = static_cast<std::int32_t>(domain.origin.size());
   for (const auto& t : mesh.plane.triangles) {
     std::array<double, 3> in_space, in_domain;  // squared
     for (std::size_t i = 0; i < 3; ++i) {
@@ -205,11 +205,12 @@ void refuse_degenerate(const PatchInput& input, const PatchMesh& mesh) {
       const std::int32_t a = t[i], b = t[(i + 1) % 3];
       if ((a < imposed && b < imposed) || in_space[i] > far || !(in_domain[i] > apart)) continue;
       const Vec2 to = mesh.plane.vertices[b];
-      throw DomainError(Where{.face = input.ref, .uv = mesh.plane.vertices[a]},
-                        "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x) + ", " +
-                            format_number(to.y) + ") is the same point of space");
+      return Where{.face = ref, .uv = mesh.plane.vertices[a]}.prefix() +
+             "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x) + ", " +
+             format_number(to.y) + ") is the same point of space";
     }
   }
+  return {};
 }
 
 }  // namespace carreau

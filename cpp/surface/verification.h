@@ -1,6 +1,7 @@
 // After the lift: do lengths in space agree with those that the control space promised?
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "size/control_space.h"
@@ -23,7 +24,7 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
 
 /// Sides of a domain may shrink to a point, places inside may not: where vertices inside coincide in space, triangles
-/// have no area. Throws DomainError that says where.
-void refuse_degenerate(const PatchInput& input, const PatchMesh& mesh);
+/// have no area. The sentence that says where; empty when there is no such place.
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh);
 
 }  // namespace carreau
