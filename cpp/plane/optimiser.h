@@ -93,6 +93,7 @@ class Optimiser {
   [[nodiscard]] bool has_imposed_spoke(int v) const;
   double star_penalty(int v, double enough);
   [[nodiscard]] double shape(int p, int q, int r) const;
+  [[nodiscard]] Lengths integrated_lengths(int p, int q, int r) const;
 
   Triangulation& mesh_;
   Shapes shapes_;

@@ -17,6 +17,7 @@ constexpr double suspect_quality = 0.85;  // in the mean metric of the vertices,
 constexpr double refine_quality = 0.45;   // below, shape goes before size
 // Where the field bends, straight triangles have less area than their lengths say; half of it is well enough.
 constexpr double straight_weight = 2 * 2 * std::numbers::sqrt3;
+constexpr double look_again_quality = 0.7;
 constexpr int rescue_passes = 6;
 constexpr double gain = 1e-3;
 // Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad
@@ -46,10 +47,26 @@ double Optimiser::shape(int p, int q, int r) const {
   const Vec2 u = Q - P, v = R - P;
   const double area = cross(u, v) * std::sqrt(std::max(determinant(m), 0.0));
   if (mesh_.is_bent(p, q, r)) {
-    const Lengths l = shapes_.lengths(p, q, r);
-    return std::min(l.quality(), straight_weight * area / (l.a + l.b + l.c));
+    const auto shape_of = [&](const Lengths& l) {
+      return std::min(l.quality(), straight_weight * area / (l.a + l.b + l.c));
+    };
+    const double roughly = shape_of(shapes_.lengths(p, q, r));
+    // The tensor halfway says little of long edges that leave a thin layer and come back, or cross it.
+    return roughly < look_again_quality ? shape_of(integrated_lengths(p, q, r)) : roughly;
   }
   return 2 * std::numbers::sqrt3 * area / (squared_length(m, u) + squared_length(m, v) + squared_length(m, u - v));
+}
+
+// By two points of Gauss on each edge.
+Lengths Optimiser::integrated_lengths(int p, int q, int r) const {
+  constexpr double first = 0.2113248654051871;
+  const auto squared = [&](int a, int b) {
+    const Vec2 A = mesh_.at(a), B = mesh_.at(b);
+    const double one = carreau::squared_length(field_.at(lerp(A, B, first)), B - A);
+    const double two = carreau::squared_length(field_.at(lerp(B, A, first)), B - A);
+    return 0.25 * (one + two) + 0.5 * std::sqrt(one * two);
+  };
+  return {squared(q, r), squared(r, p), squared(p, q)};
 }
 
 bool Optimiser::collect_star(int v) {
@@ -309,8 +326,10 @@ void Optimiser::rescue_worst() {
   const auto is_bad = [&](std::int32_t t) {
     const Triangle& T = mesh_.triangles[t];
     if (T.v[0] < 0 || T.done == Done::frozen || (!bends && is_good(T))) return false;
-    return is_crowded(t) ||
-           (shapes_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality && shape(T.v[0], T.v[1], T.v[2]) < bad_quality);
+    if (is_crowded(t)) return true;
+    // Lengths of bent triangles may tell of an area that they have not.
+    const bool suspect = shapes_.is_bent(T) || shapes_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality;
+    return suspect && shape(T.v[0], T.v[1], T.v[2]) < bad_quality;
   };
   work_.clear();
   for (std::int32_t t = 0; t < total; ++t) {
