@@ -143,6 +143,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "CoefRectangle", 0.1);
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
   set(session, "CheckAdjacentEdges", 20);
+  // Whatever made edges of a border short, triangles grow from them to the size inside.
+  set(session, "edge_gradation", 1.5);
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));

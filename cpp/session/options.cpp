@@ -51,6 +51,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.angle_smo = std::min(parameters.real("angle_smo"), size.angle_mesh);  // RT-0232 sec. 3.3
   options.lss = parameters.real("LSS");
   options.gradation = parameters.real("gradation");
+  options.edge_gradation = parameters.real("edge_gradation");
   options.proximity = parameters.integer("proximity");
   if (options.proximity > 0 && options.gradation == 0)
     throw InvalidArgument(

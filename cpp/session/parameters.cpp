@@ -31,7 +31,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text. Ours: max_triangles, measure, and what governs metrics (anisotropy_max, eps_chord,
+// the figure is hphymin in the text. Ours: max_triangles, measure, edge_gradation, and what governs metrics (anisotropy_max, eps_chord,
 // geo_guarantee, geo_metric, geo_rule, metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
@@ -57,6 +57,8 @@ constexpr std::array kTable = {
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
+    real_row("edge_gradation", 0, kInfinity, 0,
+             "largest ratio of sizes one unit edge apart, inward from short edges of curves, greater than 1 (0: any)"),
     text_row("element", "p1", "p1", "type of the elements: triangles of three nodes"),
     diag_row("eps_chord", kPositive, 1.0 / 5000,
              "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),
@@ -95,8 +97,9 @@ constexpr std::array kTable = {
     real_row("narrow_ratio", 0, 1, 0.1, "narrow_faces: largest width, as a share of the size prescribed there"),
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),
-    integer_row("proximity", 0, 1000, 0,
-                "least number of layers across narrow zones of a face and between faces (0: any; else gradation is needed)"),
+    integer_row(
+        "proximity", 0, 1000, 0,
+        "least number of layers across narrow zones of a face and between faces (0: any; else gradation is needed)"),
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
     integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),
     integer_row("verb", 0, 100, 10, "verbosity, per cent"),
@@ -142,7 +145,7 @@ void check_range(const ParameterInfo& info, double value) {
                           " is not");
   };
   if (!std::isfinite(value)) fail("a finite number");
-  if (std::string_view(info.name) == "gradation" && value != 0 && !(value > 1))
+  if (std::string_view(info.name).ends_with("gradation") && value != 0 && !(value > 1))
     fail("greater than 1, or 0 (no gradation)");
   if (value >= info.minimum && value <= info.maximum) return;
   if (info.minimum == kPositive) fail("greater than 0");

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "size/edge_sizes.h"
 #include "size/gradation.h"
 #include "size/metric_grading.h"
 #include "size/triangle_tree.h"
@@ -61,14 +62,22 @@ class GradedField {
   std::vector<GradedFace> faces_;
 };
 
-/// What is made of a prescribed size before a mesh is: bounded by a graded field, multiplied, bounded by a constant.
+/// What is made of a prescribed size before a mesh is: bounded by a graded field and by the edges around, multiplied,
+/// bounded by a constant.
 struct SizeLimits {
   const GradedField* field = nullptr;  ///< null: no bound
   double factor = 1;
   double largest = std::numeric_limits<double>::infinity();
+  const EdgeSizes* edges = nullptr;  ///< of one face; isotropic sizes alone; null: no bound
 
   [[nodiscard]] bool idle() const noexcept {
-    return field == nullptr && factor == 1 && largest == std::numeric_limits<double>::infinity();
+    return field == nullptr && edges == nullptr && factor == 1 && largest == std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] bool want_places() const noexcept { return field != nullptr || edges != nullptr; }
+  /// The isotropic size at (u, v) in a face, whose image is xyz, where h is prescribed: bounded by field and edges.
+  [[nodiscard]] double bounded(int face, Vec2 uv, Vec3 xyz, double h) const noexcept {
+    if (field != nullptr) h = field->size(face, uv, xyz, h);
+    return edges != nullptr ? edges->at(xyz, h) : h;
   }
 };
 

@@ -46,6 +46,21 @@ std::int64_t triangles_by_memory() {
   return INT64_C(50'000'000);
 }
 
+// Edges that are shorter than this share of the size prescribed at both ends let sizes grow from them. Those of a curve
+// that is one edge or several are at least 0.7 and 0.8 of it.
+constexpr double short_share = 0.7;
+
+std::vector<EdgeSizes::Source> short_edges(const FaceDomain& domain, const std::vector<Vec3>& xyz) {
+  std::vector<EdgeSizes::Source> edges;
+  for (const PlaneEdge& e : domain.plane.edges) {
+    if (e.kind == PlaneEdgeKind::degenerate || static_cast<std::size_t>(std::max(e.a, e.b)) >= xyz.size()) continue;
+    const double length = norm(xyz[e.b] - xyz[e.a]);
+    if (length > 0 && length < short_share * std::min(domain.size[e.a], domain.size[e.b]))
+      edges.push_back({xyz[e.a], xyz[e.b], length});
+  }
+  return edges;
+}
+
 class Pipeline {
  public:
   Pipeline(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
@@ -227,17 +242,24 @@ class Pipeline {
   void make_jobs() {
     const bool reentrant = options_.threads > 1 && cad_.reentrant() && options_.size.sources.empty();
     face_of_job_.clear();
+    short_edges_.assign(model_.faces.size(), {});
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       if (!domains_.domain[f] || patches_[f]) continue;
       const FaceDomain& domain = *domains_.domain[f];
+      SizeLimits bound = limits();
+      if (options_.edge_gradation > 0 && !rules_.uses_metrics()) {
+        short_edges_[f] = {short_edges(domain, positions_on_curves(domain, curves_, topology_)),
+                           slope_of_gradation(options_.edge_gradation)};
+        if (!short_edges_[f].empty()) bound.edges = &short_edges_[f];
+      }
       jobs_.push_back(
           std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
                                                .ref = model_.faces[f].ref,
                                                .domain = &domain,
                                                .curve_xyz = positions_on_curves(domain, curves_, topology_),
-                                               .constant_size = graded_.field ? std::nullopt : rules_.constant(),
+                                               .constant_size = bound.want_places() ? std::nullopt : rules_.constant(),
                                                .isotropic = !rules_.uses_metrics(),
-                                               .limits = limits(),
+                                               .limits = bound,
                                                .slope = slope()},
                                     cad_, rules_, options_, reentrant));
       job(jobs_.size() - 1).limit_triangles(options_.max_triangles);
@@ -344,6 +366,7 @@ class Pipeline {
   RefinedDomains domains_;
   std::vector<std::unique_ptr<SteppedTask>> jobs_;
   std::vector<std::size_t> face_of_job_;
+  std::vector<EdgeSizes> short_edges_;  // by face
   std::vector<std::optional<PatchMesh>> patches_;
   CompositeResult result_;
 };

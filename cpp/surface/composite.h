@@ -35,6 +35,9 @@ struct CompositeOptions {
   double narrow_ratio = 0.1;
   /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
   double gradation = 0;
+  /// Ratio by which sizes inside a face grow at most from one edge to the next, away from boundary edges that are
+  /// shorter than prescribed: > 1; 0: they do not depend on them. Isotropic sizes alone.
+  double edge_gradation = 0;
   /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap
   /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
   /// for.

@@ -38,8 +38,7 @@ void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, 
   for (std::size_t i = 0; i < uv.size(); ++i) {
     const double h = isotropic_size(jets[i], metric[i]);
     if (!(h > 0)) continue;
-    const double graded = limits.field == nullptr ? h : limits.field->size(face, uv[i], jets[i].s, h);
-    const double k = h / std::min(limits.factor * graded, limits.largest);
+    const double k = h / std::min(limits.factor * limits.bounded(face, uv[i], jets[i].s, h), limits.largest);
     if (k != 1) metric[i] = (k * k) * metric[i];
   }
 }

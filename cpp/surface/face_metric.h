@@ -28,7 +28,7 @@ class FaceMetric {
 
   /// The Want bits that the jets of at() must hold.
   [[nodiscard]] unsigned wants() const noexcept {
-    return want_first | rules_.surface_wants() | (limits_.field != nullptr ? want_position : 0U);
+    return want_first | rules_.surface_wants() | (limits_.want_places() ? want_position : 0U);
   }
 
   /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks

@@ -113,14 +113,18 @@ class LiftCheck {
     mesh_.size.resize(mesh_.xyz.size());
     for (std::size_t v = 0; v < mesh_.size.size(); ++v) {
       const bool known = v < input_.domain->size.size() && input_.domain->size[v] > 0;
-      mesh_.size[v] = known ? input_.domain->size[v] : of_metric[v] > 0 ? of_space[v] / of_metric[v] : 0;
+      mesh_.size[v] = known ? at_edges(v, input_.domain->size[v]) : of_metric[v] > 0 ? of_space[v] / of_metric[v] : 0;
     }
+  }
+
+  // What is prescribed on a curve, and may be more than its edges say.
+  [[nodiscard]] double at_edges(std::size_t v, double h) const {
+    return input_.limits.edges != nullptr ? input_.limits.edges->at(mesh_.xyz[v], h) : h;
   }
 
   // Where sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
   void ask_host() {
     if (rules_.uses_curvature()) return;
-    const GradedField* field = input_.limits.field;
     for (std::size_t v = input_.domain->size.size(); v < mesh_.xyz.size(); ++v) {
       bool answered = true;
       const auto no_answer = [&](Vec2) {
@@ -129,8 +133,7 @@ class LiftCheck {
       };
       double h = unknown;
       rules_.on_surface(input_.face, {&mesh_.plane.vertices[v], 1}, {}, no_answer, {&h, 1});
-      if (answered)
-        mesh_.size[v] = field == nullptr ? h : field->size(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v], h);
+      if (answered) mesh_.size[v] = input_.limits.bounded(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v], h);
       if (v % 512 == 0) monitor_.checkpoint();
     }
   }

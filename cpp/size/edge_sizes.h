@@ -1,0 +1,44 @@
+// Sizes that grow from the edges of a boundary.
+#pragma once
+
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "support/vec.h"
+
+namespace carreau {
+
+/// The size at x is the least h(e) + slope |x - e| over edges e of space: what lets triangles grow from short edges of
+/// a boundary to the size prescribed inside (Borouchaki, Hecht, Frey, from edges in place of vertices). Straight
+/// distances: sizes are never larger than those of distances on the surface. at() is safe from several threads.
+class EdgeSizes {
+ public:
+  /// An edge and the size wanted beside it.
+  struct Source {
+    Vec3 a, b;
+    double h = 0;
+  };
+
+  EdgeSizes() = default;
+  EdgeSizes(std::vector<Source> sources, double slope);
+
+  [[nodiscard]] bool empty() const noexcept { return sources_.empty(); }
+  /// The size at p, or `most` where it is smaller. Logarithmic in the number of edges where few of them are near.
+  [[nodiscard]] double at(Vec3 p, double most = std::numeric_limits<double>::infinity()) const noexcept;
+
+ private:
+  struct Node {
+    Vec3 low, high;  // of its edges
+    double h = 0;    // the smallest of theirs
+    int first = 0, end = 0;
+    int children = -1;  // two of them, one after the other; -1: a leaf
+  };
+  void build(int node);
+
+  std::vector<Source> sources_;
+  std::vector<Node> nodes_;  // the root first
+  double slope_ = 0;
+};
+
+}  // namespace carreau
