@@ -9,6 +9,7 @@ bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; 
 
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
                                      const ReadingProgress& progress) {
+  if (path.empty()) throw Failure("The name of the input is empty.");
   for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
     if (suffix_of(path) == suffix)
       throw Failure("'" + path + "' is a mesh already: carreau check and carreau picture read meshes.");

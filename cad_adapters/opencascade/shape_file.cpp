@@ -3,6 +3,8 @@
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESCAFControl_Reader.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -23,6 +25,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
@@ -130,6 +133,21 @@ class Indicator final : public Message_ProgressIndicator {
 Handle(XSControl_WorkSession) session_of(STEPCAFControl_Reader& reader) { return reader.ChangeReader().WS(); }
 Handle(XSControl_WorkSession) session_of(IGESCAFControl_Reader& reader) { return reader.WS(); }
 
+void mend_resolution(STEPCAFControl_Reader&) {}
+
+/// What is smaller than the resolution that an IGES file claims OpenCASCADE takes for a point: holes vanish without a
+/// word. Some writers claim absurd ones (that of OpenCASCADE 7.6 when it is given several shapes, 1e43 for instance).
+void mend_resolution(IGESCAFControl_Reader& reader) {
+  constexpr double largest = 1e-3, usual = 1e-5;  // shares of the largest coordinate; the latter is HDR's eps1
+  const Handle(IGESData_IGESModel) model = reader.IGESModel();
+  if (model.IsNull()) return;
+  IGESData_GlobalSection header = model->GlobalSection();
+  const double extent = header.HasMaxCoord() ? header.MaxCoord() : 0;
+  if (!(extent > 0) || header.Resolution() <= largest * extent) return;
+  header.SetResolution(usual * extent);
+  model->SetGlobalSection(header);
+}
+
 template <typename Reader>
 void read_document(const std::string& path, const char* kind, const Handle(Indicator) & indicator, ShapeFile& file) {
   // Names of faces are kept, and no names are invented.
@@ -141,6 +159,7 @@ void read_document(const std::string& path, const char* kind, const Handle(Indic
   reader.SetColorMode(Standard_True);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     refuse(path, std::string("is not a readable ") + kind + " file");
+  mend_resolution(reader);
   const EntityCheck check(session_of(reader));
   const bool translated = reader.Transfer(document, indicator->Start());
   file.losses = check.losses();
@@ -192,6 +211,7 @@ void read_as(Format format, const std::string& path, const Handle(Indicator) & i
 ShapeFile read_shape(const std::string& path, const ReadingProgress& progress) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) refuse(path, "cannot be opened");
+  if (std::filesystem::is_directory(path)) refuse(path, "is a folder");
   const Format content = format_by_content(stream);
   stream.close();
   Format format = format_by_suffix(path);

@@ -70,6 +70,15 @@ Temporary create_beside(const fs::path& target) {
 
 }  // namespace
 
+std::string suffix_of(const std::string& path) {
+  const std::size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
+  const std::size_t dot = path.find_last_of('.');
+  std::string suffix = dot == std::string::npos || dot < name ? "" : path.substr(dot);
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
 std::string read_file(const std::string& path, std::size_t limit) {
   check_name(path, "read");
   std::error_code error;

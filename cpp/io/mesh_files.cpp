@@ -62,11 +62,7 @@ void check_mesh(const FlatMesh& mesh) {
 }  // namespace
 
 MeshFormat mesh_format_of(const std::string& path) {
-  const std::size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
-  const std::size_t dot = path.find_last_of('.');
-  std::string suffix = dot == std::string::npos || dot < name ? "" : path.substr(dot);
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string suffix = suffix_of(path);
   if (suffix == ".mesh") return MeshFormat::mesh;
   if (suffix == ".meshb") return MeshFormat::meshb;
   if (suffix == ".vtu") return MeshFormat::vtu;

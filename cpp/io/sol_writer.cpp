@@ -33,8 +33,6 @@ void append_raw(std::string& bytes, T value) {
   bytes.append(raw, sizeof value);
 }
 
-bool ends_with(const std::string& path, std::string_view suffix) { return std::string_view(path).ends_with(suffix); }
-
 }  // namespace
 
 std::string solution_text(const Solution& solution) {
@@ -81,8 +79,9 @@ std::string solution_bytes(const Solution& solution) {
 }
 
 void write_solution(const Solution& solution, const std::string& path) {
-  if (ends_with(path, ".solb")) return write_file(path, solution_bytes(solution));
-  if (ends_with(path, ".sol")) return write_file(path, solution_text(solution));
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".solb") return write_file(path, solution_bytes(solution));
+  if (suffix == ".sol") return write_file(path, solution_text(solution));
   throw InvalidArgument("'" + path + "' has none of the suffixes of a solution file: .sol, .solb");
 }
 

@@ -18,6 +18,8 @@ namespace {
 // Tolerance inside one face against tolerance between faces: HDR sec. 4.5.1 recommends 1e-5 and 1e-2. The opposite
 // sides of a narrow face must not become one; a seam is exact.
 constexpr double inside_share = 1e-3;
+// ... as far as a file says it: numbers of ten digits, as a share of the model's diagonal.
+constexpr double rounding_of_files = 1e-9;
 // Ends farther apart than this share of eps_glue are not one by rounding only.
 constexpr double rounding_share = 1e-3;
 
@@ -37,7 +39,8 @@ class Gluer {
         entries_(entries_of(model, traces)),
         known_(!needs_gluing(model)),
         points_(2 * entries_.size()),
-        curves_(entries_.size()) {
+        curves_(entries_.size()),
+        eps_inside_(std::max(inside_share * eps, std::min(eps, rounding_of_files * traces_diagonal(traces)))) {
     const std::vector<std::vector<char>> free = curves_to_glue(model);
     for (const Entry& entry : entries_) takes_part_.push_back(free[entry.face][entry.curve]);
   }
@@ -128,7 +131,7 @@ class Gluer {
     const bool sides = a.face == b.face;
     if (sides && (!is_boundary(a) || !is_boundary(b))) return {};  // a seam is made of two sides
     const double loose = trace_deviation(a.trace) + trace_deviation(b.trace);
-    const double tolerance = (sides ? inside_share * eps_ : eps_) + loose;
+    const double tolerance = (sides ? eps_inside_ : eps_) + loose;
     const double gap = hausdorff_distance(a.trace, b.trace, tolerance);
     return gap < tolerance ? std::optional(std::max(gap - loose, 0.0)) : std::nullopt;
   }
@@ -169,6 +172,7 @@ class Gluer {
   bool known_;  // the model has references
   std::vector<char> takes_part_;
   UnionFind points_, curves_;
+  double eps_inside_;  // between two sides of one face
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends_;
 };
 

@@ -96,4 +96,16 @@ double trace_extent(std::span<const Vec3> trace) {
   return extent;
 }
 
+double traces_diagonal(const CurveTraces& traces) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  Vec3 low{far, far, far}, high{-far, -far, -far};
+  for (const auto& of_face : traces)
+    for (const auto& trace : of_face)
+      for (const Vec3& p : trace) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      }
+  return low.x > high.x ? 0 : norm(high - low);
+}
+
 }  // namespace carreau

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "cad/fundamental_forms.h"
+#include "io/files.h"
 #include "session/false_colours.h"
 #include "session/field_samples.h"
 #include "support/error.h"
@@ -364,10 +365,11 @@ ExrPrepare FieldImage::pixels() {
 }
 
 std::string field_file_of_face(const std::string& path, int ref) {
-  constexpr std::string_view suffix = ".exr";
-  if (path.size() <= suffix.size() || !path.ends_with(suffix))
+  const std::string_view suffix = ".exr";
+  if (path.size() <= suffix.size() || suffix_of(path) != suffix)
     throw InvalidArgument("the name '" + path + "' does not end in .exr");
-  return path.substr(0, path.size() - suffix.size()) + ".face." + std::to_string(ref) + std::string(suffix);
+  const std::size_t stem = path.size() - suffix.size();
+  return path.substr(0, stem) + ".face." + std::to_string(ref) + path.substr(stem);
 }
 
 void check_field_options(const FieldOptions& options) {

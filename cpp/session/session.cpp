@@ -378,7 +378,7 @@ FlatMesh Session::exported(const Delivered* delivered) const {
 }
 
 void Session::write(const std::string& path) {
-  if (path.ends_with(".exr")) {
+  if (suffix_of(path) == ".exr") {
     (void)mesh();
     FieldOptions options;
     options.multi_part = true;

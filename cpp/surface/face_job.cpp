@@ -12,10 +12,23 @@ namespace {
 
 // Times that a patch is meshed again because the lift disagrees.
 constexpr int most_corrections = 3;
-// An edge that is so many times longer than promised, whatever was sampled, does not lie on a surface that is
-// continuous. Sizes of the finest features that are met in practice are off by some tens; anisotropy in the mean by the
-// root of its ratio.
-constexpr double torn = 1000;
+/// Whether the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
+/// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
+bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
+  constexpr int halvings = 30;    // 1e-9 of the edge; more would compare numbers that are rounded
+  constexpr double shrunk = 0.1;  // a surface as steep as a square root leaves 3e-5
+  Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
+  const double whole = norm(q - p);
+  for (int i = 0; i < halvings; ++i) {
+    const Vec2 middle = 0.5 * (from + to);
+    const Vec3 m = surface_at(cad, face, want_position, middle).s;
+    if (norm(m - p) > norm(q - m))
+      to = middle, q = m;
+    else
+      from = middle, p = m;
+  }
+  return norm(q - p) > shrunk * whole;
+}
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
 constexpr double no_area = 1e-14;
 
@@ -97,7 +110,7 @@ void FaceJob::lift(Monitor& monitor) {
     next_ = Step::mesh;
     return;
   }
-  refuse_unsound();
+  refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
   const bool kept = options_.size.geo_guarantee && rules_.uses_metrics();
   refine_in_space(input_, cad_, rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
@@ -116,7 +129,7 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   return true;
 }
 
-void FaceJob::refuse_unsound() const {
+void FaceJob::refuse_unsound(Monitor& monitor) const {
   double area = 0, extent2 = 0;
   const std::vector<Vec3>& p = mesh_->xyz;
   for (const Vec3 q : p) extent2 = std::max(extent2, dot(q - p.front(), q - p.front()));
@@ -126,11 +139,13 @@ void FaceJob::refuse_unsound() const {
   }
   if (!(area > no_area * extent2))
     throw DomainError(Where{.face = input_.ref}, "the surface has no area: it is a line or a point of space");
-  const EdgeExcess& longest = mesh_->longest;
-  if (!(longest.ratio > torn)) return;
-  throw DomainError(Where{.face = input_.ref, .uv = longest.place},
-                    "the surface jumps: an edge of its mesh is " + format_number(longest.ratio) +
-                        " times as long as the derivatives say; it may not be continuous there");
+  for (const EdgeExcess& edge : mesh_->excesses) {
+    monitor.checkpoint();
+    if (jumps(cad_, input_.ref, edge.from, edge.to))
+      throw DomainError(Where{.face = input_.ref, .uv = 0.5 * (edge.from + edge.to)},
+                        "the surface jumps: an edge of its mesh is " + format_number(edge.ratio) +
+                            " times as long as the derivatives say; it is not continuous there");
+  }
 }
 
 void FaceJob::refuse_beyond_limit(double expected) const {

@@ -39,7 +39,7 @@ class FaceJob final : public SteppedTask {
   void sample(Monitor& monitor);
   void mesh(Monitor& monitor);
   void lift(Monitor& monitor);
-  void refuse_unsound() const;
+  void refuse_unsound(Monitor& monitor) const;
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
 

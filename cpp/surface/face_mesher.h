@@ -13,10 +13,10 @@
 
 namespace carreau {
 
-/// An edge inside a patch: its length in space over what the control space promises, and its middle in (u, v).
+/// An edge inside a patch: its length in space over what the control space promises, and its ends in (u, v).
 struct EdgeExcess {
   double ratio = 0;
-  Vec2 place;
+  Vec2 from, to;
 };
 
 /// A meshed patch. Vertices are those of the domain first, unmoved, then new ones.
@@ -24,7 +24,8 @@ struct PatchMesh {
   PlaneMesh plane;
   std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
   std::vector<double> size;  ///< prescribed size at every vertex
-  EdgeExcess longest;        ///< the edge that exceeds its promise most
+  /// Edges that exceed their promise a thousand times: where derivatives vanish, or the surface jumps.
+  std::vector<EdgeExcess> excesses;
   /// Where metrics govern: unit normal of the surface at every vertex that is not imposed, zero at singular ones.
   std::vector<Vec3> normal;
 };

@@ -10,7 +10,7 @@
 
 namespace carreau {
 
-/// Fills mesh.size and mesh.longest and returns places in (u, v) where an edge's length in space over the prescribed
+/// Fills mesh.size and mesh.excesses and returns places in (u, v) where an edge's length in space over the prescribed
 /// size disagrees with its length in the control space: the sampling has missed something there. The prescribed size is
 /// the one size of the model, or what the host answers at the ends (asked once a vertex) within the graded field, or,
 /// where sizes come from curvature or from interpolation, what the control space says around. Chords shorter than their

@@ -70,7 +70,7 @@ TEST(Solution, BothFormsGiveBackWhatWasWritten) {
     Solution s{.dimension = round % 2 + 2, .tensor = round % 4 > 1, .values = {}};
     for (std::size_t i = random() % 20 * s.components(); i > 0; --i) s.values.push_back(random_double(random));
     const CommaLocale comma;
-    for (const char* name : {"x.sol", "x.solb"}) {
+    for (const char* name : {"x.sol", "x.solb", "x.SOL", "x.SolB"}) {
       write_solution(s, folder.file(name));
       EXPECT_EQ(read_solution(folder.file(name)), s);
     }

@@ -129,6 +129,16 @@ TEST(Glue, LeavesTheLongSidesOfANarrowFaceApart) {
             "face 1, curve 2: the whole curve, 0.004 long, is nearer to a point than eps_glue = 0.01 and becomes one");
 }
 
+// Files have numbers of ten digits or so: a seam need not be exact to a thousandth of a fine tolerance.
+TEST(Glue, FindsSeamsWithinTheRoundingOfFiles) {
+  const AnalyticCad exact = cylinder();
+  CurveTraces traces = traces_of(exact);
+  const Model expected = glue(unglued(exact), traces, 1e-7);
+  for (auto& of_face : traces)
+    for (Vec3& p : of_face.back()) p.x += 2e-10;
+  EXPECT_EQ(references(glue(unglued(exact), traces, 1e-7)), references(expected));
+}
+
 TEST(Glue, TellsOfCurvesThatItCloses) {
   AnalyticCad cad;
   cad.faces[1] = flat({arc({0, 0}, 1, 0.005, 2 * pi), segment({1, 0}, {std::cos(0.005), std::sin(0.005)})});

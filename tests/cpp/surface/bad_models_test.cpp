@@ -134,6 +134,20 @@ TEST(BadModels, SurfaceThatJumps) {
   EXPECT_TRUE(outcome.sound);
 }
 
+// Derivatives vanish on one border (a cusp): edges there are many times longer than these say, and the surface is
+// continuous.
+TEST(BadModels, DerivativesThatVanishOnABorderAreNoJump) {
+  AnalyticCad cad;
+  cad.faces[1] = {[](Vec2 p) {
+                    const double dd = 600 * std::pow(p.x, 23), d = dd * p.x / 24;
+                    return SurfaceJet{{d * p.x / 25, p.y, 0}, {d, 0, 0}, {0, 1, 0}, {dd, 0, 0}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {1, 1})};
+  const Outcome outcome = try_mesh(cad, testing::unglued(cad), 0.01);
+  EXPECT_EQ(outcome.error + outcome.failures, "");
+  EXPECT_TRUE(outcome.sound);
+}
+
 // A face that shrinks to a line in space while its curves do not say so.
 TEST(BadModels, SurfaceWithoutArea) {
   AnalyticCad cad = square();
