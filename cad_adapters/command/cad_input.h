@@ -54,6 +54,8 @@ class CadInput {
 
 /// Whether the name says that the file has no geometry of its own (.pardom): a shared library gives it.
 bool needs_host(const std::string& path);
+/// Throws Failure when the name of an input is empty or that of a mesh.
+void check_geometry_name(const std::string& path);
 
 /// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; or
 /// what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told

@@ -58,6 +58,7 @@ class OpenCascadeInput final : public CadInput {
 
   [[nodiscard]] std::string gaps() const override {
     const carreau_occ::Gaps gaps = carreau_occ::measure_gaps(file_);
+    if (!(gaps.largest > 0)) return "none";
     char text[160];
     std::snprintf(text, sizeof text, "largest %.3g (edge %d on face %d); %d above twice the tolerance of their edges",
                   gaps.largest, gaps.edge, gaps.face, gaps.beyond);

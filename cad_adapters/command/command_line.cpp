@@ -62,6 +62,11 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_completion();
 }
 
+namespace {
+constexpr int most_listed = 1000000;
+std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
+}  // namespace
+
 CLI::App* CommandLine::add(const char* name, const char* description) {
   CLI::App* sub = app_.add_subcommand(name, description);
   sub->footer("Manual: man carreau-" + std::string(name));
@@ -80,14 +85,17 @@ void CommandLine::add_mesh() {
       ->type_name(kind::file);
   mesh->add_option("--size", mesh_.size,
                    "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")
+      ->check(not_empty)
       ->type_name(kind::length);
   mesh->add_option("--size-map", mesh_.size_map,
                    "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
+      ->check(not_empty)
       ->type_name(kind::file);
   mesh->add_option("--angle", mesh_.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
       ->check(CLI::Range(0.01, 89.0))
       ->type_name("DEGREES");
   mesh->add_option("--chord", mesh_.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
+      ->check(not_empty)
       ->type_name(kind::length);
   mesh->add_option("--gradation", mesh_.gradation, "Sizes grow by at most this ratio from one edge to the next")
       ->check(CLI::Range(1.0001, 1e9))
@@ -95,12 +103,13 @@ void CommandLine::add_mesh() {
   mesh->add_flag("--anisotropic{1000}", mesh_.anisotropy,
                  "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them")
       ->check(CLI::Range(1.0, 1e9));
-  mesh->add_option("--min", mesh_.minimum, "Smallest size")->type_name(kind::length);
-  mesh->add_option("--max", mesh_.maximum, "Largest size")->type_name(kind::length);
+  mesh->add_option("--min", mesh_.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
+  mesh->add_option("--max", mesh_.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
   repeated(mesh->add_option("--face-size", mesh_.face_sizes,
                             "Size on a face given by number, or on all faces of a name; may be repeated"))
       ->type_name("FACE=LENGTH");
   mesh->add_option("--env", mesh_.env, "Parameters from a blsurf.env, up to its first action; options win")
+      ->check(not_empty)
       ->type_name(kind::file);
   repeated(mesh->add_option("--set", mesh_.settings, "Any parameter that `carreau params` lists; may be repeated"))
       ->type_name(kind::setting);
@@ -118,7 +127,7 @@ void CommandLine::add_info() {
   info->add_option("--host", info_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
       ->type_name(kind::file);
   info->add_option("--limit", info_.limit, "Sentences of each kind")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
   info->add_flag("--json", info_.json, "Print JSON");
@@ -129,11 +138,11 @@ void CommandLine::add_check() {
   check->add_option("MESH", check_.mesh, mesh_files)->required()->type_name(kind::file);
   check->add_flag("--closed", check_.closed, "An edge with one triangle is a defect too");
   check->add_option("--limit", check_.limit, "Defects to look for")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
   check->add_option("--worst", check_.worst, "Worst triangles to list")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
   check->add_flag("--faces", check_.faces, "Print a line for each face");
@@ -179,7 +188,7 @@ void CommandLine::add_fields() {
       ->type_name("PIXELS")
       ->capture_default_str();
   fields->add_option("--face", fields_.face, "Only this face, into the file as it is named")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, most_listed))
       ->type_name("REF");
   fields->add_flag("--multi-part", fields_.multi_part, "All faces into one file, a part each");
   repeated(fields->add_option("--channels", fields_.channels, "Groups of channels, separated by commas; all by default")

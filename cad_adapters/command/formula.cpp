@@ -69,7 +69,8 @@ Formula::Formula(const std::string& text) : text_(text), state_(std::make_unique
   } catch (const mu::Parser::exception_type& error) {
     std::string why = error.GetMsg();
     // It counts positions from 0.
-    for (const char* tail : {" found at position", " at position", "."}) why = why.substr(0, why.find(tail));
+    for (const char* tail : {" found at position", " at position"}) why = why.substr(0, why.find(tail));
+    while (!why.empty() && (why.back() == '.' || why.back() == ' ')) why.pop_back();
     const auto position = static_cast<std::size_t>(std::max(static_cast<int>(error.GetPos()), 0));
     refuse(text, std::min(position, text.size()), why);
   }

@@ -26,6 +26,7 @@ std::string sentence(const ModelDanger& danger) {
 }  // namespace
 
 int info(const InfoOptions& options) {
+  check_geometry_name(options.input);
   const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt";
   if (!in_memory) {
     if (!options.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + options.input + "'.");

@@ -7,12 +7,16 @@ namespace command {
 
 bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; }
 
-std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
-                                     const ReadingProgress& progress) {
+void check_geometry_name(const std::string& path) {
   if (path.empty()) throw Failure("The name of the input is empty.");
   for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
     if (suffix_of(path) == suffix)
       throw Failure("'" + path + "' is a mesh already: carreau check and carreau picture read meshes.");
+}
+
+std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
+                                     const ReadingProgress& progress) {
+  check_geometry_name(path);
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
     return open_pardom(path, host);

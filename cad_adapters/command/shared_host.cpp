@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 
+#include "host_faults.h"
 #include "mesh_file.h"
 
 namespace command {
@@ -50,6 +51,7 @@ SharedHost::SharedHost(const std::string& path) {
   if (!missing.empty())
     throw Failure("The shared library '" + path + "' lacks " + missing +
                   ", alone or in a Fortran module cad_m: these are needed.");
+  watch_host(path, reinterpret_cast<const void*>(r.surf0));
 }
 
 }  // namespace command

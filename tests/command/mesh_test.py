@@ -215,6 +215,11 @@ class Sizes(Folder):
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="NAME=VALUE")
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is no length")
 
+    def test_empty_words_are_refused(self):
+        self.refused("", "-o", "a.mesh", sentence="The name of the input is empty")
+        for option in ("--size", "--size-map", "--env"):
+            self.refused(self.two, "-o", "a.mesh", option, "", sentence=option)
+
     @unittest.skipUnless(FORMULAS, "built without muParser")
     def test_a_formula_gives_the_size_at_each_place(self):
         mesh = self.mesh(self.square, "--size-map", "x < 0 ? 0.02 : 0.02 + x / 5")
