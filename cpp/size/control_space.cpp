@@ -18,7 +18,9 @@ ControlSpace ControlSpace::build(const SampledDomain& domain, const MetricSample
 
 ControlSpace ControlSpace::build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
                                         const ControlSpaceOptions& options, Monitor& monitor) {
-  detail::ControlSpaceSampling sampling(domain, sampler, true, options, monitor);
+  ControlSpaceOptions graded = options;
+  graded.thorough = true;
+  detail::ControlSpaceSampling sampling(domain, sampler, true, graded, monitor);
   sampling.run();
   sampling.bound_slopes(slope);
   return ControlSpaceWriter(sampling, monitor).run();

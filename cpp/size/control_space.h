@@ -27,8 +27,12 @@ struct ControlSpaceOptions {
   /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
   /// the mesh.
   double tolerance = 0.01;
-  /// Samples for each vertex of the mesh to come, on fields that are smooth: more only where the tolerance is violated.
+  /// Samples for each vertex of the mesh to come, where errors are smaller than edges can show. From some thousand
+  /// vertices on it takes fewer.
   double samples_per_vertex = 1.5;
+  /// Samples as if the mesh were small, and the tolerance also holds in cells smaller than its edges: for gradation,
+  /// which promises something of every kink.
+  bool thorough = false;
   std::size_t min_samples = 60;       ///< approximate
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
   /// Points of the domain where the field is known to hide something: around them cells are split down to half an edge

@@ -27,6 +27,12 @@ constexpr double negligible_length = 0.03;
 // The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
 // mesh, than half an edge, than a quarter of one. Smaller cells serve nobody.
 constexpr double share_wide = 0.25, share_edge = 0.5, share_half = 1;
+// The error that is refined for whatever it costs, in tolerances, for the same cells: an edge feels the mean along it,
+// and few edges pass a small cell.
+constexpr double tolerated_wide = 1, tolerated_edge = 4, tolerated_half = 16;
+// Ratio of sizes from which on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
+// the shortest edges wide.
+constexpr double much_stretched = 30;
 // A boundary sample is compared with an extrapolation that does not know it; later it takes part.
 constexpr double border_relief = 0.25;
 
@@ -37,8 +43,9 @@ constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5, trusted = 0.25;
 // Samples that splitting a cell costs: usually, and at most (4 middles, 4 centres, 8 boundary vertices); those of
 // testing it.
 constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
-// Smooth fields may use these beyond the samples for each vertex.
-constexpr double spare_samples = 100;
+// Where errors are no larger than edges can show these may be used beyond the samples for each vertex; in a large mesh
+// only so many vertices count, and a share of the others.
+constexpr double spare_samples = 100, vertices_that_count = 1500, share_of_others = 1.0 / 6;
 // The same where the tolerance is violated.
 constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 // Gradation leaves more kinks, and promises something of each.
@@ -184,6 +191,12 @@ void ControlSpaceSampling::sample_roots() {
   for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
 }
 
+// The squared trace over the determinant is r + 2 + 1 / r.
+bool ControlSpaceSampling::is_much_stretched(Metric2 root) noexcept {
+  constexpr double most = much_stretched + 2 + 1 / much_stretched;
+  return (root.a + root.c) * (root.a + root.c) > most * determinant(root);
+}
+
 // What the samples known so far say about node `k` of a cell.
 Metric2 ControlSpaceSampling::expected_at(const TreeCell& cell, int k) {
   const Prediction guess = predictor_->predict(cell, k);
@@ -264,6 +277,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
     TreeCell& cell = (*tree_)[centres[k].cell];
     set_sample(centres[k].node, metric[k], k);
     const Metric2 truth = lattice_->value(centres[k].node);
+    options_.thorough = options_.thorough || is_much_stretched(truth);
     cell.error = std::max(cell.error, error_between(centres[k].expected, truth, cell));
     cell.vertices = vertices_of(cell, truth);
   }
@@ -278,8 +292,11 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
 // sixteen where the field is smooth, two at a kink, that its own error and that of the cell before tell. Cells split
 // for their crowd are explored, those at the border extrapolated.
 bool ControlSpaceSampling::can_be_filled(const TreeCell& cell) const noexcept {
-  return !cell.filled && cell.edges_begin == cell.edges_end && cell.vertices <= crowded * vertices_per_cell_ &&
-         cell.decay * cell.error <= trusted * allowed_error(0.25 * cell.vertices);
+  if (cell.filled || cell.edges_begin != cell.edges_end || cell.vertices > crowded * vertices_per_cell_) return false;
+  const double expected = cell.decay * cell.error, parts = 0.25 * cell.vertices;
+  if (expected <= trusted * allowed_error(parts)) return true;
+  return !options_.thorough && static_cast<double>(samples_) > samples_for_smooth_fields() &&
+         is_beyond_tolerance(cell) && expected <= tolerated_error(parts);
 }
 
 void ControlSpaceSampling::estimate_vertices() {
@@ -317,8 +334,28 @@ double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   return std::numeric_limits<double>::infinity();
 }
 
+double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
+  const double width = std::sqrt(vertices * area_per_vertex);
+  if (width > 1) return tolerated_wide * options_.tolerance;
+  if (width > 0.5) return tolerated_edge * options_.tolerance;
+  if (width > 0.25) return tolerated_half * options_.tolerance;
+  return std::numeric_limits<double>::infinity();
+}
+
+// The cells that samples amid the sides stand for are the parts.
+bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexcept {
+  if (options_.thorough) return cell.error > std::max(allowed_error(cell.vertices), options_.tolerance);
+  return cell.filled ? cell.decay * cell.error > tolerated_error(0.25 * cell.vertices)
+                     : cell.error > tolerated_error(cell.vertices);
+}
+
+double ControlSpaceSampling::samples_for_smooth_fields() const noexcept {
+  const double others = options_.thorough ? 0 : std::max(vertices_ - vertices_that_count, 0.0);
+  return spare_samples + options_.samples_per_vertex * (vertices_ - (1 - share_of_others) * others);
+}
+
 // Cells to split, in their order: crowded ones as far as max_samples allows; those beyond the tolerance as far as there
-// are some samples a vertex; the others as far as samples_per_vertex allows. The worst first. `untested`:
+// are some samples a vertex; the others as far as samples_for_smooth_fields() allows. The worst first. `untested`:
 // cells that will cost samples anyway.
 std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int32_t> cells,
                                                            std::size_t untested) const {
@@ -329,7 +366,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     const double allowed = allowed_error(cell.vertices);
     if (cell.vertices > crowded * vertices_per_cell_)
       crowd.push_back(c);
-    else if (cell.error > std::max(allowed, options_.tolerance))
+    else if (is_beyond_tolerance(cell))
       must.push_back(c);
     else if (cell.error > allowed)
       may.push_back(c);
@@ -345,7 +382,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   const double most = on_surface_ ? most_graded_samples_per_vertex : most_samples_per_vertex;
   cut(must, most_spare_samples + most * vertices_ - spent, usual_cost);
   spent += usual_cost * static_cast<double>(must.size());
-  cut(may, spare_samples + options_.samples_per_vertex * vertices_ - spent, usual_cost);
+  cut(may, samples_for_smooth_fields() - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());
   crowd.insert(crowd.end(), may.begin(), may.end());
   cut(crowd,

@@ -72,6 +72,7 @@ class ControlSpaceSampling {
   [[nodiscard]] Metric2 boxed(Metric2 m) const noexcept {
     return {m.a * box_.x * box_.x, m.b * box_.x * box_.y, m.c * box_.y * box_.y};
   }
+  [[nodiscard]] static bool is_much_stretched(Metric2 root) noexcept;
   void sample_roots();
   [[nodiscard]] Metric2 expected_at(const TreeCell& cell, int k);
 
@@ -84,6 +85,9 @@ class ControlSpaceSampling {
   void estimate_vertices();
 
   [[nodiscard]] double allowed_error(double vertices) const noexcept;
+  [[nodiscard]] double tolerated_error(double vertices) const noexcept;
+  [[nodiscard]] double samples_for_smooth_fields() const noexcept;
+  [[nodiscard]] bool is_beyond_tolerance(const TreeCell& cell) const noexcept;
   [[nodiscard]] double error_between(Metric2 root, Metric2 truth, const TreeCell& cell) const noexcept;
   [[nodiscard]] bool can_be_filled(const TreeCell& cell) const noexcept;
   [[nodiscard]] double vertices_of(const TreeCell& cell, Metric2 root) const noexcept;

@@ -180,6 +180,7 @@ ControlSpace GradingRound::sample(const PatchInput& input) {
   };
   ControlSpaceOptions options;
   options.tolerance = input.tolerance;
+  options.thorough = true;
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor_);
 }
 
