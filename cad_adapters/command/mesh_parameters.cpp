@@ -145,6 +145,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "CheckAdjacentEdges", 20);
   // Whatever made edges of a border short, triangles grow from them to the size inside.
   set(session, "edge_gradation", 1.5);
+  // Vertices that face each other leave triangles with right angles only.
+  set(session, "stagger_strips", 1);
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));

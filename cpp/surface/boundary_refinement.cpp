@@ -13,6 +13,7 @@
 #include "support/stepped_tasks.h"
 #include "surface/finest_lengths.h"
 #include "surface/near_vertices.h"
+#include "surface/staggering.h"
 
 namespace carreau {
 
@@ -93,6 +94,7 @@ class Refiner {
             return finest_->reached_by(curves_[plane.edges[e].curve], plane.edges[e].segment);
           });
         });
+    stagger_strips();
     for (int i = 0; i < options_.check_well_defined; ++i) uncross();
     uncross();
     report_what_still_crosses();
@@ -227,6 +229,18 @@ class Refiner {
           largest = std::max(largest, distance_to_segment(support.uv[i], p, q));
     }
     return largest;
+  }
+
+  // Last, since halves of what was moved by half an edge would face each other again. Sides that were matched stay so,
+  // and metrics by direction know no width in space.
+  void stagger_strips() {
+    if (!options_.stagger_strips || !narrow_.empty() || rules_.uses_metrics()) return;
+    rebuild_stale();
+    for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, monitor_)) {
+      stagger(curves_[c], curve_model_);
+      mark_stale(c);
+    }
+    rebuild_stale();
   }
 
   bool split(int curve, int segment) {

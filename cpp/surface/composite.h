@@ -38,6 +38,9 @@ struct CompositeOptions {
   /// Ratio by which sizes inside a face grow at most from one edge to the next, away from boundary edges that are
   /// shorter than prescribed: > 1; 0: they do not depend on them. Isotropic sizes alone.
   double edge_gradation = 0;
+  /// Vertices of one side of a strip of one layer go where they face the middles of the other side's edges
+  /// (staggering.h).
+  bool stagger_strips = false;
   /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap
   /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
   /// for.
