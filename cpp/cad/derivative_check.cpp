@@ -79,9 +79,9 @@ std::string text(Vec3 v, int components, bool rounded) {
   return "(" + number(v.x) + ", " + number(v.y) + (components == 3 ? ", " + number(v.z) : "") + ")";
 }
 
-std::string sentence(const Where& where, const char* routine, const Claim& claim, Vec3 found, int components) {
-  return where.prefix() + routine + " gives " + claim.name + " = " + text(claim.given, components, false) +
-         ", but finite differences give " + text(found, components, true);
+WrongDerivative wrong_at(const Where& where, const char* routine, const Claim& claim, Vec3 found, int components) {
+  return {where, std::string(routine) + " gives " + claim.name + " = " + text(claim.given, components, false) +
+                     ", but finite differences give " + text(found, components, true)};
 }
 
 /// A claim and what it is judged by.
@@ -92,15 +92,15 @@ struct Test {
   double extent;  // of the function that is differentiated, over the range
 };
 
-std::optional<std::string> first_contradiction(std::span<const Test> tests, const Where& where, const char* routine,
-                                               int components) {
+std::optional<WrongDerivative> first_contradiction(std::span<const Test> tests, const Where& where, const char* routine,
+                                                   int components) {
   for (const Test& test : tests)
     if (const std::optional<Vec3> found = contradiction(test.claim, test.line, test.range, test.extent / test.range))
-      return sentence(where, routine, test.claim, *found, components);
+      return wrong_at(where, routine, test.claim, *found, components);
   return {};
 }
 
-std::optional<std::string> test_surface(Cad& cad, int face, Vec2 p, Vec2 range, int order) {
+std::optional<WrongDerivative> test_surface(Cad& cad, int face, Vec2 p, Vec2 range, int order) {
   const auto sample = [&](Vec2 at) {
     const SurfaceJet jet = surface_at(cad, face, order == 1 ? want_position : want_first, at);
     return order == 1 ? Line::Values{jet.s, {}} : Line::Values{jet.su, jet.sv};
@@ -122,7 +122,7 @@ std::optional<std::string> test_surface(Cad& cad, int face, Vec2 p, Vec2 range, 
   return first_contradiction(tests, where, "surf2", 3);
 }
 
-std::optional<std::string> test_curve(Cad& cad, int face, int ic, double t, double range, int order) {
+std::optional<WrongDerivative> test_curve(Cad& cad, int face, int ic, double t, double range, int order) {
   const auto lift = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
   Line line([&](double d) {
     const CurveJet jet = cad.curve(face, ic, order == 1 ? want_position : want_first, t + d);
@@ -139,7 +139,7 @@ std::optional<std::string> test_curve(Cad& cad, int face, int ic, double t, doub
 }
 
 /// A host may fail at a single point: nothing can be said there.
-std::optional<std::string> where_defined(const std::function<std::optional<std::string>()>& test) {
+std::optional<WrongDerivative> where_defined(const std::function<std::optional<WrongDerivative>()>& test) {
   try {
     return test();
   } catch (const CallbackError&) {
@@ -155,9 +155,9 @@ double inside(double x, double shift, double low, double high) {
 
 }  // namespace
 
-std::vector<std::string> find_wrong_surface_derivatives(Cad& cad, int face, std::span<const Vec2> uv, Vec2 low,
-                                                        Vec2 high, bool second) {
-  std::vector<std::string> wrong;
+std::vector<WrongDerivative> find_wrong_surface_derivatives(Cad& cad, int face, std::span<const Vec2> uv, Vec2 low,
+                                                            Vec2 high, bool second) {
+  std::vector<WrongDerivative> wrong;
   const Vec2 range = high - low;
   const auto moved = [&](Vec2 p, Vec2 share) {
     return Vec2{inside(p.x, share.x * range.x, low.x, high.x), inside(p.y, share.y * range.y, low.y, high.y)};
@@ -170,7 +170,7 @@ std::vector<std::string> find_wrong_surface_derivatives(Cad& cad, int face, std:
       const auto test = [&](Vec2 at) {
         return where_defined([&] { return test_surface(cad, face, at, range, order); });
       };
-      std::optional<std::string> found = test(p);
+      std::optional<WrongDerivative> found = test(p);
       if (!found || !test(other)) continue;
       wrong.push_back(std::move(*found));
       break;
@@ -179,9 +179,9 @@ std::vector<std::string> find_wrong_surface_derivatives(Cad& cad, int face, std:
   return wrong;
 }
 
-std::vector<std::string> find_wrong_curve_derivatives(Cad& cad, int face, int ic, std::span<const double> t,
-                                                      Interval range, bool second) {
-  std::vector<std::string> wrong;
+std::vector<WrongDerivative> find_wrong_curve_derivatives(Cad& cad, int face, int ic, std::span<const double> t,
+                                                          Interval range, bool second) {
+  std::vector<WrongDerivative> wrong;
   const double width = range.b - range.a;
   for (const int order : {1, 2}) {
     const unsigned bit = order == 1 ? want_first : want_second;
@@ -191,7 +191,7 @@ std::vector<std::string> find_wrong_curve_derivatives(Cad& cad, int face, int ic
       const auto test = [&](double at) {
         return where_defined([&] { return test_curve(cad, face, ic, at, width, order); });
       };
-      std::optional<std::string> found = test(p);
+      std::optional<WrongDerivative> found = test(p);
       if (!found || !test(other)) continue;
       wrong.push_back(std::move(*found));
       break;

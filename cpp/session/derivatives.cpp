@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cad/derivative_check.h"
+#include "session/left_out.h"
 
 namespace carreau {
 
@@ -41,10 +42,10 @@ std::vector<Vec2> sample_points(const std::vector<CurveSupport>& supports) {
 }  // namespace
 
 void check_derivatives(const Model& model, const ModelSupports& supports, Cad& cad, const CompositeOptions& options,
-                       Monitor& monitor) {
+                       Model* known, Monitor& monitor) {
   const bool second = options.size.hgeo_flag == 1;
-  std::vector<std::string> wrong;
-  const auto take = [&](std::vector<std::string>&& more) { wrong.insert(wrong.end(), more.begin(), more.end()); };
+  std::vector<WrongDerivative> wrong;
+  const auto take = [&](std::vector<WrongDerivative>&& more) { wrong.insert(wrong.end(), more.begin(), more.end()); };
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
     monitor.checkpoint();
     const Box box = box_of(supports.of_face[f]);
@@ -58,8 +59,13 @@ void check_derivatives(const Model& model, const ModelSupports& supports, Cad& c
     }
   }
   if (wrong.empty()) return;
-  for (std::size_t i = 1; i < wrong.size(); ++i) monitor.message(Level::error, wrong[i]);
-  throw CallbackError(wrong.front());
+  const WrongDerivative& first = wrong.front();
+  for (std::size_t i = 1; i < wrong.size(); ++i) {
+    const CallbackError error(wrong[i].where, wrong[i].sentence);
+    monitor.message(Level::error, error.what());
+    if (known != nullptr && error.where().face != first.where.face) leave_out(*known, error);
+  }
+  throw CallbackError(first.where, first.sentence);
 }
 
 }  // namespace carreau

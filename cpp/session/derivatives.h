@@ -8,8 +8,9 @@
 namespace carreau {
 
 /// Compares the derivatives that the run will use with finite differences at a few points of every face and curve.
-/// Throws CallbackError with the first wrong one (face, (u, v) or t, both values); the others are messages.
+/// Throws CallbackError with the first wrong one (face, (u, v) or t, both values); the others are messages, and their
+/// faces are left out of `known`, when there is one, so that the next run is without any of them.
 void check_derivatives(const Model& model, const ModelSupports& supports, Cad& cad, const CompositeOptions& options,
-                       Monitor& monitor);
+                       Model* known, Monitor& monitor);
 
 }  // namespace carreau

@@ -256,7 +256,7 @@ void Session::make_mesh_of(Model& known) {
   for (PrescriptionSource* source : options.size.sources)
     source->begin_run(static_cast<MetricLaw>(options.size.hinterpol_flag));
   report_short_curves(model, supports, options.eps_ends, s.monitor);
-  check_derivatives(model, supports, cad, options, s.monitor);
+  check_derivatives(model, supports, cad, options, leaves_out(s.parameters) ? &known : nullptr, s.monitor);
   Topology topology =
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 

@@ -15,14 +15,20 @@ using namespace testing;
 const std::array<Vec2, 5> points{Vec2{0.21, 0.17}, {0.83, 0.31}, {0.5, 0.5}, {0.29, 0.77}, {0.71, 0.89}};
 const std::array<double, 3> parameters{0.31, 0.92, 1.73};
 
+std::vector<std::string> texts_of(const std::vector<WrongDerivative>& wrong) {
+  std::vector<std::string> texts;
+  for (const WrongDerivative& each : wrong) texts.push_back(each.text());
+  return texts;
+}
+
 std::vector<std::string> check(Cad& cad, double scale = 1) {
   std::array<Vec2, 5> uv = points;
   for (Vec2& p : uv) p = scale * p;
-  return find_wrong_surface_derivatives(cad, 1, uv, {0, 0}, {scale, scale}, true);
+  return texts_of(find_wrong_surface_derivatives(cad, 1, uv, {0, 0}, {scale, scale}, true));
 }
 
 std::vector<std::string> check_curve(FaceCad& cad) {
-  return find_wrong_curve_derivatives(cad, 1, 2, parameters, cad.interval, true);
+  return texts_of(find_wrong_curve_derivatives(cad, 1, 2, parameters, cad.interval, true));
 }
 
 TEST(FindWrongDerivatives, FindsNothingInSoundGeometry) {

@@ -124,6 +124,24 @@ TEST(FailingFaces, OnCurvesAreFoundTogether) {
   EXPECT_EQ(run.failed(), std::set<int>{});
 }
 
+// surf1 that contradicts surf0 is told of its face, and all such faces are left out at once.
+TEST(FailingFaces, WithWrongDerivativesAreFoundTogether) {
+  AnalyticCad cad = row();
+  for (const int face : {2, 5, 6}) {
+    const auto sound = cad.faces[face].at;
+    cad.faces[face].at = [=](Vec2 p) {
+      SurfaceJet jet = sound(p);
+      jet.su = 3 * jet.su;
+      return jet;
+    };
+  }
+  Row run(cad);
+  run.session.make_mesh();
+  EXPECT_EQ(run.failed(), (std::set<int>{2, 5, 6}));
+  EXPECT_EQ(run.monitor.runs, 2);
+  EXPECT_NE(run.session.mesh().faces[4].why.find("surf1 gives Su = (3, 0, 0)"), std::string::npos);
+}
+
 TEST(FailingFaces, OfAHostAreNotAsked) {
   AnalyticCad cad = row();
   for (const int face : {2, 6}) cad.faces.erase(face);  // std::map::at throws
