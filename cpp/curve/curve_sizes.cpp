@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "curve/unit_discretisation.h"
 #include "support/error.h"
@@ -25,8 +24,10 @@ constexpr double narrowest = 1e-7;  ///< of the curve's length
 constexpr double beside_curve = 0.01, steep_spacing = 0.002;
 
 /// Two samples of sizes from curvature may lie on two inflections. An interval is halved where the curve turns by more
-/// than this between them, down to a share of the curve at kinks.
+/// than this between them, or where its mean radius asks for so many times the edges that the samples do; down to a
+/// share of the curve at kinks.
 constexpr double most_turning = 90 * std::numbers::pi / 180;
+constexpr double most_missed = 2;
 constexpr double least_bent = 1. / 256;
 
 struct Sample {
@@ -98,7 +99,9 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
 /// How much a curve turns, by the support of its first use.
 class Turning {
  public:
-  Turning(const CurveModel& model, int curve) {
+  /// `known` false: nothing is asked of it.
+  Turning(const CurveModel& model, int curve, bool known) : known_(known) {
+    if (!known) return;
     const CurveUse& use = model.curve(curve).uses.front();
     const CurveSupport& support = model.support(use);
     r_ = {0};
@@ -117,17 +120,39 @@ class Turning {
     for (double& r : r_) r = 1 - r;
     const double whole = angle_.front();
     for (double& a : angle_) a = whole - a;
+    std::copy(angle_.begin() + 1, angle_.end(), angle_.begin());  // with the corner that begins a segment, as before
   }
   [[nodiscard]] bool too_bent(const Sample& left, const Sample& right) const {
-    return right.r - left.r > least_bent && up_to(right.r) - up_to(left.r) > most_turning;
+    return known_ && right.r - left.r > least_bent && up_to(right.r) - up_to(left.r) > most_turning;
+  }
+  /// `d`: the length between both.
+  [[nodiscard]] bool misses_bend(const Sample& left, const Sample& right, double d, const SizeRules& rules,
+                                 double lss) const {
+    if (!known_ || right.r - left.r <= least_bent) return false;
+    const double turned = direction_at(right.r) - direction_at(left.r);
+    if (!(turned > 0)) return false;
+    const double asked = d / rules.clamped_geometric(d / turned);
+    return asked > shortest_interval * lss && asked > most_missed * normalised_length(rules.law(), left.h, right.h, d);
   }
 
  private:
+  /// Of the tangent, in terms of the first one: that of each segment in its middle, and linear between.
+  [[nodiscard]] double direction_at(double r) const {
+    const auto after = std::upper_bound(r_.begin() + 1, r_.end() - 1, r);
+    const auto i = static_cast<std::size_t>(after - r_.begin());  // r_[i - 1] <= r < r_[i]
+    const double middle = 0.5 * (r_[i - 1] + r_[i]);
+    const std::size_t j = r < middle ? i - 1 : i;  // the nearer end
+    if (j == 0 || j + 1 == r_.size()) return angle_[i - 1];
+    const double first = 0.5 * (r_[j - 1] + r_[j]), last = 0.5 * (r_[j] + r_[j + 1]);
+    const double share = last > first ? (r - first) / (last - first) : 1;
+    return angle_[j - 1] + share * (angle_[j] - angle_[j - 1]);
+  }
   [[nodiscard]] double up_to(double r) const {
     const auto after = std::upper_bound(r_.begin(), r_.end(), r);
     return angle_[static_cast<std::size_t>(after - r_.begin()) - 1];
   }
 
+  bool known_;
   std::vector<double> r_, angle_;  // angle_[i]: of all corners up to r_[i]
 };
 
@@ -139,14 +164,16 @@ std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules,
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
   std::vector<Sample> samples;
   for (const double r : starts) samples.push_back(ask(model, curve, rules, r));
-  const std::optional<Turning> turning = rules.uses_curvature() ? std::optional<Turning>({model, curve}) : std::nullopt;
+  const Turning turning(model, curve, rules.uses_curvature());
   for (bool again = true; again;) {
     again = false;
     std::vector<Sample> finer{samples.front()};
     for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
       const bool room = samples.size() + finer.size() < most_samples + i;
       const Sample &left = samples[i], &right = samples[i + 1];
-      if (room && (too_coarse(left, right, rules.law(), length, lss) || (turning && turning->too_bent(left, right)))) {
+      const double d = (right.r - left.r) * length;
+      const bool bent = turning.too_bent(left, right) || turning.misses_bend(left, right, d, rules, lss);
+      if (room && (bent || too_coarse(left, right, rules.law(), length, lss))) {
         finer.push_back(ask(model, curve, rules, (left.r + right.r) / 2));
         again = true;
       }

@@ -12,9 +12,12 @@ namespace carreau::plane {
 
 namespace {
 
-constexpr int rays = 33;                                         // 0.2 units apart round a pole
+constexpr int rays = 33;            // 0.2 units apart round a pole, if all are alike
+constexpr double widest_gap = 0.4;  // between rays; else there are more of them
+constexpr std::size_t most_rays = 512;
 constexpr double step = 0.05;                                    // unit lengths
 constexpr double enough_room = 1.5;                              // a row fits between the ring and what is beyond it
+constexpr std::size_t steps_of_room = 30;                        // enough_room / step
 constexpr double least_room = 0.5;                               // below, no ring
 constexpr double ring_distance = 0.5;                            // least distance of a ring point to other vertices
 constexpr double longest_lateral = 1.6, shortest_lateral = 0.5;  // of a lateral edge that takes part in the fan
@@ -69,30 +72,51 @@ Filler::Ring Filler::sample_ring(const DegenerateEdge& edge) const {
   }
   const Vec2 a = mesh_.at(edge.a), b = mesh_.at(edge.b);
   const Vec2 from_a = mesh_.at(ring.before) - a, from_b = mesh_.at(ring.after) - b;
-  const int steps = static_cast<int>(enough_room / step + 0.5);
-  int room = steps;
+  const auto ray_at = [&](double s) {
+    return walk(lerp(a, b, s), lerp(from_a, from_b, s), s > 0 && s < 1 ? ring.triangle : -1);
+  };
+  std::vector<double> share;
   for (int k = 0; k < rays; ++k) {
-    const double s = static_cast<double>(k) / (rays - 1);
-    const Vec2 direction = lerp(from_a, from_b, s);
-    std::vector<Vec2> ray{lerp(a, b, s)};
-    int hint = ring.triangle;
-    while (static_cast<int>(ray.size()) <= steps) {
-      const Vec2 p = ray.back();
-      const double speed = length(field_.at(p), direction);
-      if (!(speed > 0)) break;
-      const Vec2 middle = p + (0.5 * step / speed) * direction;
-      const Vec2 next = p + (step / length(field_.at(middle), direction)) * direction;
-      if (k > 0 && k + 1 < rays) {
-        hint = is_finite(next) ? mesh_.locate(next, hint) : -1;
-        if (hint < 0) break;
-      }
-      ray.push_back(next);
-    }
-    room = std::min(room, static_cast<int>(ray.size()) - 1);
-    ring.ray.push_back(std::move(ray));
+    share.push_back(static_cast<double>(k) / (rays - 1));
+    ring.ray.push_back(ray_at(share.back()));
   }
-  ring.room = room * step;
+  // Where sizes differ by direction rays that are evenly spaced in the frame are not in the metric.
+  for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < most_rays;) {
+    const std::size_t row =
+        std::min({static_cast<std::size_t>(1 / step), ring.ray[k].size() - 1, ring.ray[k + 1].size() - 1});
+    const double middle = 0.5 * (share[k] + share[k + 1]);
+    if (!(distance_at_middle(ring.ray[k][row], ring.ray[k + 1][row]) > widest_gap) || !(share[k] < middle)) {
+      ++k;
+      continue;
+    }
+    const auto after = static_cast<std::ptrdiff_t>(k) + 1;
+    share.insert(share.begin() + after, middle);
+    ring.ray.insert(ring.ray.begin() + after, ray_at(middle));
+  }
+  std::size_t room = steps_of_room;
+  for (const auto& ray : ring.ray) room = std::min(room, ray.size() - 1);
+  ring.room = static_cast<double>(room) * step;
   return ring;
+}
+
+// Places at multiples of the step along a ray, as far as there is room. `hint`: the triangle that it begins in; -1:
+// it is not looked where it goes.
+std::vector<Vec2> Filler::walk(Vec2 from, Vec2 direction, int hint) const {
+  const bool inside = hint >= 0;
+  std::vector<Vec2> ray{from};
+  while (ray.size() <= steps_of_room) {
+    const Vec2 p = ray.back();
+    const double speed = length(field_.at(p), direction);
+    if (!(speed > 0)) break;
+    const Vec2 middle = p + (0.5 * step / speed) * direction;
+    const Vec2 next = p + (step / length(field_.at(middle), direction)) * direction;
+    if (inside) {
+      hint = is_finite(next) ? mesh_.locate(next, hint) : -1;
+      if (hint < 0) break;
+    }
+    ray.push_back(next);
+  }
+  return ray;
 }
 
 // Equally spaced along the ring, one unit apart as nearly as possible.

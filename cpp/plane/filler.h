@@ -86,6 +86,7 @@ class Filler {
   struct Ring;
   void surround(DegenerateEdge& edge);
   [[nodiscard]] Ring sample_ring(const DegenerateEdge& edge) const;
+  [[nodiscard]] std::vector<Vec2> walk(Vec2 from, Vec2 direction, int hint) const;
   [[nodiscard]] std::vector<Vec2> points_on(const Ring& ring, double height, int least, double& spacing) const;
   bool freeze_fan(const DegenerateEdge& edge, const std::vector<std::int32_t>& fan);
 

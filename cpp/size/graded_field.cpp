@@ -110,8 +110,8 @@ TangentMetric GradedField::sizes(int face, Vec2 uv, TangentMetric prescribed) co
   for (int i = 0; i < 3; ++i) {
     if (!(place.weight[i] > 0)) continue;
     const TangentMetric& corner = f.metric[f.triangles[place.triangle][i]];
-    h1 += place.weight[i] * corner.nearest(prescribed.d1);
-    h2 += place.weight[i] * corner.nearest(prescribed.d2);
+    h1 += place.weight[i] * corner.matched(prescribed.d1);
+    h2 += place.weight[i] * corner.matched(prescribed.d2);
   }
   if (std::isfinite(h1) && std::isfinite(h2)) prescribed.h1 = h1, prescribed.h2 = h2;
   return prescribed;

@@ -1,6 +1,7 @@
 // Gradation of metrics over a composite surface, directions kept (Borouchaki, Hecht and Frey; HDR sec. 1.1.2).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -24,10 +25,14 @@ struct TangentMetric {
     const double a = dot(w, d1) / h1, b = dot(w, d2) / h2;
     return 1 / std::sqrt(a * a + b * b);
   }
-  /// The size along the one of its directions that is nearest to `w`.
-  [[nodiscard]] double nearest(Vec3 w) const noexcept {
-    const double a = dot(w, d1), b = dot(w, d2);
-    return a * a >= b * b ? h1 : h2;
+  /// The size that belongs to the unit tangent `w`, a principal direction of another metric nearby: h1 where w is d1,
+  /// h2 where it is d2, and between them geometrically by the squares of the cosines, so that nothing jumps where
+  /// directions turn (at umbilics by any angle). Not the size along w: of sizes 1 and 100 that is hardly ever the
+  /// larger one.
+  [[nodiscard]] double matched(Vec3 w) const noexcept {
+    if (h1 == h2 || !std::isfinite(h1) || !std::isfinite(h2)) return std::max(h1, h2);
+    const double a = dot(w, d1), b = dot(w, d2), sum = a * a + b * b;
+    return sum > 0 ? h1 * std::pow(h2 / h1, b * b / sum) : std::min(h1, h2);
   }
   /// Shrinks both, each as far as it matters along the unit tangent w, until the size along w is at most h; a null
   /// vector, the tangent of a curve that is normal to the plane, bounds nothing.

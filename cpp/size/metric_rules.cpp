@@ -245,6 +245,10 @@ std::optional<DirectedSizes> SizeRules::directed_sizes(int face, Vec2 uv, const 
 
 // ---- inside faces ----
 
+SurfaceJet SizeRules::surface_jet(int face, unsigned want, Vec2 uv) const {
+  return surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, want, uv);
+}
+
 void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                                    const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
   const bool geometric = uses_curvature(), physical = parameters_.hphy_flag != 0;

@@ -119,10 +119,16 @@ class SizeRules {
   void metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                           const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
 
+  /// The surface of a face (index in Model::faces) at one point, with these Want bits.
+  [[nodiscard]] SurfaceJet surface_jet(int face, unsigned want, Vec2 uv) const;
+
   /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped. +infinity when
   /// hphy_flag = 0.
   double physical_at_point(int point);
   double physical_on_curve(int curve, std::span<const double> t, double r);
+
+  /// The geometric size that a radius of curvature asks for, clamped.
+  [[nodiscard]] double clamped_geometric(double radius) const noexcept;
 
   /// All of on_curve() and physical_on_curve(): for those who sample a whole curve.
   CurveSizes ask_on_curve(int curve, std::span<const double> t, double r);
@@ -142,7 +148,6 @@ class SizeRules {
   };
 
   [[nodiscard]] double clamped_physical(double h) const noexcept;
-  [[nodiscard]] double clamped_geometric(double radius) const noexcept;
   [[nodiscard]] Where where_of(const CurveUse& use, double t) const;
   std::optional<double> ask_surface(int face, Vec2 uv) const;
   std::optional<double> ask_curve(int curve, std::span<const double> t);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/surface_mesh.h"
-#include "metric/metric2.h"
+#include "support/vec.h"
 
 namespace carreau {
 
@@ -17,10 +17,10 @@ class DegenerateSides {
   DegenerateSides() = default;
   explicit DegenerateSides(const FaceMesh& face);
 
-  /// Where on the side that ends at local vertex `p` the straight way from `a` arrives: nearest in the metric at `a`.
-  /// An edge to a pole is a meridian, whichever end of the side stands for the pole in (u, v). Empty where no side ends
-  /// at p.
-  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, Vec2 a, Metric2 at_a) const;
+  /// Where on the side that ends at local vertex `p` the straight way from `a` arrives; su, sv: derivatives at a;
+  /// `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of the side stands for the
+  /// pole in (u, v). Empty where no side ends at p.
+  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, Vec2 a, Vec3 su, Vec3 sv, Vec3 chord) const;
 
  private:
   const FaceMesh* face_ = nullptr;

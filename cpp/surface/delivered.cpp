@@ -193,9 +193,27 @@ class Measurement {
   // The edge from a to b, straight to a pole.
   [[nodiscard]] std::array<Vec2, 2> ends(std::int32_t a, std::int32_t b) const {
     Vec2 p = face_->uv[a], q = face_->uv[b];
-    if (normal_[a] && !normal_[b]) q = degenerate_.arrival(b, p, at_vertex_[a].metric).value_or(q);
-    if (normal_[b] && !normal_[a]) p = degenerate_.arrival(a, q, at_vertex_[b].metric).value_or(p);
+    if (normal_[a] && !normal_[b]) q = arrival(b, a);
+    if (normal_[b] && !normal_[a]) p = arrival(a, b);
     return {p, q};
+  }
+  // Of the way from vertex `a` at a pole.
+  [[nodiscard]] Vec2 arrival(std::int32_t pole, std::int32_t a) const {
+    const AtVertex& from = at_vertex_[a];
+    const Vec3 chord = position(pole) - position(a);
+    return degenerate_.arrival(pole, face_->uv[a], from.su, from.sv, chord).value_or(face_->uv[pole]);
+  }
+
+  // The corners of a triangle in (u, v). That at a pole lies between the arrivals of the ways from the other two: the
+  // end of the side that stands for the pole may be far away, with all kinds of normals between.
+  [[nodiscard]] std::array<Vec2, 3> places(std::size_t t) const {
+    const auto& c = face_->triangles[t];
+    std::array<Vec2, 3> place{face_->uv[c[0]], face_->uv[c[1]], face_->uv[c[2]]};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = c[(i + 1) % 3], b = c[(i + 2) % 3];
+      if (!normal_[c[i]] && normal_[a] && normal_[b]) place[i] = 0.5 * (arrival(c[i], a) + arrival(c[i], b));
+    }
+    return place;
   }
 
   [[nodiscard]] std::vector<Side> own_sides() {
@@ -285,9 +303,10 @@ class Measurement {
     static const std::array<Barycentric, 7> rule = triangle_rule();
     std::vector<Vec2> uv;
     uv.reserve(rule.size() * face_->triangles.size());
-    for (const auto& t : face_->triangles)
-      for (const Barycentric& w : rule)
-        uv.push_back(w.a * face_->uv[t[0]] + w.b * face_->uv[t[1]] + w.c * face_->uv[t[2]]);
+    for (std::size_t t = 0; t < face_->triangles.size(); ++t) {
+      const std::array<Vec2, 3> p = places(t);
+      for (const Barycentric& w : rule) uv.push_back(w.a * p[0] + w.b * p[1] + w.c * p[2]);
+    }
     for (std::size_t t = 0; t < face_->triangles.size(); ++t) start_triangle(t);
     sampler_.run(face_index_, face_->ref, want_position | want_first, uv,
                  [&](std::size_t k, const SurfaceJet& jet, const Metric2& metric) {

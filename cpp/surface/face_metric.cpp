@@ -4,23 +4,65 @@
 #include <cmath>
 
 #include "metric/metric2_algebra.h"
+#include "metric/metric3_algebra.h"
 
 namespace carreau {
 
+namespace {
+
+// How far from a degenerate point towards a sound one limits are taken.
+constexpr double towards_sound = 1e-2;
+
+/// The step from a degenerate point that goes towards another one without leaving its meridian: without the part along
+/// which the surface stands still, when that is one of the parameters.
+Vec2 along_meridian(const SurfaceJet& jet, Vec2 step) noexcept {
+  constexpr double still = 1e-12;
+  const double u = norm(jet.su), v = norm(jet.sv);
+  if (u <= still * v && step.y != 0) return {0, step.y};
+  if (v <= still * u && step.x != 0) return {step.x, 0};
+  return step;
+}
+
+}  // namespace
+
+double FaceMetric::interpolated(Vec2 uv) {
+  if (!interfaces_) interfaces_.emplace(plane_, physical_, rules_.law(), monitor_);
+  return (*interfaces_)(uv);
+}
+
 void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric) {
-  const auto fallback = [this](Vec2 p) {
-    if (!interfaces_) interfaces_.emplace(plane_, physical_, rules_.law(), monitor_);
-    return (*interfaces_)(p);
-  };
+  const auto fallback = [this](Vec2 p) { return interpolated(p); };
   if (rules_.uses_metrics()) {
     rules_.metrics_on_surface(face_, uv, jets, fallback, metric);
     if (!limits_.idle()) apply_metric_limits(limits_, face_, uv, jets, metric);
+    if (!rules_.uses_curvature() && limits_.field == nullptr) return;
+    for (std::size_t i = 0; i < uv.size(); ++i)
+      if (!TangentFrame::of(jets[i].su, jets[i].sv))
+        if (const auto sizes = limit(i, uv, jets)) metric[i] = metric_of(jets[i], *sizes);
     return;
   }
   h_.resize(uv.size());
   rules_.on_surface(face_, uv, jets, fallback, h_);
   for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h_[i]);
   if (!limits_.idle()) apply_limits(limits_, face_, uv, jets, metric);
+}
+
+std::optional<TangentMetric> FaceMetric::limit(std::size_t i, std::span<const Vec2> uv,
+                                               std::span<const SurfaceJet> jets) {
+  std::optional<Vec2> step;
+  for (std::size_t k = 0; k < uv.size(); ++k) {
+    const Vec2 to = uv[k] - uv[i];
+    if ((!step || dot(to, to) < dot(*step, *step)) && TangentFrame::of(jets[k].su, jets[k].sv)) step = to;
+  }
+  if (!step) return {};
+  const Vec2 beside = uv[i] + towards_sound * along_meridian(jets[i], *step);
+  const SurfaceJet jet = rules_.surface_jet(face_, wants(), beside);
+  if (!TangentFrame::of(jet.su, jet.sv)) return {};
+  Metric2 there;
+  const auto fallback = [this](Vec2 p) { return interpolated(p); };
+  rules_.metrics_on_surface(face_, {&beside, 1}, {&jet, 1}, fallback, {&there, 1});
+  if (!limits_.idle()) apply_metric_limits(limits_, face_, {&beside, 1}, {&jet, 1}, {&there, 1});
+  return tangent_metric(jet, there);
 }
 
 double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept {

@@ -32,10 +32,18 @@ class FaceMetric {
   }
 
   /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks
-  /// the host.
+  /// the host. Where the parametrisation is degenerate metrics that depend on the geometry are limits of those towards
+  /// the nearest point of the batch where it is not: around a pole they differ from one meridian to the next.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
 
+  /// The limit at point i of a batch, where the parametrisation is degenerate. Empty where it is degenerate in all of
+  /// the batch.
+  [[nodiscard]] std::optional<TangentMetric> limit(std::size_t i, std::span<const Vec2> uv,
+                                                   std::span<const SurfaceJet> jets);
+
  private:
+  [[nodiscard]] double interpolated(Vec2 uv);
+
   int face_;
   const SizeRules& rules_;
   const PlaneDomain& plane_;

@@ -212,7 +212,8 @@ void GradingRound::evaluate(const PatchInput& input, GradedFace& face, std::size
       if (!on_curve) graph_.xyz[vertex] = face.xyz[v] = jet[k].s;
       face.normal[v] = unit(cross(jet[k].su, jet[k].sv));
       if (metrics_) {
-        const auto sizes = tangent_metric(jet[k], metrics[k]);
+        auto sizes = tangent_metric(jet[k], metrics[k]);
+        if (!sizes) sizes = metric.limit(k, all.subspan(i, n), jet);
         metric_.push_back(sizes ? *sizes : TangentMetric{});
       } else if (const double h = isotropic_size(jet[k], metrics[k]); h > 0) {
         h_[vertex] = std::min(h_[vertex], h);

@@ -109,8 +109,8 @@ void GradingRound::find_rough_metrics(GradedFace& face, const TangentMetric* pre
     double h1 = 0, h2 = 0;
     for (int i = 0; i < 3; ++i) {
       const TangentMetric& corner = face.metric[face.triangles[s.triangle][i]];
-      h1 += s.promised[i] * corner.nearest(s.sizes.d1);
-      h2 += s.promised[i] * corner.nearest(s.sizes.d2);
+      h1 += s.promised[i] * corner.matched(s.sizes.d1);
+      h2 += s.promised[i] * corner.matched(s.sizes.d2);
     }
     if (less(s.sizes.h1, (1 - rough_metric) * h1) || less(s.sizes.h2, (1 - rough_metric) * h2))
       face.smooth[s.triangle] = 0;

@@ -390,6 +390,27 @@ TEST(SampleSizes, CircleAskedByCurvatureHasTheAnglesEdges) {
   EXPECT_EQ(d.segments(), 23);  // 2 pi / (2 sin 8 deg) = 22.57
 }
 
+TEST(SampleSizes, ACurveWhoseSamplesAreInflectionsIsStillAskedWhereItBends) {
+  // z = a sin(2 t) over two periods: its ends, middle and quarters are inflections. Edges by h = 2 rho sin(angle_mesh)
+  // are the turning of the curve, 8 atan(2 a), over 2 sin(angle_mesh).
+  for (const double a : {0.4, 0.2, 0.1}) {
+    Scene s;
+    const int face = s.add_face(1, flat());
+    s.add_curve({s.add_use(face, PlaneCurve{{0, 2 * pi}, [a](double t) {
+                                              const double c = std::cos(2 * t), z = std::sin(2 * t);
+                                              return CurveJet{{t, a * z}, {1, 2 * a * c}, {0, -4 * a * z}};
+                                            }})});
+    s.build();
+    s.sizes.hphy_flag = 0;
+    s.sizes.hgeo_flag = 1;
+    s.sizes.hgeomax = 1e3;
+    s.sizes.angle_mesh = 2;
+    SizeRules rules(s.model, s.topology, s.cad, s.sizes);
+    const double turning = 8 * std::atan(2 * a), expected = turning / (2 * std::sin(2 * pi / 180));
+    EXPECT_NEAR(discretise_curve(s.curve_model(), 0, rules).segments(), expected, 1 + 0.05 * expected) << a;
+  }
+}
+
 TEST(DiscretiseCurve, AHopelessSizeIsALimitError) {
   Scene s;
   const int face = s.add_face(1, flat());

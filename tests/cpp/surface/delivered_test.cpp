@@ -276,6 +276,83 @@ TEST(DeliveredSphere, WholeSphereWithSeamAndPoles) {
   EXPECT_EQ(d.folded_triangles, 0);
 }
 
+// As meshes have it: of the local vertices of a grid's degenerate side, from `first` on, only its two ends stand for
+// the apex.
+void keep_ends_of_apex(FaceMesh& face, std::int32_t first, std::int32_t columns) {
+  const std::int32_t last = first + columns;
+  for (auto& t : face.triangles)
+    for (std::int32_t& v : t)
+      if (v >= first && v <= last) v = 2 * (v - first) < columns ? first : last;
+  std::erase_if(face.flattened, [&](const auto& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::int32_t v) { return v >= first && v <= last; });
+  });
+  face.flattened.push_back({first, last, first == 0 ? last + 1 : first - 1});
+}
+
+// The normal is undefined at an apex: those of a triangle's own sector count, whichever end of the degenerate side
+// stands for the apex in (u, v).
+TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
+  const double height = 2;
+  Case run{one_face([=](Vec2 p) {
+             const double c = std::cos(p.x), s = std::sin(p.x);
+             return SurfaceJet{{p.y * c, p.y * s, height * p.y}, {-p.y * s, p.y * c, 0}, {c, s, height}, {}, {}, {}};
+           }),
+           {},
+           {}};
+  const int columns = 12;
+  run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {2 * pi, 1}, columns, 6}});
+  keep_ends_of_apex(run.mesh.faces[0], 0, columns);
+  const Delivered d = run.measure(uniform(0.3));
+  EXPECT_EQ(d.folded_triangles, 0);
+  // A triangle between two generators: its plane holds the apex and their chord; normals are farthest off at the ends.
+  const double cosine = std::cos(pi / columns), h2 = height * height;
+  const double farthest = degrees(std::acos((h2 + 1) * cosine / std::sqrt((h2 + 1) * (h2 + cosine * cosine))));
+  int at_apex = 0;
+  const FaceMesh& face = run.mesh.faces[0];
+  for (std::size_t t = 0; t < face.triangles.size(); ++t)
+    for (const std::int32_t v : face.triangles[t]) {
+      if (norm(run.mesh.vertices[face.vertex[v]]) > 1e-12) continue;
+      ++at_apex;
+      EXPECT_NEAR(d[Kind::angle].values[t], farthest, 1e-9);
+    }
+  EXPECT_EQ(at_apex, columns);
+}
+
+// Also where the way that is shortest in the metric is not the straight one: round the pole of an ellipsoid of three
+// axes meridians are not orthogonal to parallels.
+TEST(DeliveredEllipsoid, EdgesToAPoleAreMeridians) {
+  const Vec3 axes{1, 5, 5};
+  const auto jet = [=](Vec2 p) {
+    const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+    return SurfaceJet{{axes.x * cu * cv, axes.y * su * cv, axes.z * sv},
+                      {-axes.x * su * cv, axes.y * cu * cv, 0},
+                      {-axes.x * cu * sv, -axes.y * su * sv, axes.z * cv},
+                      {},
+                      {},
+                      {}};
+  };
+  Case run{one_face(jet), {}, {}};
+  const int columns = 24, rows = 48;
+  run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, -pi / 2}, {2 * pi, pi / 2}, columns, rows}});
+  keep_ends_of_apex(run.mesh.faces[0], 0, columns);
+  keep_ends_of_apex(run.mesh.faces[0], rows * (columns + 1), columns);
+  const Delivered d = run.measure(uniform(1));
+  int at_poles = 0;
+  for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
+    const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
+    const Vec3 pole = std::abs(p.z) > std::abs(q.z) ? p : q, other = std::abs(p.z) > std::abs(q.z) ? q : p;
+    if (std::hypot(pole.x, pole.y) > 1e-9) continue;
+    ++at_poles;
+    // Simpson's rule on the meridian.
+    const double u = std::atan2(other.y / axes.y, other.x / axes.x), step = pi / rows, from = pi / 2 - step;
+    double length = 0;
+    for (const auto& [s, weight] : {std::pair{0.0, 1.0}, std::pair{0.5, 4.0}, std::pair{1.0, 1.0}})
+      length += weight / 6 * step * norm(jet({u, from + s * step}).sv);
+    EXPECT_NEAR(d[Kind::length].values[e], length, 1e-3 * length);
+  }
+  EXPECT_EQ(at_poles, 2 * columns);
+}
+
 TEST(DeliveredSphere, TrianglesTurnedAgainstTheSurfaceAreCounted) {
   Case run{one_face([](Vec2 p) { return sphere_jet(p, 1); }), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {1, 1}, 8, 8}});
