@@ -19,10 +19,13 @@ class Filler {
   /// edge does, as a whole).
   Filler(Triangulation& mesh, const Field& field, std::int64_t max_triangles, Monitor& monitor);
 
-  /// Frontal: rows (README), then leftovers.
+  /// Frontal: rows (README), then leftovers. May be called again, after settle().
   void march();
   /// Algebraic: points on edges longer than unity until there are none (RR-2928 sec. 2.2), then leftovers.
   void split_long_edges();
+  /// Starts a mesh at a place of small sizes amid triangles whose vertices know nothing of it. False: it is outside,
+  /// or not far from all vertices.
+  bool settle(Vec2 place);
   /// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::least_fan), imposed
   /// and frozen. Returns the number of vertices that must not move from now on: those imposed and those of the fans.
   int surround_degenerate_edges(const PlaneDomain& domain);
@@ -81,6 +84,9 @@ class Filler {
   bool shorten(int t);
   bool halve(int t);
   bool fill_at(Vec2 p, int t, double distance);
+
+  // deserts.cpp
+  [[nodiscard]] int triangle_at(Vec2 p) const;
 
   // degenerate.cpp
   struct Ring;

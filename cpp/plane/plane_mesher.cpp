@@ -44,10 +44,14 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
   {
     plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);
     fixed = filler.surround_degenerate_edges(domain);
-    if (options.frontal)
-      filler.march();
-    else
-      filler.split_long_edges();
+    const auto fill = [&] { options.frontal ? filler.march() : filler.split_long_edges(); };
+    fill();
+    bool settled = false;
+    for (const std::vector<Vec2>& places : options.deserts)
+      settled =
+          std::any_of(places.begin(), places.end(), [&](Vec2 p) { return filler.settle(boundary.frame.inward(p)); }) ||
+          settled;
+    if (settled) fill();
   }
   boundary.mesh.renumber_if_large();
   plane::Optimiser(boundary.mesh, fixed, field, monitor).run();

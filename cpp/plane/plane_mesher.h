@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "plane/plane_mesh.h"
 #include "size/control_space.h"
@@ -12,6 +14,9 @@ namespace carreau {
 struct PlaneMesherOptions {
   bool frontal = true;  ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
   std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
+  /// Squares that another mesh has missed (ControlSpace::deserts()), as places of each: what is still far from all
+  /// vertices when points have been placed is settled, and they go on from there.
+  std::span<const std::vector<Vec2>> deserts = {};
 };
 
 /// Triangulates `domain` so that edges have length 1 in the metric as far as possible.

@@ -81,6 +81,12 @@ class ControlSpace {
 
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
+  /// What a mesh, of which `vertex` gives `count` vertices, has missed: the squares of leaves that hold some vertices
+  /// of a unit mesh but less than a quarter of them; of nested squares the smallest. Each as the centres of its leaves,
+  /// where sizes are smallest first; some may lie outside of the domain.
+  [[nodiscard]] std::vector<std::vector<Vec2>> deserts(std::size_t count,
+                                                       const std::function<Vec2(std::size_t)>& vertex) const;
+
   /// Points at which the sampler was called.
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
@@ -90,10 +96,12 @@ class ControlSpace {
 
  private:
   friend class ControlSpaceWriter;
+  class DesertSearch;
 
   /// S(s, t) = sum of c[3 m + n] s^n t^m for (s, t) in [-1, 1]^2, about the centre (x, y) in units of the table.
   struct Leaf {
     double x = 0, y = 0, scale = 1;
+    double measure = 0;  // its share of measure_
     std::array<std::array<double, 3>, 9> c{{{1, 0, 1}}};
   };
 

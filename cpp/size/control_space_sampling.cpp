@@ -96,18 +96,25 @@ void ControlSpaceSampling::settle(std::vector<std::int32_t> active) {
   }
 }
 
+// A suspect counts by its own metric too: all that the leaf knows may lie around what it hides.
 void ControlSpaceSampling::look_at_suspects() {
-  for (int round = 0; round < most_looks && !options_.suspects.empty(); ++round) {
+  std::vector<Vec2> uv;
+  for (const Vec2 p : options_.suspects)
+    if (locator_.contains(p)) uv.push_back(p);
+  if (samples_left() < static_cast<double>(uv.size())) return;
+  std::vector<Metric2> roots = ask(uv);
+  for (Metric2& root : roots) root = root_of(root);
+  for (int round = 0; round < most_looks && !uv.empty(); ++round) {
     std::vector<std::int32_t> cells;
-    for (const Vec2 uv : options_.suspects) {
-      const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv));
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+      const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv[k]));
       if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
-      if (std::sqrt((*tree_)[leaf].vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
+      const double vertices = std::max((*tree_)[leaf].vertices, vertices_of((*tree_)[leaf], roots[k]));
+      if (std::sqrt(vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-    const double left = static_cast<double>(options_.max_samples) - static_cast<double>(samples_);
-    if (cells.empty() || left < worst_cost * static_cast<double>(cells.size())) return;
+    if (cells.empty() || samples_left() < worst_cost * static_cast<double>(cells.size())) return;
     settle(refine(cells));
   }
 }
@@ -385,10 +392,7 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
   cut(may, samples_for_smooth_fields() - spent, usual_cost);
   crowd.insert(crowd.end(), must.begin(), must.end());
   crowd.insert(crowd.end(), may.begin(), may.end());
-  cut(crowd,
-      static_cast<double>(options_.max_samples) - static_cast<double>(samples_) -
-          test_cost * static_cast<double>(untested),
-      worst_cost);
+  cut(crowd, samples_left() - test_cost * static_cast<double>(untested), worst_cost);
   std::sort(crowd.begin(), crowd.end());
   return crowd;
 }

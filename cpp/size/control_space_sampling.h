@@ -78,6 +78,9 @@ class ControlSpaceSampling {
 
   void settle(std::vector<std::int32_t> active);
   void look_at_suspects();
+  [[nodiscard]] double samples_left() const noexcept {
+    return static_cast<double>(options_.max_samples) - static_cast<double>(samples_);
+  }
   void test(std::span<const std::int32_t> cells);
   [[nodiscard]] int nodes_inside(const TreeCell& cell) const noexcept;
   [[nodiscard]] std::vector<CentreProbe> centres_of(std::span<const std::int32_t> cells);

@@ -223,7 +223,7 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
   return v;
 }
 
-void ControlSpaceWriter::add_measure(const TreeCell& cell, const Nine& v) {
+double ControlSpaceWriter::measure_of(const TreeCell& cell, const Nine& v) const {
   const double side = static_cast<double>(cell.size) / lattice_.step();
   // Simpson's rule in both directions.
   constexpr double weight[9] = {1, 4, 1, 4, 16, 4, 1, 4, 1};
@@ -241,13 +241,14 @@ void ControlSpaceWriter::add_measure(const TreeCell& cell, const Nine& v) {
     }
     share = static_cast<double>(inside) / (share_points * share_points);
   }
-  space_.measure_ += share * sum * side * side / (0.25 * std::numbers::sqrt3);
+  return share * sum * side * side / (0.25 * std::numbers::sqrt3);
 }
 
 std::int32_t ControlSpaceWriter::write_leaf(const TreeCell& cell) {
   const Nine v = values_in(cell);
-  if (cell.relevant) add_measure(cell, v);
   ControlSpace::Leaf leaf;
+  if (cell.relevant) leaf.measure = measure_of(cell, v);
+  space_.measure_ += leaf.measure;
   leaf.x = (cell.i + 0.5 * cell.size) / table_step_;
   leaf.y = (cell.j + 0.5 * cell.size) / table_step_;
   leaf.scale = 2.0 * table_step_ / cell.size;

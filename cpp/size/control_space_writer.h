@@ -34,7 +34,8 @@ class ControlSpaceWriter {
   void write();
   std::int32_t write_cell(std::int32_t cell);
   std::int32_t write_leaf(const detail::TreeCell& cell);
-  void add_measure(const detail::TreeCell& cell, const Nine& nodes);
+  /// Triangles of unit edges in the part of a cell that belongs to the domain.
+  [[nodiscard]] double measure_of(const detail::TreeCell& cell, const Nine& nodes) const;
 
   detail::ControlSpaceSampling& sampling_;
   detail::Tree& tree_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "support/format.h"
 #include "surface/space_refinement.h"
@@ -12,6 +13,10 @@ namespace {
 
 // Times that a patch is meshed again because the lift disagrees.
 constexpr int most_corrections = 3;
+// Times that it is because it has missed places of small sizes; each time those beside the ones found come to light.
+constexpr int most_resettlements = 6;
+// A mesh that would become so many times larger has not missed a place: its sizes are damaged nearly everywhere.
+constexpr double most_growth = 1000;
 /// Whether the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
 /// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
@@ -95,7 +100,8 @@ void FaceJob::sample(Monitor& monitor) {
 
 void FaceJob::mesh(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_plane);
-  mesh_ = mesh_patch(input_, *space_, {.frontal = options_.frontal, .max_triangles = most_triangles_}, monitor);
+  mesh_ = mesh_patch(input_, *space_,
+                     {.frontal = options_.frontal, .max_triangles = most_triangles_, .deserts = deserts_}, monitor);
   next_ = Step::lift;
 }
 
@@ -106,7 +112,8 @@ void FaceJob::lift(Monitor& monitor) {
     lift_patch(input_, cad_, *mesh_, monitor);
     places = verify_lift(input_, *space_, cad_, rules_, *mesh_, monitor);
   }
-  if (!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) {
+  const bool again = settle_deserts(places, monitor);
+  if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {
     next_ = Step::mesh;
     return;
   }
@@ -115,6 +122,21 @@ void FaceJob::lift(Monitor& monitor) {
   const bool kept = options_.size.geo_guarantee && rules_.uses_metrics();
   refine_in_space(input_, cad_, rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
   next_ = Step::none;
+}
+
+// Whether the mesh has missed places that the control space rightly knows. Others are added to `places`.
+bool FaceJob::settle_deserts(std::vector<Vec2>& places, Monitor& monitor) {
+  const std::size_t vertices = mesh_->plane.vertices.size();
+  if (resettlements_ == most_resettlements || vertices <= vertices_when_settled_ || input_.constant_size) return false;
+  if (space_->measure() > most_growth * static_cast<double>(mesh_->plane.triangles.size())) return false;
+  const Stopwatch watch(report_.seconds_lift);
+  Deserts found = find_deserts(input_, *space_, cad_, rules_, *mesh_, monitor);
+  places.insert(places.end(), found.mistaken.begin(), found.mistaken.end());
+  if (found.confirmed.empty()) return false;
+  ++resettlements_;
+  vertices_when_settled_ = vertices;  // deserts that cannot be settled are left alone
+  std::move(found.confirmed.begin(), found.confirmed.end(), std::back_inserter(deserts_));
+  return true;
 }
 
 // What the vertices have found is sampled; whether that was news.

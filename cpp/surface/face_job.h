@@ -40,6 +40,7 @@ class FaceJob final : public SteppedTask {
   void mesh(Monitor& monitor);
   void lift(Monitor& monitor);
   void refuse_unsound(Monitor& monitor) const;
+  bool settle_deserts(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
 
@@ -50,7 +51,9 @@ class FaceJob final : public SteppedTask {
   bool reentrant_;
   std::int64_t most_triangles_ = 0;
   Step next_ = Step::sample;
-  int corrections_ = 0;
+  int corrections_ = 0, resettlements_ = 0;
+  std::size_t vertices_when_settled_ = 0;
+  std::vector<std::vector<Vec2>> deserts_;  // that meshes so far have missed
   std::vector<Vec2> suspects_;
   std::optional<ControlSpace> space_;
   std::optional<PatchMesh> mesh_;

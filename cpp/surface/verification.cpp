@@ -7,6 +7,7 @@
 
 #include "cad/fundamental_forms.h"
 #include "metric/metric2_algebra.h"
+#include "predicates/polygon_locator.h"
 #include "support/format.h"
 #include "surface/face_metric.h"
 
@@ -190,6 +191,34 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {
   return std::any_of(places.begin(), places.end(),
                      [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
+}
+
+Deserts find_deserts(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
+                     const PatchMesh& mesh, Monitor& monitor) {
+  const std::vector<Vec2>& vertices = mesh.plane.vertices;
+  auto missed = space.deserts(vertices.size(), [&](std::size_t v) { return vertices[v]; });
+  Deserts result;
+  if (missed.empty()) return result;
+  const SampledDomain domain = sampled_domain(input.domain->plane);
+  const PolygonLocator locator(domain.vertices, domain.edges);
+  for (std::vector<Vec2>& places : missed) std::erase_if(places, [&](Vec2 p) { return !locator.contains(p); });
+  std::erase_if(missed, [](const std::vector<Vec2>& places) { return places.empty(); });
+  if (missed.size() > most_places) missed.resize(most_places);
+  std::vector<Vec2> uv;
+  for (const std::vector<Vec2>& places : missed) uv.push_back(places.front());
+  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
+  std::vector<SurfaceJet> jets(uv.size());
+  std::vector<Metric2> metric(uv.size());
+  cad.surface(input.ref, prescribed.wants(), uv, jets);
+  prescribed.at(uv, jets, metric);
+  for (std::size_t k = 0; k < uv.size(); ++k) {
+    const LengthRatios ratios = length_ratios(metric[k], space.at(uv[k]));
+    if (ratios.largest <= too_long && ratios.smallest >= too_short)
+      result.confirmed.push_back(std::move(missed[k]));
+    else
+      result.mistaken.push_back(uv[k]);
+  }
+  return result;
 }
 
 std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh) {

@@ -383,6 +383,26 @@ TEST_F(Adaptation, TheLoopHalvesTheErrorWithTheTolerance) {
     }
 }
 
+// A bump between coarse triangles: no mesh of the loop loses it, wherever it is.
+TEST_F(Adaptation, BumpsAmidLargeSizesAreNotLost) {
+  for (const double x0 : {0.0, 0.0371, 0.253}) {
+    Field field{[x0](double x, double y) { return std::exp(-100 * ((x - x0) * (x - x0) + y * y)); }};
+    auto estimator = abi_tests::sized<carreau_estimator>();
+    estimator.shape = CARREAU_ANISOTROPIC;
+    estimator.tolerance = 0.01;
+    estimator.hmin = 0.004;
+    carreau_adaptation a = adaptation(estimator, field);
+    a.iterations = 1;
+    a.differences = 1;
+    for (int i = 0; i < 6; ++i) {
+      auto report = abi_tests::sized<carreau_adaptation_report>();
+      ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+      EXPECT_LT(report.error_rms, estimator.tolerance) << x0 << ", mesh " << i;
+      EXPECT_LT(report.error_max, 10 * estimator.tolerance) << x0 << ", mesh " << i;
+    }
+  }
+}
+
 TEST_F(Adaptation, TheLoopEndsWhenTheMeshNoLongerChanges) {
   // The size is the same everywhere: one mesh, and one to see it.
   Field field{[](double x, double y) { return x * x + y * y; }};
