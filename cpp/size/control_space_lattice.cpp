@@ -46,6 +46,24 @@ Vec2 Lattice::parameters(GridPoint p) const noexcept {
           p.j == end_.j ? high_.y : low_.y + y * (high_.y - low_.y)};
 }
 
+// Of a node on a side of the box: off it by what points interpolated along a side may be.
+Vec2 Lattice::inward(GridPoint p) const noexcept {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const Vec2 at = parameters(p);
+  const auto off = [](double x, double low, double high, std::int32_t i, std::int32_t end) {
+    const double by = rounding * std::max(std::abs(low), std::abs(high));
+    return i == 0 ? x + by : i == end ? x - by : x;
+  };
+  return {off(at.x, low_.x, high_.x, p.i, end_.i), off(at.y, low_.y, high_.y, p.j, end_.j)};
+}
+
+// Sides of the box go through the outermost vertices: the others of a straight side may be off it by rounding.
+Place Lattice::place_of(GridPoint p) const {
+  if (domain_.contains(parameters(p))) return Place::inside;
+  const bool on_side = p.i == 0 || p.j == 0 || p.i == end_.i || p.j == end_.j;
+  return on_side && domain_.contains(inward(p)) ? Place::by_border : Place::outside;
+}
+
 std::int32_t Lattice::block_at(GridPoint p, const BlockIndex::Position& at) {
   const auto [block, added] = index_.insert(at);
   if (added) {

@@ -19,8 +19,9 @@ struct GridPoint {
   std::int32_t i = 0, j = 0;
 };
 
-/// What is known about a node before it exists.
-enum class Place { unknown, inside, outside };
+/// Of a node; what is known about it before it exists.
+/// `by_border`: outside, but by no more than rounding.
+enum class Place : std::int8_t { unknown, inside, outside, by_border };
 
 /// From points to consecutive numbers of blocks: squares of 4 x 4 points of the same spacing, which is the largest
 /// power of two that divides both of a point's indices. Who asks for one will ask for those beside it.
@@ -88,6 +89,10 @@ class Lattice {
   [[nodiscard]] Vec2 cell() const noexcept { return cell_; }
   /// Parameters of a node; exact on the sides of the box, where hosts are often defined just so far.
   [[nodiscard]] Vec2 parameters(GridPoint p) const noexcept;
+  /// Where to sample a node inside the domain: its parameters, or a point as near as rounding tells.
+  [[nodiscard]] Vec2 sampling_point(std::int32_t node) const noexcept {
+    return nodes_[node].place == Place::by_border ? inward(point(node)) : parameters(point(node));
+  }
   /// Position in units of the finest grid, not rounded.
   [[nodiscard]] Vec2 position(Vec2 uv) const noexcept {
     return {(uv.x - low_.x) / cell_.x * step_, (uv.y - low_.y) / cell_.y * step_};
@@ -113,9 +118,7 @@ class Lattice {
   /// Creates a node of a block when it is new.
   void create(std::int32_t node, Place place) {
     Node& n = nodes_[node];
-    if (n.exists) return;
-    n.exists = true;
-    n.inside = place == Place::inside || (place == Place::unknown && domain_.contains(parameters(point(node))));
+    if (n.place == Place::unknown) n.place = place == Place::unknown ? place_of(point(node)) : place;
   }
   [[nodiscard]] GridPoint point(std::int32_t node) const noexcept {
     const Block& b = blocks_[node >> 4];
@@ -123,7 +126,9 @@ class Lattice {
   }
   /// Numbers of nodes are below this one; not every number belongs to a node.
   [[nodiscard]] std::int32_t size() const noexcept { return static_cast<std::int32_t>(nodes_.size()); }
-  [[nodiscard]] bool inside(std::int32_t node) const noexcept { return nodes_[node].inside; }
+  [[nodiscard]] bool inside(std::int32_t node) const noexcept {
+    return nodes_[node].place == Place::inside || nodes_[node].place == Place::by_border;
+  }
   [[nodiscard]] bool sampled(std::int32_t node) const noexcept { return nodes_[node].sampled; }
   void set_sample(std::int32_t node, Metric2 root) noexcept;
   [[nodiscard]] const Metric2& value(std::int32_t node) const noexcept { return nodes_[node].root; }
@@ -165,7 +170,7 @@ class Lattice {
   }
   /// The node itself when it has a value, sampled or predicted from two nodes at least; else -1.
   std::int32_t valued(std::int32_t node) {
-    return nodes_[node].sampled || (nodes_[node].inside && predict(node).order >= 2) ? node : -1;
+    return nodes_[node].sampled || (inside(node) && predict(node).order >= 2) ? node : -1;
   }
   /// The same of the node at a place, which is created when new: predictions are remembered in nodes.
   std::int32_t valued_node(GridPoint p);
@@ -176,7 +181,8 @@ class Lattice {
     Metric2 root{};  // a sample, or the prediction of pass `pass`
     std::int32_t pass = -1;
     std::int8_t order = 0;
-    bool exists = false, inside = false, sampled = false;
+    bool sampled = false;
+    Place place = Place::unknown;  // of nodes that exist it is known
   };
   struct Block {
     GridPoint corner;
@@ -186,7 +192,7 @@ class Lattice {
   [[nodiscard]] std::int32_t find(GridPoint p) const noexcept {
     const BlockIndex::Position at = BlockIndex::position(p);
     const std::int32_t block = index_.find(at);
-    return block >= 0 && nodes_[16 * block + at.rank].exists ? 16 * block + at.rank : -1;
+    return block >= 0 && nodes_[16 * block + at.rank].place != Place::unknown ? 16 * block + at.rank : -1;
   }
   [[nodiscard]] std::int32_t sampled_node(GridPoint p) const noexcept {
     if (!contains(p)) return -1;
@@ -194,6 +200,8 @@ class Lattice {
     return n >= 0 && nodes_[n].sampled ? n : -1;
   }
   std::int32_t block_at(GridPoint p, const BlockIndex::Position& at);
+  [[nodiscard]] Vec2 inward(GridPoint p) const noexcept;
+  [[nodiscard]] Place place_of(GridPoint p) const;
   void remember(std::int32_t node, const Prediction& result) noexcept {
     Node& n = nodes_[node];
     n.pass = pass_;

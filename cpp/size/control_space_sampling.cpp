@@ -191,7 +191,7 @@ void ControlSpaceSampling::sample_roots() {
       wanted[n] = 0;
       if (!lattice_->inside(n)) continue;
       nodes.push_back(n);
-      uv.push_back(lattice_->parameters(lattice_->point(n)));
+      uv.push_back(lattice_->sampling_point(n));
     }
   }
   const std::vector<Metric2> metric = ask(uv);
@@ -262,7 +262,7 @@ void ControlSpaceSampling::test(std::span<const std::int32_t> cells) {
   const std::vector<CentreProbe> centres = centres_of(cells);
   const std::vector<BorderPoint> points = border_points_of(cells);
   std::vector<Vec2> uv;
-  for (const CentreProbe& p : centres) uv.push_back(lattice_->parameters(lattice_->point(p.node)));
+  for (const CentreProbe& p : centres) uv.push_back(lattice_->sampling_point(p.node));
   for (const BorderPoint& p : points) uv.push_back(domain_.vertices[p.vertex]);
   const std::vector<Metric2> metric = ask(uv);
   std::vector<double> before;
@@ -459,7 +459,7 @@ std::vector<std::int32_t> ControlSpaceSampling::sample_middles(std::span<const s
     p.beside = tested_beside(p);
     // Where nobody wants to know whether the prediction is right there is none.
     if (p.beside[0] >= 0 || p.beside[1] >= 0) p.expected = expected_at((*tree_)[p.cell], middles_of_sides[p.side]);
-    uv.push_back(lattice_->parameters(lattice_->point(p.node)));
+    uv.push_back(lattice_->sampling_point(p.node));
   }
   const std::vector<Metric2> metric = ask(uv);
   std::vector<std::int32_t> wrong;

@@ -42,7 +42,7 @@ void ControlSpaceSampling::sample_along_border() {
       if (cell.beside[side] < 0 && lattice_->inside(n) && !lattice_->sampled(n)) nodes.push_back(n);
     }
   }
-  for (const std::int32_t n : nodes) uv.push_back(lattice_->parameters(lattice_->point(n)));
+  for (const std::int32_t n : nodes) uv.push_back(lattice_->sampling_point(n));
   const std::vector<Metric2> metric = ask(uv);
   for (std::size_t k = 0; k < nodes.size(); ++k) set_sample(nodes[k], metric[k], k);
 }
@@ -57,7 +57,7 @@ void ControlSpaceSampling::bound_slopes(double slope) {
     if (!lattice_->sampled(n)) continue;
     rank[n] = static_cast<std::int32_t>(node.size());
     node.push_back(n);
-    field.samples.push_back({lattice_->parameters(lattice_->point(n)), at_node_[n].metric, at_node_[n].form});
+    field.samples.push_back({lattice_->sampling_point(n), at_node_[n].metric, at_node_[n].form});
   }
   for (std::int32_t c = 0; c < tree_->size(); ++c)
     if ((*tree_)[c].child < 0 && (*tree_)[c].relevant) join_leaf((*tree_)[c], rank, field);
@@ -92,11 +92,11 @@ Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& l
   const Metric2 on_surface = 0.5 * (root_of_form(at_node_[first].form) + root_of_form(at_node_[last].form));
   const double h = (on_surface.a + on_surface.c) / (root.a + root.c);
   double low = 0, high = std::numeric_limits<double>::infinity();
-  const Vec2 uv = lattice_->parameters(lattice_->point(node));
+  const Vec2 uv = lattice_->sampling_point(node);
   for (const std::int32_t n : {first, last, leaf.centre()}) {
     if (!lattice_->sampled(n)) continue;
     const OnSurface& there = at_node_[n];
-    const Vec2 d = lattice_->parameters(lattice_->point(n)) - uv;
+    const Vec2 d = lattice_->sampling_point(n) - uv;
     const double reach = slope_ * length(0.5 * (at_node_[first].form + at_node_[last].form), d);
     low = std::max(low, size_of(there) - reach);
     high = std::min(high, size_of(there) + reach);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "control_space_fields.h"
 #include "metric/metric2_algebra.h"
@@ -68,6 +69,48 @@ TEST(ControlSpaceLimits, SidesThatWaverByRoundingAreSides) {
   for (double t = -2.5; t <= 2.5; t += 0.01)
     for (const Vec2 p : {Vec2{t, -2.5}, Vec2{2.5, t}, Vec2{t, 2.49}})
       EXPECT_LT(length_error(space.at(p), field.metric(p)), 2e-3) << t;
+}
+
+// Where the sampler is asked, within rounding; every point is inside.
+std::vector<Vec2> asked_at(const Field& field) {
+  std::vector<Vec2> points;
+  const MetricSampler inside = sampler_of(field);
+  const MetricSampler recording = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
+    inside(uv, metric);
+    points.insert(points.end(), uv.begin(), uv.end());
+  };
+  Monitor monitor;
+  (void)ControlSpace::build(field.domain, recording, {}, monitor);
+  return points;
+}
+
+// Vertices interpolated along straight sides leave them by a rounding: nodes there are sampled all the same, and not
+// extrapolated.
+TEST(ControlSpaceLimits, SidesThatWaverByRoundingAreSampledLikeSides) {
+  const Vec2 low{0.1, -0.7}, high{0.9, 0.3};
+  const int n = 60;
+  const auto metric = [](Vec2 p) {
+    const double h = 0.02 + 0.1 * (p.x + p.y) * (p.x + p.y);
+    return Metric2{1 / (h * h), 0, 1 / (h * h)};
+  };
+  const Field straight{"straight sides", fields::domain_of({fields::rectangle(low, high, n)}), metric};
+  Field wavering{"sides by lerp", straight.domain, metric};
+  const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+  std::size_t off = 0;
+  for (std::size_t k = 0; k < wavering.domain.vertices.size(); ++k) {
+    const Vec2 a = corners[k / n], b = corners[(k / n + 1) % 4];
+    const double t = static_cast<double>(k % n) / n;
+    Vec2& p = wavering.domain.vertices[k];
+    p = {(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y};
+    if (p.x != low.x && p.x != high.x && p.y != low.y && p.y != high.y) ++off;
+  }
+  ASSERT_GT(off, static_cast<std::size_t>(n / 4));
+  const std::vector<Vec2> expected = asked_at(straight), found = asked_at(wavering);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    const Vec2 d = found[k] - expected[k];
+    EXPECT_LT(dot(d, d), 1e-28) << k;
+  }
 }
 
 TEST(ControlSpaceLimits, AspectRatiosUpToAMillionAreKept) {
