@@ -126,7 +126,7 @@ TEST(Graded, QualityWhereSizesAreAMillionthOfTheBox) {
   constexpr double h0 = 1e-7, slope = 0.11;
   constexpr Vec2 centre{0.53, 0.41};
   PlaneCase c = flat_square(0.1);
-  c.size = [](Vec2 p) { return std::min(0.1, h0 + slope * norm(p - centre)); };
+  c.size = [=](Vec2 p) { return std::min(0.1, h0 + slope * norm(p - centre)); };
   Monitor monitor;
   const PlaneMesh mesh = mesh_plane(c.domain, control_space(c, ControlSpaceOptions{}.tolerance), {}, monitor);
   EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
