@@ -228,7 +228,8 @@ CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carre
  *   SPACE     value[0..5]: xx, xy, xz, yy, yz, zz of a positive definite tensor M, in 1 / model length^2; a vector d
  * has the length sqrt(d^T M d), and edges are to have length 1. Sizes along the axes of M are 1 / sqrt(eigenvalue)
  *   TANGENT   value[0..4]: h1, h2 > 0, model lengths, and x, y, z of a direction of any length but zero: size h1 along
- *             it and h2 across it. It should be tangent to the surface
+ *             it and h2 across it. It should be tangent to the surface: of one that is not, the tangent plane sees
+ *             what it sees of the SPACE metric with h1 along it and h2 across; along the normal h2 is left
  * A size that is not finite and positive, or a tensor that is not positive definite, ends the run with
  * CARREAU_ERR_CALLBACK and a sentence with the place. */
 enum { CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3 };

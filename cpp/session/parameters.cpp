@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "io/text.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -122,7 +123,7 @@ int known_index(std::string_view name) {
   if (index >= 0) return index;
   if (name == "call") throw InvalidArgument("'call' is an action of blsurf.env, not a parameter");
   const std::string nearest = nearest_parameter(name);
-  throw InvalidArgument("there is no parameter '" + std::string(name) + "'" +
+  throw InvalidArgument("there is no parameter " + shown(name) +
                         (nearest.empty() ? std::string() : "; did you mean '" + nearest + "'?"));
 }
 
@@ -260,11 +261,11 @@ void Parameters::set_from_text(std::string_view name, std::string_view word, boo
   if (info.type == ParameterType::text || quoted) return set(name, word);
   if (info.type == ParameterType::integer) {
     int value = 0;
-    if (!parse_number(word, value)) wrong_type(info, "'" + std::string(word) + "'");
+    if (!parse_number(word, value)) wrong_type(info, shown(word));
     return set(name, value);
   }
   double value = 0;
-  if (!parse_number(word, value)) wrong_type(info, "'" + std::string(word) + "'");
+  if (!parse_number(word, value)) wrong_type(info, shown(word));
   set(name, value);
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "support/error.h"
 
@@ -150,6 +152,16 @@ TEST(Parameters, ReadWordsOfBlsurfEnv) {
             "parameter hphydef is a number, not the text '1.5'");
   EXPECT_EQ(sentence_of([&] { parameters.set_from_text("frontal", "99999999999", false); }),
             "parameter frontal is an integer, not '99999999999'");
+}
+
+TEST(Parameters, SentencesQuoteLongWordsInPart) {
+  const std::string endless(100'000, 'x');
+  Parameters parameters;
+  for (const auto& [name, word] : {std::pair{endless, std::string("1")}, {"hphydef", endless}, {"threads", endless}}) {
+    const std::string sentence = sentence_of([&] { parameters.set_from_text(name, word, false); });
+    EXPECT_NE(sentence, "no error");
+    EXPECT_LT(sentence.size(), 200U);
+  }
 }
 
 }  // namespace
