@@ -27,6 +27,8 @@ ROW = "{:34}{:>7}{:>9}{:>9}{:>9}{:>7}{:>8}{:>8}{:>8}{:>7}"
 
 
 def open_file(path):
+    # OpenCASCADE's own unit is the millimetre, and Gmsh 4.8 fails to set it before a STEP file has been read.
+    gmsh.option.setString("Geometry.OCCTargetUnit", "")
     gmsh.model.occ.importShapes(path)
     gmsh.model.occ.synchronize()
 
