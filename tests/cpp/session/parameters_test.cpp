@@ -157,8 +157,8 @@ TEST(Parameters, ReadWordsOfBlsurfEnv) {
 TEST(Parameters, SentencesQuoteLongWordsInPart) {
   const std::string endless(100'000, 'x');
   Parameters parameters;
-  for (const auto& [name, word] : {std::pair{endless, std::string("1")}, {"hphydef", endless}, {"threads", endless}}) {
-    const std::string sentence = sentence_of([&] { parameters.set_from_text(name, word, false); });
+  for (const auto& row : {std::pair{endless, std::string("1")}, {"hphydef", endless}, {"threads", endless}}) {
+    const std::string sentence = sentence_of([&] { parameters.set_from_text(row.first, row.second, false); });
     EXPECT_NE(sentence, "no error");
     EXPECT_LT(sentence.size(), 200U);
   }
