@@ -3,6 +3,7 @@
 #include <carreau.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "completion.h"
 #include "failure.h"
@@ -13,6 +14,9 @@ namespace {
 
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh or .msh2";
 constexpr const char* geometry_files = "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom";
+constexpr int most_listed = 1'000'000;
+
+std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
 
 void parse_picture_size(const std::string& text, PictureOptions& options) {
   const auto size = parse_pixels(text);
@@ -61,11 +65,6 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_params();
   add_completion();
 }
-
-namespace {
-constexpr int most_listed = 1000000;
-std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
-}  // namespace
 
 CLI::App* CommandLine::add(const char* name, const char* description) {
   CLI::App* sub = app_.add_subcommand(name, description);
@@ -188,7 +187,7 @@ void CommandLine::add_fields() {
       ->type_name("PIXELS")
       ->capture_default_str();
   fields->add_option("--face", fields_.face, "Only this face, into the file as it is named")
-      ->check(CLI::Range(1, most_listed))
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->type_name("REF");
   fields->add_flag("--multi-part", fields_.multi_part, "All faces into one file, a part each");
   repeated(fields->add_option("--channels", fields_.channels, "Groups of channels, separated by commas; all by default")

@@ -144,6 +144,7 @@ class Fields(unittest.TestCase):
         self.fails(self.pardom, "-o", "a.exr", "--size", "99999", "--raw", sentence="from 1 to 65536")
         self.fails(self.pardom, "-o", "a.exr", "--channels", "colour", sentence="colour")
         self.fails(self.pardom, "-o", "a.exr", "--face", "7", "--raw", sentence="reference 7")
+        self.fails(self.pardom, "-o", "a.exr", "--face", "2000000000", "--raw", sentence="reference 2000000000")
         self.fails(self.pardom, "-o", "none/a.exr", "--raw", sentence="No such file or directory")
 
 
