@@ -246,17 +246,17 @@ class Pipeline {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       if (!domains_.domain[f] || patches_[f]) continue;
       const FaceDomain& domain = *domains_.domain[f];
+      std::vector<Vec3> on_curves = positions_on_curves(domain, curves_, topology_);
       SizeLimits bound = limits();
       if (options_.edge_gradation > 0 && !rules_.uses_metrics()) {
-        short_edges_[f] = {short_edges(domain, positions_on_curves(domain, curves_, topology_)),
-                           slope_of_gradation(options_.edge_gradation)};
+        short_edges_[f] = {short_edges(domain, on_curves), slope_of_gradation(options_.edge_gradation)};
         if (!short_edges_[f].empty()) bound.edges = &short_edges_[f];
       }
       jobs_.push_back(
           std::make_unique<FaceJob>(PatchInput{.face = static_cast<int>(f),
                                                .ref = model_.faces[f].ref,
                                                .domain = &domain,
-                                               .curve_xyz = positions_on_curves(domain, curves_, topology_),
+                                               .curve_xyz = std::move(on_curves),
                                                .constant_size = bound.want_places() ? std::nullopt : rules_.constant(),
                                                .isotropic = !rules_.uses_metrics(),
                                                .limits = bound,

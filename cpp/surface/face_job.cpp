@@ -17,6 +17,7 @@ constexpr int most_corrections = 3;
 constexpr int most_resettlements = 6;
 // A mesh that would become so many times larger has not missed a place: its sizes are damaged nearly everywhere.
 constexpr double most_growth = 1000;
+
 /// Whether the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
 /// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
@@ -34,6 +35,7 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   }
   return norm(q - p) > shrunk * whole;
 }
+
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
 constexpr double no_area = 1e-14;
 
