@@ -90,8 +90,8 @@ class ControlSpace {
   /// Points at which the sampler was called.
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
   [[nodiscard]] std::size_t bytes() const noexcept {
-    return leaves_.capacity() * sizeof(Leaf) + table_.capacity() * sizeof(std::int32_t) +
-           children_.capacity() * sizeof(children_[0]);
+    return leaves_.capacity() * sizeof(Leaf) + measures_.capacity() * sizeof(double) +
+           table_.capacity() * sizeof(std::int32_t) + children_.capacity() * sizeof(children_[0]);
   }
 
  private:
@@ -101,7 +101,6 @@ class ControlSpace {
   /// S(s, t) = sum of c[3 m + n] s^n t^m for (s, t) in [-1, 1]^2, about the centre (x, y) in units of the table.
   struct Leaf {
     double x = 0, y = 0, scale = 1;
-    double measure = 0;  // its share of measure_
     std::array<std::array<double, 3>, 9> c{{{1, 0, 1}}};
   };
 
@@ -135,6 +134,7 @@ class ControlSpace {
   std::vector<std::int32_t> table_ = {0};  ///< a leaf, or ~index of children_
   std::vector<std::array<std::int32_t, 4>> children_;
   std::vector<Leaf> leaves_ = {Leaf{}};
+  std::vector<double> measures_ = {0};  // of the leaves: their shares of measure_
   double measure_ = 0;
   std::size_t samples_ = 0;
 };

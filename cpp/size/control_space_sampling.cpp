@@ -24,12 +24,20 @@ constexpr double crowded = 1.6;
 
 // Lengths of a cell below this many edges do not matter.
 constexpr double negligible_length = 0.03;
-// The error allowed where prediction is checked, as a share of the tolerance: for cells wider than an edge of the
-// mesh, than half an edge, than a quarter of one. Smaller cells serve nobody.
-constexpr double share_wide = 0.25, share_edge = 0.5, share_half = 1;
-// The error that is refined for whatever it costs, in tolerances, for the same cells: an edge feels the mean along it,
-// and few edges pass a small cell.
-constexpr double tolerated_wide = 1, tolerated_edge = 4, tolerated_half = 16;
+/// An error by the width of a cell, in tolerances: of cells wider than an edge of the mesh, than half an edge, than a
+/// quarter of one. Smaller cells serve nobody.
+struct ErrorByWidth {
+  double wide, edge, half;
+
+  [[nodiscard]] double of(double vertices) const noexcept {
+    const double width = std::sqrt(vertices * area_per_vertex);
+    return width > 1 ? wide : width > 0.5 ? edge : width > 0.25 ? half : std::numeric_limits<double>::infinity();
+  }
+};
+// What is allowed where prediction is checked.
+constexpr ErrorByWidth allowed{0.25, 0.5, 1};
+// What is refined for whatever it costs: an edge feels the mean along it, and few edges pass a small cell.
+constexpr ErrorByWidth tolerated{1, 4, 16};
 // Ratio of sizes from which on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
 // the shortest edges wide.
 constexpr double much_stretched = 30;
@@ -334,19 +342,11 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 }
 
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
-  const double width = std::sqrt(vertices * area_per_vertex);
-  if (width > 1) return share_wide * options_.tolerance;
-  if (width > 0.5) return share_edge * options_.tolerance;
-  if (width > 0.25) return share_half * options_.tolerance;
-  return std::numeric_limits<double>::infinity();
+  return options_.tolerance * allowed.of(vertices);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
-  const double width = std::sqrt(vertices * area_per_vertex);
-  if (width > 1) return tolerated_wide * options_.tolerance;
-  if (width > 0.5) return tolerated_edge * options_.tolerance;
-  if (width > 0.25) return tolerated_half * options_.tolerance;
-  return std::numeric_limits<double>::infinity();
+  return options_.tolerance * tolerated.of(vertices);
 }
 
 // The cells that samples amid the sides stand for are the parts.

@@ -246,9 +246,10 @@ double ControlSpaceWriter::measure_of(const TreeCell& cell, const Nine& v) const
 
 std::int32_t ControlSpaceWriter::write_leaf(const TreeCell& cell) {
   const Nine v = values_in(cell);
+  const double measure = cell.relevant ? measure_of(cell, v) : 0;
+  space_.measures_.push_back(measure);
+  space_.measure_ += measure;
   ControlSpace::Leaf leaf;
-  if (cell.relevant) leaf.measure = measure_of(cell, v);
-  space_.measure_ += leaf.measure;
   leaf.x = (cell.i + 0.5 * cell.size) / table_step_;
   leaf.y = (cell.j + 0.5 * cell.size) / table_step_;
   leaf.scale = 2.0 * table_step_ / cell.size;
@@ -291,7 +292,9 @@ void ControlSpaceWriter::write() {
   space_.columns_ = static_cast<std::size_t>(columns);
   space_.table_.assign(space_.columns_ * static_cast<std::size_t>(rows), -1);
   space_.leaves_.clear();
+  space_.measures_.clear();
   space_.leaves_.reserve(leaves_.size());
+  space_.measures_.reserve(leaves_.size());
   // Cells at least as large as those of the table, each with all entries that it covers; depth first, so that near
   // leaves are near in memory.
   std::vector<std::int32_t> stack;
