@@ -17,7 +17,7 @@ constexpr double suspect_quality = 0.85;  // in the mean metric of the vertices,
 constexpr double refine_quality = 0.45;   // below, shape goes before size
 // Where the field bends, straight triangles have less area than their lengths say; half of it is well enough.
 constexpr double straight_weight = 2 * 2 * std::numbers::sqrt3;
-constexpr double look_again_quality = 0.7;
+constexpr double look_again_quality = 0.7;  // of bent triangles, from which on their edges are integrated
 constexpr int rescue_passes = 6;
 constexpr double gain = 1e-3;
 // Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad

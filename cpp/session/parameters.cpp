@@ -32,8 +32,8 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text. Ours: max_triangles, measure, edge_gradation, and what governs metrics
-// (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination).
+// the figure is hphymin in the text. Ours: max_triangles, measure, edge_gradation, stagger_strips, and what governs
+// metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
     integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),

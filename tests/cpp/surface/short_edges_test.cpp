@@ -5,9 +5,8 @@
 #include <cmath>
 #include <memory>
 
-#include "common/analytic_cad.h"
 #include "mesh/quality.h"
-#include "session/session.h"
+#include "session_of_size.h"
 
 namespace carreau {
 namespace {
@@ -35,12 +34,7 @@ AnalyticCad comb(SurfaceJet (*surface)(Vec2), int pieces) {
 }
 
 std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, double ratio, Monitor& monitor) {
-  auto session = std::make_unique<Session>(monitor);
-  session->set_cad(std::make_shared<AnalyticCad>(cad));
-  session->set_model(testing::unglued(cad));
-  session->parameters().set("hphydef", size);
-  session->parameters().set("hphymin", size / 100);
-  session->parameters().set("hphymax", size * 10);
+  auto session = testing::session_of_size(cad, size, monitor);
   session->parameters().set("CheckAdjacentEdges", 20);
   session->parameters().set("edge_gradation", ratio);
   session->make_mesh();

@@ -6,9 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "common/analytic_cad.h"
 #include "mesh/quality.h"
-#include "session/session.h"
+#include "session_of_size.h"
 
 namespace carreau {
 namespace {
@@ -29,12 +28,7 @@ AnalyticCad patch(SurfaceJet (*surface)(Vec2), std::vector<testing::AnalyticCurv
 }
 
 std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, int stagger, Monitor& monitor) {
-  auto session = std::make_unique<Session>(monitor);
-  session->set_cad(std::make_shared<AnalyticCad>(cad));
-  session->set_model(testing::unglued(cad));
-  session->parameters().set("hphydef", size);
-  session->parameters().set("hphymin", size / 100);
-  session->parameters().set("hphymax", size * 10);
+  auto session = testing::session_of_size(cad, size, monitor);
   session->parameters().set("stagger_strips", stagger);
   session->make_mesh();
   EXPECT_EQ(find_defects(session->mesh(), {.limit = 5}), std::vector<std::string>{});
