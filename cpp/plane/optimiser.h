@@ -78,6 +78,7 @@ class Optimiser {
 
   // rescue.cpp
   void rescue_worst();
+  void rescue_all_bad();
   bool rescue(int t);
   bool rescue_by_swap(int t);
   bool rescue_by_move(int v);
@@ -94,6 +95,13 @@ class Optimiser {
   double star_penalty(int v, double enough);
   [[nodiscard]] double shape(int p, int q, int r) const;
   [[nodiscard]] Lengths integrated_lengths(int p, int q, int r) const;
+
+  // flat.cpp
+  [[nodiscard]] double height(int p, int q, int r) const;
+  [[nodiscard]] bool is_flat(int t) const;
+  bool raise_by_swap(int t);
+  bool raise_by_removal(int t);
+  void raise_flat();
 
   Triangulation& mesh_;
   Shapes shapes_;
@@ -112,6 +120,7 @@ class Optimiser {
   std::vector<std::int32_t> spoiled_, undone_;  // triangles spoiled by moves; vertices whose moves were taken back
   std::vector<HalfEdge> edges_;
   std::vector<std::int32_t> work_, next_;
+  std::vector<std::int32_t> doubtful_;     // triangles that the rescue has looked at
   std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise
   std::int64_t shapes_asked_ = 0;          // of stars, by the rescue
   std::vector<std::uint8_t> degree_, wanted_degree_;

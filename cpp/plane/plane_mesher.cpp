@@ -39,7 +39,7 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangu
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor) {
   plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
-  const plane::Field field(metric, boundary.frame);
+  const plane::Field field(metric, boundary.frame, options.frontal);
   int fixed = 0;
   {
     plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);

@@ -320,7 +320,7 @@ bool Optimiser::is_good(const Triangle& T) const {
   return shortest2 > sure * 2 * crowded_length2 && area > 0 && area * area * determinant(m) > quality2 * sum * sum;
 }
 
-void Optimiser::rescue_worst() {
+void Optimiser::rescue_all_bad() {
   const auto total = static_cast<std::int32_t>(mesh_.triangles.size());
   const bool bends = !mesh_.bends.empty();
   const auto is_bad = [&](std::int32_t t) {
@@ -340,6 +340,7 @@ void Optimiser::rescue_worst() {
   std::int64_t checked = 0;
   shapes_asked_ = 0;
   for (int pass = 0; pass < rescue_passes && !work_.empty(); ++pass) {
+    doubtful_.insert(doubtful_.end(), work_.begin(), work_.end());
     next_.clear();
     for (const std::int32_t t : work_) {
       if (shapes_asked_ > budget) return;
@@ -353,6 +354,13 @@ void Optimiser::rescue_worst() {
     next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
     work_.swap(next_);
   }
+  doubtful_.insert(doubtful_.end(), work_.begin(), work_.end());
+}
+
+void Optimiser::rescue_worst() {
+  doubtful_.clear();
+  rescue_all_bad();
+  raise_flat();
 }
 
 }  // namespace carreau::plane

@@ -10,7 +10,8 @@ namespace carreau::plane {
 // Kinks of the field, or bends too strong for second order, make charts that lie: what one tells of distances in six
 // directions must be what the tensors halfway do.
 Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
-  if (!(bend_of_shapes(slopes) > least_bend)) return Bend::none;
+  const double by_shapes = bend_of_shapes(slopes);
+  if (!(by_shapes > least_bend) || by_shapes > most_bend) return Bend::none;
   constexpr double tolerance = 0.1;
   for (const Vec2 d : six_directions) {
     Vec2 e = chart.offset(d);

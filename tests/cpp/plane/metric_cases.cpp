@@ -115,6 +115,15 @@ MetricCase layer_on_sine(double h, double ratio) {
   });
 }
 
+MetricCase rings(double h, double ratio) {
+  return on_box("rings", {0, 0}, {1, 1}, [=](Vec2 p) {
+    const Vec2 d = p - Vec2{0.2, 0.3};
+    const double r = norm(d);
+    const Vec2 n = r > 0 ? (1 / r) * d : Vec2{1, 0};
+    return stretched_metric(n, h, std::clamp(r / 3, h, ratio * h));
+  });
+}
+
 MetricCase constant_stretch(double h, double ratio) {
   return on_box("constant stretch", {0, 0}, {1, 1}, [=](Vec2) {
     return stretched_metric({std::sin(0.4), std::cos(0.4)}, h, ratio * h);

@@ -19,10 +19,13 @@ struct MetricCase {
 ControlSpace control_space(const MetricCase& c);
 
 /// All on a square. `h` is the size across, `ratio * h` the largest size along.
-MetricCase layer_on_line(double h, double ratio);     ///< thin along an oblique line, isotropic away from it
-MetricCase layer_on_circle(double h, double ratio);   ///< same, along a circle
-MetricCase layer_on_spiral(double h, double ratio);   ///< same, along the turns of a spiral
-MetricCase layer_on_sine(double h, double ratio);     ///< same, along y = sin x
+MetricCase layer_on_line(double h, double ratio);    ///< thin along an oblique line, isotropic away from it
+MetricCase layer_on_circle(double h, double ratio);  ///< same, along a circle
+MetricCase layer_on_spiral(double h, double ratio);  ///< same, along the turns of a spiral
+MetricCase layer_on_sine(double h, double ratio);    ///< same, along y = sin x
+/// Long along all circles about (0.2, 0.3), up to a third of the radius: edges of unit length leave their circle by
+/// many sizes h when the ratio is large.
+MetricCase rings(double h, double ratio);
 MetricCase constant_stretch(double h, double ratio);  ///< the same tensor everywhere, oblique
 MetricCase turning_stretch(double h,
                            double ratio);  ///< the ratio is the same everywhere, directions are tangent to circles

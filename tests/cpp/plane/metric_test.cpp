@@ -1,6 +1,8 @@
 // Unit meshes in anisotropic fields: lengths and quality measured in the field itself.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "metric_cases.h"
 #include "plane/plane_mesher.h"
 #include "plane_checks.h"
@@ -58,6 +60,24 @@ TEST(AnisotropicField, ARatioOfAThousandGivesAValidMesh) {
     const PlaneMesh mesh = mesh_plane(c.domain, control_space(c), {}, monitor);
     EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{}) << c.name;
   }
+}
+
+// Vertices put on edges are on them but for rounding: no triangle is left between an edge and its own middle, though
+// the lengths of its sides, each by the tensor in its middle, are those of a good one.
+TEST(AnisotropicField, FieldsThatEdgesCannotFollowLeaveNoFlatTriangle) {
+  for (const bool frontal : {true, false})
+    for (const double ratio : {50.0, 100.0, 200.0}) {
+      const MetricCase c = rings(0.002, ratio);
+      Monitor monitor;
+      const PlaneMesh mesh = mesh_plane(c.domain, control_space(c), {.frontal = frontal}, monitor);
+      EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
+      int flat = 0;
+      for (const auto& t : mesh.triangles) {
+        const Vec2 p = mesh.vertices[t[0]], u = mesh.vertices[t[1]] - p, v = mesh.vertices[t[2]] - p;
+        flat += cross(u, v) < 1e-12 * std::max({dot(u, u), dot(v, v), dot(v - u, v - u)}) ? 1 : 0;
+      }
+      EXPECT_EQ(flat, 0) << "of " << mesh.triangles.size();
+    }
 }
 
 // Turning the coordinates turns the mesh: a constant tensor is an affine map of the isotropic case.
