@@ -339,11 +339,11 @@ void Optimiser::rescue_all_bad() {
   const std::int64_t budget = std::max(least_shapes, shapes_a_triangle * total);
   std::int64_t checked = 0;
   shapes_asked_ = 0;
-  for (int pass = 0; pass < rescue_passes && !work_.empty(); ++pass) {
+  for (int pass = 0; pass < rescue_passes && !work_.empty() && shapes_asked_ <= budget; ++pass) {
     doubtful_.insert(doubtful_.end(), work_.begin(), work_.end());
     next_.clear();
     for (const std::int32_t t : work_) {
-      if (shapes_asked_ > budget) return;
+      if (shapes_asked_ > budget) break;
       if (shapes_asked_ > checked) {
         monitor_.checkpoint();
         checked = shapes_asked_ + shapes_between_checks;

@@ -2,25 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
+#include "surface/face_mesher.h"
 
 namespace carreau {
 
 namespace {
 
-// How far from a degenerate point towards a sound one limits are taken.
-constexpr double towards_sound = 1e-2;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// How far from a degenerate point limits are taken, in shares of the domain's box, and of that the part aside, towards
+// its middle: meridians may run along sides of the domain, which are straight but for rounding.
+constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
 
-/// The step from a degenerate point that goes towards another one without leaving its meridian: without the part along
-/// which the surface stands still, when that is one of the parameters.
-Vec2 along_meridian(const SurfaceJet& jet, Vec2 step) noexcept {
+/// Along the meridian of a degenerate point: the parameter along which the surface does not stand still, if it does
+/// along the other; else towards the middle.
+Vec2 along_meridian(const SurfaceJet& jet, Vec2 to_middle, Vec2 half) noexcept {
   constexpr double still = 1e-12;
   const double u = norm(jet.su), v = norm(jet.sv);
-  if (u <= still * v && step.y != 0) return {0, step.y};
-  if (v <= still * u && step.x != 0) return {step.x, 0};
-  return step;
+  if (u <= still * v) return {0, std::copysign(half.y, to_middle.y)};
+  if (v <= still * u) return {std::copysign(half.x, to_middle.x), 0};
+  return to_middle;
 }
 
 }  // namespace
@@ -38,7 +42,7 @@ void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, 
     if (!rules_.uses_curvature() && limits_.field == nullptr) return;
     for (std::size_t i = 0; i < uv.size(); ++i)
       if (!TangentFrame::of(jets[i].su, jets[i].sv))
-        if (const auto sizes = limit(i, uv, jets)) metric[i] = metric_of(jets[i], *sizes);
+        if (const auto sizes = limit(uv[i], jets[i])) metric[i] = metric_of(jets[i], *sizes);
     return;
   }
   h_.resize(uv.size());
@@ -47,21 +51,35 @@ void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, 
   if (!limits_.idle()) apply_limits(limits_, face_, uv, jets, metric);
 }
 
-std::optional<TangentMetric> FaceMetric::limit(std::size_t i, std::span<const Vec2> uv,
-                                               std::span<const SurfaceJet> jets) {
-  std::optional<Vec2> step;
-  for (std::size_t k = 0; k < uv.size(); ++k) {
-    const Vec2 to = uv[k] - uv[i];
-    if ((!step || dot(to, to) < dot(*step, *step)) && TangentFrame::of(jets[k].su, jets[k].sv)) step = to;
+// A place inside the domain, a little way from a degenerate one along its meridian.
+std::optional<Vec2> FaceMetric::beside(Vec2 uv, const SurfaceJet& jet) {
+  if (!inside_) {
+    const SampledDomain domain = sampled_domain(plane_);
+    Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+    for (const Vec2 p : domain.vertices) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    inside_.emplace(Inside{{domain.vertices, domain.edges}, 0.5 * (low + high), 0.5 * (high - low)});
   }
-  if (!step) return {};
-  const Vec2 beside = uv[i] + towards_sound * along_meridian(jets[i], *step);
-  const SurfaceJet jet = rules_.surface_jet(face_, wants(), beside);
+  const Vec2 to_middle = inside_->middle - uv, way = along_meridian(jet, to_middle, inside_->half);
+  for (const double share : ways_inside)
+    for (const double sign : {1., -1.}) {
+      const Vec2 p = uv + share * (sign * way + aside * to_middle);
+      if (inside_->locator.contains(p)) return p;
+    }
+  return {};
+}
+
+std::optional<TangentMetric> FaceMetric::limit(Vec2 uv, const SurfaceJet& at_uv) {
+  const auto inside = beside(uv, at_uv);
+  if (!inside) return {};
+  const SurfaceJet jet = rules_.surface_jet(face_, wants(), *inside);
   if (!TangentFrame::of(jet.su, jet.sv)) return {};
   Metric2 there;
   const auto fallback = [this](Vec2 p) { return interpolated(p); };
-  rules_.metrics_on_surface(face_, {&beside, 1}, {&jet, 1}, fallback, {&there, 1});
-  if (!limits_.idle()) apply_metric_limits(limits_, face_, {&beside, 1}, {&jet, 1}, {&there, 1});
+  rules_.metrics_on_surface(face_, {&*inside, 1}, {&jet, 1}, fallback, {&there, 1});
+  if (!limits_.idle()) apply_metric_limits(limits_, face_, {&*inside, 1}, {&jet, 1}, {&there, 1});
   return tangent_metric(jet, there);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plane/plane_mesh.h"
+#include "predicates/polygon_locator.h"
 #include "size/graded_field.h"
 #include "size/size_rules.h"
 #include "surface/interface_sizes.h"
@@ -32,17 +33,18 @@ class FaceMetric {
   }
 
   /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks
-  /// the host. Where the parametrisation is degenerate metrics that depend on the geometry are limits of those towards
-  /// the nearest point of the batch where it is not: around a pole they differ from one meridian to the next.
+  /// the host. Where the parametrisation is degenerate metrics that depend on the geometry are limits of those inside
+  /// the domain: around a pole they differ from one meridian to the next. What a point gets does not depend on the
+  /// others.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
 
-  /// The limit at point i of a batch, where the parametrisation is degenerate. Empty where it is degenerate in all of
-  /// the batch.
-  [[nodiscard]] std::optional<TangentMetric> limit(std::size_t i, std::span<const Vec2> uv,
-                                                   std::span<const SurfaceJet> jets);
+  /// The limit at a point where the parametrisation is degenerate. Empty where it is also degenerate beside, or no
+  /// place beside is inside the domain.
+  [[nodiscard]] std::optional<TangentMetric> limit(Vec2 uv, const SurfaceJet& jet);
 
  private:
   [[nodiscard]] double interpolated(Vec2 uv);
+  [[nodiscard]] std::optional<Vec2> beside(Vec2 uv, const SurfaceJet& jet);
 
   int face_;
   const SizeRules& rules_;
@@ -51,6 +53,11 @@ class FaceMetric {
   Monitor& monitor_;
   SizeLimits limits_;
   std::optional<InterfaceSizes> interfaces_;  // built only when the host leaves a question open
+  struct Inside {
+    PolygonLocator locator;
+    Vec2 middle, half;  // of the domain's box
+  };
+  std::optional<Inside> inside_;  // built only where the parametrisation is degenerate
   std::vector<double> h_;
 };
 

@@ -213,7 +213,7 @@ void GradingRound::evaluate(const PatchInput& input, GradedFace& face, std::size
       face.normal[v] = unit(cross(jet[k].su, jet[k].sv));
       if (metrics_) {
         auto sizes = tangent_metric(jet[k], metrics[k]);
-        if (!sizes) sizes = metric.limit(k, all.subspan(i, n), jet);
+        if (!sizes) sizes = metric.limit(all[v], jet[k]);
         metric_.push_back(sizes ? *sizes : TangentMetric{});
       } else if (const double h = isotropic_size(jet[k], metrics[k]); h > 0) {
         h_[vertex] = std::min(h_[vertex], h);
