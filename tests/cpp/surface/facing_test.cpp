@@ -119,10 +119,10 @@ TEST(Facing, AThinBox) {
     cad.faces[6] = plate(x, y, z);
     const FacingRun run(std::move(cad), 3, 0.3);
     for (const std::size_t face : {0, 1}) expect_sizes(run.sizes(face), thickness / 3, 0.01);
-    // Sides are narrow in themselves, but not near their corners: there sizes grow from both edges.
+    // Sides are narrow in themselves, up to their corners, where sizes may grow a little.
     for (const std::size_t face : {2, 3, 4, 5}) {
       EXPECT_GE(run.sizes(face)[0], 0.99 * thickness / 3);
-      EXPECT_LE(run.sizes(face)[1], 1.02 * (thickness / 3 + std::log(1.3) * thickness / 2));
+      EXPECT_LE(run.sizes(face)[1], 1.04 * thickness / 3);
     }
   }
 }

@@ -17,7 +17,8 @@ constexpr double pi = std::numbers::pi;
 
 SurfaceJet plane(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 
-std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, int layers, Monitor& monitor) {
+std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, int layers, Monitor& monitor,
+                                double gradation = 1.4) {
   auto session = std::make_unique<Session>(monitor);
   session->set_cad(std::make_shared<AnalyticCad>(cad));
   session->set_model(testing::unglued(cad));
@@ -26,7 +27,7 @@ std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, int layers,
   p.set("hphymin", size / 1000);
   p.set("hphymax", size);
   p.set("eps_glue", 1e-6);
-  p.set("gradation", 1.4);
+  p.set("gradation", gradation);
   p.set("proximity", layers);
   session->make_mesh();
   EXPECT_EQ(find_defects(session->mesh()), std::vector<std::string>{});
@@ -105,6 +106,21 @@ void expect_layers_around_a_hole(double gap, int layers, Ways ways) {
 TEST(Layers, AcrossStripsOfDifferentWidths) {
   for (const double width : {0.2, 0.1, 0.03})
     for (const int layers : {1, 2, 3}) expect_layers_across_a_strip(width, layers, Ways::anywhere);
+}
+
+// Also at its ends, where a corner is near, but not one that the two long sides share.
+TEST(Layers, AcrossTheEndsOfAStrip) {
+  for (const double gradation : {1.1, 1.3, 2.})
+    for (const int layers : {1, 2, 3, 5, 8}) {
+      SCOPED_TRACE(::testing::Message() << "gradation " << gradation << ", layers " << layers);
+      AnalyticCad cad;
+      cad.faces[1] = {plane, testing::rectangle({0, 0}, {4, 0.05})};
+      Monitor monitor;
+      const auto session = meshed(cad, 0.5, layers, monitor, gradation);
+      const auto low = [](Vec3 p) { return p.y == 0; };
+      const auto high = [](Vec3 p) { return p.y > 0.05 - 1e-9; };
+      EXPECT_GE(layers_between(session->mesh(), 0, low, high), layers);
+    }
 }
 
 TEST(Layers, BetweenAHoleAndTheBorder) {
