@@ -14,8 +14,9 @@ constexpr int attempts = 4;
 // Of points on edges that join what is far apart: crowded ones are removed in the end, but edges that cannot be swapped
 // would stay.
 constexpr double crowded_distance = 0.25;
-// 1 % of points more where the radius is less by 0.045, but never as small as that of many that rows make.
-constexpr double radius_a_share = 4.5, largest_reduction = 0.1;
+// 1 % of points more where the radius is less by 0.045, but never as small as that of many that rows make. Edges about
+// a larger radius become longer than 1.5.
+constexpr double radius_a_share = 4.5, largest_reduction = 0.1, largest_rise = 0.05;
 static_assert(leftover_radius - largest_reduction > done_radius);
 constexpr int most_pieces = 4096;  // of one edge in one pass; the next passes see to the rest
 
@@ -72,12 +73,12 @@ bool Filler::fill_at(Vec2 p, int t, double distance) {
   return start >= 0 && try_insert(p, start, distance, imposed_height);
 }
 
-// Rows that must gain points all along make too few. Where sizes are graded, what is missing of the expected number
-// lowers the radius that asks for a point.
+// Rows that must gain points all along make too few, those that must lose them too many. Where sizes are graded, what
+// is missing of the expected number lowers the radius that asks for a point, what is too many raises it.
 double Filler::graded_radius(double radius) const {
   if (shapes_.classify() != Sizes::graded) return radius;
   const double missing = 1 - static_cast<double>(mesh_.triangles.size()) / std::max(field_.measure(), 1.0);
-  return radius - std::clamp(radius_a_share * missing, 0.0, largest_reduction);
+  return radius - std::clamp(radius_a_share * missing, -largest_rise, largest_reduction);
 }
 
 void Filler::fill_leftovers(double radius, double distance) {
@@ -88,7 +89,7 @@ void Filler::fill_leftovers(double radius, double distance) {
     // Those that are done, nearly all, have a smaller radius.
     for (int attempt = 0; attempt < attempts && mesh_.triangles[t].done == Done::no; ++attempt) {
       const double r2 = shapes_.squared_radius(t);
-      if (!(r2 > graded2) || (r2 <= radius2 && shapes_.change(t) <= graded_change)) break;
+      if (!(r2 > (shapes_.change(t) > graded_change ? graded2 : radius2))) break;
       if (!shorten(t) && !fill_at(circumcentre(t), t, distance) && !halve(t)) break;
     }
   }

@@ -7,7 +7,7 @@ namespace {
 // Relaxations of successive sweeps: long moves carry strain far, the short ones beside them take back the ripples that
 // these leave (Chebyshev's semi-iteration, its longest moves cut off for the sake of triangles that turn over).
 constexpr double far_first[] = {1.6, 1.6}, short_last[] = {1, 0.7};
-constexpr double spread[] = {1, 2.5, 1.4, 0.7}, settle[] = {1.6, 1};
+constexpr double spread[] = {1, 2.5, 1.4, 0.7}, settle[] = {1};
 constexpr double pull_even = 0.05, pull_graded = 0.1;
 // Steps of a pair along its row.
 constexpr int reach_even = 1, reach_graded = 3;

@@ -24,20 +24,15 @@ constexpr double crowded = 1.6;
 
 // Lengths of a cell below this many edges do not matter.
 constexpr double negligible_length = 0.03;
-/// An error by the width of a cell, in tolerances: of cells wider than an edge of the mesh, than half an edge, than a
-/// quarter of one. Smaller cells serve nobody.
-struct ErrorByWidth {
-  double wide, edge, half;
-
-  [[nodiscard]] double of(double vertices) const noexcept {
-    const double width = std::sqrt(vertices * area_per_vertex);
-    return width > 1 ? wide : width > 0.5 ? edge : width > 0.25 ? half : std::numeric_limits<double>::infinity();
-  }
-};
-// What is allowed where prediction is checked.
-constexpr ErrorByWidth allowed{0.25, 0.5, 1};
-// What is refined for whatever it costs: an edge feels the mean along it, and few edges pass a small cell.
-constexpr ErrorByWidth tolerated{1, 4, 16};
+// The error allowed where prediction is checked, in tolerances: of cells wider than an edge of the mesh, than half an
+// edge, than the least width. Smaller cells serve nobody.
+constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1, least_width = 0.25;
+// The error that is refined for whatever it costs is the tolerance in cells at least so many edges wide. Below it grows
+// with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
+constexpr double plain_width = 2;
+// What is left of a cell's error when its centre is known: a cubic along a side errs by half as much as one for the
+// centre, to which both directions contribute.
+constexpr double left_by_centre = 0.5;
 // Ratio of sizes from which on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
 // the shortest edges wide.
 constexpr double much_stretched = 30;
@@ -342,18 +337,22 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 }
 
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
-  return options_.tolerance * allowed.of(vertices);
+  const double width = std::sqrt(vertices * area_per_vertex);
+  if (width <= least_width) return std::numeric_limits<double>::infinity();
+  return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : allowed_half);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
-  return options_.tolerance * tolerated.of(vertices);
+  const double width2 = vertices * area_per_vertex;
+  if (width2 <= least_width * least_width) return std::numeric_limits<double>::infinity();
+  return options_.tolerance * std::max(1.0, plain_width * plain_width / width2);
 }
 
 // The cells that samples amid the sides stand for are the parts.
 bool ControlSpaceSampling::is_beyond_tolerance(const TreeCell& cell) const noexcept {
   if (options_.thorough) return cell.error > std::max(allowed_error(cell.vertices), options_.tolerance);
   return cell.filled ? cell.decay * cell.error > tolerated_error(0.25 * cell.vertices)
-                     : cell.error > tolerated_error(cell.vertices);
+                     : left_by_centre * cell.error > tolerated_error(cell.vertices);
 }
 
 double ControlSpaceSampling::samples_for_smooth_fields() const noexcept {
