@@ -8,21 +8,20 @@ namespace carreau {
 
 ControlSpace ControlSpace::build(const SampledDomain& domain, const MetricSampler& sampler,
                                  const ControlSpaceOptions& options, Monitor& monitor) {
-  const SurfaceSampler metrics_only = [&](std::span<const Vec2> uv, std::span<Metric2> metric, std::span<Metric2>) {
-    sampler(uv, metric);
-  };
+  const SurfaceSampler metrics_only = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
+                                          std::span<SurfaceTangents>) { sampler(uv, metric); };
   detail::ControlSpaceSampling sampling(domain, metrics_only, false, options, monitor);
   sampling.run();
   return ControlSpaceWriter(sampling, monitor).run();
 }
 
 ControlSpace ControlSpace::build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
-                                        const ControlSpaceOptions& options, Monitor& monitor) {
+                                        bool directed, const ControlSpaceOptions& options, Monitor& monitor) {
   ControlSpaceOptions graded = options;
   graded.thorough = true;
   detail::ControlSpaceSampling sampling(domain, sampler, true, graded, monitor);
   sampling.run();
-  sampling.bound_slopes(slope);
+  sampling.bound_slopes(slope, directed);
   return ControlSpaceWriter(sampling, monitor).run();
 }
 

@@ -11,6 +11,7 @@
 
 #include "metric/chart.h"
 #include "metric/metric2.h"
+#include "size/space_gradation.h"
 #include "support/monitor.h"
 
 namespace carreau {
@@ -19,9 +20,9 @@ namespace carreau {
 /// Called in batches of at most 4096 points, never for a point outside the domain given to the builder.
 using MetricSampler = std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric)>;
 
-/// The same with J^T J, which tells lengths in space.
+/// The same with the first derivatives of the surface, which tell lengths and directions in space.
 using SurfaceSampler =
-    std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric, std::span<Metric2> form)>;
+    std::function<void(std::span<const Vec2> uv, std::span<Metric2> metric, std::span<SurfaceTangents> tangents)>;
 
 struct ControlSpaceOptions {
   /// Largest relative error of a length, where the space is checked and the cells are not already much smaller than
@@ -54,10 +55,10 @@ class ControlSpace {
   /// DomainError when the domain has no area, what the sampler throws, and Cancelled.
   static ControlSpace build(const SampledDomain& domain, const MetricSampler& sampler,
                             const ControlSpaceOptions& options, Monitor& monitor);
-  /// The same for isotropic metrics, whose sizes are shrunk until none grows by more than `slope` times the distance in
-  /// space from one sample to the next ones.
+  /// The same for sizes that are shrunk until none grows by more than `slope` times the distance in space from one
+  /// sample to the next ones: isotropic ones, or, `directed`, each along the line that joins the samples.
   static ControlSpace build_graded(const SampledDomain& domain, const SurfaceSampler& sampler, double slope,
-                                   const ControlSpaceOptions& options, Monitor& monitor);
+                                   bool directed, const ControlSpaceOptions& options, Monitor& monitor);
   /// The same metric everywhere.
   static ControlSpace constant(Metric2 metric);
 

@@ -156,12 +156,12 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
 
 std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   std::vector<Metric2> metric(uv.size());
-  if (on_surface_) last_forms_.resize(uv.size());
+  if (on_surface_) last_tangents_.resize(uv.size());
   for (std::size_t start = 0; start < uv.size(); start += batch) {
     monitor_.checkpoint();
     const std::size_t n = std::min(batch, uv.size() - start);
     sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n),
-             on_surface_ ? std::span(last_forms_).subspan(start, n) : std::span<Metric2>{});
+             on_surface_ ? std::span(last_tangents_).subspan(start, n) : std::span<SurfaceTangents>{});
     samples_ += n;
   }
   return metric;

@@ -27,8 +27,9 @@ class ControlSpaceSampling {
                        const ControlSpaceOptions& options, Monitor& monitor);
   /// Call once, before all others.
   void run();
-  /// Call once, after run(): carreau::bound_slopes() for the samples, joined in each leaf. They must be on_surface.
-  void bound_slopes(double slope);
+  /// Call once, after run(): carreau::bound_slopes(), or that by direction, for the samples, joined in each leaf. They
+  /// must be on_surface.
+  void bound_slopes(double slope, bool directed);
   [[nodiscard]] bool bounds_slopes() const noexcept { return slope_ != 0; }
   /// A value predicted at a node of a leaf, made to obey the slope between it and the leaf's samples.
   [[nodiscard]] Metric2 within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const;
@@ -116,17 +117,20 @@ class ControlSpaceSampling {
   std::optional<NodePredictor> predictor_;
   std::vector<char> vertex_sampled_;
   std::size_t samples_ = 0;
-  // What a surface told: J^T J at the last points that it was asked at, at nodes and at samples of the border.
+  // What a surface told: at the last points that it was asked at, at nodes and at samples of the border.
   struct OnSurface {
     Metric2 metric, form;
+    SurfaceTangents tangents;
   };
+  [[nodiscard]] OnSurface told(Metric2 metric, std::size_t rank) const noexcept;
   static double size_of(const OnSurface& s) noexcept;
   struct OnBorder {
     int vertex;
     OnSurface told;
   };
   double slope_ = 0;  // none yet
-  std::vector<Metric2> last_forms_;
+  bool directed_ = false;
+  std::vector<SurfaceTangents> last_tangents_;
   std::vector<OnSurface> at_node_;
   std::vector<OnBorder> at_border_;
 };

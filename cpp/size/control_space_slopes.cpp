@@ -19,15 +19,20 @@ double ControlSpaceSampling::size_of(const OnSurface& s) noexcept {
 }
 
 // `rank`: of the point among those last asked.
+ControlSpaceSampling::OnSurface ControlSpaceSampling::told(Metric2 metric, std::size_t rank) const noexcept {
+  const SurfaceTangents& t = last_tangents_[rank];
+  return {metric, induced_metric(t.su, t.sv, 1), t};
+}
+
 void ControlSpaceSampling::set_sample(std::int32_t node, Metric2 metric, std::size_t rank) {
   lattice_->set_sample(node, root_of(metric));
   if (!on_surface_) return;
   at_node_.resize(static_cast<std::size_t>(lattice_->size()));
-  at_node_[node] = {metric, last_forms_[rank]};
+  at_node_[node] = told(metric, rank);
 }
 
 void ControlSpaceSampling::keep_border(int vertex, Metric2 metric, std::size_t rank) {
-  if (on_surface_) at_border_.push_back({vertex, {metric, last_forms_[rank]}});
+  if (on_surface_) at_border_.push_back({vertex, told(metric, rank)});
 }
 
 // Along the boundary the middles of sides are predicted from one side only, which is off where a field has kinks.
@@ -48,8 +53,9 @@ void ControlSpaceSampling::sample_along_border() {
 }
 
 // Polynomials between samples that obey exceed the slope by the tolerance, at kinks.
-void ControlSpaceSampling::bound_slopes(double slope) {
+void ControlSpaceSampling::bound_slopes(double slope, bool directed) {
   slope_ = (1 - options_.tolerance) * slope;
+  directed_ = directed;
   sample_along_border();
   SampledField field;
   std::vector<std::int32_t> node, rank(static_cast<std::size_t>(lattice_->size()), -1);
@@ -57,18 +63,19 @@ void ControlSpaceSampling::bound_slopes(double slope) {
     if (!lattice_->sampled(n)) continue;
     rank[n] = static_cast<std::int32_t>(node.size());
     node.push_back(n);
-    field.samples.push_back({lattice_->sampling_point(n), at_node_[n].metric, at_node_[n].form});
+    field.samples.push_back({lattice_->sampling_point(n), at_node_[n].metric, at_node_[n].form, at_node_[n].tangents});
   }
   for (std::int32_t c = 0; c < tree_->size(); ++c)
     if ((*tree_)[c].child < 0 && (*tree_)[c].relevant) join_leaf((*tree_)[c], rank, field);
   for (const OnBorder& b : at_border_) {
     const auto here = static_cast<std::int32_t>(field.samples.size());
-    field.samples.push_back({domain_.vertices[b.vertex], b.told.metric, b.told.form});
+    field.samples.push_back({domain_.vertices[b.vertex], b.told.metric, b.told.form, b.told.tangents});
     const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(domain_.vertices[b.vertex]));
     for (const std::int32_t n : (*tree_)[leaf].node)
       if (rank[n] >= 0) field.links.push_back({here, rank[n]});
   }
-  for (const std::int32_t s : carreau::bound_slopes(field, slope_, monitor_)) {
+  const auto bound = directed ? carreau::bound_slopes_by_direction : carreau::bound_slopes;
+  for (const std::int32_t s : bound(field, slope_, monitor_)) {
     const Metric2 root = root_of(field.samples[s].metric);
     if (static_cast<std::size_t>(s) < node.size()) {
       at_node_[node[s]].metric = field.samples[s].metric;
@@ -82,7 +89,7 @@ void ControlSpaceSampling::bound_slopes(double slope) {
 // Sizes may have kinks, which polynomials overshoot; the root of J^T J has none. Where both are wanted on a side of a
 // leaf that is no longer than an edge of the mesh, the latter is the mean of both ends.
 Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& leaf, Metric2 root) const {
-  if (slope_ == 0 || leaf.vertices * area_per_vertex > 1) return root;
+  if (slope_ == 0 || directed_ || leaf.vertices * area_per_vertex > 1) return root;
   const auto side = std::find_if(std::begin(middles_of_sides), std::end(middles_of_sides),
                                  [&](int k) { return leaf.node[k] == node; });
   if (side == std::end(middles_of_sides)) return root;

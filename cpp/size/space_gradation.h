@@ -11,12 +11,18 @@
 
 namespace carreau {
 
+/// First derivatives of a surface.
+struct SurfaceTangents {
+  Vec3 su{}, sv{};
+};
+
 /// Samples of a field over a parameter plane, joined by triangles; links join samples that no triangle does.
 struct SampledField {
   struct Sample {
     Vec2 uv;
     Metric2 metric;
-    Metric2 form;  ///< J^T J: lengths in space
+    Metric2 form;                ///< J^T J: lengths in space
+    SurfaceTangents tangents{};  ///< what form is made of; not needed by bound_slopes()
   };
   std::vector<Sample> samples;
   std::vector<std::array<std::int32_t, 3>> triangles;
@@ -28,5 +34,12 @@ struct SampledField {
 /// exact, those of one small sample up to 6 % steeper.) Returns the samples that have changed, in increasing order.
 /// Linear in the number of samples but for those that change.
 std::vector<std::int32_t> bound_slopes(SampledField& field, double slope, Monitor& monitor);
+
+/// The same by direction, as between the places of a graph (size/metric_grading.h): from each end of a side to the
+/// other, and from the middle of a side to the opposite corner, sizes grow by the factor 1 + slope d / h, d being the
+/// distance and h the size along it where they come from; each size is bounded by that which belongs to its direction
+/// (TangentMetric::matched). Metrics keep their directions, and no size becomes smaller than the smallest of all.
+/// Samples where the parametrisation is degenerate neither bound nor change.
+std::vector<std::int32_t> bound_slopes_by_direction(SampledField& field, double slope, Monitor& monitor);
 
 }  // namespace carreau

@@ -100,7 +100,8 @@ class Pipeline {
       refine();
       mesh_and_assemble();
     }
-    if (slope() > 0) even_out_lengths(adjacent_lengths * options_.gradation, rules_, cad_, result_, monitor_);
+    if (slope() > 0 && !rules_.uses_metrics())
+      even_out_lengths(adjacent_lengths * options_.gradation, rules_, cad_, result_, monitor_);
     result_.report.calls = cad_.counts();
     result_.report.seconds_total = seconds_since(start);
     return std::move(result_);
@@ -143,7 +144,7 @@ class Pipeline {
     result_.report.seconds_gradation = seconds_since(start);
   }
   [[nodiscard]] double slope() const noexcept {
-    return graded_.field && !rules_.uses_metrics() ? graded_.field->slope() : 0;
+    return graded_.field ? graded_.field->slope() : 0;
   }
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded_.field.get()}; }
 

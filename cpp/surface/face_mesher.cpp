@@ -36,17 +36,19 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
                          Monitor& monitor) {
   FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
   std::vector<SurfaceJet> jets;
-  const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric, std::span<Metric2> form) {
+  const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
+                                     std::span<SurfaceTangents> tangents) {
     jets.resize(uv.size());
     cad.surface(input.ref, prescribed.wants(), uv, jets);
     prescribed.at(uv, jets, metric);
-    for (std::size_t i = 0; i < form.size(); ++i) form[i] = induced_metric(jets[i].su, jets[i].sv, 1);
+    for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = {jets[i].su, jets[i].sv};
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;
   space_options.tolerance = std::max(input.tolerance, rules.source_accuracy());
   const SampledDomain domain = sampled_domain(input.domain->plane);
-  if (input.slope > 0) return ControlSpace::build_graded(domain, sampler, input.slope, space_options, monitor);
+  if (input.slope > 0)
+    return ControlSpace::build_graded(domain, sampler, input.slope, !input.isotropic, space_options, monitor);
   return ControlSpace::build(
       domain, [&](std::span<const Vec2> uv, std::span<Metric2> metric) { sampler(uv, metric, {}); }, space_options,
       monitor);

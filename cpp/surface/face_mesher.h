@@ -43,7 +43,7 @@ struct PatchInput {
   bool isotropic = true;
   /// What becomes of the prescribed sizes.
   SizeLimits limits = {};
-  /// Largest derivative of isotropic sizes along the surface, kept in the control space too; 0: any.
+  /// Largest derivative of sizes along the surface, kept in the control space too; 0: any.
   double slope = 0;
   /// Largest relative error of lengths in the control space.
   double tolerance = ControlSpaceOptions{}.tolerance;

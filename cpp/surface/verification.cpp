@@ -30,6 +30,13 @@ constexpr double one_point = 1e-6;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Lengths of what is prescribed over those of the control space. Where the space is graded further it may ask for
+/// more.
+bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept {
+  const bool graded = input.slope > 0 && !input.isotropic;
+  return ratios.largest <= too_long && (graded || ratios.smallest >= too_short);
+}
+
 class LiftCheck {
  public:
   LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
@@ -85,7 +92,7 @@ class LiftCheck {
     mesh_.size[v] = h;
     const Vec2 p = mesh_.plane.vertices[v];
     const LengthRatios ratios = length_ratios(metric, space_.at(p));
-    if (!(ratios.largest <= too_long) || !(ratios.smallest >= too_short)) places_.push_back(p);
+    if (!agree(ratios, input_)) places_.push_back(p);
   }
 
   /// Calls `use(a, b)` for each edge that is not on the border, once. Both sides of an internal edge count as one.
@@ -213,7 +220,7 @@ Deserts find_deserts(const PatchInput& input, const ControlSpace& space, Cad& ca
   prescribed.at(uv, jets, metric);
   for (std::size_t k = 0; k < uv.size(); ++k) {
     const LengthRatios ratios = length_ratios(metric[k], space.at(uv[k]));
-    if (ratios.largest <= too_long && ratios.smallest >= too_short)
+    if (agree(ratios, input))
       result.confirmed.push_back(std::move(missed[k]));
     else
       result.mistaken.push_back(uv[k]);

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "plane/plane_mesher.h"
+#include "size/metric_grading.h"
 #include "size/space_gradation.h"
 #include "support/error.h"
 
@@ -360,6 +361,73 @@ TEST(BoundSlopes, LinksBoundWhatNoTriangleDoes) {
   EXPECT_EQ(bound_slopes(field, 0.2, monitor), (std::vector<std::int32_t>{1, 2}));
   EXPECT_NEAR(size_of(field.samples[1]), 0.3, 1e-12);
   EXPECT_NEAR(size_of(field.samples[2]), 0.7, 1e-12);
+}
+
+// The sheared grid with sizes by direction of space: `sizes(x)` are those along x and along y, turned by `angle(x)`.
+SampledField directed_grid(const std::function<Vec2(Vec2)>& sizes, const std::function<double(Vec2)>& angle) {
+  SampledField field = sheared_grid([](Vec2) { return 1; });
+  for (auto& s : field.samples) {
+    const Vec2 x = place_of(s), h = sizes(x);
+    const double c = std::cos(angle(x)), t = std::sin(angle(x));
+    const TangentMetric m{{c, t, 0}, {-t, c, 0}, h.x, h.y};
+    SurfaceJet jet;
+    jet.su = {1, 0, 0}, jet.sv = {0.5, 2, 0};
+    s.metric = metric_of(jet, m);
+    s.tangents = {jet.su, jet.sv};
+  }
+  return field;
+}
+TangentMetric sizes_at(const SampledField::Sample& s) {
+  SurfaceJet jet;
+  jet.su = {1, 0, 0}, jet.sv = {0.5, 2, 0};
+  return *tangent_metric(jet, s.metric);
+}
+
+TEST(BoundSlopesByDirection, ALayerGrowsInBothDirectionsByItsOwnMetric) {
+  constexpr double slope = 0.3, across = 0.05, along = 0.2;
+  SampledField field = directed_grid(
+      [](Vec2 x) {
+        return x.y < 1e-9 ? Vec2{along, across} : Vec2{10, 10};
+      },
+      [](Vec2) { return 0; });
+  Monitor monitor;
+  bound_slopes_by_direction(field, slope, monitor);
+  for (const auto& s : field.samples) {
+    const double h = across + slope * place_of(s).y;
+    const TangentMetric m = sizes_at(s);
+    EXPECT_NEAR(m.along({0, 1, 0}) / h, 1, 0.02) << place_of(s).y;
+    EXPECT_NEAR(m.along({1, 0, 0}) / (along / across * h), 1, 0.02) << place_of(s).y;
+  }
+}
+
+TEST(BoundSlopesByDirection, WhatObeysIsLeftAsItIs) {
+  const auto growing = [](Vec2 x) { return (1 + 6 * x.y) * Vec2{0.2, 0.05}; };
+  SampledField field = directed_grid(growing, [](Vec2) { return 0; });
+  const SampledField before = field;
+  Monitor monitor;
+  EXPECT_TRUE(bound_slopes_by_direction(field, 0.3, monitor).empty()) << "sizes across are .05 + .3 y";
+  for (std::size_t k = 0; k < field.samples.size(); ++k) EXPECT_EQ(field.samples[k].metric, before.samples[k].metric);
+}
+
+// Samples that turn by any angle from one to the next do not shrink each other without end.
+TEST(BoundSlopesByDirection, NoSizeIsSmallerThanTheSmallestAndDirectionsStay) {
+  const auto wild = [](Vec2 x) { return 1e3 * std::sin(1e3 * (x.x + 3 * x.y)); };
+  SampledField field = directed_grid([&](Vec2 x) { return Vec2{0.02 + 0.001 * std::abs(wild(x)), 0.9}; }, wild);
+  const SampledField before = field;
+  double smallest = 1;
+  for (const auto& s : before.samples) smallest = std::min(smallest, sizes_at(s).h1);
+  Monitor monitor;
+  EXPECT_FALSE(bound_slopes_by_direction(field, 0.1, monitor).empty());
+  for (std::size_t k = 0; k < field.samples.size(); ++k) {
+    const TangentMetric was = sizes_at(before.samples[k]), is = sizes_at(field.samples[k]);
+    EXPECT_GE(std::min(is.h1, is.h2), (1 - 1e-9) * smallest);
+    EXPECT_LE(is.along(was.d1), (1 + 1e-9) * was.h1);
+    EXPECT_LE(is.along(was.d2), (1 + 1e-9) * was.h2);
+    if (is.h2 > 1.001 * is.h1) {
+      EXPECT_NEAR(std::abs(dot(is.d1, was.d1)) * std::abs(dot(is.d1, was.d2)), 0, 1e-6);
+    }
+  }
+  EXPECT_TRUE(bound_slopes_by_direction(field, 0.1, monitor).empty()) << "a second time nothing changes";
 }
 
 }  // namespace

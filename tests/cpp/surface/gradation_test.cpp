@@ -386,7 +386,7 @@ TEST(GradedMetrics, CurvatureOfTheTeapot) {
     AnalyticCad cad = testing::teapot();
     CompositeResult result;
     const Anisotropic a = measure_directions(cad, options, nullptr, &result);
-    EXPECT_LE(a.over, 0.02);
+    EXPECT_LE(a.over, 0.008);
     EXPECT_GE(a.in_range, 0.98);
     EXPECT_GE(a.shape, 0.94);
   }
