@@ -78,6 +78,7 @@ void BackgroundField::check_values(std::size_t vertices) const {
 void BackgroundField::add_piece(int face, Piece piece) {
   if (piece.triangles.empty()) return;
   piece.tree = TriangleSearch(piece.vertices, piece.triangles);
+  piece.steep = steep_vertices(piece);
   planes_.emplace(face, std::move(piece));
 }
 
@@ -193,8 +194,10 @@ std::vector<std::string> BackgroundField::remarks() const {
 std::vector<Vec2> BackgroundField::steep_places(int face) const {
   auto found = planes_.find(face);
   if (found == planes_.end()) found = planes_.find(0);
-  if (found == planes_.end()) return {};
-  const Piece& piece = found->second;
+  return found == planes_.end() ? std::vector<Vec2>{} : found->second.steep;
+}
+
+std::vector<Vec2> BackgroundField::steep_vertices(const Piece& piece) const {
   std::vector<char> steep(piece.vertices.size(), 0);
   for (const auto& t : piece.triangles)
     for (std::size_t k = 0; k < 3; ++k) {

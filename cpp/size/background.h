@@ -86,9 +86,11 @@ class BackgroundField final : public PrescriptionSource {
     std::vector<std::array<std::int32_t, 3>> triangles;  // of vertices
     std::vector<std::int32_t> value;                     // of each vertex: index in values_
     std::int32_t last = 0;                               // triangle that was found last
+    std::vector<Vec2> steep = {};                        // of a parameter plane: steep_places()
   };
 
   void check_values(std::size_t vertices) const;
+  [[nodiscard]] std::vector<Vec2> steep_vertices(const Piece& piece) const;
   void add_piece(int face, Piece piece);
   [[nodiscard]] Piece* piece_of(int face) noexcept;
   Prescription look_up(Piece& piece, Vec3 p);
