@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "model/near_points.h"
@@ -49,7 +51,9 @@ class Gluer {
     if (known_) merge_what_is_known();
     merge_near_ends();
     for (std::size_t k = 0; k < entries_.size(); ++k)
-      if (takes_part_[k] != 0) merge_curve(k);
+      if (takes_part_[k] != 0) merge_ends(k);
+    for (const auto& [ends, same_ends] : by_ends_) merge_nearest_first(same_ends);
+    if (report_ != nullptr) sort_pairs();
     if (report_ != nullptr) list_open_curves();
     return numbered();
   }
@@ -94,7 +98,7 @@ class Gluer {
     for (std::size_t i = 0; i < ends.size(); ++i) points_.merge(number[near.find(i)], number[i]);
   }
 
-  void merge_curve(std::size_t k) {
+  void merge_ends(std::size_t k) {
     const Entry& entry = entries_[k];
     const double gap = norm(entry.trace.back() - entry.trace.front());
     if (trace_extent(entry.trace) < eps_) {
@@ -111,15 +115,42 @@ class Gluer {
     if (p == q && !said && gap > rounding_share * eps_)
       remark(k, "its ends are " + format_number(gap) + " apart, which is less than eps_glue = " + format_number(eps_) +
                     " or bridged by other points, and become one point");
-    auto& same_ends = by_ends_[std::minmax(p, q)];
-    for (const std::size_t other : same_ends)
-      if (const std::optional<double> gap_between = gap_if_one(entry, entries_[other])) {
-        curves_.merge(other, k);
-        const Entry& o = entries_[other];
-        if (report_ != nullptr) report_->pairs.push_back({{o.face, o.curve}, {entry.face, entry.curve}, *gap_between});
-        break;
-      }
-    same_ends.push_back(k);
+    by_ends_[std::minmax(p, q)].push_back(k);
+  }
+
+  /// Two curves that may be one.
+  struct Candidate {
+    double gap;
+    std::size_t first, second;  // entries
+    auto operator<=>(const Candidate&) const = default;
+  };
+
+  // The nearest first, so that neither the order of the faces decides nor one side of a narrow face takes the place of
+  // the other. A near B and B near C makes one curve of the three.
+  void merge_nearest_first(const std::vector<std::size_t>& same_ends) {
+    std::vector<Candidate> pairs;
+    for (std::size_t i = 0; i < same_ends.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (const std::optional<double> gap = gap_if_one(entries_[same_ends[j]], entries_[same_ends[i]]))
+          pairs.push_back({*gap, same_ends[j], same_ends[i]});
+    std::sort(pairs.begin(), pairs.end());
+    for (const Candidate& pair : pairs) {
+      if (curves_.find(pair.first) == curves_.find(pair.second) || sides_are_apart(pair, same_ends)) continue;
+      curves_.merge(pair.first, pair.second);
+      const Entry &o = entries_[pair.first], &e = entries_[pair.second];
+      if (report_ != nullptr) report_->pairs.push_back({{o.face, o.curve}, {e.face, e.curve}, pair.gap});
+    }
+  }
+
+  /// Whether two sides of one face, which are not a seam, would become one curve with a pair.
+  [[nodiscard]] bool sides_are_apart(const Candidate& pair, const std::vector<std::size_t>& same_ends) {
+    const std::size_t p = curves_.find(pair.first), q = curves_.find(pair.second);
+    for (const std::size_t a : same_ends)
+      for (const std::size_t b : same_ends)
+        if (entries_[a].face == entries_[b].face && curves_.find(a) == p && curves_.find(b) == q &&
+            !gap_if_one(entries_[a], entries_[b]))
+          return true;
+    return false;
   }
 
   [[nodiscard]] bool is_boundary(const Entry& e) const {
@@ -134,6 +165,12 @@ class Gluer {
     const double tolerance = (sides ? eps_inside_ : eps_) + loose;
     const double gap = hausdorff_distance(a.trace, b.trace, tolerance);
     return gap < tolerance ? std::optional(std::max(gap - loose, 0.0)) : std::nullopt;
+  }
+
+  void sort_pairs() {
+    std::sort(report_->pairs.begin(), report_->pairs.end(), [](const GlueReport::Pair& p, const GlueReport::Pair& q) {
+      return std::tie(p.b.face, p.b.curve, p.a.face, p.a.curve) < std::tie(q.b.face, q.b.curve, q.a.face, q.a.curve);
+    });
   }
 
   void list_open_curves() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 
 #include "plane/domain_check.h"
@@ -19,7 +20,7 @@ constexpr double joining_share = 0.25;
 struct CurveEnd {
   int corner;  // index in Topology::points
   Vec2 uv;
-  double reach;  // length in (u, v) of the edge that ends here
+  double reach;  // length of the edge that ends here, in shares of the domain's box
   int vertex;    // of the domain, once known
 };
 
@@ -38,10 +39,11 @@ class Builder {
         seed_left_of_curve_(face_.orientation > 0) {}
 
   FaceDomain run(bool turn) {
+    measure_box();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
       if (vanishes(curve_of_[c])) {
         const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
-        for (std::size_t i = 1; i < uv.size(); ++i) joining_reach_ += norm(uv[i] - uv[i - 1]);
+        for (std::size_t i = 1; i < uv.size(); ++i) joining_reach_ += distance(uv[i], uv[i - 1]);
       }
     collect_sides();
     if (turn && vanishes(curve_of_[seed_curve_ - 1])) choose_another_seed();
@@ -72,6 +74,22 @@ class Builder {
     return static_cast<int>(it - uses.begin());
   }
 
+  // An angle beside a length in millionths of a model's unit: both count by what the whole domain has of them.
+  void measure_box() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
+      for (const Vec2 p : curves_[curve_of_[c]].uv_of_use[use_of(c)]) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      }
+    if (high.x > low.x) box_.x = high.x - low.x;
+    if (high.y > low.y) box_.y = high.y - low.y;
+  }
+  [[nodiscard]] double distance(Vec2 p, Vec2 q) const noexcept {
+    return std::hypot((p.x - q.x) / box_.x, (p.y - q.y) / box_.y);
+  }
+
   // Ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first: both ends of a
   // side of 1e-5 are near each other for the long curves beside it.
   void collect_sides() {
@@ -79,7 +97,7 @@ class Builder {
       const Curve& shape = topology_.curves[curve_of_[c]];
       if (!shape.degenerate || vanishes(curve_of_[c])) continue;
       const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
-      const double reach = std::min(norm(uv[1] - uv[0]), norm(uv.back() - uv[uv.size() - 2]));
+      const double reach = std::min(distance(uv[1], uv[0]), distance(uv.back(), uv[uv.size() - 2]));
       const auto [side, first] = side_at_.try_emplace(shape.end1, reach);
       if (!first) side->second = std::min(side->second, reach);
     }
@@ -95,7 +113,7 @@ class Builder {
   int join_end(int corner, Vec2 uv, double reach, const DomainVertexOrigin& origin, Sizes size) {
     for (CurveEnd& end : ends_) {
       if (stand_in(end.corner) != stand_in(corner)) continue;
-      if (norm(end.uv - uv) > joining_distance(corner, std::min(end.reach, reach))) continue;
+      if (distance(end.uv, uv) > joining_distance(corner, std::min(end.reach, reach))) continue;
       end.reach = std::min(end.reach, reach);
       return end.vertex;
     }
@@ -152,7 +170,7 @@ class Builder {
       int vertex;
       if (i == 0 || i == n) {
         const int corner = i == 0 ? shape.end1 : shape.end2;
-        const double reach = norm(i == 0 ? uv[1] - uv[0] : uv[n] - uv[n - 1]);
+        const double reach = i == 0 ? distance(uv[1], uv[0]) : distance(uv[n], uv[n - 1]);
         vertex = join_end(corner, uv[i], reach, {.curve = curve, .node = i, .corner = corner},
                           {discrete.size[i], discrete.physical[i]});
       } else {
@@ -187,8 +205,9 @@ class Builder {
   const Topology& topology_;
   std::span<const DiscreteCurve> curves_;
   int index_;
-  double joining_reach_ = 0;       // length in (u, v) of the curves that vanish
-  std::map<int, double> side_at_;  // by corner: length in (u, v) of the shortest end of a degenerate side there
+  Vec2 box_{1, 1};                 // sides of the domain's box; lengths in (u, v) are shares of them
+  double joining_reach_ = 0;       // length of the curves that vanish
+  std::map<int, double> side_at_;  // by corner: length of the shortest end of a degenerate side there
   FaceDomain domain_;
   std::vector<CurveEnd> ends_;
   int seed_curve_;  // rank, from 1

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "models.h"
@@ -127,6 +128,42 @@ TEST(Glue, LeavesTheLongSidesOfANarrowFaceApart) {
   ASSERT_EQ(remarks.size(), 2U);
   EXPECT_EQ(remarks[0],
             "face 1, curve 2: the whole curve, 0.004 long, is nearer to a point than eps_glue = 0.01 and becomes one");
+}
+
+/// Squares and strips side by side, in any order: [position] of the faces, whose lower sides are [low, high].
+std::map<int, std::array<int, 2>> sides_of_a_row(const std::vector<std::array<double, 3>>& row, std::vector<int> order,
+                                                 double eps) {
+  AnalyticCad cad;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const auto [low, high, z] = row[static_cast<std::size_t>(order[k])];
+    AnalyticFace face = flat(rectangle({low, 0}, {high, 1}));
+    face.at = [z = z](Vec2 p) { return SurfaceJet{{p.x, p.y, z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
+    cad.faces[static_cast<int>(k) + 1] = face;
+  }
+  const Model model = glued(cad, eps);
+  std::map<int, std::array<int, 2>> sides;  // left and right, by place in the row
+  for (std::size_t k = 0; k < order.size(); ++k)
+    sides[order[k]] = {model.faces[k].curves[3].ref, model.faces[k].curves[1].ref};
+  return sides;
+}
+
+// A is near B and B near C, but A not near C: one curve, whichever comes first.
+TEST(Glue, IsTheSameInAnyOrderOfFaces) {
+  const double eps = 0.01;
+  const std::vector<std::array<double, 3>> chain{{0, 1, 0}, {1, 2, 0.8 * eps}, {1, 3, 1.6 * eps}};
+  const std::vector<std::array<double, 3>> strip{{0, 1, 0}, {1, 1 + 0.4 * eps, 0}, {1 + 0.4 * eps, 2, 0}};
+  std::vector<int> order{0, 1, 2};
+  do {
+    SCOPED_TRACE(::testing::PrintToString(order));
+    auto sides = sides_of_a_row(chain, order, eps);
+    EXPECT_EQ(sides[0][1], sides[1][0]);
+    EXPECT_EQ(sides[1][0], sides[2][0]);
+    // Each side of the strip belongs to the neighbour that it touches.
+    sides = sides_of_a_row(strip, order, eps);
+    EXPECT_EQ(sides[0][1], sides[1][0]);
+    EXPECT_EQ(sides[1][1], sides[2][0]);
+    EXPECT_NE(sides[1][0], sides[1][1]);
+  } while (std::next_permutation(order.begin(), order.end()));
 }
 
 // Files have numbers of ten digits or so: a seam need not be exact to a thousandth of a fine tolerance.

@@ -257,5 +257,38 @@ TEST(Mesh, IsTheSameTwice) {
   EXPECT_EQ(first.mesh.triangles, second.mesh.triangles);
 }
 
+/// A cylinder of radius 1 with a slanted end, in other units: u is a length, v the angle.
+AnalyticCad slanted_cylinder(double unit) {
+  AnalyticCad cad;
+  const auto slanted = [unit](double t) {
+    const double a = 2 * std::numbers::pi * t;
+    const double k = 2 * std::numbers::pi;
+    return CurveJet{{unit * (3 + std::sin(a)), a}, {unit * k * std::cos(a), k}, {-unit * k * k * std::sin(a), 0}};
+  };
+  const double around = 2 * std::numbers::pi, end = 3 * unit;
+  cad.faces[1] = {[unit](Vec2 p) {
+                    const double c = unit * std::cos(p.y), s = unit * std::sin(p.y);
+                    return SurfaceJet{{c, s, p.x}, {0, 0, 1}, {-s, c, 0}, {}, {}, {-c, -s, 0}};
+                  },
+                  {testing::segment({0, 0}, {end, 0}),
+                   {{0, 1}, slanted},
+                   testing::segment({end, around}, {0, around}),
+                   testing::segment({0, around}, {0, 0})}};
+  return cad;
+}
+
+// The two ends of a seam are a whole turn apart, also where a turn is 1e-7 of the other parameter's edges.
+TEST(SlantedCylinder, IsTheSameInAnyUnitOfLength) {
+  const MeshedCase one(slanted_cylinder(1), 0.3);
+  EXPECT_EQ(one.session->mesh().faces[0].status, FaceStatus::meshed);
+  for (const double unit : {1e-7, 1e7}) {
+    SCOPED_TRACE(unit);
+    const MeshedCase other(slanted_cylinder(unit), 0.3 * unit);
+    EXPECT_NEAR(static_cast<double>(other.mesh.triangles.size()), static_cast<double>(one.mesh.triangles.size()),
+                0.02 * static_cast<double>(one.mesh.triangles.size()));
+    EXPECT_NEAR(other.quality.q2.mean, one.quality.q2.mean, 0.005);
+  }
+}
+
 }  // namespace
 }  // namespace carreau
