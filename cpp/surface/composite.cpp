@@ -333,10 +333,18 @@ class Pipeline {
     tell_progress(i + 1);
   }
 
+  // At its ends, too, what the curve was cut with: a corner's size is the mean of directions that differ.
+  static std::vector<double> sizes_along(DiscreteCurve& curve) {
+    std::vector<double> size = std::move(curve.size);
+    size.front() = curve.sizes.size_at(0);
+    size.back() = curve.sizes.size_at(1);
+    return size;
+  }
+
   void keep_prescriptions() {
     for (const DiscreteCurve& curve : curves_) result_.gaps.push_back({curve.gap, curve.gap_use});
     for (std::size_t c = 0; c < curves_.size(); ++c)
-      result_.curve_size.push_back(result_.mesh.curves[c].vertices.size() > 1 ? std::move(curves_[c].size)
+      result_.curve_size.push_back(result_.mesh.curves[c].vertices.size() > 1 ? sizes_along(curves_[c])
                                                                               : std::vector<double>{});
     result_.interfaces.resize(model_.faces.size());
     for (std::size_t f = 0; f < result_.interfaces.size(); ++f)

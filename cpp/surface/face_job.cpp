@@ -161,8 +161,15 @@ void FaceJob::refuse_unsound(Monitor& monitor) const {
     area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
     if (area > no_area * extent2) break;  // a few triangles tell
   }
-  if (!(area > no_area * extent2))
-    throw DomainError(Where{.face = input_.ref}, "the surface has no area: it is a line or a point of space");
+  if (!(area > no_area * extent2)) {
+    const auto& sides = input_.domain->plane.edges;
+    const bool tiny =
+        std::all_of(sides.begin(), sides.end(), [](const PlaneEdge& e) { return e.kind == PlaneEdgeKind::degenerate; });
+    throw DomainError(Where{.face = input_.ref},
+                      tiny ? "each side of the face is so short beside the model (a hundred-thousandth) that it counts "
+                             "as a point of space"
+                           : "the surface has no area: it is a line or a point of space");
+  }
   for (const EdgeExcess& edge : mesh_->excesses) {
     monitor.checkpoint();
     if (jumps(cad_, input_.ref, edge.from, edge.to))

@@ -269,6 +269,24 @@ TEST(Source, AFieldOfMetricsOfSpaceGovernsASurface) {
   expect_unit(run.measure(field));
 }
 
+// The size of a corner is a mean of sizes along curves of other directions; no edge is measured by it.
+TEST(Source, EdgesAtCornersAreMeasuredAlongTheirOwnCurve) {
+  const auto field = [](Vec3) { return metric_of_sizes({1, 0, 0}, 0.2, 0.04); };
+  const auto source = testing::field_of_space([&](Vec3 p) { return Prescription::of_space(field(p)); });
+  AnalyticCad cad;
+  cad.faces[1] = {[](Vec2 p) {
+                    return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                  },
+                  testing::rectangle({0, 0}, {2, 1.5})};
+  Prescribed run(std::move(cad), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
+  const Delivered exact = run.measure(field);
+  const Delivered& told = run.session.delivered();
+  ASSERT_EQ(told.edges.vertices, exact.edges.vertices);
+  const auto& lengths = exact[DeliveredKind::length].values;
+  for (std::size_t e = 0; e < lengths.size(); ++e)
+    EXPECT_NEAR(told[DeliveredKind::length].values[e], lengths[e], 1e-6 * lengths[e]);
+}
+
 TEST(Source, TheTeapotUnderOneMetricOfSpace) {
   const Metric3 m = metric_of_sizes({1, 2, 3}, 0.3, 0.03);
   const auto source = testing::field_of_space([&](Vec3) { return Prescription::of_space(m); });
