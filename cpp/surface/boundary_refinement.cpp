@@ -1,6 +1,7 @@
 #include "surface/boundary_refinement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -35,6 +36,9 @@ constexpr double straight_reserve = 2;
 // Ratio of lengths from which the balance of edges is looked at in the metric, whose chords are not the curves'
 // lengths; there it may be 2.
 constexpr double balance_to_look_at = 1.6;
+
+// Curves that leave a corner at less than this slope are its tip.
+constexpr double bluntest_tip = 0.1;
 
 /// Segments to split, by curve.
 using Splits = std::map<int, std::set<int>>;
@@ -318,8 +322,8 @@ class Refiner {
   }
 
   // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
-  // however far they are on the surface. Curves that meet at a corner are left to the check in the metric, which knows
-  // angles.
+  // however far they are on the surface. What is near a corner where curves meet is left to the check in the metric,
+  // which knows angles; away from it, bulges are as elsewhere.
   [[nodiscard]] std::vector<Strip> strips_in_space(int f) const {
     std::vector<Strip> strips;
     const FaceDomain& domain = *result_.domain[f];
@@ -333,9 +337,9 @@ class Refiner {
       if (edge.kind == PlaneEdgeKind::degenerate) continue;
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];
       const auto note_strip = [&](int v) {
-        if (meet(edge.curve, domain.origin[v])) return true;
-        const double s = fraction_on_segment(xyz[v], a, b);
-        if (norm(xyz[v] - lerp(a, b, s)) < narrowest_share * domain.size[v]) return true;
+        const double s = fraction_on_segment(xyz[v], a, b), d = norm(xyz[v] - lerp(a, b, s));
+        if (meet(edge.curve, domain.origin[v]) && !bulges_past(edge, domain, xyz, v, s, d)) return true;
+        if (d < narrowest_share * domain.size[v]) return true;
         const Vec2 nearest = lerp(plane.vertices[edge.a], plane.vertices[edge.b], s);
         const Vec2 middle = lerp(plane.vertices[v], nearest, 0.5);
         if (inside.contains(middle)) strips.push_back({e, v, middle});
@@ -354,6 +358,26 @@ class Refiner {
     const auto at = [&](Vec2 uv) { return surface_at(curve_model_.cad, model_.faces[f].ref, want_position, uv).s; };
     const std::vector<Vec2>& uv = domain.plane.vertices;
     return norm(at(strip.middle) - at(uv[strip.vertex])) <= norm(at(uv[edge.a]) - at(uv[edge.b]));
+  }
+
+  // How far a curve leaves the chord of an edge, from what it is longer (of an arc of height d: 8 d^2 / (3 chord)).
+  [[nodiscard]] double bulge_of(const PlaneEdge& edge, double chord) const {
+    const std::vector<double>& r = curves_[edge.curve].r;
+    const double length = (r[edge.segment + 1] - r[edge.segment]) * curve_model_.length(edge.curve);
+    return std::sqrt(std::max(0.0, 0.375 * chord * (length - chord)));
+  }
+
+  // Whether the curve of an edge passes by a vertex, and its chord does not: at distance d, fraction s of the chord. At
+  // the tip of two curves that touch each other any two edges are like that, however short.
+  [[nodiscard]] bool bulges_past(const PlaneEdge& edge, const FaceDomain& domain, const std::vector<Vec3>& xyz, int v,
+                                 double s, double d) const {
+    const double bulge = bulge_of(edge, norm(xyz[edge.b] - xyz[edge.a]));
+    if (d > bulge) return false;
+    const double between = d + 4 * s * (1 - s) * bulge;
+    const auto is_tip = [&](int end) {
+      return domain.origin[end].corner >= 0 && between < bluntest_tip * norm(xyz[v] - xyz[end]);
+    };
+    return !is_tip(edge.a) && !is_tip(edge.b);
   }
 
   // Whether a vertex lies on a curve that has an end in common with another one, or on that one.

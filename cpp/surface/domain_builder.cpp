@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "plane/domain_check.h"
 #include "support/error.h"
@@ -144,12 +145,19 @@ class Builder {
     return vanishing_.corner.empty() ? corner : vanishing_.corner[corner];
   }
 
-  // An apex needs three triangles (HDR sec. 4.5.4), shared out among the faces that have a side there.
+  // An apex needs three triangles (HDR sec. 4.5.4), shared out among the sides there; a face that has a mere corner
+  // there has one of them at least.
   [[nodiscard]] int least_fan(const Curve& apex) const {
     int sides = 0;
+    std::set<int> with_side, others;
     for (const int c : topology_.points[apex.end1].curves)
-      if (topology_.curves[c].degenerate) sides += static_cast<int>(topology_.curves[c].uses.size());
-    return (3 + sides - 1) / std::max(sides, 1);
+      for (const CurveUse& use : topology_.curves[c].uses) {
+        if (topology_.curves[c].degenerate) ++sides;
+        (topology_.curves[c].degenerate ? with_side : others).insert(use.face);
+      }
+    for (const int face : with_side) others.erase(face);
+    const int wanted = 3 - static_cast<int>(others.size());
+    return std::max(1, (wanted + sides - 1) / std::max(sides, 1));
   }
 
   void add_curve(int c) {

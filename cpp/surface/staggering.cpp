@@ -15,8 +15,8 @@ namespace carreau {
 
 namespace {
 
-// Sides farther apart than this share of their edges leave place for vertices between them.
-constexpr double widest = 1;
+// Sides farther apart than this many edges leave place for a row of vertices between them.
+constexpr double widest = 1.2;
 // Halves at both ends of shorter curves would be most of them.
 constexpr int fewest_segments = 3;
 // What a curve must gain, summed up over triangles: the half edges at its ends cost as much in the faces beside it.

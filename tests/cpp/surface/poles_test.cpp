@@ -70,6 +70,18 @@ AnalyticCad torus(double small) {
   return cad;
 }
 
+/// An eighth of a unit ball: its round face has a pole where two flat ones have a corner.
+AnalyticCad eighth_of_a_ball() {
+  const std::vector<testing::AnalyticCurve> quarter = {segment({0, 0}, {1, 0}), testing::arc({0, 0}, 1, 0, pi / 2),
+                                                       segment({0, 1}, {0, 0})};
+  AnalyticCad cad;
+  cad.faces[1] = {[](Vec2 p) { return ellipsoid_jet(p, {1, 1, 1}); }, testing::rectangle({0, 0}, {pi / 2, pi / 2})};
+  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{p.y, p.x, 0}, {0, 1, 0}, {1, 0, 0}, {}, {}, {}}; }, quarter};
+  cad.faces[3] = {[](Vec2 p) { return SurfaceJet{{0, p.y, p.x}, {0, 0, 1}, {0, 1, 0}, {}, {}, {}}; }, quarter};
+  cad.faces[4] = {[](Vec2 p) { return SurfaceJet{{p.x, 0, p.y}, {1, 0, 0}, {0, 0, 1}, {}, {}, {}}; }, quarter};
+  return cad;
+}
+
 /// The triangles around each vertex that several local vertices of one face share and that lies at `pole`.
 int fan_at(const FlatMesh& mesh, Vec3 pole) {
   int fan = 0;
@@ -127,6 +139,20 @@ TEST(Poles, SphereTrimmedAcrossItsSeam) {
 }
 TEST(Poles, ConeOnABaseThatStartsElsewhere) {
   for (const double phase : {0.0, 2.0}) sweep(cone(1.5, phase), 3, 2, pi * 1.5 / 3, 1, {{0, 0, 1.5}});
+}
+// With an edge a side it is a tetrahedron of three right-angled triangles and an equilateral one.
+TEST(Poles, ShareTheirFanWithFacesThatHaveACornerThere) {
+  const AnalyticCad cad = eighth_of_a_ball();
+  sweep(cad, std::sqrt(3.0), 2, pi / 6, 1, {{0, 0, 1}});
+  Monitor monitor;
+  Session session(monitor);
+  session.set_cad(std::make_shared<AnalyticCad>(cad));
+  session.set_model(testing::unglued(cad));
+  for (const char* size : {"hphymin", "hphydef", "hphymax"}) session.parameters().set(size, 2);
+  session.make_mesh();
+  const QualitySummary q = summarise_quality(session.exported());
+  EXPECT_EQ(q.triangles, 4);
+  EXPECT_NEAR(q.q2.mean, (1 + 3 * std::sqrt(3.0) / 2) / 4, 1e-9);
 }
 TEST(Seams, ToriThinAndThick) {
   for (const double small : {0.3, 1.2})

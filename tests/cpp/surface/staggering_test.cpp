@@ -44,7 +44,7 @@ double isosceles(double a) { return 2 * std::sqrt(3.) * a / (1.5 * a * a + 2); }
 
 TEST(Staggering, StripsAreOfIsoscelesTriangles) {
   Monitor monitor;
-  for (const double width : {0.2, 0.4, 0.6, 0.75}) {
+  for (const double width : {0.2, 0.4, 0.6, 0.75, 0.9, 1.1}) {
     SCOPED_TRACE(width);
     const AnalyticCad cad = patch(flat, testing::rectangle({0, 0}, {40, width}));
     EXPECT_NEAR(mean_quality(*meshed(cad, 1, 0, monitor)), right_angled(1 / width), 1e-6);
