@@ -8,6 +8,7 @@
 #include "common/analytic_cad.h"
 #include "mesh/quality.h"
 #include "session/session.h"
+#include "session_of_size.h"
 
 namespace carreau {
 namespace {
@@ -145,12 +146,9 @@ TEST(Poles, ShareTheirFanWithFacesThatHaveACornerThere) {
   const AnalyticCad cad = eighth_of_a_ball();
   sweep(cad, std::sqrt(3.0), 2, pi / 6, 1, {{0, 0, 1}});
   Monitor monitor;
-  Session session(monitor);
-  session.set_cad(std::make_shared<AnalyticCad>(cad));
-  session.set_model(testing::unglued(cad));
-  for (const char* size : {"hphymin", "hphydef", "hphymax"}) session.parameters().set(size, 2);
-  session.make_mesh();
-  const QualitySummary q = summarise_quality(session.exported());
+  const auto session = testing::session_of_size(cad, 2, monitor);
+  session->make_mesh();
+  const QualitySummary q = summarise_quality(session->exported());
   EXPECT_EQ(q.triangles, 4);
   EXPECT_NEAR(q.q2.mean, (1 + 3 * std::sqrt(3.0) / 2) / 4, 1e-9);
 }
