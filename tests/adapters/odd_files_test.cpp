@@ -73,7 +73,8 @@ TEST(Gaps, AreNotThoseOfTheParameters) {
 // Triangles on the borders are 0.1 long, the plate is 100 wide and the size 25.
 TEST(ThinPlates, AreFilledFromTheirFineBorders) {
   carreau_occ::BrepHost host(file_of(BRepPrimAPI_MakeBox(100, 80, 0.03).Shape()));
-  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 5);
+  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(
+      host, host.diagonal() / 5, [](carreau_session* session) { carreau_set_real(session, "CoefRectangle", 0.1); });
   EXPECT_EQ(mesh.trouble(true), "");
   EXPECT_NEAR(mesh.volume, 240, 1e-9 * 240);
   EXPECT_GT(mesh.quality.q2_min, 0.2);
