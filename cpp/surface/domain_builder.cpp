@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "plane/domain_check.h"
 #include "support/error.h"
@@ -145,19 +144,22 @@ class Builder {
     return vanishing_.corner.empty() ? corner : vanishing_.corner[corner];
   }
 
-  // An apex needs three triangles (HDR sec. 4.5.4), shared out among the sides there; a face that has a mere corner
-  // there has one of them at least.
+  // A point that faces surround needs three triangles (HDR sec. 4.5.4): one of each face that has a mere corner there,
+  // the others shared out among those that have a side there. At a border one is enough, as at any other corner.
   [[nodiscard]] int least_fan(const Curve& apex) const {
-    int sides = 0;
-    std::set<int> with_side, others;
-    for (const int c : topology_.points[apex.end1].curves)
-      for (const CurveUse& use : topology_.curves[c].uses) {
-        if (topology_.curves[c].degenerate) ++sides;
-        (topology_.curves[c].degenerate ? with_side : others).insert(use.face);
+    int sides = 0, ends = 0;
+    for (const int c : topology_.points[apex.end1].curves) {
+      const Curve& curve = topology_.curves[c];
+      const int uses = static_cast<int>(curve.uses.size());
+      if (curve.degenerate) {
+        sides += uses;
+        continue;
       }
-    for (const int face : with_side) others.erase(face);
-    const int wanted = 3 - static_cast<int>(others.size());
-    return std::max(1, (wanted + sides - 1) / std::max(sides, 1));
+      if (uses < 2) return 1;
+      ends += uses * ((curve.end1 == apex.end1 ? 1 : 0) + (curve.end2 == apex.end1 ? 1 : 0));
+    }
+    const int corners = std::max(ends / 2 - sides, 0);  // each face has two ends of curves there
+    return std::max((3 - corners + sides - 1) / std::max(sides, 1), 1);
   }
 
   void add_curve(int c) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "surface/face_metric.h"
+#include "surface/space_smoothing.h"
 #include "surface/space_swaps.h"
 
 namespace carreau {
@@ -11,6 +12,9 @@ namespace {
 
 // Points to evaluate at a time: large enough for hosts that like batches, small enough to stop soon.
 constexpr std::size_t batch = 512;
+
+// Of swaps and moves in space, each of which makes room for the other.
+constexpr int most_rounds = 4;
 
 // Of the vertices from `xyz.size()` on.
 void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
@@ -65,7 +69,12 @@ void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& mon
   mesh.xyz.reserve(mesh.plane.vertices.size());
   mesh.xyz = input.curve_xyz;
   lift(input.ref, mesh.plane.vertices, cad, mesh.xyz, monitor);
-  if (input.isotropic) improve_in_space(input.domain->plane, mesh.plane, mesh.xyz);
+  if (!input.isotropic) return;
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz);
+  for (int round = 0; round < most_rounds && !region.triangles().empty(); ++round) {
+    const bool swapped = swap_in_space(region, mesh.plane, mesh.xyz);
+    if (!(round == 0 || swapped) || !smooth_in_space(region, input.ref, cad, mesh, monitor)) return;
+  }
 }
 
 }  // namespace carreau

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
-#include "mesh/quality.h"
 #include "predicates/predicates.h"
 
 namespace carreau {
 
 namespace {
 
-// Triangles better than this are left as the metric made them.
-constexpr double good_quality = 0.6;
 // A swap must gain this much, so that no pair of swaps undoes each other for ever.
 constexpr double least_gain = 1e-6;
 // Cosine of the angle to the nearer of the two old triangles that a new one must keep: across a tube or around an apex
@@ -21,23 +18,21 @@ constexpr int most_passes = 100;
 
 class Swapper {
  public:
-  Swapper(const PlaneDomain& domain, PlaneMesh& mesh, const std::vector<Vec3>& xyz) : mesh_(mesh), xyz_(xyz) {
-    for (const PlaneEdge& edge : domain.edges) imposed_.push_back(key(edge.a, edge.b));
-    std::sort(imposed_.begin(), imposed_.end());
-  }
+  Swapper(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz)
+      : region_(region), mesh_(mesh), xyz_(xyz), touched_(mesh.triangles.size(), 0) {}
 
-  // Only bad triangles and their neighbours are looked at: a sorted list of all edges would cost more than it gives.
-  void run() {
+  bool run() {
+    bool any = false;
     for (int pass = 0; pass < most_passes; ++pass) {
-      std::vector<int> bad;
-      for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
-        if (is_bad(mesh_.triangles[t])) bad.push_back(t);
-      if (bad.empty()) return;
-      collect_around(bad);
+      const std::vector<std::int32_t> bad = region_.below(poor_quality);
+      if (bad.empty()) break;
+      collect_sides();
       bool changed = false;
-      for (const int t : bad) changed |= improve(t);
-      if (!changed) return;
+      for (const std::int32_t t : bad) changed |= improve(t);
+      any |= changed;
+      if (!changed) break;
     }
+    return any;
   }
 
  private:
@@ -45,21 +40,7 @@ class Swapper {
   using Triangle = std::array<std::int32_t, 3>;
 
   static Key key(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-  [[nodiscard]] bool is_imposed(int a, int b) const {
-    return std::binary_search(imposed_.begin(), imposed_.end(), key(a, b));
-  }
-  // A corner that two vertices of one apex share makes a flat triangle: it will be removed, and judges nothing.
-  [[nodiscard]] double quality(const Triangle& t) const {
-    const Vec3 a = xyz_[t[0]], b = xyz_[t[1]], c = xyz_[t[2]];
-    if (a == b || b == c || c == a) return 1;
-    return quality_q2(a, b, c);
-  }
-  // The same against good_quality, without roots for those that are good, which nearly all are.
-  [[nodiscard]] bool is_bad(const Triangle& t) const {
-    const Vec3 ab = xyz_[t[1]] - xyz_[t[0]], ac = xyz_[t[2]] - xyz_[t[0]], bc = ac - ab, n = cross(ab, ac);
-    const double squares = dot(ab, ab) + dot(bc, bc) + dot(ac, ac), good = 1.001 * good_quality;
-    return !(12 * dot(n, n) > good * good * squares * squares) && quality(t) < good_quality;
-  }
+  [[nodiscard]] double quality(const Triangle& t) const { return quality_in_space(t, xyz_); }
   [[nodiscard]] double length(int a, int b) const { return norm(xyz_[a] - xyz_[b]); }
   [[nodiscard]] bool positive(const Triangle& t) const {
     return orientation(mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]) > 0;
@@ -77,19 +58,14 @@ class Swapper {
     return std::max(dot(n, p), dot(n, q)) < least_agreement;
   }
 
-  void collect_around(const std::vector<int>& bad) {
-    std::vector<char> marked(mesh_.vertices.size(), 0);
-    for (const int t : bad)
-      for (const int v : mesh_.triangles[t]) marked[v] = 1;
+  void collect_sides() {
     sides_.clear();
-    for (int t = 0; t < static_cast<int>(mesh_.triangles.size()); ++t)
-      for (int i = 0; i < 3; ++i) {
-        const int a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
-        if (marked[a] != 0 && marked[b] != 0) sides_.push_back({key(a, b), t});
-      }
+    for (const std::int32_t t : region_.triangles()) {
+      touched_[t] = 0;
+      for (int i = 0; i < 3; ++i) sides_.push_back({key(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3]), t});
+    }
     std::sort(sides_.begin(), sides_.end(),
               [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
-    touched_.assign(mesh_.triangles.size(), 0);
   }
 
   // The triangle across edge (a, b) of t, or -1.
@@ -108,7 +84,7 @@ class Swapper {
     Triangle best_t{}, best_other{};
     for (int i = 0; i < 3; ++i) {
       const int a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3], c = mesh_.triangles[t][(i + 2) % 3];
-      if (is_imposed(a, b)) continue;
+      if (region_.is_imposed(a, b)) continue;
       const int u = across(t, a, b);
       if (u < 0 || touched_[u] != 0) continue;
       const Triangle& other = mesh_.triangles[u];
@@ -136,17 +112,17 @@ class Swapper {
     Key key;
     int triangle;
   };
+  const BadRegion& region_;
   PlaneMesh& mesh_;
   const std::vector<Vec3>& xyz_;
-  std::vector<Key> imposed_;
   std::vector<Side> sides_;
-  std::vector<char> touched_;
+  std::vector<char> touched_;  // by triangle, in this pass
 };
 
 }  // namespace
 
-void improve_in_space(const PlaneDomain& domain, PlaneMesh& mesh, const std::vector<Vec3>& xyz) {
-  Swapper(domain, mesh, xyz).run();
+bool swap_in_space(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz) {
+  return Swapper(region, mesh, xyz).run();
 }
 
 }  // namespace carreau

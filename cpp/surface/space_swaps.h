@@ -1,15 +1,13 @@
 // Edge swaps judged in space, after the lift.
 #pragma once
 
-#include <vector>
-
-#include "plane/plane_mesh.h"
+#include "surface/bad_region.h"
 
 namespace carreau {
 
-/// Swaps edges that are not imposed while that raises the worse shape quality (Q2, HDR eq. 1.6, in space) of the two
-/// triangles, where one of them is bad. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no
-/// callback.
-void improve_in_space(const PlaneDomain& domain, PlaneMesh& mesh, const std::vector<Vec3>& xyz);
+/// Swaps edges of the region that are not imposed while that raises the worse shape quality of the two triangles, where
+/// one of them is poor. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Whether an
+/// edge was swapped.
+bool swap_in_space(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz);
 
 }  // namespace carreau
