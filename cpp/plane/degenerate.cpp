@@ -19,6 +19,7 @@ constexpr double step = 0.05;                                    // unit lengths
 constexpr double enough_room = 1.5;                              // a row fits between the ring and what is beyond it
 constexpr std::size_t steps_of_room = 30;                        // enough_room / step
 constexpr double least_room = 0.5;                               // below, no ring
+constexpr double narrowest = 0.5;                                // of a triangle of a wide fan, over its height
 constexpr double ring_distance = 0.5;                            // least distance of a ring point to other vertices
 constexpr double longest_lateral = 1.6, shortest_lateral = 0.5;  // of a lateral edge that takes part in the fan
 
@@ -36,7 +37,7 @@ struct Filler::Ring {
 int Filler::surround_degenerate_edges(const PlaneDomain& domain) {
   for (const PlaneEdge& edge : domain.edges) {
     if (edge.kind != PlaneEdgeKind::degenerate) continue;
-    degenerate_.push_back({edge.a, edge.b, edge.least_fan});
+    degenerate_.push_back({edge.a, edge.b, edge.least_fan, edge.wide_fan});
     degenerate_ends_.insert(degenerate_ends_.end(), {edge.a, edge.b});
   }
   for (DegenerateEdge& edge : degenerate_) {
@@ -120,7 +121,8 @@ std::vector<Vec2> Filler::walk(Vec2 from, Vec2 direction, int hint) const {
 }
 
 // Equally spaced along the ring, one unit apart as nearly as possible.
-std::vector<Vec2> Filler::points_on(const Ring& ring, double height, int least, double& spacing) const {
+std::vector<Vec2> Filler::points_on(const Ring& ring, double height, const DegenerateEdge& edge,
+                                    double& spacing) const {
   std::vector<Vec2> at;
   std::vector<double> along;
   for (const auto& ray : ring.ray) {
@@ -128,6 +130,7 @@ std::vector<Vec2> Filler::points_on(const Ring& ring, double height, int least, 
     along.push_back(at.empty() ? 0 : along.back() + distance_at_middle(at.back(), ray[i]));
     at.push_back(ray[i]);
   }
+  const int least = along.back() >= narrowest * height * edge.wide_fan ? edge.wide_fan : edge.least_fan;
   const int pieces = std::max(least, static_cast<int>(std::min(along.back() + 0.5, 1e6)));
   spacing = along.back() / pieces;
   std::vector<Vec2> points;
@@ -153,7 +156,7 @@ void Filler::surround(DegenerateEdge& edge) {
   if (takes_part(edge.a, ring.before)) fan.push_back(ring.before);
   int hint = ring.triangle;
   double spacing = 0;
-  for (const Vec2 p : points_on(ring, height, edge.least_fan, spacing)) {
+  for (const Vec2 p : points_on(ring, height, edge, spacing)) {
     hint = mesh_.locate(p, hint);
     if (hint < 0) {
       hint = mesh_.vertices[edge.a].triangle;

@@ -26,8 +26,9 @@ class Filler {
   /// Starts a mesh at a place of small sizes amid triangles whose vertices know nothing of it. False: it is outside,
   /// or not far from all vertices.
   bool settle(Vec2 place);
-  /// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::least_fan), imposed
-  /// and frozen. Returns the number of vertices that must not move from now on: those imposed and those of the fans.
+  /// Surrounds each degenerate edge of the domain by a fan of triangles of unit height (PlaneEdge::least_fan,
+  /// wide_fan), imposed and frozen. Returns the number of vertices that must not move from now on: those imposed and
+  /// those of the fans.
   int surround_degenerate_edges(const PlaneDomain& domain);
 
  private:
@@ -45,7 +46,7 @@ class Filler {
   };
   struct DegenerateEdge {
     std::int32_t a, b;
-    int least_fan;  // triangles wanted around the point of space
+    int least_fan, wide_fan;  // triangles wanted around the point of space
     bool surrounded = false;
   };
 
@@ -93,7 +94,8 @@ class Filler {
   void surround(DegenerateEdge& edge);
   [[nodiscard]] Ring sample_ring(const DegenerateEdge& edge) const;
   [[nodiscard]] std::vector<Vec2> walk(Vec2 from, Vec2 direction, int hint) const;
-  [[nodiscard]] std::vector<Vec2> points_on(const Ring& ring, double height, int least, double& spacing) const;
+  [[nodiscard]] std::vector<Vec2> points_on(const Ring& ring, double height, const DegenerateEdge& edge,
+                                            double& spacing) const;
   bool freeze_fan(const DegenerateEdge& edge, const std::vector<std::int32_t>& fan);
 
   Triangulation& mesh_;

@@ -23,6 +23,8 @@ struct PlaneEdge {
   int segment = -1;  ///< rank of the edge on that curve
   /// Of a degenerate edge: the least number of triangles that this domain must contribute around the point of space.
   int least_fan = 1;
+  /// The same where none of the triangles becomes narrower than half as wide as it is high.
+  int wide_fan = 1;
 };
 
 /// A discretised parameter domain: closed loops of boundary edges (holes and several components are

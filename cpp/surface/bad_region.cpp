@@ -12,10 +12,10 @@ double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::
   return quality_q2(a, b, c);
 }
 
-BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz)
+BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound)
     : mesh_(mesh), xyz_(xyz) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (is_below(good_quality, mesh.triangles[t])) triangles_.push_back(static_cast<std::int32_t>(t));
+    if (is_below(bound, mesh.triangles[t])) triangles_.push_back(static_cast<std::int32_t>(t));
   if (triangles_.empty()) return;
   movable_.assign(mesh.vertices.size(), 0);
   for (int ring = 0; ring < 2; ++ring) {

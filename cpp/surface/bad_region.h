@@ -21,9 +21,9 @@ double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::
 /// The triangles of a patch near those that are bad. Only these may be changed by what improves shapes.
 class BadRegion {
  public:
-  /// Two rings of triangles around those below good_quality. Keeps references to the mesh and its positions, whose
-  /// numbers of vertices and triangles stay.
-  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz);
+  /// Two rings of triangles around those below `bound`. Keeps references to the mesh and its positions, whose numbers
+  /// of vertices and triangles stay.
+  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound);
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }

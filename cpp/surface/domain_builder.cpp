@@ -145,9 +145,13 @@ class Builder {
   }
 
   // A point that faces surround needs three triangles (HDR sec. 4.5.4): one of each face that has a mere corner there,
-  // the others shared out among those that have a side there. At a border one is enough, as at any other corner.
-  [[nodiscard]] int least_fan(const Curve& apex) const {
+  // the others shared out among those that have a side there. At a border they are wanted where there is room.
+  struct Fan {
+    int least = 1, wide = 1;
+  };
+  [[nodiscard]] Fan fan_at(const Curve& apex) const {
     int sides = 0, ends = 0;
+    bool bordered = false;
     for (const int c : topology_.points[apex.end1].curves) {
       const Curve& curve = topology_.curves[c];
       const int uses = static_cast<int>(curve.uses.size());
@@ -155,11 +159,12 @@ class Builder {
         sides += uses;
         continue;
       }
-      if (uses < 2) return 1;
+      bordered = bordered || uses < 2;
       ends += uses * ((curve.end1 == apex.end1 ? 1 : 0) + (curve.end2 == apex.end1 ? 1 : 0));
     }
     const int corners = std::max(ends / 2 - sides, 0);  // each face has two ends of curves there
-    return std::max((3 - corners + sides - 1) / std::max(sides, 1), 1);
+    const int share = std::max((3 - corners + sides - 1) / std::max(sides, 1), 1);
+    return {bordered ? 1 : share, share};
   }
 
   void add_curve(int c) {
@@ -175,6 +180,7 @@ class Builder {
     const PlaneEdgeKind kind = face_.curves[c].type == CurveType::internal ? PlaneEdgeKind::internal
                                : shape.degenerate                          ? PlaneEdgeKind::degenerate
                                                                            : PlaneEdgeKind::boundary;
+    const Fan fan = shape.degenerate ? fan_at(shape) : Fan{};
     int previous = -1;
     for (int i = 0; i <= n; ++i) {
       int vertex;
@@ -186,8 +192,7 @@ class Builder {
       } else {
         vertex = add_vertex(uv[i], {.curve = curve, .node = i}, {discrete.size[i], discrete.physical[i]});
       }
-      if (i > 0)
-        domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1, shape.degenerate ? least_fan(shape) : 1});
+      if (i > 0) domain_.plane.edges.push_back({previous, vertex, kind, curve, i - 1, fan.least, fan.wide});
       if (i == 1 && c + 1 == seed_curve_) {
         seed_ = static_cast<int>(domain_.plane.edges.size()) - 1;
         // The sign of the orientation is for the face's own direction of the curve.

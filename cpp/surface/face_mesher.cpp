@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "surface/bad_region.h"
 #include "surface/face_metric.h"
 #include "surface/space_smoothing.h"
 #include "surface/space_swaps.h"
@@ -70,11 +71,41 @@ void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& mon
   mesh.xyz = input.curve_xyz;
   lift(input.ref, mesh.plane.vertices, cad, mesh.xyz, monitor);
   if (!input.isotropic) return;
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz);
-  for (int round = 0; round < most_rounds && !region.triangles().empty(); ++round) {
-    const bool swapped = swap_in_space(region, mesh.plane, mesh.xyz);
-    if (!(round == 0 || swapped) || !smooth_in_space(region, input.ref, cad, mesh, monitor)) return;
+  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, poor_quality);
+  swap_in_space(poor, mesh.plane, mesh.xyz);
+}
+
+std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,
+                                     std::span<const Vec2> uv, Monitor& monitor) {
+  if (input.constant_size) return std::vector<double>(uv.size(), *input.constant_size);
+  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
+  std::vector<SurfaceJet> jets(uv.size());
+  std::vector<Metric2> metric(uv.size());
+  if (!uv.empty()) {
+    cad.surface(input.ref, prescribed.wants(), uv, jets);
+    prescribed.at(uv, jets, metric);
   }
+  std::vector<double> sizes(uv.size());
+  for (std::size_t k = 0; k < uv.size(); ++k) sizes[k] = mean_size(jets[k], metric[k]);
+  return sizes;
+}
+
+void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor) {
+  if (!input.isotropic) return;
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, good_quality);
+  if (region.triangles().empty()) return;
+  std::vector<std::int32_t> moved;
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<std::int32_t> now = smooth_in_space(region, input.ref, cad, mesh, monitor);
+    moved.insert(moved.end(), now.begin(), now.end());
+    if (now.empty() || !swap_in_space(region, mesh.plane, mesh.xyz)) break;
+  }
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  std::vector<Vec2> uv;
+  for (const std::int32_t v : moved) uv.push_back(mesh.plane.vertices[v]);
+  const std::vector<double> sizes = prescribed_sizes(input, cad, rules, uv, monitor);
+  for (std::size_t k = 0; k < moved.size(); ++k) mesh.size[moved[k]] = sizes[k];
 }
 
 }  // namespace carreau

@@ -60,7 +60,15 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const PlaneMesherOptions& options,
                      Monitor& monitor);
 
-/// surf0 once for each vertex, then the worst triangles are mended in space where sizes are isotropic.
+/// surf0 once for each vertex, then edges of the worst triangles are swapped where sizes are isotropic.
 void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor);
+
+/// Sizes in the mean, sqrt(h1 h2), that FaceMetric prescribes within input.limits.
+std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,
+                                     std::span<const Vec2> uv, Monitor& monitor);
+
+/// Where sizes are isotropic: vertices and edges of bad triangles (BadRegion) are moved and swapped for their shapes in
+/// space. Of a lifted mesh whose sizes are known; keeps them up to date. Asks nothing where no triangle is bad.
+void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau

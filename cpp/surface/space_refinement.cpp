@@ -9,7 +9,6 @@
 #include "cad/fundamental_forms.h"
 #include "mesh/quality.h"
 #include "predicates/predicates.h"
-#include "surface/face_metric.h"
 #include "surface/triangle_distance.h"
 
 namespace carreau {
@@ -343,15 +342,9 @@ class SpaceRefinement {
   }
 
   void ask_sizes(std::size_t before) {
-    const std::size_t n = mesh_.xyz.size() - before;
-    if (n == 0) return;
-    FaceMetric prescribed(input_.face, rules_, input_.domain->plane, input_.domain->physical, monitor_, input_.limits);
-    std::vector<SurfaceJet> jets(n);
-    std::vector<Metric2> metric(n);
     const std::span<const Vec2> uv = std::span(mesh_.plane.vertices).subspan(before);
-    cad_.surface(input_.ref, prescribed.wants(), uv, jets);
-    prescribed.at(uv, jets, metric);
-    for (std::size_t k = 0; k < n; ++k) mesh_.size.push_back(mean_size(jets[k], metric[k]));
+    const std::vector<double> sizes = prescribed_sizes(input_, cad_, rules_, uv, monitor_);
+    mesh_.size.insert(mesh_.size.end(), sizes.begin(), sizes.end());
   }
 
   const PatchInput& input_;

@@ -38,18 +38,19 @@ class SpaceSmoothing {
       }
   }
 
-  bool run() {
-    bool any = false;
+  std::vector<std::int32_t> run() {
+    std::vector<std::int32_t> all;
     for (int pass = 0; pass < most_passes; ++pass) {
       bool moved = false;
       for (const std::int32_t v : corners_of_bad()) {
         monitor_.checkpoint();
-        moved |= improve(star_of(v));
+        if (!improve(star_of(v))) continue;
+        moved = true;
+        all.push_back(v);
       }
-      any |= moved;
       if (!moved) break;
     }
-    return any;
+    return all;
   }
 
  private:
@@ -223,7 +224,8 @@ class SpaceSmoothing {
 
 }  // namespace
 
-bool smooth_in_space(const BadRegion& region, int ref, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
+std::vector<std::int32_t> smooth_in_space(const BadRegion& region, int ref, Cad& cad, PatchMesh& mesh,
+                                          Monitor& monitor) {
   return SpaceSmoothing(region, ref, cad, mesh, monitor).run();
 }
 

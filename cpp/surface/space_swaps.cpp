@@ -19,14 +19,14 @@ constexpr int most_passes = 100;
 class Swapper {
  public:
   Swapper(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz)
-      : region_(region), mesh_(mesh), xyz_(xyz), touched_(mesh.triangles.size(), 0) {}
+      : region_(region), mesh_(mesh), xyz_(xyz), touched_(mesh.triangles.size(), 0), marked_(mesh.vertices.size(), 0) {}
 
   bool run() {
     bool any = false;
     for (int pass = 0; pass < most_passes; ++pass) {
       const std::vector<std::int32_t> bad = region_.below(poor_quality);
       if (bad.empty()) break;
-      collect_sides();
+      collect_around(bad);
       bool changed = false;
       for (const std::int32_t t : bad) changed |= improve(t);
       any |= changed;
@@ -58,12 +58,20 @@ class Swapper {
     return std::max(dot(n, p), dot(n, q)) < least_agreement;
   }
 
-  void collect_sides() {
+  // Only bad triangles and their neighbours are looked at: a sorted list of all edges would cost more than it gives.
+  void collect_around(const std::vector<std::int32_t>& bad) {
+    for (const std::int32_t t : bad)
+      for (const int v : mesh_.triangles[t]) marked_[v] = 1;
     sides_.clear();
     for (const std::int32_t t : region_.triangles()) {
       touched_[t] = 0;
-      for (int i = 0; i < 3; ++i) sides_.push_back({key(mesh_.triangles[t][i], mesh_.triangles[t][(i + 1) % 3]), t});
+      for (int i = 0; i < 3; ++i) {
+        const int a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
+        if (marked_[a] != 0 && marked_[b] != 0) sides_.push_back({key(a, b), t});
+      }
     }
+    for (const std::int32_t t : bad)
+      for (const int v : mesh_.triangles[t]) marked_[v] = 0;
     std::sort(sides_.begin(), sides_.end(),
               [](const Side& p, const Side& q) { return p.key != q.key ? p.key < q.key : p.triangle < q.triangle; });
   }
@@ -117,6 +125,7 @@ class Swapper {
   const std::vector<Vec3>& xyz_;
   std::vector<Side> sides_;
   std::vector<char> touched_;  // by triangle, in this pass
+  std::vector<char> marked_;   // by vertex: of a bad triangle, while sides are collected
 };
 
 }  // namespace

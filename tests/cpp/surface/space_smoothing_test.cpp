@@ -45,7 +45,8 @@ TEST(SpaceSmoothing, ApexesOfSectorsHaveGoodTriangles) {
       const auto session = testing::session_of_size(sector(opening * degree), size, monitor);
       session->make_mesh();
       EXPECT_EQ(find_defects(session->mesh(), {.limit = 5}), std::vector<std::string>{});
-      EXPECT_GT(summarise_quality(session->exported()).q2.min, 0.78);
+      // Three triangles of 30 degrees in a right angle: 4 sqrt(3) sin(30) / (8 - 4 cos(30)) = 0.764.
+      EXPECT_GT(summarise_quality(session->exported()).q2.min, opening == 90 ? 0.74 : 0.78);
     }
 }
 
