@@ -130,7 +130,8 @@ std::vector<Vec2> Filler::points_on(const Ring& ring, double height, const Degen
     along.push_back(at.empty() ? 0 : along.back() + distance_at_middle(at.back(), ray[i]));
     at.push_back(ray[i]);
   }
-  const int least = along.back() >= narrowest * height * edge.wide_fan ? edge.wide_fan : edge.least_fan;
+  const bool wide = along.back() >= narrowest * height * edge.wide_fan;
+  const int least = wide ? std::max(edge.wide_fan, edge.least_fan) : edge.least_fan;
   const int pieces = std::max(least, static_cast<int>(std::min(along.back() + 0.5, 1e6)));
   spacing = along.back() / pieces;
   std::vector<Vec2> points;

@@ -29,7 +29,7 @@ constexpr double negligible_length = 0.03;
 constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1, least_width = 0.25;
 // The error that is refined for whatever it costs is the tolerance in cells at least so many edges wide. Below it grows
 // with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
-constexpr double plain_width = 2;
+constexpr double plain_width = 1.5;
 // What is left of a cell's error when its centre is known: a cubic along a side errs by half as much as one for the
 // centre, to which both directions contribute.
 constexpr double left_by_centre = 0.5;

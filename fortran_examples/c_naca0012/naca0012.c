@@ -96,7 +96,7 @@ int main(int argc, char** argv) {
   const carreau_estimator estimator = {.struct_size = sizeof estimator,
                                        .source = CARREAU_HESSIAN,
                                        .shape = CARREAU_ANISOTROPIC,
-                                       .tolerance = 0.0045,
+                                       .tolerance = 0.008,
                                        .hmin = 0.004,
                                        .hmax = 0.8};
   const carreau_adaptation loop = {
