@@ -20,8 +20,6 @@ constexpr double head_on = 0.8;
 constexpr double sharp_corner = 100 * std::numbers::pi / 180, reach_of_corner = 2;
 // Below this the reach in gaps does not hold the tip: there the gap is 2 tan(angle / 2) of the distance from it.
 constexpr double wedge = 28 * std::numbers::pi / 180;
-// A boundary that turns by less than this (cosine) at a vertex is one side of the domain before and after it.
-constexpr double straight_on = std::numbers::sqrt2 / 2;
 // Ways of fronts near corners may be shorter than those between their feet by this factor: feet are vertices.
 constexpr double one_wave = 1.05;
 // Of a square, in its sides.

@@ -21,6 +21,9 @@ constexpr double widest = 1.2;
 constexpr int fewest_segments = 3;
 // What a curve must gain, summed up over triangles: the half edges at its ends cost as much in the faces beside it.
 constexpr double least_gain = 1;
+// Where vertices come to lie on the chords of arcs that bulge across the strip, triangles become flat: the worst one
+// must not fall below this share, whatever is gained elsewhere.
+constexpr double largest_fall = 0.5, ruin = -1e9;
 constexpr int most_passes = 8;
 // Cosine of the angle from which on a half edge at a corner, beside a whole one, leaves a triangle worse than 0.75 (Q2;
 // 0.95 between two whole ones).
@@ -70,19 +73,22 @@ class FacingCurves {
   std::optional<PolygonLocator> inside_;
 };
 
-/// What the best triangles over the edges of a polyline lack of Q2 = 1, summed up over those that face `near`.
+/// What Delaunay's triangles over the edges of a polyline lack of Q2 = 1, summed up over those that face `near`.
 struct Lack {
-  double sum = 0;
+  double sum = 0, worst = 1;
   int edges = 0;
 
   void add(const std::vector<Vec3>& line, const NearVertices& near, const std::vector<Vec3>& points) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      double best = 0;
-      near.each_beside(line[k], line[k + 1], widest * norm(line[k + 1] - line[k]), [&](int v) {
-        best = std::max(best, quality_q2(line[k], line[k + 1], points[v]));
+      const Vec3 a = line[k], b = line[k + 1];
+      double least_cosine = 1, quality = 0;
+      near.each_beside(a, b, widest * norm(b - a), [&](int v) {
+        const Vec3 to_a = a - points[v], to_b = b - points[v];
+        const double cosine = dot(to_a, to_b) / (norm(to_a) * norm(to_b));
+        if (cosine < least_cosine) least_cosine = cosine, quality = quality_q2(a, b, points[v]);
         return true;
       });
-      if (best > 0) sum += 1 - best, ++edges;
+      if (quality > 0) sum += 1 - quality, worst = std::min(worst, quality), ++edges;
     }
   }
   [[nodiscard]] double mean() const { return edges > 0 ? sum / edges : 0; }
@@ -95,11 +101,10 @@ Lack lack_between(const std::vector<Vec3>& p, const std::vector<Vec3>& q) {
   return lack;
 }
 
-std::vector<Vec3> staggered(const std::vector<Vec3>& line) {
-  std::vector<Vec3> moved{line.front()};
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) moved.push_back(lerp(line[k], line[k + 1], 0.5));
-  moved.push_back(line.back());
-  return moved;
+// On the curve: on a chord, arcs would seem farther from what they bulge towards than they are.
+std::vector<Vec3> staggered(DiscreteCurve curve, const CurveModel& model) {
+  stagger(curve, model);
+  return curve.xyz;
 }
 
 /// Curves that may be moved: those that end at a sharp corner of a face may not.
@@ -142,9 +147,11 @@ std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<Di
       const auto [c, d] = pair;
       const bool first = may_move[c] != 0;
       if (!first && may_move[d] == 0) continue;
-      const auto &p = curves[first ? c : d].xyz, &q = curves[first ? d : c].xyz;
-      const Lack now = lack_between(p, q);
-      gain[pair] += now.edges * (now.mean() - lack_between(staggered(p), q).mean());
+      const DiscreteCurve& moved = curves[first ? c : d];
+      const std::vector<Vec3>& other = curves[first ? d : c].xyz;
+      const Lack now = lack_between(moved.xyz, other);
+      const Lack then = lack_between(staggered(moved, model), other);
+      gain[pair] += then.worst < largest_fall * now.worst ? ruin : now.edges * (now.mean() - then.mean());
     }
   }
   std::map<int, std::vector<std::pair<int, double>>> beside;
