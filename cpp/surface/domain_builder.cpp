@@ -159,6 +159,8 @@ class Builder {
         sides += uses;
         continue;
       }
+      const CurveUse& use = curve.uses.front();
+      if (model_.faces[use.face].curves[use.curve].type == CurveType::internal) continue;  // no border
       bordered = bordered || uses < 2;
       ends += uses * ((curve.end1 == apex.end1 ? 1 : 0) + (curve.end2 == apex.end1 ? 1 : 0));
     }

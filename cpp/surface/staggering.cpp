@@ -81,14 +81,14 @@ struct Lack {
   void add(const std::vector<Vec3>& line, const NearVertices& near, const std::vector<Vec3>& points) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Vec3 a = line[k], b = line[k + 1];
-      double least_cosine = 1, quality = 0;
+      double least_cosine = 1, quality = -1;  // none
       near.each_beside(a, b, widest * norm(b - a), [&](int v) {
         const Vec3 to_a = a - points[v], to_b = b - points[v];
         const double cosine = dot(to_a, to_b) / (norm(to_a) * norm(to_b));
         if (cosine < least_cosine) least_cosine = cosine, quality = quality_q2(a, b, points[v]);
         return true;
       });
-      if (quality > 0) sum += 1 - quality, worst = std::min(worst, quality), ++edges;
+      if (quality >= 0) sum += 1 - quality, worst = std::min(worst, quality), ++edges;
     }
   }
   [[nodiscard]] double mean() const { return edges > 0 ? sum / edges : 0; }
