@@ -1,6 +1,7 @@
 #include "surface/domain_builder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -14,14 +15,21 @@ namespace carreau {
 namespace {
 
 // Ends of curves that are one point in space are one vertex of the domain when they are nearer than this share of the
-// shortest edge beside them: exact corners differ by rounding, seam corners by whole sides.
+// shortest edge beside them: exact corners differ by rounding, seam corners by whole sides. Where loops do not close
+// by that, this share of the shortest curve counts: hosts have gaps that do not shrink with the size of edges.
 constexpr double joining_share = 0.25;
+// A curve that is one point in space is one in (u, v) as well when it is shorter than this share of the edges beside
+// it: tiny edges of CAD files are, sides at poles are not.
+constexpr double point_share = 1e-3;
 
-struct CurveEnd {
+/// Ends of curves that are one vertex of the domain.
+struct Junction {
   int corner;  // index in Topology::points
   Vec2 uv;
-  double reach;  // length of the edge that ends here, in shares of the domain's box
-  int vertex;    // of the domain, once known
+  double reach;     // length of the shortest edge that ends here, in shares of the domain's box
+  double length;    // of the shortest curve that ends here
+  int degree = 0;   // ends of curves that bound the domain
+  int vertex = -1;  // of the domain, once known
 };
 
 class Builder {
@@ -40,13 +48,14 @@ class Builder {
 
   FaceDomain run(bool turn) {
     measure_box();
+    find_points();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
-      if (vanishes(curve_of_[c])) {
-        const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
-        for (std::size_t i = 1; i < uv.size(); ++i) joining_reach_ += distance(uv[i], uv[i - 1]);
+      if (is_vanishing(curve_of_[c])) {
+        joining_reach_ += length_of(curves_[curve_of_[c]].uv_of_use[use_of(c)]);
       }
     collect_sides();
-    if (turn && vanishes(curve_of_[seed_curve_ - 1])) choose_another_seed();
+    collect_junctions();
+    if (turn && is_vanishing(curve_of_[seed_curve_ - 1])) choose_another_seed();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) add_curve(c);
     for (int p = 0; p < static_cast<int>(face_.points.size()); ++p) add_vertex(face_.points[p].uv, {.point = p}, {});
     if (turn) orient();
@@ -90,12 +99,42 @@ class Builder {
     return std::hypot((p.x - q.x) / box_.x, (p.y - q.y) / box_.y);
   }
 
+  [[nodiscard]] double length_of(std::span<const Vec2> uv) const noexcept {
+    double length = 0;
+    for (std::size_t i = 1; i < uv.size(); ++i) length += distance(uv[i], uv[i - 1]);
+    return length;
+  }
+
+  // The curve that gives the orientation stays, whatever its size.
+  void find_points() {
+    is_point_.assign(face_.curves.size(), 0);
+    std::map<int, double> reach;  // by corner: shortest edge of other curves
+    const auto uv_of = [this](int c) -> const std::vector<Vec2>& { return curves_[curve_of_[c]].uv_of_use[use_of(c)]; };
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      const Curve& shape = topology_.curves[curve_of_[c]];
+      if (shape.degenerate) continue;
+      const std::vector<Vec2>& uv = uv_of(c);
+      const auto lower = [&](int corner, double length) {
+        const auto [it, first] = reach.try_emplace(corner, length);
+        if (!first) it->second = std::min(it->second, length);
+      };
+      lower(shape.end1, distance(uv[1], uv[0]));
+      lower(shape.end2, distance(uv.back(), uv[uv.size() - 2]));
+    }
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      const Curve& shape = topology_.curves[curve_of_[c]];
+      const auto beside = reach.find(shape.end1);
+      if (!shape.degenerate || shape.end1 != shape.end2 || beside == reach.end() || c + 1 == seed_curve_) continue;
+      is_point_[c] = length_of(uv_of(c)) <= point_share * beside->second;
+    }
+  }
+
   // Ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first: both ends of a
   // side of 1e-5 are near each other for the long curves beside it.
   void collect_sides() {
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       const Curve& shape = topology_.curves[curve_of_[c]];
-      if (!shape.degenerate || vanishes(curve_of_[c])) continue;
+      if (!shape.degenerate || is_left_out(c)) continue;
       const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
       const double reach = std::min(distance(uv[1], uv[0]), distance(uv.back(), uv[uv.size() - 2]));
       const auto [side, first] = side_at_.try_emplace(shape.end1, reach);
@@ -110,15 +149,56 @@ class Builder {
     return std::max(joining_share * reach, joining_reach_);
   }
 
-  int join_end(int corner, Vec2 uv, double reach, const DomainVertexOrigin& origin, Sizes size) {
-    for (CurveEnd& end : ends_) {
-      if (stand_in(end.corner) != stand_in(corner)) continue;
-      if (distance(end.uv, uv) > joining_distance(corner, std::min(end.reach, reach))) continue;
-      end.reach = std::min(end.reach, reach);
-      return end.vertex;
+  int junction_at(int corner, Vec2 uv, double reach, double length) {
+    for (int j = 0; j < static_cast<int>(junctions_.size()); ++j) {
+      Junction& other = junctions_[j];
+      if (stand_in(other.corner) != stand_in(corner)) continue;
+      if (distance(other.uv, uv) > joining_distance(corner, std::min(other.reach, reach))) continue;
+      other.reach = std::min(other.reach, reach);
+      other.length = std::min(other.length, length);
+      return j;
     }
-    ends_.push_back({corner, uv, reach, add_vertex(uv, origin, size)});
-    return ends_.back().vertex;
+    junctions_.push_back({corner, uv, reach, length});
+    return static_cast<int>(junctions_.size()) - 1;
+  }
+
+  void collect_junctions() {
+    junctions_of_curve_.assign(face_.curves.size(), {-1, -1});
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      if (is_left_out(c)) continue;
+      const Curve& shape = topology_.curves[curve_of_[c]];
+      const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
+      const std::size_t n = uv.size() - 1;
+      const double length = length_of(uv);
+      junctions_of_curve_[c] = {junction_at(shape.end1, uv[0], distance(uv[1], uv[0]), length),
+                                junction_at(shape.end2, uv[n], distance(uv[n], uv[n - 1]), length)};
+      if (face_.curves[c].type == CurveType::internal) continue;
+      for (const int j : junctions_of_curve_[c]) ++junctions_[j].degree;
+    }
+    close_loops();
+  }
+
+  // Two junctions of one corner at which an odd number of curves end were torn apart by a gap: nearest ones first.
+  void close_loops() {
+    for (;;) {
+      double nearest = std::numeric_limits<double>::infinity();
+      std::array<int, 2> pair{-1, -1};
+      for (int i = 0; i < static_cast<int>(junctions_.size()); ++i)
+        for (int j = i + 1; j < static_cast<int>(junctions_.size()); ++j) {
+          const Junction &p = junctions_[i], &q = junctions_[j];
+          if (p.degree % 2 == 0 || q.degree % 2 == 0 || stand_in(p.corner) != stand_in(q.corner)) continue;
+          const double apart = distance(p.uv, q.uv);
+          if (apart > joining_share * std::min(p.length, q.length) || apart >= nearest) continue;
+          nearest = apart;
+          pair = {i, j};
+        }
+      if (pair[0] < 0) return;
+      junctions_[pair[0]].degree += junctions_[pair[1]].degree;
+      junctions_[pair[1]].degree = 0;
+      for (auto& ends : junctions_of_curve_)
+        for (int& j : ends)
+          if (j == pair[1]) j = pair[0];
+    }
   }
 
   // The curve that gives the orientation is gone: another one tells, as it is turned in the whole domain.
@@ -129,7 +209,8 @@ class Builder {
     std::size_t edge = 0;
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       const int curve = curve_of_[c];
-      if (!vanishes(curve) && whole.edges[edge].kind != PlaneEdgeKind::internal) {
+      if (is_point_[c] != 0) continue;
+      if (!is_vanishing(curve) && whole.edges[edge].kind != PlaneEdgeKind::internal) {
         seed_curve_ = c + 1;
         seed_left_of_curve_ =
             (whole.edges[edge].a == plain.edges[edge].a) != topology_.curves[curve].uses[use_of(c)].reversed;
@@ -139,7 +220,8 @@ class Builder {
     }
   }
 
-  [[nodiscard]] bool vanishes(int curve) const { return !vanishing_.curve.empty() && vanishing_.curve[curve] != 0; }
+  [[nodiscard]] bool is_left_out(int c) const { return is_point_[c] != 0 || is_vanishing(curve_of_[c]); }
+  [[nodiscard]] bool is_vanishing(int curve) const { return !vanishing_.curve.empty() && vanishing_.curve[curve] != 0; }
   [[nodiscard]] int stand_in(int corner) const {
     return vanishing_.corner.empty() ? corner : vanishing_.corner[corner];
   }
@@ -171,7 +253,7 @@ class Builder {
 
   void add_curve(int c) {
     const int curve = curve_of_[c];
-    if (vanishes(curve)) return;
+    if (is_left_out(c)) return;
     const Curve& shape = topology_.curves[curve];
     const int use = use_of(c);
     const DiscreteCurve& discrete = curves_[curve];
@@ -188,9 +270,11 @@ class Builder {
       int vertex;
       if (i == 0 || i == n) {
         const int corner = i == 0 ? shape.end1 : shape.end2;
-        const double reach = i == 0 ? distance(uv[1], uv[0]) : distance(uv[n], uv[n - 1]);
-        vertex = join_end(corner, uv[i], reach, {.curve = curve, .node = i, .corner = corner},
-                          {discrete.size[i], discrete.physical[i]});
+        Junction& end = junctions_[junctions_of_curve_[c][i == 0 ? 0 : 1]];
+        if (end.vertex < 0)
+          end.vertex = add_vertex(uv[i], {.curve = curve, .node = i, .corner = corner},
+                                  {discrete.size[i], discrete.physical[i]});
+        vertex = end.vertex;
       } else {
         vertex = add_vertex(uv[i], {.curve = curve, .node = i}, {discrete.size[i], discrete.physical[i]});
       }
@@ -224,10 +308,12 @@ class Builder {
   int index_;
   Vec2 box_{1, 1};                 // sides of the domain's box; lengths in (u, v) are shares of them
   double joining_reach_ = 0;       // length of the curves that vanish
+  std::vector<char> is_point_;     // by rank: curves that are left out because they are one point in (u, v)
   std::map<int, double> side_at_;  // by corner: length of the shortest end of a degenerate side there
   FaceDomain domain_;
-  std::vector<CurveEnd> ends_;
-  int seed_curve_;  // rank, from 1
+  std::vector<Junction> junctions_;
+  std::vector<std::array<int, 2>> junctions_of_curve_;  // by rank: at its first and at its last end
+  int seed_curve_;                                      // rank, from 1
   bool seed_left_of_curve_;
   int seed_ = 0;
   bool seed_left_ = true;

@@ -1,7 +1,9 @@
 // Hosts whose faces, curves and references do not fit together: a sentence, or one face that fails alone.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 
@@ -36,8 +38,10 @@ struct Outcome {
   std::string error;     // of make_mesh
   std::string failures;  // of faces
   bool sound = false;
+  double area = 0;
 };
-Outcome try_mesh(const AnalyticCad& cad, const Model& model, double size = 0.2) {
+Outcome try_mesh(const AnalyticCad& cad, const Model& model, double size = 0.2,
+                 const std::map<std::string, double>& parameters = {}) {
   Monitor monitor;
   Session session(monitor);
   Outcome outcome;
@@ -45,8 +49,10 @@ Outcome try_mesh(const AnalyticCad& cad, const Model& model, double size = 0.2) 
     session.set_cad(std::make_shared<AnalyticCad>(cad));
     session.set_model(model);
     session.parameters().set("hphydef", size);
+    for (const auto& [name, value] : parameters) session.parameters().set(name, value);
     session.make_mesh();
     outcome.sound = find_defects(session.mesh()).empty();
+    outcome.area = summarise_quality(session.exported()).area;
     for (const FaceMesh& face : session.mesh().faces)
       if (face.status == FaceStatus::failed) outcome.failures += face.why + "\n";
   } catch (const Error& error) {
@@ -62,6 +68,18 @@ TEST(BadModels, ASoundOneIsMeshed) {
   const Outcome outcome = try_mesh(square(), square_model());
   EXPECT_EQ(outcome.error + outcome.failures, "");
   EXPECT_TRUE(outcome.sound);
+}
+
+// A host's gap stays what it is when edges become smaller than four times it.
+TEST(BadModels, CornerWithAGapClosesAtAnySize) {
+  AnalyticCad cad = square();
+  cad.faces[1].curves[0] = segment({0, 0}, {1, -0.004});
+  for (const double size : {0.2, 0.05, 0.016, 0.01, 0.005}) {
+    const Outcome outcome = try_mesh(cad, square_model(), size, {{"eps_glue", 0.005}});
+    EXPECT_TRUE(outcome.sound) << size << ": " << outcome.error << outcome.failures;
+    EXPECT_EQ(outcome.failures, "") << size;
+    EXPECT_NEAR(outcome.area, 1, 0.004) << size;
+  }
 }
 
 TEST(BadModels, LoopThatDoesNotClose) {
@@ -185,6 +203,30 @@ TEST(BadModels, SurfaceThatIsOnePointInside) {
 }
 
 // ---- tiny edges (eps_collapse) ----
+
+// A hole that is tangent to a side: CAD systems leave two tiny edges there, one in either loop, on the same place.
+TEST(TinyEdges, OfTwoLoopsOnOnePlaceBecomeOnePoint) {
+  constexpr double tiny = 1e-10;
+  AnalyticCad cad;
+  cad.faces[1] = {
+      [](Vec2 p) { return plane(p, 0); },
+      {segment({0, 0}, {0.5, 0}), segment({0.5, 0}, {0.5 + tiny, 0}), segment({0.5 + tiny, 0}, {1, 0}),
+       segment({1, 0}, {1, 1}), segment({1, 1}, {0, 1}), segment({0, 1}, {0, 0}), segment({0.5, 0}, {0.5 + tiny, 0}),
+       segment({0.5 + tiny, 0}, {0.7, 0.4}), segment({0.7, 0.4}, {0.3, 0.4}), segment({0.3, 0.4}, {0.5, 0})}};
+  Model model = testing::unglued(cad);
+  const std::array<std::array<int, 2>, 10> ends{
+      {{1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {6, 1}, {2, 3}, {3, 7}, {7, 8}, {8, 2}}};
+  for (std::size_t c = 0; c < ends.size(); ++c) {
+    FaceCurve& curve = model.faces[0].curves[c];
+    curve.ref = static_cast<int>(c) + 1, curve.end1 = ends[c][0], curve.end2 = ends[c][1];
+  }
+  for (const double size : {0.3, 0.1, 0.02}) {
+    const Outcome outcome = try_mesh(cad, model, size);
+    EXPECT_TRUE(outcome.sound) << size << ": " << outcome.error << outcome.failures;
+    EXPECT_EQ(outcome.failures, "") << size;
+    EXPECT_NEAR(outcome.area, 1 - 0.4 * 0.4 / 2, 1e-9) << size;
+  }
+}
 
 TEST(TinyEdges, InALoopBecomePoints) {
   for (const double tiny : {1e-3, 1e-5, 1e-9}) {
