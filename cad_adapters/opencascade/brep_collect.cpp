@@ -7,6 +7,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,8 +16,27 @@
 #include "face_check.h"
 #include "faults.h"
 #include "missing_curves.h"
+#include "wire_periods.h"
 
 namespace carreau_occ {
+
+namespace {
+
+std::vector<EdgeImage> images_of(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+  std::vector<EdgeImage> images;
+  for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) {
+    EdgeImage image;
+    image.edge = TopoDS::Edge(e.Current());
+    if (image.edge.Orientation() == TopAbs_EXTERNAL) continue;
+    image.curve = BRep_Tool::CurveOnSurface(image.edge, face, image.first, image.last);
+    if (image.curve.IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
+    images.push_back(image);
+  }
+  close_over_periods(images, face);
+  return images;
+}
+
+}  // namespace
 
 void BrepHost::State::collect() {
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
@@ -53,21 +73,20 @@ void BrepHost::State::collect_face(int number) {
   const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
   add_missing_curves(forward);
   std::vector<Handle(Geom2d_Curve)> images;
-  for (TopExp_Explorer e(forward, TopAbs_EDGE); e.More(); e.Next()) {
-    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
-    if (edge.Orientation() == TopAbs_EXTERNAL) continue;
-    HostCurve curve;
-    images.push_back(BRep_Tool::CurveOnSurface(edge, forward, curve.first, curve.last));
-    if (images.back().IsNull()) throw std::runtime_error("an edge has no curve in its parameter plane");
-    curve.edge = edges.FindIndex(edge);
-    curve.end1 = vertices.FindIndex(TopExp::FirstVertex(edge, Standard_False));
-    curve.end2 = vertices.FindIndex(TopExp::LastVertex(edge, Standard_False));
-    curve.forward = edge.Orientation() == TopAbs_FORWARD;
-    curve.internal = edge.Orientation() == TopAbs_INTERNAL;
-    if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
-    if (BRep_Tool::Degenerated(edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
-    host.curves.push_back(curve);
-  }
+  for (TopExp_Explorer w(forward, TopAbs_WIRE); w.More(); w.Next())
+    for (const EdgeImage& image : images_of(TopoDS::Wire(w.Current()), forward)) {
+      HostCurve curve;
+      curve.first = image.first, curve.last = image.last;
+      curve.edge = edges.FindIndex(image.edge);
+      curve.end1 = vertices.FindIndex(TopExp::FirstVertex(image.edge, Standard_False));
+      curve.end2 = vertices.FindIndex(TopExp::LastVertex(image.edge, Standard_False));
+      curve.forward = image.edge.Orientation() == TopAbs_FORWARD;
+      curve.internal = image.edge.Orientation() == TopAbs_INTERNAL;
+      if (!curve.internal) ++uses[static_cast<std::size_t>(curve.edge - 1)];
+      if (BRep_Tool::Degenerated(image.edge)) uses[static_cast<std::size_t>(curve.edge - 1)] = 2;
+      host.curves.push_back(curve);
+      images.push_back(image.curve);
+    }
   evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
   for (const auto* failed : {&surface_failed, &curves_failed}) (*failed)[static_cast<std::size_t>(number - 1)] = false;
   refuse_unusable(forward);

@@ -7,15 +7,22 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_BSplineCurve.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom_Surface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
+#include <numbers>
 
 #include "measured_mesh.h"
 #include "shapes.h"
@@ -91,6 +98,66 @@ TEST(TinyEdges, LeaveNarrowFacesMeshed) {
   EXPECT_EQ(mesh.trouble(true), "");
   EXPECT_NEAR(mesh.volume, 30, 1e-3);
   EXPECT_LT(mesh.quality.triangles, 5000);  // not as many as edges of that length would make
+}
+
+/// The round face of a cylinder of radius 1 and height 2, whose upper circle and one of whose seams lie a period before
+/// the others in (u, v), as OpenCASCADE's reader leaves faces of revolution. With `bridges` it has closed the loop by
+/// edges that it says are degenerate.
+TopoDS_Face torn_cylinder(bool bridges) {
+  const double turn = 2 * std::numbers::pi;
+  const TopoDS_Face whole = TopoDS::Face(
+      TopExp_Explorer(BRepPrimAPI_MakeCylinder(1, 2).Shape(), TopAbs_FACE).Current().Oriented(TopAbs_FORWARD));
+  const BRep_Builder builder;
+  TopoDS_Face face;
+  builder.MakeFace(face, Handle(Geom_Surface)::DownCast(BRep_Tool::Surface(whole)->Copy()), 1e-7);
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  const auto bridge = [&](const TopoDS_Vertex& at, gp_Pnt2d from, double by) {
+    TopoDS_Edge edge;
+    builder.MakeEdge(edge);
+    builder.UpdateEdge(edge, new Geom2d_Line(from, gp_Dir2d(by, 0)), face, 1e-7);
+    builder.Range(edge, face, 0, turn);
+    builder.Degenerated(edge, Standard_True);
+    builder.Add(edge, at.Oriented(TopAbs_FORWARD));
+    builder.Add(edge, at.Oriented(TopAbs_REVERSED));
+    builder.Add(wire, edge);
+  };
+  for (TopExp_Explorer e(whole, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    double a = 0, b = 0;
+    const Handle(Geom2d_Curve) image = BRep_Tool::CurveOnSurface(edge, whole, a, b);
+    const gp_Vec2d back(-turn, 0);
+    const bool is_upper = image->Value(a).Y() > 1 && image->Value(b).Y() > 1;
+    const auto moved = [](const Handle(Geom2d_Curve) & curve, gp_Vec2d by) {
+      return Handle(Geom2d_Curve)::DownCast(curve->Translated(by));
+    };
+    if (BRep_Tool::IsClosed(edge, whole)) {
+      const TopoDS_Edge up = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+      const auto one = BRep_Tool::CurveOnSurface(up, whole, a, b);
+      const auto other = BRep_Tool::CurveOnSurface(TopoDS::Edge(up.Reversed()), whole, a, b);
+      const bool first = one->Value(a).X() < 1;  // the seam at u = 0 goes to -2 pi
+      builder.UpdateEdge(up, moved(one, first ? back : gp_Vec2d()), moved(other, first ? gp_Vec2d() : back), face,
+                         1e-7);
+    } else {
+      builder.UpdateEdge(edge, moved(image, is_upper ? back : gp_Vec2d()), face, 1e-7);
+    }
+    if (bridges && is_upper) bridge(TopExp::FirstVertex(edge), {turn, 2}, -1);
+    builder.Add(wire, edge);
+    if (bridges && image->Value(a).X() < 1 && image->Value(b).X() < 1) bridge(TopExp::FirstVertex(edge), {-turn, 0}, 1);
+  }
+  builder.Add(face, wire);
+  return face;
+}
+
+TEST(PeriodicSurfaces, LoopsThatLieAPeriodApartClose) {
+  for (const bool bridges : {false, true}) {
+    SCOPED_TRACE(bridges);
+    carreau_occ::BrepHost host(file_of(torn_cylinder(bridges)));
+    const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.1);
+    EXPECT_EQ(mesh.trouble(false), "");
+    EXPECT_NEAR(mesh.quality.area, 4 * std::numbers::pi, 0.01);
+    EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 0);  // a ring
+  }
 }
 
 }  // namespace
