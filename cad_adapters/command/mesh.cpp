@@ -121,6 +121,7 @@ int mesh(const MeshOptions& options) {
   run.seconds_writing = writing.seconds();
   if (!options.quiet)
     for (const std::string& line : summary_lines(run)) progress.line(line);
+  run.warnings = progress.warnings();
   if (options.json) print_json(run);
   if (failed.empty() && lost.empty()) return all_faces;
   for (const std::string& sentence : {lost, failed})

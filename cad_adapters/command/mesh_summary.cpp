@@ -204,6 +204,7 @@ void print_json(const MeshRun& run) {
                                           {"mesh", quality_json(q)},
                                           {"faces", faces},
                                           {"not_read", run.input.losses()},
+                                          {"warnings", run.warnings},
                                           {"interfaces", interfaces_json(interfaces_of(run.session))},
                                           {"calls",
                                            {{"surf0", r.surf0_calls},

@@ -21,6 +21,7 @@ struct MeshRun {
   double seconds_reading = 0, seconds_writing = 0, seconds_processor = 0;
   std::vector<FaceResult> faces;
   std::vector<std::string> dumped;  ///< files of faces that failed
+  std::vector<std::string> warnings = {};
 };
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.

@@ -1,7 +1,9 @@
 #include "progress.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <cstring>
 
 #include "signals.h"
 #include "terminal.h"
@@ -44,11 +46,31 @@ std::string entity_name(std::int32_t phase, std::int32_t entity) {
   return "";
 }
 
+constexpr int most_alike = 4;
+
+/// Without its numbers, signs and exponents.
+std::string kind_of(const std::string& text) {
+  std::string kind;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool in_number = std::isdigit(static_cast<unsigned char>(text[i])) != 0;
+    if (!in_number) {
+      kind += text[i];
+      continue;
+    }
+    while (i + 1 < text.size() && std::strchr("0123456789.eE+-", text[i + 1]) != nullptr) ++i;
+    kind += '#';
+  }
+  return kind;
+}
+
 }  // namespace
 
 Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(is_terminal()), colours_(shows_colours()), drawn_(Clock::now()) {}
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  tell_of_others();
+  clear();
+}
 
 void Progress::listen_to(carreau_session* session) {
   carreau_set_message_callback(session, on_message, this);
@@ -63,17 +85,33 @@ void Progress::clear() {
 
 void Progress::line(const std::string& text) {
   if (quiet_) return;
+  tell_of_others();
   clear();
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
 void Progress::warning(const std::string& text) {
+  warnings_.push_back(text);
   if (quiet_) return;
+  if (++shown_[kind_of(text)] > most_alike) {
+    ++held_back_;
+    return;
+  }
   clear();
   print_marked("warning", colour::yellow, text.c_str());
 }
 
+// Called before what else is told, so that it stands below the warnings.
+void Progress::tell_of_others() {
+  if (held_back_ == 0 || quiet_) return;
+  clear();
+  const std::string others = std::to_string(held_back_) + " more like " + (held_back_ == 1 ? "it" : "these");
+  print_marked("warning", colour::yellow, others.c_str());
+  held_back_ = 0;
+}
+
 void Progress::error(const std::string& text) {
+  tell_of_others();
   clear();
   print_marked("error", colour::red, text.c_str());
 }
@@ -102,6 +140,7 @@ std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, doub
 
 void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
   if (quiet_ || phase == CARREAU_PHASE_IDLE) return;
+  if (phase != phase_) tell_of_others();
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
   if (!terminal_) {
     // Files are written image by image, each from 0 to 100 %: a log needs to know only that it has begun.

@@ -5,12 +5,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace command {
 
 /// A bar on a terminal, a line a tenth of the way in a log, nothing when quiet (errors are always told).
 /// Errors are red, warnings yellow and the bar green on a terminal, unless NO_COLOR is set or TERM is dumb.
+/// Of warnings that differ in their numbers only, a few are shown and the others counted.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -26,6 +29,8 @@ class Progress {
   void line(const std::string& text);
   /// Something that may be wrong.
   void warning(const std::string& text);
+  /// All of them, in their order, also those that were not shown.
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
   /// What a quiet run shows as well.
   void error(const std::string& text);
   /// Takes the bar away.
@@ -35,11 +40,15 @@ class Progress {
   static void on_message(std::int32_t level, const char* text, void* user);
   static std::int32_t on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user);
   void show(std::int32_t phase, std::int32_t entity, double fraction);
+  void tell_of_others();
 
   using Clock = std::chrono::steady_clock;
   bool quiet_, terminal_, colours_, bar_ = false;
   int tenth_ = -1, phase_ = -1;
   Clock::time_point drawn_;
+  std::vector<std::string> warnings_;
+  std::map<std::string, int> shown_;  // by text without its numbers
+  int held_back_ = 0;                 // since a warning was shown or their number told
 };
 
 }  // namespace command

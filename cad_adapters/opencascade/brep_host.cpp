@@ -15,7 +15,7 @@
 #include <stdexcept>
 
 #include "brep_state.h"
-#include "face_check.h"
+#include "extent.h"
 #include "faults.h"
 
 namespace carreau_occ {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Shape.hxx>
 
 namespace carreau_occ {
 
@@ -16,8 +15,5 @@ bool usable(double x) noexcept;
 /// Throws std::runtime_error when a vertex, a pole, or a place of the boundary of the face is not finite or too far
 /// away, and Standard_Failure when OpenCASCADE does.
 void refuse_unusable(const TopoDS_Face& face);
-
-/// Diagonal of the box of the faces of a shape that OpenCASCADE can evaluate; 0: there is none.
-double diagonal_of(const TopoDS_Shape& shape);
 
 }  // namespace carreau_occ

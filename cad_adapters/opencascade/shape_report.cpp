@@ -24,7 +24,7 @@
 #include <gp_Pnt2d.hxx>
 #include <map>
 
-#include "face_check.h"
+#include "extent.h"
 #include "faults.h"
 
 namespace carreau_occ {

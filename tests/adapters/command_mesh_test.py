@@ -213,6 +213,14 @@ class Mesh(unittest.TestCase):
         self.assertAlmostEqual(summary["diagonal"], math.sqrt(3), delta=1e-9)
         self.assertTrue(summary["closed"])
 
+    def test_warnings_of_one_kind_are_told_by_a_few(self):
+        done = run("mesh", os.path.join(SHAPES, "named_faces.step"), "-o", self.out("a.mesh"), "--size", "0.2", "--json",
+                   "--set", "eps_ends=100")
+        told = re.findall(r"(?m)^warning: (.*)$", done.stderr)
+        warnings = json.loads(done.stdout)["warnings"]
+        self.assertEqual(len(warnings), 24)  # each curve of each face is shorter than that
+        self.assertEqual(told, warnings[:4] + ["20 more like these"])
+
     def test_a_log_has_plain_lines_and_a_terminal_a_bar(self):
         done = run("mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "--size", "1%")
         self.assertNotIn("\r", done.stderr)

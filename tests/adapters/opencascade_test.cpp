@@ -1,16 +1,22 @@
 // CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
+#include <extent.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_NumericError.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
+#include <gp_Ax1.hxx>
+#include <gp_Trsf.hxx>
 
 #include "measured_mesh.h"
 #include "odd_cylinder.h"
@@ -146,6 +152,18 @@ TEST(ShapeReport, FindsFreeEdges) {
   const carreau_occ::ShapeReport report = carreau_occ::inspect(file_of(faces.Current()));
   EXPECT_EQ(report.dangers.size(), 4u);
   for (const carreau_occ::Danger& danger : report.dangers) EXPECT_EQ(danger.kind, "free edge");
+}
+
+// Splines are no quadrics: their boxes are found on the surface.
+TEST(Diagonal, OfFreeFormFacesIsExact) {
+  const auto diagonal = [](const TopoDS_Shape& shape) {
+    return carreau_occ::diagonal_of(BRepBuilderAPI_NurbsConvert(shape, Standard_True).Shape());
+  };
+  EXPECT_NEAR(diagonal(BRepPrimAPI_MakeSphere(1).Shape()), 2 * std::sqrt(3.0), 1e-6);
+  EXPECT_NEAR(diagonal(BRepPrimAPI_MakeTorus(2, 0.5).Shape()), std::sqrt(51.0), 1e-6);
+  gp_Trsf turned;  // no extreme is at a seam, a knot or a pole
+  turned.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 2, 3)), 1);
+  EXPECT_NEAR(diagonal(BRepPrimAPI_MakeSphere(1).Shape().Moved(TopLoc_Location(turned))), 2 * std::sqrt(3.0), 1e-6);
 }
 
 }  // namespace
