@@ -13,6 +13,7 @@ anything that is asked: a failure that Gmsh does not have, speed below, mean or 
 the ratios of speed in surface meshing below 5.
 """
 import argparse
+import itertools
 import json
 import math
 import os
@@ -26,11 +27,18 @@ WANTED = 5
 ROW = "{:34}{:>7}{:>9}{:>9}{:>9}{:>7}{:>8}{:>8}{:>8}{:>7}"
 
 
+class NotRead(Exception):
+    """Gmsh cannot read a file."""
+
+
 def open_file(path):
     # OpenCASCADE's own unit is the millimetre, and Gmsh 4.8 fails to set it before a STEP file has been read.
     gmsh.option.setString("Geometry.OCCTargetUnit", "")
-    gmsh.model.occ.importShapes(path)
-    gmsh.model.occ.synchronize()
+    try:
+        gmsh.model.occ.importShapes(path)
+        gmsh.model.occ.synchronize()
+    except Exception as problem:  # the binding raises no other class
+        raise NotRead(str(problem) or "no reason is given") from problem
 
 
 def diagonal(path):
@@ -130,24 +138,27 @@ def main():
     parser.add_argument("--json", help="file for all figures")
     options = parser.parse_args()
     print(ROW.format("file, program", "diag/", "triangl.", "surface s", "whole s", "failed", "Q2 mean", "p1", "worst", ""))
-    rows, worse = [], 0
-    for path in options.files:
-        whole = diagonal(path)
-        for share in options.share or [100]:
-            g, c, complaints = compare(options, path, whole / share)
-            worse += len(complaints) > 0
-            show(os.path.basename(path), {**g, "share": share})
-            if not c["error"]:
-                show("    carreau", c)
-                print("    %.1f times as fast a triangle in surface meshing, %.1f as a whole process; %s"
-                      % (c["times"]["surface"], c["times"]["whole"], ", ".join(complaints) or "at least as good in all"), flush=True)
-            else:
-                print("    carreau:", c["error"])
-            rows.append({"file": path, "share": share, "gmsh": g, "carreau": c, "worse": complaints})
+    rows, worse, not_read = [], 0, 0
+    for path, share in itertools.product(options.files, options.share or [100]):
+        try:
+            g, c, complaints = compare(options, path, diagonal(path) / share)
+        except NotRead as problem:
+            not_read += 1
+            print(f"{os.path.basename(path)}: Gmsh cannot read it: {problem}", flush=True)
+            continue
+        worse += len(complaints) > 0
+        show(os.path.basename(path), {**g, "share": share})
+        if not c["error"]:
+            show("    carreau", c)
+            print("    %.1f times as fast a triangle in surface meshing, %.1f as a whole process; %s"
+                  % (c["times"]["surface"], c["times"]["whole"], ", ".join(complaints) or "at least as good in all"), flush=True)
+        else:
+            print("    carreau:", c["error"])
+        rows.append({"file": path, "share": share, "gmsh": g, "carreau": c, "worse": complaints})
     ratios = {key: [row["carreau"]["times"][key] for row in rows if "times" in row["carreau"]] for key in ("surface", "whole")}
     mean = {key: math.exp(sum(map(math.log, r)) / len(r)) if r else 0 for key, r in ratios.items()}
     print(f"geometric mean of the ratios of speed: surface meshing {mean['surface']:.2f} (wanted {WANTED}), whole process "
-          f"{mean['whole']:.2f}; {worse} of {len(rows)} with a complaint")
+          f"{mean['whole']:.2f}; {worse} of {len(rows)} with a complaint, {not_read} that Gmsh cannot read")
     if options.json:
         with open(options.json, "w") as file:
             json.dump(rows, file, indent=1, default=float)
