@@ -14,13 +14,14 @@ namespace carreau {
 namespace {
 
 // Ends of curves that are one point in space are one vertex of the domain when they are nearer than this share of the
-// shortest edge beside them: exact corners differ by rounding, seam corners by whole sides.
+// shortest edge beside them: exact corners differ by rounding, seam corners by whole sides. Where only two curves of
+// the face end nothing else could be meant, however short their edges have become: then than this share of the curves.
 constexpr double joining_share = 0.25;
 
 struct CurveEnd {
   int corner;  // index in Topology::points
   Vec2 uv;
-  double reach;  // length of the edge that ends here, in shares of the domain's box
+  double reach;  // length of the edge, or curve, that ends here, in shares of the domain's box
   int vertex;    // of the domain, once known
 };
 
@@ -46,6 +47,7 @@ class Builder {
         for (std::size_t i = 1; i < uv.size(); ++i) joining_reach_ += distance(uv[i], uv[i - 1]);
       }
     collect_sides();
+    count_ends();
     if (turn && vanishes(curve_of_[seed_curve_ - 1])) choose_another_seed();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) add_curve(c);
     for (int p = 0; p < static_cast<int>(face_.points.size()); ++p) add_vertex(face_.points[p].uv, {.point = p}, {});
@@ -88,6 +90,19 @@ class Builder {
   }
   [[nodiscard]] double distance(Vec2 p, Vec2 q) const noexcept {
     return std::hypot((p.x - q.x) / box_.x, (p.y - q.y) / box_.y);
+  }
+
+  // Where points of a loop are near a pole, ends that agree in space are far apart in (u, v).
+  void count_ends() {
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      const Curve& shape = topology_.curves[curve_of_[c]];
+      if (vanishes(curve_of_[c])) continue;
+      for (const int corner : {shape.end1, shape.end2}) ends_at_[stand_in(corner)].push_back(c);
+    }
+  }
+  [[nodiscard]] bool joins_two_curves(int corner) const {
+    const std::vector<int>& ends = ends_at_.at(stand_in(corner));
+    return ends.size() == 2 && ends[0] != ends[1];
   }
 
   // Ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first: both ends of a
@@ -183,12 +198,15 @@ class Builder {
                                : shape.degenerate                          ? PlaneEdgeKind::degenerate
                                                                            : PlaneEdgeKind::boundary;
     const Fan fan = shape.degenerate ? fan_at(shape) : Fan{};
+    double whole = 0;
+    for (int i = 0; i < n; ++i) whole += distance(uv[i + 1], uv[i]);
     int previous = -1;
     for (int i = 0; i <= n; ++i) {
       int vertex;
       if (i == 0 || i == n) {
         const int corner = i == 0 ? shape.end1 : shape.end2;
-        const double reach = i == 0 ? distance(uv[1], uv[0]) : distance(uv[n], uv[n - 1]);
+        const double beside = i == 0 ? distance(uv[1], uv[0]) : distance(uv[n], uv[n - 1]);
+        const double reach = joins_two_curves(corner) ? whole : beside;
         vertex = join_end(corner, uv[i], reach, {.curve = curve, .node = i, .corner = corner},
                           {discrete.size[i], discrete.physical[i]});
       } else {
@@ -222,9 +240,10 @@ class Builder {
   const Topology& topology_;
   std::span<const DiscreteCurve> curves_;
   int index_;
-  Vec2 box_{1, 1};                 // sides of the domain's box; lengths in (u, v) are shares of them
-  double joining_reach_ = 0;       // length of the curves that vanish
-  std::map<int, double> side_at_;  // by corner: length of the shortest end of a degenerate side there
+  Vec2 box_{1, 1};                           // sides of the domain's box; lengths in (u, v) are shares of them
+  double joining_reach_ = 0;                 // length of the curves that vanish
+  std::map<int, double> side_at_;            // by corner: length of the shortest end of a degenerate side there
+  std::map<int, std::vector<int>> ends_at_;  // by corner: curves of the face that end there, twice where both ends do
   FaceDomain domain_;
   std::vector<CurveEnd> ends_;
   int seed_curve_;  // rank, from 1
