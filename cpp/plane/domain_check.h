@@ -61,9 +61,9 @@ std::vector<int> edges_to_split_for_crossings(const PlaneDomain& domain);
 /// edges are cut for, a sliver of 1e-4 of a model at a size of a fifth of it, has 5e-4.
 inline constexpr double narrowest_share = 4e-4;
 
-/// CoefRectangle for what is `width` from an edge (in sizes): in zones narrower than a 250th of the size it falls with
-/// the width, so that edges get no shorter the narrower the zone is, down to a fiftieth, where triangles have Q2 of
-/// .035. A wire 1000 long and .01 thick would have a hundred thousand triangles else at a size of 15.
+/// CoefRectangle for what is `width` from an edge (in sizes). Below .1, in zones narrower than a 250th of the size, it
+/// falls with the width, so that edges get no shorter the narrower the zone is, down to a fiftieth, where triangles
+/// have Q2 of .035. A wire 1000 long and .01 thick would have a hundred thousand triangles else at a size of 15.
 [[nodiscard]] double coefficient_of_width(double coef, double width);
 
 /// Edges longer than what is close to them allows: a vertex that is none of its ends lies within coef * length of the

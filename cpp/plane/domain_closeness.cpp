@@ -23,6 +23,8 @@ constexpr double corner_reserve = 0.25;
 /// Width in sizes below which the coefficient falls, and what it falls to.
 constexpr double thin_width = 4e-3;
 constexpr double least_coefficient = 0.02;
+/// A coefficient from which on shapes are wanted at any price: it holds at any width, as in the manual.
+constexpr double least_wanted_coefficient = 0.1;
 /// A path along the boundary at most this many times longer than the direct way is no narrow zone.
 constexpr double longest_detour = 4;
 
@@ -269,6 +271,7 @@ bool ClosenessCheck::is_too_long(int edge) const {
 
 double coefficient_of_width(double coef, double width) {
   if (width < narrowest_share) return 0;
+  if (coef >= least_wanted_coefficient) return coef;
   return std::min(coef, std::max(least_coefficient, coef * width / thin_width));
 }
 

@@ -162,7 +162,8 @@ TEST(Closeness, LooksAtTheSideOfTheDomainOnly) {
 }
 
 // A zone `width` sizes wide, cut by a coefficient: edges are a half to all of width / coef down to .004, then keep the
-// length of .004 / coef until they are fifty times as long as wide. Below .0004 none is cut.
+// length of .004 / coef until they are fifty times as long as wide; not for coefficients of .1 and more. Below .0004
+// none is cut.
 TEST(Closeness, KeepsTheLengthOfEdgesInThinZones) {
   for (const double coef : {0.065, 0.25}) {
     const double h = 0.5;
@@ -171,7 +172,8 @@ TEST(Closeness, KeepsTheLengthOfEdgesInThinZones) {
       CurvedDomain domain = bridge(width * h, h);
       const ControlSpace metric = ControlSpace::constant({1 / (h * h), 0, 1 / (h * h)});
       refine(domain, [&](const PlaneDomain& d) { return edges_to_split_for_closeness(d, metric, coef); });
-      const double allowed = std::max(width / coef, std::min(0.004 / coef, width / 0.02)) * h;
+      const double allowed =
+          (coef < 0.1 ? std::max(width / coef, std::min(0.004 / coef, width / 0.02)) : width / coef) * h;
       double longest = 0;
       for (const PlaneEdge& e : domain.plane.edges) {
         const Vec2 m = lerp(domain.plane.vertices[e.a], domain.plane.vertices[e.b], 0.5);
