@@ -9,6 +9,7 @@
 #include "json_output.h"
 #include "quality_json.h"
 #include "session_handle.h"
+#include "short_edges.h"
 
 namespace command {
 namespace {
@@ -97,9 +98,27 @@ std::string interfaces_line(const std::vector<carreau_interface>& interfaces) {
   return line;
 }
 
+/// "3, 5, ...": at most `most` of them.
+std::string list_of(const std::vector<std::int32_t>& refs, std::size_t most) {
+  std::string list;
+  for (std::size_t i = 0; i < refs.size() && i < most; ++i) list += (i > 0 ? ", " : "") + std::to_string(refs[i]);
+  return list + (refs.size() > most ? ", ..." : "");
+}
+
+/// What narrow zones and short curves made smaller than sizes may be; "": nothing.
+std::string short_edges_line(const ShortEdges& edges) {
+  constexpr std::size_t listed = 15;
+  if (edges.count == 0) return "";
+  return text("short      %lld %s, down to %.6g, below the smallest size of %.6g: narrow zones and short curves of %s ",
+              whole(edges.count), edges.count == 1 ? "edge" : "edges", edges.shortest, edges.bound,
+              edges.faces.size() == 1 ? "face" : "faces") +
+         list_of(edges.faces, listed);
+}
+
 /// A line for each face that failed; faces that are mended or collapsed for one reason share a line.
 std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
-  constexpr int listed = 50, numbers = 15;  // lines, and faces in one
+  constexpr int listed = 50;           // lines
+  constexpr std::size_t numbers = 15;  // faces in one
   std::vector<std::string> lines;
   std::map<std::string, std::vector<std::int32_t>> alike;
   int failed = 0;
@@ -113,10 +132,7 @@ std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
   }
   if (failed > listed) lines.push_back("  and " + std::to_string(failed - listed) + " more, which --json lists");
   for (const auto& [what, refs] : alike) {
-    std::string list;
-    for (std::size_t i = 0; i < refs.size() && i < numbers; ++i) list += (i > 0 ? ", " : "") + std::to_string(refs[i]);
-    lines.push_back((refs.size() == 1 ? "  face " : "  faces ") + list + (refs.size() > numbers ? ", ... " : " ") +
-                    what);
+    lines.push_back((refs.size() == 1 ? "  face " : "  faces ") + list_of(refs, numbers) + " " + what);
   }
   return lines;
 }
@@ -173,6 +189,8 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   for (std::string& line : face_lines(run.faces)) lines.push_back(std::move(line));
   lines.push_back(text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
                        q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str()));
+  if (std::string line = short_edges_line(find_short_edges(run.session, run.mesh)); !line.empty())
+    lines.push_back(std::move(line));
   lines.push_back(interfaces_line(interfaces));
   for (std::string& line : gluing_lines(interfaces)) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
@@ -188,6 +206,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
 void print_json(const MeshRun& run) {
   const carreau_report r = report_of(run.session);
   const carreau_quality q = quality_of(run.mesh);
+  const ShortEdges short_edges = find_short_edges(run.session, run.mesh);
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
   for (const FaceResult& face : run.faces)
     faces.push_back({{"reference", face.ref},
@@ -202,6 +221,11 @@ void print_json(const MeshRun& run) {
                                           {"closed", q.open_edges == 0},
                                           {"threads", threads_of(run.session)},
                                           {"mesh", quality_json(q)},
+                                          {"below_minimum",
+                                           {{"minimum", short_edges.bound},
+                                            {"edges", short_edges.count},
+                                            {"shortest", short_edges.shortest},
+                                            {"faces", short_edges.faces}}},
                                           {"faces", faces},
                                           {"not_read", run.input.losses()},
                                           {"warnings", run.warnings},

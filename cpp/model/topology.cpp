@@ -17,6 +17,10 @@ namespace {
 
 // A trace within this share of the tolerance is one point whatever its references say.
 constexpr double point_share = 1e-3;
+// A loop that is no larger than that would vanish: there, within this share of its longest side.
+constexpr double point_share_of_loop = 1e-3;
+// Rounding of coordinates has no loops.
+constexpr double rounding_share = 1e-7;
 // Fractions of the length at which closed curves are compared: more than a symmetric shape can hide.
 constexpr int probes = 23;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -27,6 +31,7 @@ class TopologyBuilder {
       : model_(model), traces_(traces), eps_(eps), corners_(prepare_corners()) {}
 
   Topology run() {
+    find_small_loops();
     merge_ends_of_points();
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       topology_.curve_of.emplace_back();
@@ -63,24 +68,56 @@ class TopologyBuilder {
     return UnionFind(rank_.size());
   }
 
+  // The sides of a small hole or boss, or of the end of a wire a hundred thousand times longer than thick, are no
+  // points, for no face that uses them: a loop of nothing else would vanish.
+  void find_small_loops() {
+    for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+      const std::vector<FaceCurve>& curves = model_.faces[f].curves;
+      const auto is_tiny = [&](double extent) {
+        return extent <= point_share * eps_ && extent > rounding_share * eps_;
+      };
+      if (std::none_of(traces_[f].begin(), traces_[f].end(),
+                       [&](const auto& points) { return is_tiny(trace_extent(points)); }))
+        continue;
+      UnionFind loops(rank_.size());
+      std::map<std::size_t, double> longest;
+      for (const FaceCurve& curve : curves) loops.merge(rank_[curve.end1], rank_[curve.end2]);
+      for (std::size_t c = 0; c < curves.size(); ++c) {
+        double& extent = longest.try_emplace(loops.find(rank_[curves[c].end1]), 0).first->second;
+        extent = std::max(extent, trace_extent(traces_[f][c]));
+      }
+      for (const FaceCurve& curve : curves) {
+        const double extent = longest[loops.find(rank_[curve.end1])];
+        if (curve.type != CurveType::boundary || !is_tiny(extent)) continue;
+        double& bound = point_extent_.try_emplace(curve.ref, infinity).first->second;
+        bound = std::min(bound, point_share_of_loop * extent);
+      }
+    }
+  }
+
   // The manual demanded two references even where a side is one point: they are one corner. Ends of collapsed curves
   // may be as far from their corner as the curves were long.
   void merge_ends_of_points() {
     for_each_curve([&](const FaceCurve& curve, std::span<const Vec3> points) {
-      if (curve.collapsed || is_point(points)) corners_.merge(rank_[curve.end1], rank_[curve.end2]);
+      if (curve.collapsed || is_point(curve.ref, points)) corners_.merge(rank_[curve.end1], rank_[curve.end2]);
     });
     for_each_curve([&](const FaceCurve& curve, std::span<const Vec3> points) {
       if (curve.collapsed) slack_[corners_.find(rank_[curve.end1])] += trace_length(points);
     });
   }
 
-  [[nodiscard]] bool is_point(std::span<const Vec3> points) const { return trace_extent(points) <= point_share * eps_; }
+  [[nodiscard]] bool is_point(int ref, std::span<const Vec3> points) const {
+    const auto of_small_loop = point_extent_.find(ref);
+    const double bound = of_small_loop == point_extent_.end() ? infinity : of_small_loop->second;
+    return trace_extent(points) <= std::min(point_share * eps_, bound);
+  }
 
   // A small curve whose ends were glued together is a point too, but a small closed curve bounds a small hole.
   [[nodiscard]] bool is_degenerate(const CurveUse& use, bool one_end) const {
     const std::span<const Vec3> points = trace(use);
     const double extent = trace_extent(points), gap = norm(points.back() - points.front());
-    return face_curve(use).collapsed || is_point(points) || (one_end && extent <= eps_ && gap > 0.1 * extent);
+    return face_curve(use).collapsed || is_point(face_curve(use).ref, points) ||
+           (one_end && extent <= eps_ && gap > 0.1 * extent);
   }
 
   int corner(int ref, Vec3 position) {
@@ -183,9 +220,10 @@ class TopologyBuilder {
   const Model& model_;
   const CurveTraces& traces_;
   double eps_;
-  std::map<int, std::size_t> rank_;  // of point references, by first appearance
-  std::vector<double> slack_;        // by rank, of the sets' smallest
-  UnionFind corners_;                // of ranks
+  std::map<int, double> point_extent_;  // by curve reference, of small loops: larger ones are no points
+  std::map<int, std::size_t> rank_;     // of point references, by first appearance
+  std::vector<double> slack_;           // by rank, of the sets' smallest
+  UnionFind corners_;                   // of ranks
   std::map<std::size_t, int> index_of_corner_;
   std::vector<double> slack_of_point_;
   std::map<int, int> curve_of_ref_;

@@ -104,7 +104,8 @@ Model collapse_tiny_curves(const Model& model, const CurveTraces& traces, double
 
 /// Collects curves and points; finds directions, of closed curves by comparing them at equal lengths; finds degenerate
 /// curves: collapsed ones, those whose trace lies within eps / 1000 of a point (their end references become one corner
-/// whatever they are), and those within `eps` of a point that are open and have one reference at both ends.
+/// whatever they are; not where a whole loop would vanish: there within a thousandth of its longest side), and those
+/// within `eps` of a point that are open and have one reference at both ends.
 /// `eps` (model length) is how far curves and ends of one reference may be apart. The model must have no defect.
 /// Throws InvalidModel, naming faces, curves, references and the gap: curves of one reference that are farther apart,
 /// ends that are not where their reference is (exchanged ones are told), refp1 = refp2 on a curve that does not return,

@@ -20,6 +20,11 @@ constexpr double most_among_neighbours = 0.45;
 /// Two sides of a corner of angle t are at least s sin(t) apart at distance s; curved sides and a varying metric need a
 /// reserve.
 constexpr double corner_reserve = 0.25;
+/// Width in sizes below which the coefficient falls, and what it falls to.
+constexpr double thin_width = 4e-3;
+constexpr double least_coefficient = 0.02;
+/// A coefficient from which on shapes are wanted at any price: it holds at any width, as in the manual.
+constexpr double least_wanted_coefficient = 0.1;
 /// A path along the boundary at most this many times longer than the direct way is no narrow zone.
 constexpr double longest_detour = 4;
 
@@ -239,7 +244,8 @@ bool ClosenessCheck::is_near(int edge, int vertex, Metric2 m) const {
   const Vec2 a = domain_.vertices[e.a], b = domain_.vertices[e.b], p = domain_.vertices[vertex];
   const double w = std::clamp(dot(m, p - a, b - a) / squared_length(m, b - a), 0.0, 1.0);
   const double d = length(m, p - lerp(a, b, w));
-  return d >= narrowest_share && d <= coef_ * sides_.length_of(edge) && d <= sides_.band(edge, vertex, d, coef_) &&
+  const double coef = coefficient_of_width(coef_, d);
+  return coef > 0 && d <= coef * sides_.length_of(edge) && d <= sides_.band(edge, vertex, d, coef) &&
          sees(e, vertex, w);
 }
 
@@ -262,6 +268,12 @@ bool ClosenessCheck::is_too_long(int edge) const {
 }
 
 }  // namespace
+
+double coefficient_of_width(double coef, double width) {
+  if (width < narrowest_share) return 0;
+  if (coef >= least_wanted_coefficient) return coef;
+  return std::min(coef, std::max(least_coefficient, coef * width / thin_width));
+}
 
 std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef) {
   require_sound(domain);

@@ -14,6 +14,7 @@
 #include "support/stepped_tasks.h"
 #include "surface/finest_lengths.h"
 #include "surface/near_vertices.h"
+#include "surface/seam_loops.h"
 #include "surface/staggering.h"
 
 namespace carreau {
@@ -36,7 +37,6 @@ constexpr double straight_reserve = 2;
 // Ratio of lengths from which the balance of edges is looked at in the metric, whose chords are not the curves'
 // lengths; there it may be 2.
 constexpr double balance_to_look_at = 1.6;
-
 // Curves that leave a corner at less than this slope are its tip.
 constexpr double bluntest_tip = 0.1;
 
@@ -79,6 +79,8 @@ class Refiner {
     repeat(
         options_.check_close_edges, [this](int f) { return look_for_closeness(f); },
         [this](int f, Found& found) {
+          found.edges =
+              edges_to_split_for_waists(curve_model_, curves_, f, result_.domain[f]->plane, options_.coef_rectangle);
           if (!found.ask_metric) return;
           for (const Strip& strip : found.strips)
             if (lies_between(f, strip)) found.edges.push_back(strip.edge);
@@ -120,7 +122,6 @@ class Refiner {
   };
 
   [[nodiscard]] int face_count() const { return static_cast<int>(model_.faces.size()); }
-
   void rebuild_stale() {
     std::vector<int> stale;
     for (int f = 0; f < face_count(); ++f) {
@@ -339,7 +340,8 @@ class Refiner {
       const auto note_strip = [&](int v) {
         const double s = fraction_on_segment(xyz[v], a, b), d = norm(xyz[v] - lerp(a, b, s));
         if (meet(edge.curve, domain.origin[v]) && !bulges_past(edge, domain, xyz, v, s, d)) return true;
-        if (d < narrowest_share * domain.size[v]) return true;
+        const double size = std::min(domain.size[v], curve_model_.length(edge.curve));
+        if (d >= norm(b - a) * coefficient_of_width(options_.coef_rectangle, d / size)) return true;
         const Vec2 nearest = lerp(plane.vertices[edge.a], plane.vertices[edge.b], s);
         const Vec2 middle = lerp(plane.vertices[v], nearest, 0.5);
         if (inside.contains(middle)) strips.push_back({e, v, middle});

@@ -221,6 +221,19 @@ class Mesh(unittest.TestCase):
         self.assertEqual(len(warnings), 24)  # each curve of each face is shorter than that
         self.assertEqual(told, warnings[:4] + ["20 more like these"])
 
+    def test_edges_below_the_smallest_size_are_told(self):
+        sliver = os.path.join(SHAPES, "sliver.step")
+        wide = json.loads(run("mesh", sliver, "-o", self.out("a.mesh"), "--size", "0.2", "-q", "--json").stdout)
+        self.assertEqual((wide["below_minimum"]["edges"], wide["below_minimum"]["faces"]), (0, []))
+        done = run("mesh", sliver, "-o", self.out("a.mesh"), "--size", "0.2", "--min", "0.1", "--json")
+        told = json.loads(done.stdout)["below_minimum"]
+        self.assertEqual(told["minimum"], 0.1)
+        # The sliver is 1e-4 of the diagonal wide; its sides are curves of two ends and two faces beside it.
+        self.assertLessEqual(told["shortest"], 1e-4 * math.sqrt(3) * 1.0001)
+        self.assertAlmostEqual(told["shortest"], json.loads(done.stdout)["mesh"]["edge_min"], delta=1e-12)
+        self.assertGreaterEqual(len(told["faces"]), 5)
+        self.assertRegex(done.stderr, r"(?m)^short +%d edges, down to \S+, below the smallest size of 0\.1: " % told["edges"])
+
     def test_a_log_has_plain_lines_and_a_terminal_a_bar(self):
         done = run("mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "--size", "1%")
         self.assertNotIn("\r", done.stderr)

@@ -59,6 +59,13 @@ TopoDS_Shape through_a_pole() {
       .Shape();
 }
 
+// A bore a hundred thousand times thinner than the plate is wide: its circles are shorter than what counts as a point.
+TopoDS_Shape pinhole() {
+  return BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(1000, 1000, 10).Shape(),
+                         BRepPrimAPI_MakeCylinder(axis(300, 500, -1, 0, 0, 1), 0.004, 12).Shape())
+      .Shape();
+}
+
 TopoDS_Shape two_cylinders() {
   return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(1, 4).Shape(),
                           BRepPrimAPI_MakeCylinder(axis(-3, 0, 2, 1, 0, 0), 0.8, 6).Shape())
@@ -78,6 +85,9 @@ const std::vector<NamedShape>& torture_set() {
       {"nurbs_torus", [] { return as_nurbs(BRepPrimAPI_MakeTorus(3, 1).Shape()); }},
       {"thin_bore", thin_bore, true},
       {"sliver", sliver, true},
+      {"pinhole", pinhole, true},
+      {"wire", [] { return BRepPrimAPI_MakeBox(1000, 0.01, 0.01).Shape(); }, true},
+      {"waist", [] { return BRepPrimAPI_MakeTorus(1.0001, 1).Shape(); }},
       {"across_a_seam", across_a_seam},
       {"through_a_pole", through_a_pole},
       {"two_cylinders", two_cylinders},

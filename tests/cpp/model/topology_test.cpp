@@ -128,6 +128,25 @@ TEST(BuildTopology, TellsASmallHoleFromAPoint) {
   EXPECT_FALSE(topology.curves[4].degenerate);
 }
 
+// The end of a wire 1 x 8e-6 x 8e-6: without the face its four sides are points, with it they are not, nor for the face
+// beside it; a pole of its own stays one.
+TEST(BuildTopology, KeepsFacesWhoseSidesAreAllTiny) {
+  const double a = 8e-6;
+  AnalyticCad cad;
+  cad.faces[1] = flat(rectangle({0, 0}, {1, a}));
+  Model side = glue(unglued(cad), traces_of(cad), a / 100);
+  const Topology alone = build_topology(side, traces_of(cad), 0.01);
+  EXPECT_TRUE(alone.curves[1].degenerate);
+  EXPECT_EQ(alone.points.size(), 2U);
+  cad.faces[2] = flat(rectangle({1, 0}, {1 + a, a}));
+  const Model both = glue(unglued(cad), traces_of(cad), a / 100);
+  const Topology topology = build_topology(both, traces_of(cad), 0.01);
+  EXPECT_FALSE(topology.curves[topology.curve_of[0][1]].degenerate);
+  for (const int curve : topology.curve_of[1]) EXPECT_FALSE(topology.curves[curve].degenerate);
+  EXPECT_TRUE(topology.curves[topology.curve_of[0][3]].degenerate);
+  EXPECT_EQ(topology.points.size(), 5U);
+}
+
 TEST(BuildTopology, TakesATinyCurveWhoseEndsWereGluedForAPoint) {
   AnalyticCad cad;
   cad.faces[1] = flat(

@@ -161,6 +161,34 @@ TEST(Closeness, LooksAtTheSideOfTheDomainOnly) {
   EXPECT_TRUE(edges_to_split_for_closeness(square.plane, metric, 0.25).empty());
 }
 
+// A zone `width` sizes wide, cut by a coefficient: edges are a half to all of width / coef down to .004, then keep the
+// length of .004 / coef until they are fifty times as long as wide; not for coefficients of .1 and more. Below .0004
+// none is cut.
+TEST(Closeness, KeepsTheLengthOfEdgesInThinZones) {
+  for (const double coef : {0.065, 0.25}) {
+    const double h = 0.5;
+    double before = h;
+    for (const double width : {0.02, 0.006, 0.003, 0.0015, 0.0008, 0.0005}) {
+      CurvedDomain domain = bridge(width * h, h);
+      const ControlSpace metric = ControlSpace::constant({1 / (h * h), 0, 1 / (h * h)});
+      refine(domain, [&](const PlaneDomain& d) { return edges_to_split_for_closeness(d, metric, coef); });
+      const double allowed =
+          (coef < 0.1 ? std::max(width / coef, std::min(0.004 / coef, width / 0.02)) : width / coef) * h;
+      double longest = 0;
+      for (const PlaneEdge& e : domain.plane.edges) {
+        const Vec2 m = lerp(domain.plane.vertices[e.a], domain.plane.vertices[e.b], 0.5);
+        if (std::abs(m.x) < 0.9 && std::abs(m.y) < width * h) longest = std::max(longest, uv_length(domain.plane, e));
+      }
+      EXPECT_LE(longest, std::min(h, allowed * 1.0001)) << coef << ' ' << width;
+      EXPECT_GT(longest, 0.4999 * std::min(h, allowed)) << coef << ' ' << width;
+      EXPECT_LE(longest, before * 1.0001);
+      before = longest;
+    }
+    const CurvedDomain domain = bridge(0.0003 * h, h);
+    EXPECT_TRUE(edges_to_split_for_closeness(domain.plane, ControlSpace::constant({4, 0, 4}), coef).empty());
+  }
+}
+
 TEST(Closeness, IsMeasuredInTheMetric) {
   // An affine map of the domain with the metric carried along changes nothing.
   const double a = 3, b = -1.7, c = 0.4, d = 0.9;

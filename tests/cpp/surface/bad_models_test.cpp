@@ -82,6 +82,18 @@ TEST(BadModels, CornerWithAGapClosesAtAnySize) {
   }
 }
 
+// Two ends that are one point within the tolerance, .004 apart: the loop closes also where edges are no longer than
+// that.
+TEST(BadModels, EndsThatDoNotQuiteMeetAreOneForShortEdgesToo) {
+  AnalyticCad cad = square();
+  cad.faces[1].curves[2] = segment({0.996, 1}, {0, 1});
+  for (const double size : {0.2, 0.02, 0.01, 0.005}) {
+    const Outcome outcome = try_mesh(cad, square_model(), size);
+    EXPECT_EQ(outcome.error + outcome.failures, "") << size;
+    EXPECT_TRUE(outcome.sound) << size;
+  }
+}
+
 TEST(BadModels, LoopThatDoesNotClose) {
   AnalyticCad cad = square();
   cad.faces[1].curves[2] = segment({1, 1}, {0, 0.7});

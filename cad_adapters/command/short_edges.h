@@ -1,0 +1,21 @@
+// Edges below the lower bound of sizes: short curves and narrow zones of the input ask for them whatever the bound is.
+#pragma once
+
+#include <carreau.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace command {
+
+struct ShortEdges {
+  double bound = 0;  ///< hphymin or hgeomin, the smaller of those in force; model length
+  std::int64_t count = 0;
+  double shortest = 0;              ///< of them, model length; 0: there is none
+  std::vector<std::int32_t> faces;  ///< that they belong to, ascending
+};
+
+/// Those more than sqrt(2) times shorter than the bound: unit meshes have edges of 1 / sqrt(2) to sqrt(2).
+ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh);
+
+}  // namespace command
