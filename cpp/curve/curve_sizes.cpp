@@ -61,13 +61,14 @@ bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double len
   return edges > shortest_interval * lss && std::max(left.h, right.h) > steepest_interval * std::min(left.h, right.h);
 }
 
-/// Fraction of the curve's length at the point of a use's support that is nearest to a place of the parameter plane, or
-/// -1 when that is farther away than `reach`.
-double fraction_near(const CurveSupport& support, Vec2 place, double reach) noexcept {
+/// Fraction of the curve's length at the point of a use's support, given in the parameter plane or in space, that is
+/// nearest to a place there, or -1 when that is farther away than `reach`.
+template <typename V>
+double fraction_near(const CurveSupport& support, const std::vector<V>& points, V place, double reach) noexcept {
   double best = reach * reach, fraction = -1;
-  for (std::size_t i = 0; i + 1 < support.uv.size(); ++i) {
-    const double w = fraction_on_segment(place, support.uv[i], support.uv[i + 1]);
-    const Vec2 away = place - lerp(support.uv[i], support.uv[i + 1], w);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double w = fraction_on_segment(place, points[i], points[i + 1]);
+    const V away = place - lerp(points[i], points[i + 1], w);
     if (dot(away, away) > best) continue;
     best = dot(away, away);
     fraction = ((1 - w) * support.arc[i] + w * support.arc[i + 1]) / support.length();
@@ -78,6 +79,17 @@ double fraction_near(const CurveSupport& support, Vec2 place, double reach) noex
 /// Fractions at which a source's field is steep: it would be missed between samples that are far apart.
 std::vector<double> steep_fractions(const CurveModel& model, int curve, const SizeRules& rules) {
   std::vector<double> fractions;
+  const auto add = [&](double r) {
+    if (r > narrowest && r < 1 - narrowest) fractions.push_back(r);
+  };
+  const CurveUse& first = model.curve(curve).uses.front();
+  const CurveSupport& in_space = model.support(first);
+  if (in_space.length() > 0)
+    for (const SteepPlace& place : rules.steep_in_space()) {
+      if (norm(place.at - in_space.xyz.front()) > in_space.length() + place.reach) continue;
+      const double fraction = fraction_near(in_space, in_space.xyz, place.at, place.reach);
+      if (fraction >= 0) add(first.reversed ? 1 - fraction : fraction);
+    }
   for (const CurveUse& use : model.curve(curve).uses) {
     const CurveSupport& support = model.support(use);
     const std::vector<Vec2> places = rules.steep_places(use.face);
@@ -85,8 +97,8 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
     double extent = 0;
     for (const Vec2 p : support.uv) extent = std::max(extent, norm(p - support.uv.front()));
     for (const Vec2 place : places) {
-      const double fraction = fraction_near(support, place, beside_curve * extent);
-      if (fraction > narrowest && fraction < 1 - narrowest) fractions.push_back(use.reversed ? 1 - fraction : fraction);
+      const double fraction = fraction_near(support, support.uv, place, beside_curve * extent);
+      if (fraction >= 0) add(use.reversed ? 1 - fraction : fraction);
     }
   }
   std::sort(fractions.begin(), fractions.end());

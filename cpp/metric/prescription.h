@@ -1,6 +1,7 @@
 // What a host, a background mesh or an estimator says about the wanted size or metric at one place.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,12 @@ struct Prescription {
   }
 };
 
+/// A place of space beside which a field varies more than its surroundings tell.
+struct SteepPlace {
+  Vec3 at;
+  double reach = 0;  ///< surfaces and curves that pass it at this distance may have the place
+};
+
 /// A field of wanted sizes or metrics: a host's metric callbacks, a background mesh, an estimator's result. Called from
 /// the thread of the run only.
 class PrescriptionSource {
@@ -52,6 +59,8 @@ class PrescriptionSource {
   [[nodiscard]] virtual double accuracy() const noexcept { return 0; }
   /// Places of a face's parameter plane near which the field varies more than its surroundings tell.
   [[nodiscard]] virtual std::vector<Vec2> steep_places(int /*face*/) const { return {}; }
+  /// The same of fields that know space only.
+  [[nodiscard]] virtual std::span<const SteepPlace> steep_in_space() const { return {}; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
   /// On a curve (rank `ic` from 1 in that face) at t.

@@ -92,6 +92,7 @@ BackgroundField::BackgroundField(const BackgroundMesh& mesh)
   for (std::size_t v = 0; v < same.size(); ++v) same[v] = static_cast<std::int32_t>(v);
   if (mesh.dimension == 3) {
     space_ = Piece{TriangleSearch(mesh.vertices, mesh.triangles), mesh.vertices, mesh.triangles, std::move(same)};
+    find_steep_in_space();
     return;
   }
   std::map<int, std::vector<std::array<std::int32_t, 3>>> groups;
@@ -195,6 +196,26 @@ std::vector<Vec2> BackgroundField::steep_places(int face) const {
   auto found = planes_.find(face);
   if (found == planes_.end()) found = planes_.find(0);
   return found == planes_.end() ? std::vector<Vec2>{} : found->second.steep;
+}
+
+// Where edges are shorter than sizes, what counts is the change within a unit edge.
+void BackgroundField::find_steep_in_space() {
+  const auto length_at = [&](std::size_t v, Vec3 e) {
+    return values_.sizes.empty() ? length(values_.space[v], e) : norm(e) / values_.sizes[v];
+  };
+  std::vector<char> steep(space_->vertices.size(), 0);
+  std::vector<double> longest(steep.size(), 0);
+  for (const auto& t : space_->triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<std::size_t>(t[k]), b = static_cast<std::size_t>(t[(k + 1) % 3]);
+      const Vec3 e = space_->vertices[b] - space_->vertices[a];
+      for (const std::size_t v : {a, b}) longest[v] = std::max(longest[v], norm(e));
+      const double units = std::min({length_at(a, e), length_at(b, e), 1.});
+      const double ratio = change(t[k], t[(k + 1) % 3]);
+      if (units > 0 && std::log(ratio) > units * std::log(steep_ratio)) steep[a] = steep[b] = 1;
+    }
+  for (std::size_t v = 0; v < steep.size(); ++v)
+    if (steep[v] != 0) steep_in_space_.push_back({space_->vertices[v], longest[v]});
 }
 
 std::vector<Vec2> BackgroundField::steep_vertices(const Piece& piece) const {

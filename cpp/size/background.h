@@ -77,6 +77,9 @@ class BackgroundField final : public PrescriptionSource {
   /// Vertices in the parameter plane of a face from which the field changes by more than a factor 1.5 to the next one;
   /// none for a mesh in space.
   [[nodiscard]] std::vector<Vec2> steep_places(int face) const override;
+  /// Vertices of a mesh in space from which the field changes by more than a factor 1.5 to the next one, or within a
+  /// unit edge on the way there; none on a mesh of a session. The reach is the longest edge around.
+  [[nodiscard]] std::span<const SteepPlace> steep_in_space() const override { return steep_in_space_; }
 
  private:
   /// Triangles of one parameter plane, or of space.
@@ -91,6 +94,7 @@ class BackgroundField final : public PrescriptionSource {
 
   void check_values(std::size_t vertices) const;
   [[nodiscard]] std::vector<Vec2> steep_vertices(const Piece& piece) const;
+  void find_steep_in_space();
   void add_piece(int face, Piece piece);
   [[nodiscard]] Piece* piece_of(int face) noexcept;
   Prescription look_up(Piece& piece, Vec3 p);
@@ -100,6 +104,7 @@ class BackgroundField final : public PrescriptionSource {
   VertexValues values_;
   std::map<int, Piece> planes_;  // by reference of the face; 0: any other
   std::optional<Piece> space_;
+  std::vector<SteepPlace> steep_in_space_;
   bool needs_position_ = true;
   MetricLaw law_ = MetricLaw::linear;
   BackgroundReport report_;

@@ -104,6 +104,16 @@ std::vector<Vec2> SizeRules::steep_places(int face) const {
   return places;
 }
 
+std::vector<SteepPlace> SizeRules::steep_in_space() const {
+  std::vector<SteepPlace> places;
+  if (!asks_sources()) return places;
+  for (const PrescriptionSource* source : parameters_.sources) {
+    const std::span<const SteepPlace> more = source->steep_in_space();
+    places.insert(places.end(), more.begin(), more.end());
+  }
+  return places;
+}
+
 // ---- what is answered ----
 
 SizeRules::Answers SizeRules::answers_on_surface(int face, Vec2 uv, Vec3 xyz) const {

@@ -98,6 +98,7 @@ class SizeRules {
   /// Model::faces).
   [[nodiscard]] double source_accuracy() const noexcept;
   [[nodiscard]] std::vector<Vec2> steep_places(int face) const;
+  [[nodiscard]] std::vector<SteepPlace> steep_in_space() const;
   /// How sizes vary between two points where they are known (hinterpol_flag).
   [[nodiscard]] SizeLaw law() const noexcept { return static_cast<SizeLaw>(parameters_.hinterpol_flag); }
 

@@ -286,13 +286,24 @@ class Measurement {
     return f < options_.spaces.size() && options_.spaces[f] ? &*options_.spaces[f] : nullptr;
   }
 
+  // The offset in (u, v) that leads along a chord, in the tangent plane of a vertex.
+  [[nodiscard]] Vec2 offset_along(std::int32_t v, Vec3 chord) const {
+    const AtVertex& at = at_vertex_[v];
+    const double e = dot(at.su, at.su), f = dot(at.su, at.sv), g = dot(at.sv, at.sv), det = e * g - f * f;
+    const double p = dot(at.su, chord), q = dot(at.sv, chord);
+    return {(g * p - f * q) / det, (e * q - f * p) / det};
+  }
+
+  // Along the chord: the image of a segment of (u, v) turns as the parametrisation does.
   void set_gradation(std::int32_t edge, std::int32_t a, std::int32_t b) {
-    const Vec2 from = face_->uv[a], to = face_->uv[b], d = to - from;
-    double p = size_along(a, d), q = size_along(b, d), l = of(DeliveredKind::length)[edge];
+    const Vec2 from = face_->uv[a], to = face_->uv[b];
+    const Vec3 chord = position(b) - position(a);
+    const Vec2 at_a = offset_along(a, chord), at_b = offset_along(b, chord);
+    double p = size_along(a, at_a), q = size_along(b, at_b), l = of(DeliveredKind::length)[edge];
     if (const auto h = curve_sizes(edge, a)) {
       p = (*h)[0], q = (*h)[1];
     } else if (const ControlSpace* space = governing_space()) {
-      p = size_along(a, d, space->at(from)), q = size_along(b, d, space->at(to));
+      p = size_along(a, at_a, space->at(from)), q = size_along(b, at_b, space->at(to));
       l = field_length([space](Vec2 uv) { return space->at(uv); }, from, to, fine_length);
     }
     if (!(p > 0) || !(q > 0) || !(l > 0)) return;

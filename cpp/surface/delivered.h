@@ -37,7 +37,7 @@ enum class DeliveredKind : int {
   /// Of an edge: the largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN where both
   /// ends are singular.
   edge_angle = 2,
-  /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along it at its two ends
+  /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
   /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in DeliveredOptions::spaces
   /// where there are any. NaN where an end is singular.
   gradation = 3,

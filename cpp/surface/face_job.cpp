@@ -6,6 +6,7 @@
 
 #include "support/format.h"
 #include "surface/space_refinement.h"
+#include "surface/steep_places.h"
 #include "surface/verification.h"
 
 namespace carreau {
@@ -113,6 +114,10 @@ void FaceJob::lift(Monitor& monitor) {
     const Stopwatch watch(report_.seconds_lift);
     lift_patch(input_, cad_, *mesh_, monitor);
     places = verify_lift(input_, *space_, cad_, rules_, *mesh_, monitor);
+    if (corrections_ < most_corrections) {
+      const std::vector<Vec2> steep = missed_steep_places(input_, *space_, cad_, rules_, *mesh_, monitor);
+      places.insert(places.end(), steep.begin(), steep.end());
+    }
   }
   const bool again = settle_deserts(places, monitor);
   if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {

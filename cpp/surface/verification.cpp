@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "cad/fundamental_forms.h"
-#include "metric/metric2_algebra.h"
 #include "predicates/polygon_locator.h"
 #include "support/format.h"
 #include "surface/face_metric.h"
@@ -29,13 +28,6 @@ constexpr double notable_change = 0.1;
 constexpr double one_point = 1e-6;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Lengths of what is prescribed over those of the control space. Where the space is graded further it may ask for
-/// more.
-bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept {
-  const bool graded = input.slope > 0 && !input.isotropic;
-  return ratios.largest <= too_long && (graded || ratios.smallest >= too_short);
-}
 
 class LiftCheck {
  public:
@@ -189,6 +181,11 @@ class LiftCheck {
 };
 
 }  // namespace
+
+bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept {
+  const bool graded = input.slope > 0 && !input.isotropic;
+  return ratios.largest <= too_long && (graded || ratios.smallest >= too_short);
+}
 
 std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
                               PatchMesh& mesh, Monitor& monitor) {

@@ -4,11 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "metric/metric2_algebra.h"
 #include "size/control_space.h"
 #include "size/size_rules.h"
 #include "surface/face_mesher.h"
 
 namespace carreau {
+
+/// Whether what is prescribed is what the control space says, `ratios` being lengths of the former over those of the
+/// latter. Where the space is graded further it may ask for more.
+bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept;
 
 /// Fills mesh.size and mesh.excesses and returns places in (u, v) where an edge's length in space over the prescribed
 /// size disagrees with its length in the control space: the sampling has missed something there. The prescribed size is

@@ -210,6 +210,20 @@ TEST(BackgroundField, SteepPlacesAreWhereTheFieldJumps) {
   EXPECT_TRUE(BackgroundField(mesh).steep_places(1).empty());
 }
 
+TEST(BackgroundField, SteepPlacesOfSpaceAreWhereItChangesWithinAUnitEdge) {
+  BackgroundMesh mesh = grid(10, flat);
+  for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(p.x < 0.45 ? 1 : 1.4);
+  const BackgroundField field(mesh);
+  EXPECT_TRUE(field.steep_places(1).empty());
+  EXPECT_EQ(field.steep_in_space().size(), 22u);
+  for (const SteepPlace& place : field.steep_in_space()) {
+    EXPECT_NEAR(place.at.x, 0.45, 0.0501);
+    EXPECT_NEAR(place.reach, 0.1 * std::sqrt(2), 1e-12);
+  }
+  for (double& h : mesh.values.sizes) h = h > 1 ? 1.02 : h;  // grows by 1.22 on a unit edge, of ten of the mesh
+  EXPECT_TRUE(BackgroundField(mesh).steep_in_space().empty());
+}
+
 TEST(BackgroundField, RefusesWhatItCannotUse) {
   BackgroundMesh sound = grid(1, flat);
   sound.values.sizes = {1, 1, 1, 1};
