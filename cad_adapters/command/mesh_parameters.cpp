@@ -148,6 +148,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "edge_gradation", 1.5);
   // Vertices that face each other leave triangles with right angles only.
   set(session, "stagger_strips", 1);
+  // Bad triangles are few: what is tried there costs little.
+  set(session, "shape_trials", 1);
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));

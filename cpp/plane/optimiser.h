@@ -1,6 +1,7 @@
 // Swaps and moves that make triangles equilateral in the metric, and degrees six.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -19,6 +20,8 @@ class Optimiser {
  public:
   Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
   void run();
+  /// At bad triangles, worst first, changes of the mesh around are tried, and the best is kept. Not where fields bend.
+  void improve_worst();
 
  private:
   // swaps.cpp
@@ -96,6 +99,39 @@ class Optimiser {
   [[nodiscard]] double shape(int p, int q, int r) const;
   [[nodiscard]] Lengths integrated_lengths(int p, int q, int r) const;
 
+  // trials.cpp
+  struct Trial {
+    enum class Kind : std::uint8_t { settle, swap, collapse, split } kind;
+    std::int32_t a, b;  // swap, split: triangle and its edge; collapse: vertex
+  };
+  /// Two rings of triangles around one, which a trial changes, and how they were.
+  struct Zone {
+    std::array<std::int32_t, 3> centre{};                         // corners of that triangle
+    std::vector<std::int32_t> triangles, vertices, movable;       // inner vertices that are not fixed
+    std::vector<std::pair<std::int32_t, Triangle>> as_they_were;  // these, and those around
+    std::vector<std::pair<std::int32_t, Vertex>> old_vertices;
+    std::vector<char> seen;                                                       // by vertex; scratch, 0 between uses
+    std::size_t mesh_triangles = 0, mesh_vertices = 0, own = 0, own_movable = 0;  // numbers without what trials add
+  };
+  struct ZoneCost {
+    double mean = 0, worst = 1;          // of triangles
+    double shortest2 = 1, longest2 = 1;  // squared lengths of edges that are not imposed, and 1
+  };
+  template <typename Use>
+  void for_star(int v, const Use& use) const;
+  void collect_zone(int t);
+  void restore_zone();
+  ZoneCost cost_of_zone(double enough);
+  double star_cost(int v, double enough);
+  void move_in_zone(int v);
+  bool swap_in_zone();
+  void settle_zone();
+  void split_edge(int t, int i);
+  bool collapse_in_zone(int v);
+  bool apply(const Trial& trial);
+  void list_trials(int t);
+  bool improve_around(int t);
+
   // flat.cpp
   [[nodiscard]] double height(int p, int q, int r) const;
   [[nodiscard]] bool is_flat(int t) const;
@@ -123,6 +159,8 @@ class Optimiser {
   std::vector<std::int32_t> doubtful_;     // triangles that the rescue has looked at
   std::vector<std::int32_t> star_, ring_;  // triangles and vertices round the vertex at hand, counterclockwise
   std::int64_t shapes_asked_ = 0;          // of stars, by the rescue
+  Zone zone_;
+  std::vector<Trial> trials_;
   std::vector<std::uint8_t> degree_, wanted_degree_;
   std::vector<std::pair<std::int32_t, std::int32_t>> glided_;  // diagonals of the swaps of a glide
 };

@@ -54,7 +54,9 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
     if (settled) fill();
   }
   boundary.mesh.renumber_if_large();
-  plane::Optimiser(boundary.mesh, fixed, field, monitor).run();
+  plane::Optimiser optimiser(boundary.mesh, fixed, field, monitor);
+  optimiser.run();
+  if (options.shape_trials) optimiser.improve_worst();
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 

@@ -53,6 +53,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.gradation = parameters.real("gradation");
   options.edge_gradation = parameters.real("edge_gradation");
   options.stagger_strips = parameters.integer("stagger_strips") != 0;
+  options.shape_trials = parameters.integer("shape_trials") != 0;
   options.proximity = parameters.integer("proximity");
   if (options.proximity > 0 && options.gradation == 0)
     throw InvalidArgument(

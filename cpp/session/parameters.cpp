@@ -32,8 +32,8 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text. Ours: max_triangles, measure, edge_gradation, stagger_strips, and what governs
-// metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination).
+// the figure is hphymin in the text. Ours: max_triangles, measure, edge_gradation, shape_trials, stagger_strips, and
+// what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule, metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
     integer_row("CheckCloseEdges", 0, 1000, 0, "number of passes that refine boundary curves close to each other"),
@@ -102,6 +102,8 @@ constexpr std::array kTable = {
         "proximity", 0, 1000, 0,
         "least number of layers across narrow zones of a face and between faces (0: any; else gradation is needed)"),
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
+    integer_row("shape_trials", 0, 1, 0,
+                "1: changes of the mesh around its worst triangles are tried, the best is kept"),
     integer_row("stagger_strips", 0, 1, 0,
                 "1: vertices of one side of a strip of one layer face the middles of the other side's edges"),
     integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),

@@ -41,6 +41,8 @@ struct CompositeOptions {
   /// Vertices of one side of a strip of one layer go where they face the middles of the other side's edges
   /// (staggering.h).
   bool stagger_strips = false;
+  /// At the worst triangles of each patch changes of the mesh are tried, and the best is kept.
+  bool shape_trials = false;
   /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap
   /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
   /// for.

@@ -104,7 +104,11 @@ void FaceJob::sample(Monitor& monitor) {
 void FaceJob::mesh(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_plane);
   mesh_ = mesh_patch(input_, *space_,
-                     {.frontal = options_.frontal, .max_triangles = most_triangles_, .deserts = deserts_}, monitor);
+                     {.frontal = options_.frontal,
+                      .shape_trials = options_.shape_trials,
+                      .max_triangles = most_triangles_,
+                      .deserts = deserts_},
+                     monitor);
   next_ = Step::lift;
 }
 

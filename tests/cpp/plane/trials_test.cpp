@@ -1,0 +1,79 @@
+// Changes that are tried around the worst triangles (PlaneMesherOptions::shape_trials).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "plane/plane_mesher.h"
+#include "plane_checks.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+
+PlaneMesh meshed(const PlaneCase& c, bool trials) {
+  Monitor monitor;
+  PlaneMesherOptions options;
+  options.shape_trials = trials;
+  PlaneMesh mesh = mesh_plane(c.domain, control_space(c), options, monitor);
+  EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
+  return mesh;
+}
+
+/// A plane domain bounded by a curve of unit edges.
+PlaneCase plane_domain(double h, const std::function<Vec2(double)>& curve) {
+  PlaneCase c = flat_square(h);
+  c.domain = {};
+  append_closed_curve(c, curve);
+  return c;
+}
+PlaneCase ellipse(double h, double ratio) {
+  return plane_domain(h, [ratio](double t) {
+    const double a = 2 * std::numbers::pi * t;
+    return Vec2{0.5 + 0.5 * std::cos(a), 0.5 + 0.5 * ratio * std::sin(a)};
+  });
+}
+
+// Where sizes are the same everywhere, what is judged is the shape itself.
+TEST(Trials, RaiseTheWorstOfEllipses) {
+  double sum = 0, sum_before = 0;
+  int count = 0;
+  for (const double ratio : {1., 0.8, 0.55})
+    for (double h = 0.2; h > 0.03; h *= 0.93) {
+      SCOPED_TRACE(std::to_string(ratio) + " " + std::to_string(h));
+      const PlaneCase c = ellipse(h, ratio);
+      const PlaneQuality without = measure(c, meshed(c, false)), with = measure(c, meshed(c, true));
+      EXPECT_GE(with.worst, without.worst - 1e-9);
+      EXPECT_GE(with.fitting, without.fitting - 0.02);
+      sum += with.worst, sum_before += without.worst, ++count;
+    }
+  if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
+    std::printf("mean of the worst %.4f, without %.4f\n", sum / count, sum_before / count);
+  EXPECT_GE(sum / count, sum_before / count + 0.04);
+}
+
+// Imposed points, internal curves, holes, corners, poles: all stays as it must be.
+TEST(Trials, KeepWhatIsImposed) {
+  struct Named {
+    PlaneCase (*make)(double);
+    double h;
+  };
+  for (const Named& each :
+       {Named{holes, 0.035}, Named{star, 0.1}, Named{star, 0.03}, Named{internal_curves, 0.07}, Named{size_field, 3},
+        Named{polar_disc, 0.25}, Named{polar_disc, 0.07}, Named{sphere_two_poles, 0.4}, Named{stretched, 0.2}}) {
+    const PlaneCase c = each.make(each.h);
+    SCOPED_TRACE(c.name + " " + std::to_string(each.h));
+    const PlaneMesh mesh = meshed(c, true), again = meshed(c, true);
+    EXPECT_EQ(mesh.triangles, again.triangles);
+    EXPECT_EQ(mesh.vertices, again.vertices);
+  }
+}
+
+}  // namespace
+}  // namespace carreau
