@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "completion.h"
 #include "failure.h"
+#include "json_output.h"
 #include "lengths.h"
 
 namespace command {
@@ -160,8 +162,7 @@ void CommandLine::add_picture() {
   picture
       ->add_option("--color", paint_,
                    "face: their own colours when the file has some, else a colour a reference; quality: red 0 to green "
-                   "1; size: red the smallest triangles, blue the "
-                   "largest; none: grey")
+                   "1; size: red the smallest triangles, green the largest; none: grey")
       ->check(CLI::IsMember({"face", "quality", "size", "none"}))
       ->capture_default_str();
   picture->add_flag("--edges,!--no-edges", picture_.scene.edges,
@@ -224,6 +225,25 @@ int CommandLine::run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app_.exit(error) == 0 ? 0 : 2;
   }
+  try {
+    return run_command();
+  } catch (const std::bad_alloc&) {
+    print_failure("there is not enough memory");
+    throw;
+  } catch (const std::exception& error) {
+    print_failure(error.what());
+    throw;
+  }
+}
+
+void CommandLine::print_failure(const char* sentence) const {
+  if (!mesh_.json && !info_.json && !check_.json) return;
+  nlohmann::ordered_json value;
+  value["error"] = sentence;
+  print_json(value);
+}
+
+int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) return mesh(mesh_);
   if (app_.got_subcommand("info")) return info(info_);
   if (app_.got_subcommand("check")) return check(check_);

@@ -40,6 +40,9 @@ class CommandLine {
   void add_fields();
   void add_params();
   void add_completion();
+  int run_command();
+  /// Where JSON is wanted, an object whose member "error" is the sentence.
+  void print_failure(const char* sentence) const;
 
   CLI::App app_;
   MeshOptions mesh_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "delivered_json.h"
 #include "json_output.h"
 #include "quality_json.h"
 #include "session_handle.h"
@@ -214,39 +215,42 @@ void print_json(const MeshRun& run) {
                      {"status", status_word(face.status)},
                      {"triangles", face.triangles},
                      {"why", face.why}});
-  const nlohmann::ordered_json summary = {{"input", run.options.input},
-                                          {"outputs", run.options.outputs},
-                                          {"dumped", run.dumped},
-                                          {"diagonal", run.input.diagonal()},
-                                          {"closed", q.open_edges == 0},
-                                          {"threads", threads_of(run.session)},
-                                          {"mesh", quality_json(q)},
-                                          {"below_minimum",
-                                           {{"minimum", short_edges.bound},
-                                            {"edges", short_edges.count},
-                                            {"shortest", short_edges.shortest},
-                                            {"faces", short_edges.faces}}},
-                                          {"faces", faces},
-                                          {"not_read", run.input.losses()},
-                                          {"warnings", run.warnings},
-                                          {"interfaces", interfaces_json(interfaces_of(run.session))},
-                                          {"calls",
-                                           {{"surf0", r.surf0_calls},
-                                            {"surf1", r.surf1_calls},
-                                            {"surf2", r.surf2_calls},
-                                            {"curv0", r.curv0_calls},
-                                            {"curv1", r.curv1_calls},
-                                            {"curv2", r.curv2_calls},
-                                            {"sizes", r.size_calls}}},
-                                          {"seconds",
-                                           {{"reading", run.seconds_reading},
-                                            {"curves", r.seconds_curves},
-                                            {"sampling", r.seconds_sampling},
-                                            {"plane", r.seconds_plane},
-                                            {"lift", r.seconds_lift},
-                                            {"total", r.seconds_total},
-                                            {"writing", run.seconds_writing},
-                                            {"processor", run.seconds_processor}}}};
+  nlohmann::ordered_json summary = {{"input", run.options.input},
+                                    {"outputs", run.options.outputs},
+                                    {"dumped", run.dumped},
+                                    {"diagonal", run.input.diagonal()},
+                                    {"closed", q.open_edges == 0},
+                                    {"threads", threads_of(run.session)},
+                                    {"mesh", quality_json(q)},
+                                    {"below_minimum",
+                                     {{"minimum", short_edges.bound},
+                                      {"edges", short_edges.count},
+                                      {"shortest", short_edges.shortest},
+                                      {"faces", short_edges.faces}}},
+                                    {"faces", faces},
+                                    {"not_read", run.input.losses()},
+                                    {"warnings", run.warnings},
+                                    {"interfaces", interfaces_json(interfaces_of(run.session))},
+                                    {"calls",
+                                     {{"surf0", r.surf0_calls},
+                                      {"surf1", r.surf1_calls},
+                                      {"surf2", r.surf2_calls},
+                                      {"curv0", r.curv0_calls},
+                                      {"curv1", r.curv1_calls},
+                                      {"curv2", r.curv2_calls},
+                                      {"sizes", r.size_calls}}},
+                                    {"seconds",
+                                     {{"reading", run.seconds_reading},
+                                      {"curves", r.seconds_curves},
+                                      {"sampling", r.seconds_sampling},
+                                      {"plane", r.seconds_plane},
+                                      {"lift", r.seconds_lift},
+                                      {"total", r.seconds_total},
+                                      {"writing", run.seconds_writing},
+                                      {"processor", run.seconds_processor}}}};
+  std::int32_t measured = 0;
+  require(run.session, carreau_get_integer(run.session, "measure", &measured));
+  if (measured != 0) summary["delivered"] = delivered_json(run.session);
   print_json(summary);
 }
 

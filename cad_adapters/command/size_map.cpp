@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
@@ -13,6 +14,9 @@
 
 namespace command {
 namespace {
+
+/// Suffixes that no formula has.
+constexpr std::array other_meshes{".vtu", ".msh", ".msh2", ".stl"};
 
 bool exists(const std::string& path) { return access(path.c_str(), F_OK) == 0; }
 
@@ -43,6 +47,8 @@ SizeMap::SizeMap(const std::string& text) {
     mesh_ = text, solution_ = partner(text, stem, {".sol", ".solb"});
   else if (suffix == ".sol" || suffix == ".solb")
     solution_ = text, mesh_ = partner(text, stem, {".mesh", ".meshb"});
+  else if (std::any_of(other_meshes.begin(), other_meshes.end(), [&](const char* each) { return suffix == each; }))
+    throw Failure("--size-map '" + text + "': a background mesh is a file .mesh or .meshb, with .sol or .solb beside.");
   else
     formula_.emplace(text);
 }

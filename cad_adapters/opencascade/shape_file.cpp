@@ -218,8 +218,8 @@ ShapeFile read_shape(const std::string& path, const ReadingProgress& progress) {
   if (format == Format::unknown) format = content;
   if (format == Format::unknown) refuse(path, "is no STEP, IGES or BREP file");
   if (content != format) {
-    const char* expected = format == Format::step ? "STEP" : format == Format::iges ? "IGES" : "BREP";
-    refuse(path, std::string("is not what its suffix says: it does not begin like a ") + expected + " file");
+    const char* expected = format == Format::step ? "a STEP" : format == Format::iges ? "an IGES" : "a BREP";
+    refuse(path, std::string("is not what its suffix says: it does not begin like ") + expected + " file");
   }
   const Silence silence;
   ShapeFile file;

@@ -16,17 +16,81 @@ namespace {
 
 constexpr double outside_share = 0.125;  // as for background meshes
 
+using Triangle = std::array<std::int32_t, 3>;
+
+/// From a triangle to the nearest one in space, step by step through triangles that share a vertex of the mesh, seams
+/// and poles included. What the steps do not reach, another sheet of the face, is not mixed up with it.
+class Neighbourhood {
+ public:
+  /// Keeps references.
+  Neighbourhood(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+  /// The point where steps from triangle `start` end: none of the triangles around is nearer to p.
+  [[nodiscard]] NearestOnMesh nearest(Vec3 p, std::int32_t start) const;
+
+ private:
+  struct Corner {
+    std::int32_t vertex, triangle;
+  };
+  [[nodiscard]] NearestOnMesh on(std::int32_t triangle, Vec3 p) const;
+  std::span<const Vec3> vertices_;
+  std::span<const Triangle> triangles_;
+  std::vector<Corner> corners_;                    // vertex by vertex: a face has few of those of a mesh
+  std::vector<std::array<std::int32_t, 3>> fans_;  // of each corner of a triangle the first one at its vertex
+};
+
+Neighbourhood::Neighbourhood(std::span<const Vec3> vertices, std::span<const Triangle> triangles)
+    : vertices_(vertices), triangles_(triangles), fans_(triangles.size()) {
+  corners_.reserve(3 * triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const std::int32_t v : triangles[i]) corners_.push_back({v, static_cast<std::int32_t>(i)});
+  std::sort(corners_.begin(), corners_.end(), [](const Corner& a, const Corner& b) {
+    return a.vertex != b.vertex ? a.vertex < b.vertex : a.triangle < b.triangle;
+  });
+  std::size_t first = 0;
+  for (std::size_t c = 0; c < corners_.size(); ++c) {
+    if (corners_[c].vertex != corners_[first].vertex) first = c;
+    const auto i = static_cast<std::size_t>(corners_[c].triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (triangles[i][k] == corners_[c].vertex) fans_[i][k] = static_cast<std::int32_t>(first);
+  }
+}
+
+NearestOnMesh Neighbourhood::on(std::int32_t triangle, Vec3 p) const {
+  const Triangle& t = triangles_[static_cast<std::size_t>(triangle)];
+  const auto corner = [&](std::size_t k) { return vertices_[static_cast<std::size_t>(t[k])]; };
+  NearestOnMesh result = nearest_on_triangle(p, {corner(0), corner(1), corner(2)});
+  result.triangle = triangle;
+  return result;
+}
+
+NearestOnMesh Neighbourhood::nearest(Vec3 p, std::int32_t start) const {
+  NearestOnMesh best = on(start, p);
+  for (bool nearer = true; nearer && best.distance > 0;) {
+    nearer = false;
+    for (const std::int32_t fan : std::array(fans_[static_cast<std::size_t>(best.triangle)])) {
+      const std::int32_t vertex = corners_[static_cast<std::size_t>(fan)].vertex;
+      for (auto c = static_cast<std::size_t>(fan); c < corners_.size() && corners_[c].vertex == vertex; ++c) {
+        const NearestOnMesh found = on(corners_[c].triangle, p);
+        if (!(found.distance < best.distance)) continue;
+        best = found;
+        nearer = true;
+      }
+    }
+  }
+  return best;
+}
+
 /// Triangles to be looked up, with the vertices of the mesh that carry the values.
 struct Piece {
   TriangleSearch tree;
-  std::vector<std::array<std::int32_t, 3>> carriers;
+  std::vector<Triangle> carriers;
   std::int32_t last = 0;
 };
 
 Piece piece_of(const FaceMesh& face) {
   std::vector<Vec3> vertices;
   for (const Vec2 p : face.uv) vertices.push_back({p.x, p.y, 0});
-  std::vector<std::array<std::int32_t, 3>> triangles = face.triangles;
+  std::vector<Triangle> triangles = face.triangles;
   triangles.insert(triangles.end(), face.flattened.begin(), face.flattened.end());
   Piece piece;
   for (const auto& t : triangles) {
@@ -64,27 +128,30 @@ class Transfer {
       const auto old = old_faces.find(face.ref);
       if (old == old_faces.end()) continue;
       Piece piece = piece_of(*old->second);
+      const Neighbourhood space(from_.vertices, piece.carriers);
       for (std::size_t i = 0; i < face.vertex.size(); ++i)
-        look_up(piece, {face.uv[i].x, face.uv[i].y, 0}, static_cast<std::size_t>(face.vertex[i]));
+        look_up(piece, {face.uv[i].x, face.uv[i].y, 0}, static_cast<std::size_t>(face.vertex[i]), &space);
     }
     if (std::find(done_.begin(), done_.end(), 0) != done_.end()) {
       Piece whole = piece_of(from_);
-      for (std::size_t v = 0; v < done_.size(); ++v) look_up(whole, to_.vertices[v], v);
+      for (std::size_t v = 0; v < done_.size(); ++v) look_up(whole, to_.vertices[v], v, nullptr);
     }
     return std::move(result_);
   }
 
  private:
-  void look_up(Piece& piece, Vec3 p, std::size_t vertex) {
+  /// `space` is null when p is a point of space.
+  void look_up(Piece& piece, Vec3 p, std::size_t vertex, const Neighbourhood* space) {
     if (done_[vertex] != 0) return;
     done_[vertex] = 1;
-    const NearestOnMesh found = piece.tree.nearest(p, piece.last);
+    NearestOnMesh found = piece.tree.nearest(p, piece.last);
     piece.last = found.triangle;
     if (found.distance > outside_share * piece.tree.longest_edge(found.triangle)) {
       ++result_.outside;
       result_.farthest = std::max(result_.farthest, found.distance);
     }
-    const auto& carrier = piece.carriers[static_cast<std::size_t>(found.triangle)];
+    if (space != nullptr) found = space->nearest(to_.vertices[vertex], found.triangle);
+    const Triangle& carrier = piece.carriers[static_cast<std::size_t>(found.triangle)];
     for (std::size_t c = 0; c < components_; ++c) {
       double sum = 0;
       for (std::size_t k = 0; k < 3; ++k)

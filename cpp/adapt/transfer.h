@@ -19,8 +19,10 @@ struct TransferredField {
 };
 
 /// Interpolates linearly, from vertices of `from` to vertices of `to`, two meshes of one model. Each vertex is looked
-/// up in the parameter plane of a face that both meshes have, so sheets that touch in space are not mixed up; in space
-/// when there is none. Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`,
+/// up in the parameter plane of a face that both meshes have, so sheets that touch in space are not mixed up, and from
+/// there among the triangles around in space: a parameter plane stretches without bound towards a pole. In space alone
+/// when there is no such face. Exact for fields that are linear in a plane, of second order in the length of edges on
+/// surfaces. Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`,
 /// or when `from` has no triangle.
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
                                 std::size_t components);

@@ -49,6 +49,12 @@ std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner)
 
 }  // namespace
 
+NearestOnMesh nearest_on_triangle(Vec3 p, const std::array<Vec3, 3>& corners) noexcept {
+  const std::array<double, 3> w = nearest_weights(p, corners);
+  const Vec3 point = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
+  return {-1, w, point, norm(point - p)};
+}
+
 struct TriangleSearch::Builder {
   TriangleSearch& tree;
   std::vector<Vec3> centre;

@@ -20,6 +20,9 @@ struct NearestOnMesh {
   double distance = std::numeric_limits<double>::infinity();
 };
 
+/// The nearest point of one triangle, which may be flat: then of its sides. `triangle` of the result is -1.
+NearestOnMesh nearest_on_triangle(Vec3 p, const std::array<Vec3, 3>& corners) noexcept;
+
 /// Boxes around triangles of space, halved down to a few triangles. Plane meshes have z = 0: a point of one lies in the
 /// triangle that is nearest. Copies what it is given. nearest() is safe from several threads.
 class TriangleSearch {

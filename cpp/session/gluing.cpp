@@ -7,6 +7,7 @@
 #include "model/places.h"
 #include "model/splits.h"
 #include "support/format.h"
+#include "support/short_number.h"
 
 namespace carreau {
 namespace {
@@ -69,7 +70,7 @@ void tell(const Model& model, const GlueReport& report, std::size_t parts, Monit
   for (const GlueReport::Place& place : report.open)
     monitor.message(Level::detail, name_of(model, place) + " is open: no other curve lies on it");
   std::string sentence = count_of(report.pairs.size(), "pair of curves is", "pairs of curves are") + " one";
-  if (widest != nullptr) sentence += " within " + format_number(widest->gap);
+  if (widest != nullptr) sentence += " within " + short_number(widest->gap);
   if (parts > 0) sentence += "; " + count_of(parts, "cut was made", "cuts were made") + " where curves of others end";
   sentence += "; " + count_of(report.open.size(), "curve is", "curves are") + " open";
   monitor.message(Level::summary, sentence);
@@ -149,7 +150,7 @@ void tell_interfaces(const std::vector<Interface>& interfaces, Monitor& monitor)
       count_of(interfaces.size(), "curve", "curves") + " in space, " + std::to_string(open) + " open";
   if (crowded > 0) sentence += ", " + std::to_string(crowded) + " with more than two uses";
   if (widest != nullptr && widest->gap > 0)
-    sentence += "; the widest gap is " + format_number(widest->gap) + ", at curve " + std::to_string(widest->ref) +
+    sentence += "; the widest gap is " + short_number(widest->gap) + ", at curve " + std::to_string(widest->ref) +
                 " (face " + std::to_string(widest->first.face) + " curve " + std::to_string(widest->first.curve_index) +
                 ", face " + std::to_string(widest->farthest.face) + " curve " +
                 std::to_string(widest->farthest.curve_index) + ")";

@@ -6,6 +6,7 @@
 
 #include "mesh/quality.h"
 #include "support/format.h"
+#include "support/short_number.h"
 
 namespace carreau {
 
@@ -47,7 +48,7 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
   const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
   const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
   // Parts of a micrometre have a diagonal, and slivers a quality.
-  const auto not_zero = [&](double x) { return x > 0 && x < 0.01 ? format_number(x) : short_text(x); };
+  const auto not_zero = [&](double x) { return x > 0 && x < 0.01 ? short_number(x) : short_text(x); };
   monitor.message(Level::summary, "shape quality Q2: mean " + short_text(q.q2.mean) + ", first percentile " +
                                       short_text(q.q2.p1) + ", worst " + not_zero(q.q2.min) + "; angles " +
                                       short_text(q.angle_min_deg) + " to " + short_text(q.angle_max_deg) + " degrees");

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "support/format.h"
+#include "support/short_number.h"
 #include "surface/delivered.h"
 
 namespace carreau {
@@ -30,33 +31,26 @@ std::vector<double> decades(std::span<const double> values) {
   return bounds;
 }
 
-std::string short_text(double x) {
-  if (x == 0 || !std::isfinite(x)) return format_number(x);
-  // Four significant digits.
-  const double scale = std::pow(10.0, 3 - std::floor(std::log10(std::abs(x))));
-  return format_number(std::round(x * scale) / scale);
-}
-
 std::string percent(std::int64_t part, std::int64_t all) {
   return format_number(all == 0 ? 0 : std::round(1e4 * static_cast<double>(part) / static_cast<double>(all)) / 100) +
          " %";
 }
 
 std::string line_of(const char* name, const Spread& spread) {
-  std::string text = std::string(name) + ": mean " + short_text(spread.mean) + ", " + short_text(spread.min) + " to " +
-                     short_text(spread.max) + " (1 % below " + short_text(spread.p1) + ", 1 % above " +
-                     short_text(spread.p99) + ")";
+  std::string text = std::string(name) + ": mean " + short_number(spread.mean) + ", " + short_number(spread.min) +
+                     " to " + short_number(spread.max) + " (1 % below " + short_number(spread.p1) + ", 1 % above " +
+                     short_number(spread.p99) + ")";
   std::string classes;
   const Histogram& h = spread.histogram;
   for (std::size_t i = 0; i < h.count.size(); ++i) {
-    if (h.count[i] == 0) continue;
+    if (h.count[i] == 0 || h.count.size() == 1) continue;  // one class has no bounds
     classes += classes.empty() ? ";" : ",";
     if (i == 0)
-      classes += " below " + short_text(h.bound[1]);
+      classes += " below " + short_number(h.bound[1]);
     else if (i + 1 == h.count.size())
-      classes += " from " + short_text(h.bound[i]);
+      classes += " from " + short_number(h.bound[i]);
     else
-      classes += " " + short_text(h.bound[i]) + " to " + short_text(h.bound[i + 1]);
+      classes += " " + short_number(h.bound[i]) + " to " + short_number(h.bound[i + 1]);
     classes += ": " + std::to_string(h.count[i]);
   }
   return text + classes;
@@ -180,8 +174,8 @@ DeliveredText describe(const Delivered& d) {
     const Delivery& one = d[kind];
     if (one.beyond > 0)
       text.not_met.push_back(part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
-                             " more than the " + short_text(one.limit) + " asked; the worst has " +
-                             short_text(one.spread.max));
+                             " more than the " + short_number(one.limit) + " asked; the worst has " +
+                             short_number(one.spread.max));
   };
   check(DeliveredKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
   check(DeliveredKind::gradation, "edges", "a gradation of sizes of");

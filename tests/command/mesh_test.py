@@ -247,7 +247,7 @@ class Sizes(Folder):
     def test_a_formula_that_is_wrong_is_told_with_the_position(self):
         for formula, sentence in (("x + * 2", "position 5"), ("x +", "position 4"), ("(x", "position 3"), ("0.1 + size", "position 7"),
                                   ("x y", "position 3"), ("x = 2", "'=' assigns"), ("1, 2", "more than one value"), ("  ", "empty"),
-                                  ('"a"', "strings"), ("0.1 + \u00e9", "not plain text"), ("x" * 5000, "4096")):
+                                  ('"a"', "strings"), ("0.1 + \u00e9", "'0.1 + ...' is wrong at position 7: a character that is not plain text"), ("x" * 5000, "4096")):
             with self.subTest(formula=formula):
                 self.refused(self.square, "-o", "a.mesh", "--size-map", formula, sentence=sentence)
         done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is no size, on face 1 at x = ")
@@ -274,6 +274,8 @@ class Sizes(Folder):
         self.refused(self.square, "-o", "a.mesh", "--size-map", "no.mesh", sentence="there is no such file")
         self.write("lone.mesh", "MeshVersionFormatted 2\n")
         self.refused(self.square, "-o", "a.mesh", "--size-map", "lone.mesh", sentence="neither 'lone.sol' nor 'lone.solb'")
+        for name in ("bg.vtu", "bg.MSH", "bg.stl"):  # of other formats, whether they are there or not
+            self.refused(self.square, "-o", "a.mesh", "--size-map", name, sentence="a background mesh is a file .mesh or .meshb")
         self.write("lone.sol", "MeshVersionFormatted 2\n")
         self.refused(self.square, "-o", "a.mesh", "--size-map", "lone.mesh", sentence="lone.mesh")
 
@@ -363,6 +365,45 @@ class Results(Folder):
         self.assertEqual(done.stdout, "")
         quiet = self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.3", "-q")
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
+
+    def test_json_tells_what_was_delivered(self):
+        square = self.write("square.bpt", SQUARE)
+        plain = json.loads(self.run_mesh(square, "-o", "a.mesh", "--size", "0.2", "--json").stdout)
+        self.assertNotIn("delivered", plain)
+        done = self.run_mesh(square, "-o", "a.mesh", "--size", "0.2", "--json", "--set", "measure=1")
+        self.assertNotIn("inf", done.stderr)  # distances that are all zero have no classes
+        told = json.loads(done.stdout)
+        measures = told["delivered"]["measures"]
+        length, triangles = measures["metric_length"], told["mesh"]["triangles"]
+        self.assertEqual((length["of"], length["count"]), ("edge", told["mesh"]["edges"]))
+        # In a plane lengths in the metric of one size are lengths over the size, and there is neither distance nor angle.
+        self.assertAlmostEqual(length["mean"] * 0.2, told["mesh"]["edge_mean"], places=9)
+        self.assertAlmostEqual(length["max"] * 0.2, told["mesh"]["edge_max"], places=9)
+        self.assertAlmostEqual(measures["Q2"]["mean"], told["mesh"]["q2_mean"], places=9)
+        self.assertEqual((measures["A1"]["of"], measures["A1"]["count"], measures["A1"]["limit"]), ("triangle", triangles, None))
+        self.assertLess(max(measures["A0"]["max"], measures["A1"]["max"]), 1e-5)
+        for measure in measures.values():
+            self.assertEqual(sum(measure["histogram"]["counts"]), measure["count"])
+            self.assertEqual(len(measure["histogram"]["bounds"]) + 1, len(measure["histogram"]["counts"]))
+        outside = 1 - told["delivered"]["lengths_in_range"]  # "1 of 365 edges (0.27 %) have metric lengths outside [0.7071, 1.414]: ..."
+        self.assertEqual([sentence.split(" edges")[0] for sentence in told["delivered"]["not_met"]],
+                         ["%d of %d" % (round(outside * length["count"]), length["count"])] if outside > 0 else [])
+        bowl = self.run_mesh(TEAPOT, "-o", "a.mesh", "--size", "0.8", "--angle", "4", "--json", "--set", "measure=1").stdout
+        self.assertTrue(all(" of " in sentence for sentence in json.loads(bowl)["delivered"]["not_met"]))
+        self.assertTrue(json.loads(bowl)["delivered"]["not_met"])
+
+    def test_json_tells_why_there_is_no_mesh(self):
+        self.write("broken.bpt", "2 1\n")
+        self.write("broken.mesh", "Vertices 1\n")
+        square = self.write("square.bpt", SQUARE)
+        for arguments in (("mesh", "none.bpt", "-o", "a.mesh"), ("mesh", "broken.bpt", "-o", "a.mesh"), ("mesh", square, "-o", "a.nosuch"),
+                          ("mesh", square, "-o", "a.mesh", "--set", "max_triangles=1"), ("check", "broken.mesh"), ("check", "none.mesh"), ("info", "none.bpt")):
+            with self.subTest(arguments=arguments):
+                done = subprocess.run([PROGRAM, *arguments, "--json"], capture_output=True, text=True, timeout=120, cwd=self.folder)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                told = json.loads(done.stdout)
+                self.assertEqual(list(told), ["error"])
+                self.assertIn(told["error"], done.stderr)
 
 
 if __name__ == "__main__":

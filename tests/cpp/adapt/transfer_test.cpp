@@ -73,6 +73,70 @@ TEST(TransferField, TellsSheetsApartByTheirFaces) {
     EXPECT_DOUBLE_EQ(moved.values[v], v < fine.vertices.size() ? 1 : 2);
 }
 
+/// Half of the cap of the unit sphere within `angle` of its pole; u = longitude and v = latitude, so that the side
+/// v = pi / 2 is one vertex in space: n x n cells, of which those of the last row are cut into a triangle and one that
+/// is flat in space.
+SurfaceMesh half_cap(int n, double angle) {
+  const double pi = 3.141592653589793;
+  SurfaceMesh result;
+  FaceMesh face;
+  face.ref = 1;
+  std::int32_t pole = -1;
+  const TestMesh square = square_mesh(n, 0.2);
+  for (const Vec3 p : square.vertices) {
+    const double u = pi / 2 * (p.x + 1), v = pi / 2 - angle * (1 - p.y) / 2;
+    face.uv.push_back({u, v});
+    const bool top = p.y > 1 - 1e-12;
+    if (top && pole >= 0) {
+      face.vertex.push_back(pole);
+      continue;
+    }
+    face.vertex.push_back(static_cast<std::int32_t>(result.vertices.size()));
+    if (top) pole = face.vertex.back();
+    result.vertices.push_back(top ? Vec3{0, 0, 1}
+                                  : Vec3{std::cos(u) * std::cos(v), std::sin(u) * std::cos(v), std::sin(v)});
+  }
+  for (const auto& t : square.triangles) {
+    int at_pole = 0;
+    for (const std::int32_t v : t) at_pole += face.vertex[static_cast<std::size_t>(v)] == pole ? 1 : 0;
+    (at_pole > 1 ? face.flattened : face.triangles).push_back(t);
+  }
+  result.vertex_ref.resize(result.vertices.size());
+  result.faces = {face};
+  return result;
+}
+
+TEST(TransferField, IsOfSecondOrderAroundPoles) {
+  // Three sectors of 60 degrees: in (u, v) the triangle of a sector covers half of its cell, and the flat one the rest.
+  const auto linear = [](Vec3 p) { return 1 + 2 * p.x - 3 * p.y + 0.5 * p.z; };
+  std::vector<double> errors;
+  for (const double angle : {0.4, 0.2, 0.1}) {
+    const SurfaceMesh coarse = half_cap(3, angle), fine = half_cap(20, angle);
+    std::vector<double> values;
+    for (const Vec3 p : coarse.vertices) values.push_back(linear(p));
+    const TransferredField moved = transfer_field(coarse, fine, values, 1);
+    EXPECT_EQ(moved.outside, 0);
+    double largest = 0;
+    for (std::size_t v = 0; v < fine.vertices.size(); ++v) {
+      const Vec3 p = fine.vertices[v];
+      // Inside of the chords of the rim, and of those of the first meridian.
+      if (std::hypot(p.x, p.y) > 0.8 * angle || p.y < 0.1 * angle) continue;
+      largest = std::max(largest, std::abs(moved.values[v] - linear(p)));
+    }
+    errors.push_back(largest);
+    EXPECT_LT(largest, std::sqrt(4 + 9 + 0.25) * angle * angle / 8);
+  }
+  EXPECT_GT(errors[0] / errors[1], 3.5);
+  EXPECT_GT(errors[1] / errors[2], 3.5);
+}
+
+TEST(TransferField, KeepsValuesAtVerticesThatStay) {
+  const SurfaceMesh mesh = half_cap(9, 1.2);
+  std::vector<double> values;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) values.push_back(std::sin(1e3 * double(v)));
+  EXPECT_EQ(transfer_field(mesh, mesh, values, 1).values, values);
+}
+
 TEST(TransferField, CountsVerticesOutside) {
   TestMesh half = square_mesh(4);
   for (Vec3& p : half.vertices) p.x /= 2;
