@@ -80,8 +80,12 @@ class Optimiser {
   [[nodiscard]] bool sound(std::size_t t) const;
 
   // rescue.cpp
+  /// Triangles that are helped: with an edge much too short, by removal of one of its ends; bad ones, too, by all
+  /// means.
+  enum class Needy : std::uint8_t { crowded, bad };
   void rescue_worst();
-  void rescue_all_bad();
+  void rescue_all(Needy needy);
+  bool thin_out_at(int t);
   bool rescue(int t);
   bool rescue_by_swap(int t);
   bool rescue_by_move(int v);
@@ -144,10 +148,11 @@ class Optimiser {
   int fixed_;
   const Field& field_;
   Monitor& monitor_;
-  /// Of a triangle: the sum of its corners' metrics, the height of equilateral triangles by it, the weight of
-  /// proposals.
+  /// Of a triangle: the mean of its corners' metrics, scaled so that it turns a base into the height of the equilateral
+  /// triangle on it; the weight of proposals, whose square is the root of the determinant of the sum of those metrics.
+  /// In single precision, as vertices have them: sweeps read all of it time and again.
   struct Steady {
-    double a, b, c, height, weight;
+    float a, b, c, weight;
   };
   std::vector<Steady> steady_;                  // over the sweeps at hand, where triangles count by size
   std::vector<Vec2> proposals_;                 // by vertex, weighed and summed up

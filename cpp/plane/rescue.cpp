@@ -283,14 +283,21 @@ bool Optimiser::is_crowded(int t) const {
   return false;
 }
 
+// Removes an end of an edge that is much shorter than one.
+bool Optimiser::thin_out_at(int t) {
+  const Triangle& T = mesh_.triangles[t];
+  for (int i = 0; i < 3; ++i) {
+    if (shapes_.squared_length(T.v[next3[i]], T.v[prev3[i]]) >= crowded_length2 || mesh_.is_imposed(t, i)) continue;
+    for (const int v : {T.v[next3[i]], T.v[prev3[i]]})
+      if (v >= fixed_ && rescue_by_removal(v, true)) return true;
+  }
+  return false;
+}
+
 bool Optimiser::rescue(int t) {
   if (is_crowded(t)) {
+    if (thin_out_at(t)) return true;
     const Triangle& T = mesh_.triangles[t];
-    for (int i = 0; i < 3; ++i) {
-      if (shapes_.squared_length(T.v[next3[i]], T.v[prev3[i]]) >= crowded_length2 || mesh_.is_imposed(t, i)) continue;
-      for (const int v : {T.v[next3[i]], T.v[prev3[i]]})
-        if (v >= fixed_ && rescue_by_removal(v, true)) return true;
-    }
     if (shape(T.v[0], T.v[1], T.v[2]) >= bad_quality) return false;
   }
   bool any = rescue_by_swap(t);
@@ -320,13 +327,14 @@ bool Optimiser::is_good(const Triangle& T) const {
   return shortest2 > sure * 2 * crowded_length2 && area > 0 && area * area * determinant(m) > quality2 * sum * sum;
 }
 
-void Optimiser::rescue_all_bad() {
+void Optimiser::rescue_all(Needy needy) {
   const auto total = static_cast<std::int32_t>(mesh_.triangles.size());
   const bool bends = !mesh_.bends.empty();
   const auto is_bad = [&](std::int32_t t) {
     const Triangle& T = mesh_.triangles[t];
     if (T.v[0] < 0 || T.done == Done::frozen || (!bends && is_good(T))) return false;
     if (is_crowded(t)) return true;
+    if (needy == Needy::crowded) return false;
     // Lengths of bent triangles may tell of an area that they have not.
     const bool suspect = shapes_.is_bent(T) || shapes_.quality(T.v[0], T.v[1], T.v[2]) < suspect_quality;
     return suspect && shape(T.v[0], T.v[1], T.v[2]) < bad_quality;
@@ -348,7 +356,7 @@ void Optimiser::rescue_all_bad() {
         monitor_.checkpoint();
         checked = shapes_asked_ + shapes_between_checks;
       }
-      if (is_bad(t)) rescue(t);
+      if (is_bad(t)) needy == Needy::crowded ? thin_out_at(t) : rescue(t);
     }
     std::sort(next_.begin(), next_.end());
     next_.erase(std::unique(next_.begin(), next_.end()), next_.end());
@@ -359,7 +367,7 @@ void Optimiser::rescue_all_bad() {
 
 void Optimiser::rescue_worst() {
   doubtful_.clear();
-  rescue_all_bad();
+  rescue_all(Needy::bad);
   raise_flat();
 }
 

@@ -14,9 +14,11 @@ constexpr double least_area = 0.2;  // of a parallelogram in the metric after a 
 constexpr int undo_rounds = 20;
 constexpr int triangles_between_checks = 1 << 16;
 constexpr std::size_t prefetch_distance = 12;
+// Bounds of what is kept of metrics: of the root of the determinant over the trace, and of that root.
+constexpr double most_stretched = 1e-15, least_root = 1e-30;
 
-// The same in the plane, over the height of equilateral triangles by the sum of three metrics.
-constexpr double least_area_by_height = 3 * least_area / (0.5 * std::numbers::sqrt3);
+// The same in the plane, times the root of the determinant of the sum of three metrics.
+constexpr double least_area_in_sum = 3 * least_area;
 
 // Of the triangle of three vertices. `enough(area)`: whether that is enough of it in the metric.
 template <typename Enough>
@@ -37,6 +39,7 @@ inline double equilateral_height(double root_of_determinant) noexcept {
   return 0.5 * std::numbers::sqrt3 / root_of_determinant;
 }
 inline double root_of_determinant(Metric2 m) noexcept { return std::sqrt(std::max(determinant(m), 1e-300)); }
+inline double squared_weight(float weight) noexcept { return static_cast<double>(weight) * weight; }
 
 }  // namespace
 
@@ -61,8 +64,8 @@ inline bool Optimiser::sound(std::size_t t) const {
       return orientation(A.point(), B.point(), C.point()) > 0 &&
              shapes_.lengths(T.v[0], T.v[1], T.v[2]).area2() > 4 * least_area * least_area;
   if (!steady_.empty()) {
-    const double least = least_area_by_height * steady_[t].height;
-    return has_area(A, B, C, [least](double area) { return area > least; });
+    const double root = squared_weight(steady_[t].weight);
+    return has_area(A, B, C, [root](double area) { return area * root > least_area_in_sum; });
   }
   const double det = determinant(sum_of_metrics(A, B, C));
   return has_area(A, B, C, [det](double area) { return area * area * det > 9 * least_area * least_area; });
@@ -79,9 +82,13 @@ void Optimiser::prepare(bool by_size) {
     double weight = 1;
     if (by_size) {
       const Metric2 m = sum_of_metrics(mesh_.vertices[T.v[0]], mesh_.vertices[T.v[1]], mesh_.vertices[T.v[2]]);
-      const double root = root_of_determinant(m);
-      weight = std::sqrt(root);
-      steady_.push_back({m.a, m.b, m.c, equilateral_height(root), weight});
+      // Of numbers that fit into single precision, whatever the metric.
+      const double root = std::max({root_of_determinant(m), most_stretched * (m.a + m.c), least_root});
+      const double height = equilateral_height(root);
+      const auto single = static_cast<float>(std::sqrt(root));
+      weight = single;
+      steady_.push_back({static_cast<float>(height * m.a), static_cast<float>(height * m.b),
+                         static_cast<float>(height * m.c), single});
     }
     for (const std::int32_t v : T.v) weights_[v] += weight;
   }
@@ -94,6 +101,8 @@ template <bool by_size, bool bends>
 void Optimiser::propose(double pull) {
   proposals_.assign(mesh_.vertices.size(), {});
   spoiled_.clear();
+  // The height of a unit isosceles triangle over that of an equilateral one is, to first order in the squared base,
+  // 1 + slope - slope * base.
   const double slope = 2.0 / 3 * pull, third = slope / 3;
   const std::size_t n = mesh_.triangles.size();
   // Plain addresses: what is written might be their vectors', for all that a compiler can tell.
@@ -115,27 +124,25 @@ void Optimiser::propose(double pull) {
       }
     const Vertex &P = vertices[T.v[0]], &Q = vertices[T.v[1]], &R = vertices[T.v[2]];
     Metric2 m;
-    double k, weight = 1;
+    double k0, k1, low, high, weight = 1;  // of heights over normals by m
     bool spoiled;
     if constexpr (by_size) {
       const Steady& S = steady[t];
-      m = {S.a, S.b, S.c}, k = S.height, weight = S.weight;
-      const double least = least_area_by_height * k;
-      spoiled = !has_area(P, Q, R, [least](double area) { return area > least; });
+      m = {S.a, S.b, S.c}, weight = S.weight;
+      const double root = weight * weight;
+      spoiled = !has_area(P, Q, R, [root](double area) { return area * root > least_area_in_sum; });
+      k0 = 1 + slope, k1 = third / equilateral_height(1) * root, low = 1.5 * third, high = 6 * third;
     } else {
       m = sum_of_metrics(P, Q, R);
-      const double det = determinant(m);
-      k = equilateral_height(root_of_determinant(m));
+      const double det = determinant(m), k = equilateral_height(root_of_determinant(m));
       spoiled = !has_area(P, Q, R, [det](double area) { return area * area * det > 9 * least_area * least_area; });
+      k0 = k * (1 + slope), k1 = k * third, low = 1.5 * k1, high = 6 * k1;
     }
     if (spoiled) spoiled_.push_back(static_cast<std::int32_t>(t));
-    // The height of a unit isosceles triangle over that of an equilateral one is, to first order in the squared base,
-    // 1 + slope - slope * base.
-    const double k0 = k * (1 + slope), k1 = k * third;
     const auto tell = [&](int v, const Vertex& from, const Vertex& to) {
       // The metric's normal of the base, to the left.
       const double ex = to.x - from.x, ey = to.y - from.y, nx = -m.b * ex + -m.c * ey, ny = m.a * ex + m.b * ey;
-      const double height = k0 - k1 * std::min(std::max(ex * ny - ey * nx, 1.5), 6.0);
+      const double height = k0 - std::min(std::max(k1 * (ex * ny - ey * nx), low), high);
       const double x = 0.5 * (from.x + to.x) + height * nx, y = 0.5 * (from.y + to.y) + height * ny;
       Vec2& p = proposals[v];
       p.x += by_size ? weight * x : x;

@@ -69,7 +69,7 @@ std::int32_t Lattice::block_at(GridPoint p, const BlockIndex::Position& at) {
   if (added) {
     const auto mask = static_cast<std::int32_t>(~((4U << at.spacing) - 1U));
     blocks_.push_back({{p.i & mask, p.j & mask}, at.spacing});
-    nodes_.resize(nodes_.size() + 16);
+    nodes_.append(16);
   }
   return 16 * block;
 }

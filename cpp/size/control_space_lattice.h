@@ -11,6 +11,7 @@
 
 #include "metric/metric2.h"
 #include "predicates/polygon_locator.h"
+#include "support/segmented_array.h"
 
 namespace carreau::detail {
 
@@ -227,7 +228,7 @@ class Lattice {
   const PolygonLocator& domain_;
   BlockIndex index_;
   std::vector<Block> blocks_;
-  std::vector<Node> nodes_;
+  SegmentedArray<Node> nodes_;
   std::int32_t pass_ = 0;
 };
 

@@ -377,11 +377,14 @@ std::vector<std::int32_t> ControlSpaceSampling::affordable(std::vector<std::int3
     else if (cell.error > allowed)
       may.push_back(c);
   }
+  // As many as that pays for, the worst ones; of equal ones the first.
   const auto cut = [this](std::vector<std::int32_t>& list, double samples, double cost) {
     const auto count = static_cast<std::size_t>(std::max(samples / cost, 0.0));
     if (list.size() <= count) return;
-    std::stable_sort(list.begin(), list.end(),
-                     [this](std::int32_t p, std::int32_t q) { return (*tree_)[p].error > (*tree_)[q].error; });
+    const auto error = [this](std::int32_t c) { return (*tree_)[c].error; };
+    std::nth_element(
+        list.begin(), list.begin() + static_cast<std::ptrdiff_t>(count), list.end(),
+        [&](std::int32_t p, std::int32_t q) { return error(p) > error(q) || (error(p) == error(q) && p < q); });
     list.resize(count);
   };
   double spent = static_cast<double>(samples_) + usual_cost * static_cast<double>(crowd.size());

@@ -34,7 +34,6 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
       for (int i = i0; i <= i1; ++i)
         candidates[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(e));
   }
-  cells_.reserve(candidates.size());
   for (int j = 0; j < rows_; ++j)
     for (int i = 0; i < columns_; ++i) {
       TreeCell cell{.i = i * lattice.step(), .j = j * lattice.step(), .size = lattice.step()};

@@ -8,6 +8,7 @@
 
 #include "size/control_space.h"
 #include "size/control_space_lattice.h"
+#include "support/segmented_array.h"
 
 namespace carreau::detail {
 
@@ -71,7 +72,7 @@ class Tree {
   const PolygonLocator& locator_;
   Lattice& lattice_;
   int columns_, rows_;
-  std::vector<TreeCell> cells_;
+  SegmentedArray<TreeCell> cells_;
   std::vector<std::int32_t> edges_;
   // Scratch of split() and point_to_parts(); here for its memory.
   std::vector<std::int32_t> candidates_, todo_;
