@@ -38,7 +38,7 @@ void Optimiser::run() {
     sweep_all(settle, aim);
     thin_out();
     cancel_pairs(reach_graded);
-    relax({.sweeps = 6, .slowest = 0.05}, aim);
+    relax({.sweeps = 7, .slowest = 0.05}, aim);
     update_metrics();            // the others move little
     rescue_all(Needy::crowded);  // sweeps mend more of the others than single moves do
     drop_removed();
