@@ -22,6 +22,9 @@ constexpr int settling_rounds = 4;
 constexpr double longest_left2 = 2.4, shortest_left2 = 0.4;
 constexpr double least_split2 = 1.1;  // squared length of an edge that is split
 constexpr double steps[] = {0.15, 0.05};
+// What is better by less than this share is no better: where meshes are symmetric, the last bits of a host's numbers
+// would decide.
+constexpr double tie = 1e-6;
 
 // The worst weigh most: 2.8 at .8, 0.36 at .95. Equilateral triangles cost nothing.
 double cost(double quality) noexcept {
@@ -146,7 +149,7 @@ void Optimiser::move_in_zone(int v) {
         const Vec2 to = centre + circle.vector(step * d);
         P.x = to.x, P.y = to.y;
         const double now = star_cost(v, best);
-        if (now < best)
+        if (now < best * (1 - tie))
           best = now, any = true;
         else
           P = kept;
@@ -168,7 +171,7 @@ bool Optimiser::swap_in_zone() {
       const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]], d = U.v[T.n[i] & 3];
       shapes_asked_ += 4;
       const double before = cost(shape(c, a, b)) + cost(shape(d, b, a));
-      if (!(cost(shape(c, a, d)) + cost(shape(c, d, b)) < before * (1 - 1e-6))) continue;
+      if (!(cost(shape(c, a, d)) + cost(shape(c, d, b)) < before * (1 - tie))) continue;
       mesh_.swap_edge(t, i);
       any = true;
     }
@@ -225,7 +228,7 @@ bool Optimiser::collapse_in_zone(int v) {
     double least = 1;
     for (int j = 1; j + 1 < n && least > best; ++j)
       least = std::min(least, shape(ring_[k], ring_[(k + j) % n], ring_[(k + j + 1) % n]));
-    if (least > best) best = least, into = k;
+    if (least > best * (1 + tie)) best = least, into = k;
   }
   shapes_asked_ += n * n / 2;
   if (into < 0) return false;
@@ -289,7 +292,7 @@ bool Optimiser::improve_around(int t) {
     if (apply(trial)) {
       settle_zone();
       const ZoneCost now = cost_of_zone(least);
-      if (is_better(now, least)) best = &trial, least = now.mean;
+      if (is_better(now, least)) best = &trial, least = now.mean * (1 - tie);
     }
     restore_zone();
   }
@@ -322,11 +325,11 @@ void Optimiser::improve_worst() {
       const Triangle& T = mesh_.triangles[t];
       if (T.v[0] < 0 || T.done == Done::frozen || in_vain[t] != 0) continue;
       const double q = shape(T.v[0], T.v[1], T.v[2]);
-      if (q < tried_quality) bad.emplace_back(q, t);
+      if (q < tried_quality) bad.emplace_back(std::floor(q / tie), t);
     }
     std::sort(bad.begin(), bad.end());
     bool any = false;
-    for (const auto& [q, t] : bad) {
+    for (const auto& [rank, t] : bad) {
       if (shapes_asked_ > budget) return;
       monitor_.checkpoint();
       const Triangle& T = mesh_.triangles[t];
