@@ -106,7 +106,8 @@ class Optimiser {
   // trials.cpp
   struct Trial {
     enum class Kind : std::uint8_t { settle, swap, collapse, split } kind;
-    std::int32_t a, b;  // swap, split: triangle and its edge; collapse: vertex
+    std::int32_t a, b;   // swap, split: triangle and its edge; collapse: vertex
+    double promise = 0;  // cost that is left after a quick try
   };
   /// Two rings of triangles around one, which a trial changes, and how they were.
   struct Zone {
@@ -127,9 +128,9 @@ class Optimiser {
   void restore_zone();
   ZoneCost cost_of_zone(double enough);
   double star_cost(int v, double enough);
-  void move_in_zone(int v);
+  void move_in_zone(int v, bool quick);
   bool swap_in_zone();
-  void settle_zone();
+  void settle_zone(bool quick);
   void split_edge(int t, int i);
   bool collapse_in_zone(int v);
   bool apply(const Trial& trial);
