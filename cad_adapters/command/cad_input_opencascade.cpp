@@ -31,7 +31,8 @@ class OpenCascadeInput final : public CadInput {
     const double diagonal = host_.diagonal();
     return diagonal > 0 ? diagonal : 1;
   }
-  [[nodiscard]] double glue_tolerance() const override { return host_.glue_tolerance(); }
+  [[nodiscard]] double glue_tolerance() const override { return host_.glue_tolerances().of_all; }
+  [[nodiscard]] double open_tolerance() const override { return host_.glue_tolerances().of_each; }
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   bool set_face_size(const std::string& face, double size) override { return host_.set_face_size(face, size); }

@@ -157,6 +157,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   if (const double tolerance = input.glue_tolerance(); tolerance > 0) {
     set(session, "glue_open", 1);
     set(session, "eps_glue", tolerance);
+    set(session, "eps_glue_open", input.open_tolerance());
   }
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);

@@ -140,15 +140,15 @@ double BrepHost::diagonal() const {
   return *state_->diagonal;
 }
 
-double BrepHost::glue_tolerance() const try {
-  double tolerance = 0;
-  guarded([&] { tolerance = state_->glue_tolerance(); });
-  return tolerance;
+BrepHost::GlueTolerances BrepHost::glue_tolerances() const try {
+  GlueTolerances tolerances;
+  guarded([&] { tolerances = state_->glue_tolerances(); });
+  return tolerances;
 } catch (const Standard_Failure&) {
-  return 0;
+  return {};
 }
 
-double BrepHost::State::glue_tolerance() const {
+BrepHost::GlueTolerances BrepHost::State::glue_tolerances() const {
   double tolerance = 0, shortest = std::numeric_limits<double>::infinity();
   int free = 0;
   for (int e = 1; e <= edges.Extent(); ++e) {
@@ -162,8 +162,9 @@ double BrepHost::State::glue_tolerance() const {
     BRepBndLib::Add(edge, box, Standard_False);
     if (!box.IsVoid()) shortest = std::min(shortest, std::sqrt(box.SquareExtent()));
   }
+  if (free < 2) return {};
   // Each of two edges may be off by its own tolerance.
-  return free < 2 ? 0 : std::min(2 * tolerance, shortest / 10);
+  return {.of_all = std::min(2 * tolerance, shortest / 10), .of_each = 2 * tolerance};
 }
 
 bool BrepHost::is_closed() const noexcept {

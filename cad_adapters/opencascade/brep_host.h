@@ -42,10 +42,13 @@ class BrepHost {
   [[nodiscard]] int vertex_count() const noexcept;
   /// Diagonal of the box of the faces that are not left out.
   [[nodiscard]] double diagonal() const;
-  /// How far apart edges of one face only may be that are one in space (parameters glue_open and eps_glue): what the
-  /// tolerances of the file's own edges and vertices allow, but no more than a tenth of the shortest such edge. 0:
-  /// there is no such edge, or only one.
-  [[nodiscard]] double glue_tolerance() const;
+  /// How far apart edges of one face only may be that are one in space: what the tolerances of the file's own edges and
+  /// vertices allow. 0: there is no such edge, or only one.
+  struct GlueTolerances {
+    double of_all = 0;   ///< no more than a tenth of the shortest such edge (parameters glue_open and eps_glue)
+    double of_each = 0;  ///< whatever the lengths (eps_glue_open, which looks at those of each pair)
+  };
+  [[nodiscard]] GlueTolerances glue_tolerances() const;
   /// Every edge belongs to two faces, or twice to one.
   [[nodiscard]] bool is_closed() const noexcept;
   /// The point of a face at (u, v) as callbacks get them (xyz[3]), and the parameters that its surface in the file has

@@ -67,7 +67,7 @@ struct BrepHost::State {
   static int32_t curve_size(int32_t face, int32_t ic, double t, double* value, void* user) noexcept;
   static int32_t point_size(int32_t point, double* value, void* user) noexcept;
   void collect_sizes();
-  [[nodiscard]] double glue_tolerance() const;
+  [[nodiscard]] GlueTolerances glue_tolerances() const;
   /// Runs it; what it throws fails the face, and sets `failed`.
   template <typename Evaluate>
   int32_t answer_guarded(int32_t face, std::atomic<bool>& failed, const Evaluate& evaluate) noexcept;

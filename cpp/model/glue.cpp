@@ -24,6 +24,9 @@ constexpr double inside_share = 1e-3;
 constexpr double rounding_of_files = 1e-9;
 // Ends farther apart than this share of eps_glue are not one by rounding only.
 constexpr double rounding_share = 1e-3;
+// Open curves that are one may be this share of their own length apart: less would miss the gaps of a file's coarse
+// edges beside its shortest ones, more would close slits.
+constexpr double open_share = 0.1;
 
 struct Entry {
   std::size_t face, curve;
@@ -32,10 +35,11 @@ struct Entry {
 
 class Gluer {
  public:
-  Gluer(const Model& model, const CurveTraces& traces, double eps, std::vector<std::string>* remarks,
+  Gluer(const Model& model, const CurveTraces& traces, double eps, double eps_open, std::vector<std::string>* remarks,
         GlueReport* report)
       : model_(model),
         eps_(eps),
+        eps_open_(eps_open),
         remarks_(remarks),
         report_(report),
         entries_(entries_of(model, traces)),
@@ -53,6 +57,7 @@ class Gluer {
     for (std::size_t k = 0; k < entries_.size(); ++k)
       if (takes_part_[k] != 0) merge_ends(k);
     for (const auto& [ends, same_ends] : by_ends_) merge_nearest_first(same_ends);
+    if (eps_open_ > eps_) merge_what_is_open();
     if (report_ != nullptr) sort_pairs();
     if (report_ != nullptr) list_open_curves();
     return numbered();
@@ -167,6 +172,82 @@ class Gluer {
     return gap < tolerance ? std::optional(std::max(gap - loose, 0.0)) : std::nullopt;
   }
 
+  /// Entries that are boundary curves, no points, and that no other entry is one with.
+  [[nodiscard]] std::vector<std::size_t> open_entries() {
+    std::vector<int> uses(entries_.size(), 0);
+    for (std::size_t k = 0; k < entries_.size(); ++k) ++uses[curves_.find(k)];
+    std::vector<std::size_t> open;
+    for (std::size_t k = 0; k < entries_.size(); ++k)
+      if (uses[curves_.find(k)] == 1 && is_boundary(entries_[k]) && !(trace_extent(entries_[k].trace) < eps_) &&
+          !(is_cut_off(k) && points_.find(2 * k) == points_.find(2 * k + 1)))
+        open.push_back(k);
+    return open;
+  }
+
+  // The nearest first, and each of them once.
+  void merge_what_is_open() {
+    std::vector<std::pair<double, std::size_t>> by_x;  // smallest x of both ends
+    for (const std::size_t k : open_entries())
+      if (takes_part_[k] != 0) by_x.emplace_back(std::min(entries_[k].trace.front().x, entries_[k].trace.back().x), k);
+    std::sort(by_x.begin(), by_x.end());
+    std::vector<Candidate> pairs;
+    for (std::size_t i = 0; i < by_x.size(); ++i)
+      for (std::size_t j = i + 1; j < by_x.size() && by_x[j].first - by_x[i].first < eps_open_; ++j) {
+        const auto [first, second] = std::minmax(by_x[i].second, by_x[j].second);
+        if (const std::optional<double> gap = gap_if_open_ones_meet(entries_[first], entries_[second]))
+          pairs.push_back({*gap, first, second});
+      }
+    std::sort(pairs.begin(), pairs.end());
+    std::vector<char> taken(entries_.size(), 0);
+    for (const Candidate& pair : pairs) {
+      const auto [gap, first, second] = pair;
+      if (taken[first] != 0 || taken[second] != 0 || !merge_ends_of(pair)) continue;
+      taken[first] = taken[second] = 1;
+      curves_.merge(first, second);
+      const Entry &o = entries_[first], &e = entries_[second];
+      if (report_ != nullptr) report_->pairs.push_back({{o.face, o.curve}, {e.face, e.curve}, gap});
+    }
+  }
+
+  /// Whether b starts where a ends, which is nearer than where a starts.
+  static bool runs_against(const Entry& a, const Entry& b) {
+    const Vec3 p = a.trace.front(), q = a.trace.back(), r = b.trace.front(), s = b.trace.back();
+    return std::max(norm(p - s), norm(q - r)) < std::max(norm(p - r), norm(q - s));
+  }
+
+  /// The distance of two open curves of different faces, when it and that of their ends are within eps_open and a share
+  /// of their lengths.
+  [[nodiscard]] std::optional<double> gap_if_open_ones_meet(const Entry& a, const Entry& b) const {
+    if (a.face == b.face) return {};  // a slit
+    const double limit = std::min(eps_open_, open_share * std::min(trace_length(a.trace), trace_length(b.trace)));
+    const bool against = runs_against(a, b);
+    const double at_ends = std::max(norm(a.trace.front() - (against ? b.trace.back() : b.trace.front())),
+                                    norm(a.trace.back() - (against ? b.trace.front() : b.trace.back())));
+    if (!(at_ends < limit)) return {};
+    const double loose = trace_deviation(a.trace) + trace_deviation(b.trace);
+    const double gap = hausdorff_distance(a.trace, b.trace, limit + loose);
+    return gap < limit + loose ? std::optional(std::max({gap - loose, at_ends, 0.0})) : std::nullopt;
+  }
+
+  /// A piece of a curve that is no longer than ends may be apart: what a gap along the curve has cut off.
+  [[nodiscard]] bool is_cut_off(std::size_t k) const {
+    return given(k).part_of != 0 && trace_length(entries_[k].trace) < eps_open_;
+  }
+
+  /// Merges the ends of two curves, unless the two ends of a curve of the host would become one.
+  bool merge_ends_of(const Candidate& pair) {
+    const bool against = runs_against(entries_[pair.first], entries_[pair.second]);
+    UnionFind merged = points_;
+    merged.merge(2 * pair.first, 2 * pair.second + (against ? 1 : 0));
+    merged.merge(2 * pair.first + 1, 2 * pair.second + (against ? 0 : 1));
+    for (std::size_t k = 0; k < entries_.size(); ++k)
+      if (merged.find(2 * k) == merged.find(2 * k + 1) && points_.find(2 * k) != points_.find(2 * k + 1) &&
+          !is_cut_off(k))
+        return false;
+    points_ = std::move(merged);
+    return true;
+  }
+
   void sort_pairs() {
     std::sort(report_->pairs.begin(), report_->pairs.end(), [](const GlueReport::Pair& p, const GlueReport::Pair& q) {
       return std::tie(p.b.face, p.b.curve, p.a.face, p.a.curve) < std::tie(q.b.face, q.b.curve, q.a.face, q.a.curve);
@@ -174,11 +255,7 @@ class Gluer {
   }
 
   void list_open_curves() {
-    std::vector<int> uses(entries_.size(), 0);
-    for (std::size_t k = 0; k < entries_.size(); ++k) ++uses[curves_.find(k)];
-    for (std::size_t k = 0; k < entries_.size(); ++k)
-      if (uses[curves_.find(k)] == 1 && is_boundary(entries_[k]) && !(trace_extent(entries_[k].trace) < eps_))
-        report_->open.push_back({entries_[k].face, entries_[k].curve});
+    for (const std::size_t k : open_entries()) report_->open.push_back({entries_[k].face, entries_[k].curve});
   }
 
   // The numbering of HDR fig. 4.18: curve k (from 1) has the ends 2 k - 1 and 2 k; sets take their smallest number.
@@ -202,7 +279,7 @@ class Gluer {
   }
 
   const Model& model_;
-  double eps_;
+  double eps_, eps_open_;
   std::vector<std::string>* remarks_;
   GlueReport* report_;
   std::vector<Entry> entries_;
@@ -241,11 +318,13 @@ std::vector<std::vector<char>> curves_to_glue(const Model& model) {
 }
 
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks,
-           GlueReport* report) {
+           GlueReport* report, double eps_open) {
   if (!(eps_glue > 0) || !std::isfinite(eps_glue))
     throw InvalidArgument("eps_glue must be positive to find references; it is " + format_number(eps_glue));
+  if (!(eps_open >= 0) || !std::isfinite(eps_open))
+    throw InvalidArgument("eps_glue_open must not be negative; it is " + format_number(eps_open));
   check_traces(model, traces);
-  return Gluer(model, traces, eps_glue, remarks, report).run();
+  return Gluer(model, traces, eps_glue, eps_open, remarks, report).run();
 }
 
 }  // namespace carreau

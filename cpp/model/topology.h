@@ -92,8 +92,13 @@ struct GlueReport {
 /// part only are one when they have been cut first (model/splits.h). References that the model has are kept: only what
 /// curves_to_glue() tells is compared, and what becomes one takes the reference of its first curve or end. Throws
 /// InvalidArgument when eps_glue is not positive or traces are missing.
+///
+/// With `eps_open` (model length) above eps_glue, curves that are open then are one with the nearest open curve of
+/// another face whose ends and whose two-sided distance are within eps_open and a tenth of the lengths of both; their
+/// ends become one, unless those of some curve would become one point (pieces that such a gap has cut off may). Short
+/// curves elsewhere limit eps_glue, not this.
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr,
-           GlueReport* report = nullptr);
+           GlueReport* report = nullptr, double eps_open = 0);
 
 /// Marks curves shorter than eps_collapse (model length) as collapsed, in all faces, and gives their two ends one
 /// reference, the smallest (RT-0232 sec. 3.3). The first curve of a reference decides. Internal curves are kept, and so

@@ -98,7 +98,7 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
   for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
   }
   report = {};
-  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report);
+  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open);
   tell(glued, report, count_curves(cut) - count_curves(model), monitor);
   return glued;
 }

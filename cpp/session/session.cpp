@@ -238,9 +238,11 @@ void Session::make_mesh_of(Model& known) {
   std::vector<std::string> remarks;
   if (const bool all = needs_gluing(model); all || s.parameters.integer("glue_open") != 0) {
     const double eps_glue = s.parameters.real("eps_glue", supports.diag);
+    // Farther apart, curves of one reference are an error of the model (build_topology).
+    const double eps_open = std::min(s.parameters.real("eps_glue_open"), supports.diag / 100);
     GlueReport found;
-    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .angle_smo = angle_smo}, remarks, found,
-                            s.monitor);
+    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .eps_open = eps_open, .angle_smo = angle_smo},
+                            remarks, found, s.monitor);
     s.check_model(model);
     if (all && s.model_from_file) write_glued(model, remarks);
     s.keep_glued(model, found);

@@ -71,13 +71,13 @@ TEST_P(Unsewn, FacesMeetAsThoseOfTheSolidDo) {
   const TopoDS_Shape solid = shapes::make(GetParam());
   carreau_occ::BrepHost whole(file_of(solid));
   const double size = whole.diagonal() / 30;
-  EXPECT_EQ(whole.glue_tolerance(), 0);
+  EXPECT_EQ(whole.glue_tolerances().of_all, 0);
   const adapters::MeasuredMesh expected = adapters::mesh_and_measure(whole, size);
   ASSERT_EQ(expected.trouble(true), "");
   EXPECT_EQ(count(expected, is_glued), 0);
 
   carreau_occ::BrepHost apart(file_of(taken_apart(solid, 0, 1e-6)));
-  EXPECT_NEAR(apart.glue_tolerance(), 2e-6, 1e-12);
+  EXPECT_NEAR(apart.glue_tolerances().of_all, 2e-6, 1e-12);
   EXPECT_FALSE(apart.is_closed());
   const adapters::MeasuredMesh m = adapters::mesh_and_measure(apart, size);
   EXPECT_EQ(m.trouble(true), "");
@@ -105,6 +105,27 @@ TEST(Unsewn, GapsWithinTheFilesOwnTolerancesAreBridgedAndTold) {
     EXPECT_NEAR(widest_gap(m), gap, 1e-9);
     EXPECT_NEAR(m.volume, 6, 10 * gap);
   }
+}
+
+// A short edge elsewhere in the file says nothing of what its coarse edges need.
+TEST(Unsewn, ShortEdgesElsewhereLeaveNoGapOpen) {
+  TopoDS_Compound all;
+  const BRep_Builder builder;
+  builder.MakeCompound(all);
+  const double gap = 1e-3;
+  builder.Add(all, taken_apart(BRepPrimAPI_MakeBox(1, 2, 3).Shape(), gap, gap));
+  builder.Add(all, taken_apart(BRepPrimAPI_MakeBox(gp_Pnt(2, 0, 0), gap, 1, 1).Shape(), 0, 1e-7));
+  carreau_occ::BrepHost host(file_of(all));
+  EXPECT_LT(host.glue_tolerances().of_all, gap);
+  EXPECT_NEAR(host.glue_tolerances().of_each, 2 * gap, 1e-12);
+  const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.25);
+  EXPECT_EQ(m.trouble(true), "");
+  EXPECT_EQ(euler(m), 4);
+  EXPECT_EQ(count(m, is_open), 0);
+  // The edges of both boxes; what the face that is moved inwards cuts off its neighbours' edges is a point.
+  const auto is_glued_curve = [](const carreau_interface& i) { return i.glued != 0 && i.degenerate == 0; };
+  EXPECT_EQ(count(m, is_glued_curve), 24);
+  EXPECT_NEAR(widest_gap(m), gap, 1e-9);
 }
 
 TEST(Unsewn, WiderGapsStayOpenAndAreTold) {

@@ -145,9 +145,10 @@ MeasuredMesh mesh_and_measure(carreau_occ::BrepHost& host, double size,
   carreau_session_create(&raw);
   const std::unique_ptr<carreau_session, FreeSession> session(raw);
   use_command_parameters(raw, size, host.diagonal());
-  if (const double tolerance = host.glue_tolerance(); tolerance > 0) {
+  if (const auto [of_all, of_each] = host.glue_tolerances(); of_all > 0) {
     carreau_set_integer(raw, "glue_open", 1);
-    carreau_set_real(raw, "eps_glue", tolerance);
+    carreau_set_real(raw, "eps_glue", of_all);
+    carreau_set_real(raw, "eps_glue_open", of_each);
   }
   if (prepare) prepare(raw);
   m.status = host.give_to(raw);

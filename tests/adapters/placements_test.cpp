@@ -143,7 +143,7 @@ TEST(Placements, FacesThatSolidsShareAreMeshedOnce) {
   ASSERT_TRUE(BRepTools::Write(fuse.Shape(), path.c_str()));
   carreau_occ::BrepHost host(carreau_occ::read_shape(path));
   EXPECT_EQ(host.face_count(), 20);  // 24 less the 4 that are shared
-  EXPECT_EQ(host.glue_tolerance(), 0);
+  EXPECT_EQ(host.glue_tolerances().of_all, 0);
   EXPECT_FALSE(host.is_closed());
   const adapters::MeasuredMesh m = adapters::mesh_and_measure(host, 0.25);
   EXPECT_EQ(m.status, CARREAU_OK) << m.error;
@@ -196,9 +196,9 @@ Read read_and_mesh(const std::string& path, double size) {
   Read read{carreau_occ::read_shape(path), {}};
   carreau_occ::BrepHost host(read.file);
   read.mesh = adapters::mesh_and_measure(host, size, [&](carreau_session* session) {
-    if (host.glue_tolerance() > 0) {
+    if (host.glue_tolerances().of_all > 0) {
       carreau_set_integer(session, "glue_open", 1);
-      carreau_set_real(session, "eps_glue", host.glue_tolerance());
+      carreau_set_real(session, "eps_glue", host.glue_tolerances().of_all);
     }
   });
   std::filesystem::remove(path);

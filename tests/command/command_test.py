@@ -270,7 +270,7 @@ class Command(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         names = [line.split()[0] for line in done.stdout.splitlines() if not line.startswith(" ")]
         manual = ("CheckAdjacentEdges CheckCloseEdges CheckWellDefined CoefRectangle LSS angle_mesh angle_smo element "
-                  "eps_collapse eps_ends eps_glue flag format frontal hgeo_flag hgeomax hgeomin hinterpol_flag hmean_flag "
+                  "eps_collapse eps_ends eps_glue eps_glue_open flag format frontal hgeo_flag hgeomax hgeomin hinterpol_flag hmean_flag "
                   "hphy_flag hphydef hphymax hphymin option pref refs verb").split()  # RT-0232 fig. 13, without `call`
         self.assertEqual(set(manual) - set(names), set())
         self.assertIn("default 0.02 diag", run("params", "hphydef").stdout)

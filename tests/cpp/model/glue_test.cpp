@@ -43,6 +43,63 @@ TEST(Glue, BridgesGapsBelowItsToleranceAndNoneAbove) {
   EXPECT_EQ(glued(cad, 0.008).faces[1].curves[3].ref, 8);
 }
 
+Model glued_where_open(const AnalyticCad& cad, double eps, double eps_open, GlueReport* report = nullptr) {
+  return glue(unglued(cad), traces_of(cad), eps, nullptr, report, eps_open);
+}
+
+TEST(Glue, BridgesWiderGapsBetweenOpenCurves) {
+  AnalyticCad cad;
+  cad.faces[1] = flat(rectangle({0, 0}, {1, 1}));
+  cad.faces[2] = flat(rectangle({1.009, 0}, {2, 1}));
+  GlueReport report;
+  const Model model = glued_where_open(cad, 0.001, 0.01, &report);
+  const std::vector<std::vector<int>> expected{{1, 1, 2},  {2, 2, 4},   {3, 4, 6},  {4, 6, 1},
+                                               {5, 2, 10}, {6, 10, 12}, {7, 12, 4}, {2, 4, 2}};
+  EXPECT_EQ(references(model), expected);
+  EXPECT_TRUE(find_model_defects(model).empty());
+  ASSERT_EQ(report.pairs.size(), 1U);
+  EXPECT_NEAR(report.pairs[0].gap, 0.009, 1e-15);
+  EXPECT_EQ(report.open.size(), 6U);
+  EXPECT_EQ(references(glued_where_open(cad, 0.001, 0.0089)), references(glued(cad, 0.001)));
+}
+
+TEST(Glue, OpenCurvesMayBeATenthOfTheirOwnLengthApart) {
+  for (const double height : {0.091, 0.089}) {
+    AnalyticCad cad;
+    cad.faces[1] = flat(rectangle({0, 0}, {1, height}));
+    cad.faces[2] = flat(rectangle({1.009, 0}, {2, height}));
+    EXPECT_EQ(glued_where_open(cad, 0.001, 0.05).faces[1].curves[3].ref, height > 0.09 ? 2 : 8) << height;
+  }
+}
+
+TEST(Glue, OpenCurvesTakeTheNearestAndEachOne) {
+  // Two sheets beside one: the nearer one is the neighbour, whatever the order.
+  for (const bool swapped : {false, true}) {
+    AnalyticCad cad;
+    cad.faces[1] = flat(rectangle({0, 0}, {1, 1}));
+    cad.faces[swapped ? 3 : 2] = flat(rectangle({1.009, 0}, {2, 1}));
+    cad.faces[swapped ? 2 : 3] = flat(rectangle({1.004, 0}, {2, 1}));
+    GlueReport report;
+    const Model model = glued_where_open(cad, 0.001, 0.01, &report);
+    ASSERT_FALSE(report.pairs.empty());
+    EXPECT_EQ(model.faces[swapped ? 1 : 2].curves[3].ref, 2);
+    EXPECT_NE(model.faces[swapped ? 2 : 1].curves[3].ref, 2);
+  }
+}
+
+TEST(Glue, OpenCurvesStayApartAcrossAShortCurveAndASlit) {
+  AnalyticCad cad;
+  cad.faces[1] = flat(rectangle({0, 0}, {1, 1}));
+  cad.faces[2] = flat(rectangle({1.009, 0}, {2, 1}));
+  cad.faces[3] = flat(rectangle({1, -1}, {1.009, 0}));  // its upper side is what lies between
+  const Model model = glued_where_open(cad, 0.001, 0.01);
+  EXPECT_NE(model.faces[0].curves[1].ref, model.faces[1].curves[3].ref);
+  EXPECT_NE(model.faces[2].curves[2].end1, model.faces[2].curves[2].end2);
+  AnalyticCad narrow;
+  narrow.faces[1] = flat(rectangle({0, 0}, {1, 0.009}));
+  EXPECT_EQ(references(glued_where_open(narrow, 0.001, 0.01)), references(glued(narrow, 0.001)));
+}
+
 TEST(Glue, KeepsCurvesApartThatShareTheirEndsOnly) {
   // The arc and the chord of a half disc, twice.
   AnalyticCad cad;
