@@ -31,6 +31,31 @@ BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
 
 BrepHost::~BrepHost() = default;
 
+// The curve that gives the orientation is kept by the engine however small it is: the first one that is not tiny beside
+// the others in the parameter plane. 0: none.
+int BrepHost::seed_curve(int number) const {
+  constexpr double tiny = 1e-3;  // of the longest
+  const HostFace& face = state_->host_faces[static_cast<std::size_t>(number - 1)];
+  std::vector<double> extent(face.curves.size(), 0);
+  double longest = 0;
+  for (std::size_t c = 0; c < face.curves.size(); ++c) {
+    double a[2], middle[2], b[2];
+    const int ic = static_cast<int>(c + 1);
+    if (face.curves[c].internal || !on_curve(number, ic, 0, a) || !on_curve(number, ic, 0.5, middle) ||
+        !on_curve(number, ic, 1, b))
+      continue;
+    extent[c] = std::max(std::hypot(b[0] - a[0], b[1] - a[1]), std::hypot(middle[0] - a[0], middle[1] - a[1]));
+    longest = std::max(longest, extent[c]);
+  }
+  int first = 0;
+  for (std::size_t c = 0; c < face.curves.size(); ++c) {
+    if (face.curves[c].internal) continue;
+    if (first == 0) first = static_cast<int>(c + 1);
+    if (extent[c] >= tiny * longest) return static_cast<int>(c + 1);
+  }
+  return first;
+}
+
 carreau_status BrepHost::give_to(carreau_session* session) {
   carreau_cad cad{};
   cad.struct_size = sizeof cad;
@@ -50,10 +75,11 @@ carreau_status BrepHost::give_to(carreau_session* session) {
   for (std::size_t f = 0; f < state_->host_faces.size() && status == CARREAU_OK; ++f) {
     const HostFace& face = state_->host_faces[f];
     int32_t orientation = face.broken.empty() ? 0 : 1;
-    for (std::size_t c = 0; c < face.curves.size() && orientation == 0; ++c)
-      if (!face.curves[c].internal)
-        orientation = static_cast<int32_t>(c + 1) * (face.curves[c].forward != face.swapped ? 1 : -1);
     const auto ref = static_cast<int32_t>(f + 1);
+    if (const int seed = face.broken.empty() ? seed_curve(ref) : 0; seed != 0) {
+      const HostCurve& curve = face.curves[static_cast<std::size_t>(seed - 1)];
+      orientation = seed * (curve.forward != face.swapped ? 1 : -1);
+    }
     status = carreau_model_add_face(session, ref, orientation);
     if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
     if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);

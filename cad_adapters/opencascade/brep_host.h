@@ -62,6 +62,9 @@ class BrepHost {
   [[nodiscard]] std::string failure(int face) const;
 
  private:
+  /// Of a face, from 1.
+  [[nodiscard]] int seed_curve(int number) const;
+
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -100,6 +100,23 @@ TEST(TinyEdges, LeaveNarrowFacesMeshed) {
   EXPECT_LT(mesh.quality.triangles, 5000);  // not as many as edges of that length would make
 }
 
+// Two tiny edges one after the other, first in the wires of two faces: one of them must not tell how the loop is
+// turned.
+TEST(TinyEdges, FirstInTheirWiresTearNoLoop) {
+  for (const double tiny : {1e-4, 1e-5, 1e-6}) {
+    SCOPED_TRACE(tiny);
+    BRepBuilderAPI_MakePolygon polygon;
+    for (const auto& [x, y] : {std::pair{0., 0.}, {tiny, 0.}, {2 * tiny, tiny}, {5., 0.}, {2., 4.}})
+      polygon.Add(gp_Pnt(x, y, 0));
+    polygon.Close();
+    carreau_occ::BrepHost host(
+        file_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 0, 3)).Shape()));
+    const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 30);
+    EXPECT_EQ(mesh.trouble(true), "");
+    EXPECT_NEAR(mesh.volume, 30, 20 * tiny);
+  }
+}
+
 /// The round face of a cylinder of radius 1 and height 2, whose upper circle and one of whose seams lie a period before
 /// the others in (u, v), as OpenCASCADE's reader leaves faces of revolution. With `bridges` it has closed the loop by
 /// edges that it says are degenerate.
