@@ -58,6 +58,7 @@ GeometricLimits geometric_limits(const SizeParameters& size) noexcept {
   if (rule == GeometricCriterion::angle || rule == GeometricCriterion::both || by_radius)
     limits.edge_angle_deg = size.angle_mesh;
   if (rule == GeometricCriterion::chord || rule == GeometricCriterion::both) limits.deviation = size.eps_chord;
+  limits.shortest_divided = std::numbers::sqrt2 * size.hgeomin;  // a half of it is as far from unit length
   return limits;
 }
 

@@ -41,6 +41,7 @@ struct SizeParameters {
 struct GeometricLimits {
   double edge_angle_deg = std::numeric_limits<double>::infinity();  ///< of edges with tangent planes at their ends
   double deviation = std::numeric_limits<double>::infinity();       ///< A0 of triangles, model length
+  double shortest_divided = 0;  ///< edges below it are as short as hgeomin lets them be, whatever they exceed
 
   [[nodiscard]] bool any() const noexcept { return std::isfinite(edge_angle_deg) || std::isfinite(deviation); }
 };

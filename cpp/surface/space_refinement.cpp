@@ -183,9 +183,15 @@ class SpaceRefinement {
     if (collapsed(c)) return true;
     if (!is_upright(c)) return false;
     if (!known_ || !looks_far(c)) return true;
-    for (int i = 0; i < 3; ++i)
-      if (across_[t][i] >= 0 && excess(t, c[i], c[(i + 1) % 3]) > 1) return false;
-    if (!std::isfinite(kept_.deviation)) return true;
+    bool as_short_as_allowed = false;
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = c[i], b = c[(i + 1) % 3];
+      if (norm(position(b) - position(a)) < kept_.shortest_divided)
+        as_short_as_allowed = true;
+      else if (across_[t][i] >= 0 && excess(t, a, b) > 1)
+        return false;
+    }
+    if (as_short_as_allowed || !std::isfinite(kept_.deviation)) return true;
     const auto& uv = mesh_.plane.vertices;
     return deviation(t, jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]])).s) <= kept_.deviation;
   }

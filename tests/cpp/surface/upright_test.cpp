@@ -49,7 +49,7 @@ AnalyticCad thick_torus() {
 }
 
 const Surface surfaces_that_bend[] = {
-    {"sphere", sphere}, {"torus", torus},   {"paraboloid", wide_paraboloid},       {"ellipsoid", ellipsoid},
+    {"sphere", sphere}, {"torus", torus},   {"paraboloid", wide_paraboloid},  {"ellipsoid", ellipsoid},
     {"waves", waves},   {"gutter", gutter}, {"monkey_saddle", monkey_saddle}, {"thick_torus", thick_torus}};
 
 void expect_upright(const GeometricRun& run, const AnalyticCad& cad) {
@@ -100,6 +100,39 @@ TEST_P(Upright, OfOneSize) {
     });
     expect_upright(run, cad);
   }
+}
+
+// Triangles round the apex of a cone exceed any angle, however small they are: they end at hgeomin.
+TEST(Guaranteed, NothingIsDividedBelowTheSmallestSize) {
+  for (const double smallest : {0.004, 0.008})
+    for (const double gradation : {1.05, 1.1, 1.15}) {
+      SCOPED_TRACE(::testing::Message() << smallest << ", gradation " << gradation);
+      const GeometricRun run(one_face(
+                                 [](Vec2 p) {
+                                   const double c = std::cos(p.x), s = std::sin(p.x), r = 1 - p.y + 1e-12;
+                                   return SurfaceJet{{r * c, r * s, 3 * p.y}, {-r * s, r * c, 0}, {-c, -s, 3},
+                                                     {-r * c, -r * s, 0},     {s, -c, 0},         {}};
+                                 },
+                                 rectangle({0, 0}, {2 * pi, 1})),
+                             [&](Parameters& p) {
+                               p.set("geo_rule", "both");
+                               p.set("geo_metric", 1);
+                               p.set("geo_guarantee", 1);
+                               p.set("angle_mesh", 8);
+                               p.set("eps_chord", 4e-3);
+                               p.set("hgeomin", smallest);
+                               p.set("gradation", gradation);
+                             });
+      const SurfaceMesh& mesh = run.session->mesh();
+      double shortest = 1;
+      for (const auto& t : mesh.faces[0].triangles)
+        for (int i = 0; i < 3; ++i) {
+          const Vec3 e =
+              mesh.vertices[mesh.faces[0].vertex[t[(i + 1) % 3]]] - mesh.vertices[mesh.faces[0].vertex[t[i]]];
+          if (norm(e) > 1e-9) shortest = std::min(shortest, norm(e));
+        }
+      EXPECT_GT(shortest, smallest / 4);  // medians of divided triangles are shorter than halves
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Surfaces, Upright, ::testing::ValuesIn(surfaces_that_bend),
