@@ -119,6 +119,7 @@ int mesh(const MeshOptions& options) {
   const Stopwatch writing;
   outputs.write([&](const std::vector<std::string>& paths) { write_all(run, paths); });
   run.seconds_writing = writing.seconds();
+  if (!options.quiet || options.json) run.short_edges = find_short_edges(run.session, run.mesh);
   if (!options.quiet)
     for (const std::string& line : summary_lines(run)) progress.line(line);
   run.warnings = progress.warnings();

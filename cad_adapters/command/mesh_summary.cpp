@@ -10,7 +10,6 @@
 #include "json_output.h"
 #include "quality_json.h"
 #include "session_handle.h"
-#include "short_edges.h"
 
 namespace command {
 namespace {
@@ -190,8 +189,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   for (std::string& line : face_lines(run.faces)) lines.push_back(std::move(line));
   lines.push_back(text("edges      %.6g to %.6g, mean %.6g; %s", q.edge_min, q.edge_max, q.edge_mean,
                        q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str()));
-  if (std::string line = short_edges_line(find_short_edges(run.session, run.mesh)); !line.empty())
-    lines.push_back(std::move(line));
+  if (std::string line = short_edges_line(run.short_edges); !line.empty()) lines.push_back(std::move(line));
   lines.push_back(interfaces_line(interfaces));
   for (std::string& line : gluing_lines(interfaces)) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
@@ -207,7 +205,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
 void print_json(const MeshRun& run) {
   const carreau_report r = report_of(run.session);
   const carreau_quality q = quality_of(run.mesh);
-  const ShortEdges short_edges = find_short_edges(run.session, run.mesh);
+  const ShortEdges& short_edges = run.short_edges;
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
   for (const FaceResult& face : run.faces)
     faces.push_back({{"reference", face.ref},

@@ -9,6 +9,7 @@
 #include "cad_input.h"
 #include "commands.h"
 #include "mesh_file.h"
+#include "short_edges.h"
 
 namespace command {
 
@@ -22,6 +23,7 @@ struct MeshRun {
   std::vector<FaceResult> faces;
   std::vector<std::string> dumped;  ///< files of faces that failed
   std::vector<std::string> warnings = {};
+  ShortEdges short_edges = {};
 };
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.

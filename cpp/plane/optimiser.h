@@ -99,6 +99,16 @@ class Optimiser {
   void collapse(int v, int k);
   bool collect_star(int v);
   [[nodiscard]] bool has_imposed_spoke(int v) const;
+  /// What `of` says of the shapes of the star collected around v. Once the sum is `enough` the rest does not matter.
+  template <typename Of>
+  double star_sum(int v, double enough, const Of& of) {
+    double sum = 0;
+    std::size_t k = 0;
+    for (; k < ring_.size() && sum < enough; ++k)
+      sum += of(shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
+    shapes_asked_ += static_cast<std::int64_t>(k);
+    return sum;
+  }
   double star_penalty(int v, double enough);
   [[nodiscard]] double shape(int p, int q, int r) const;
   [[nodiscard]] Lengths integrated_lengths(int p, int q, int r) const;
@@ -129,7 +139,7 @@ class Optimiser {
   ZoneCost cost_of_zone(double enough);
   double star_cost(int v, double enough);
   void move_in_zone(int v, bool quick);
-  bool swap_in_zone();
+  void swap_in_zone();
   void settle_zone(bool quick);
   void split_edge(int t, int i);
   bool collapse_in_zone(int v);

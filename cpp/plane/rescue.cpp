@@ -92,15 +92,7 @@ bool Optimiser::has_imposed_spoke(int v) const {
   });
 }
 
-// Once it is `enough` the rest does not matter.
-double Optimiser::star_penalty(int v, double enough) {
-  double sum = 0;
-  std::size_t k = 0;
-  for (; k < ring_.size() && sum < enough; ++k)
-    sum += penalty(shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
-  shapes_asked_ += static_cast<std::int64_t>(k);
-  return sum;
-}
+double Optimiser::star_penalty(int v, double enough) { return star_sum(v, enough, penalty); }
 
 bool Optimiser::rescue_by_swap(int t) {
   for (int i = 0; i < 3; ++i) {

@@ -131,14 +131,7 @@ Optimiser::ZoneCost Optimiser::cost_of_zone(double enough) {
   return all;
 }
 
-double Optimiser::star_cost(int v, double enough) {
-  double sum = 0;
-  std::size_t k = 0;
-  for (; k < ring_.size() && sum < enough; ++k)
-    sum += cost(shape(v, ring_[k], ring_[k + 1 < ring_.size() ? k + 1 : 0]));
-  shapes_asked_ += static_cast<std::int64_t>(k);
-  return sum;
-}
+double Optimiser::star_cost(int v, double enough) { return star_sum(v, enough, cost); }
 
 void Optimiser::move_in_zone(int v, bool quick) {
   if (mesh_.vertices[v].triangle < 0 || !collect_star(v)) return;
@@ -169,8 +162,7 @@ void Optimiser::move_in_zone(int v, bool quick) {
   if (moved) P.set_metric(field_.at(P.point()));
 }
 
-bool Optimiser::swap_in_zone() {
-  bool any = false;
+void Optimiser::swap_in_zone() {
   for (const std::int32_t t : zone_.triangles) mesh_.triangles[t].mark = 1;
   for (const std::int32_t t : zone_.triangles)
     for (int i = 0; i < 3; ++i) {
@@ -182,10 +174,8 @@ bool Optimiser::swap_in_zone() {
       const double before = cost(shape(c, a, b)) + cost(shape(d, b, a));
       if (!(cost(shape(c, a, d)) + cost(shape(c, d, b)) < before * (1 - tie))) continue;
       mesh_.swap_edge(t, i);
-      any = true;
     }
   for (const std::int32_t t : zone_.triangles) mesh_.triangles[t].mark = 0;
-  return any;
 }
 
 // Moves and swaps. Quickly: to see what a trial promises.
@@ -346,9 +336,9 @@ void Optimiser::improve_worst() {
     bad.clear();
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t) {
       const Triangle& T = mesh_.triangles[t];
-      if (T.v[0] < 0 || T.done == Done::frozen) continue;
+      if (T.v[0] < 0 || T.done == Done::frozen || in_vain[t] != 0) continue;
       const double q = shape(T.v[0], T.v[1], T.v[2]);
-      if (q < tried_quality && in_vain[t] == 0) bad.emplace_back(std::round(q / tie), t);
+      if (q < tried_quality) bad.emplace_back(std::round(q / tie), t);
     }
     std::sort(bad.begin(), bad.end());
     bool any = false;
