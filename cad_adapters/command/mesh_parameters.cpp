@@ -116,6 +116,11 @@ void set_by_name(carreau_session* session, const std::string& setting, double di
     require(session, carreau_set_word(session, name.c_str(), value.c_str()));
 }
 
+bool asks_for(const MeshOptions& options, const std::string& name) {
+  return std::any_of(options.settings.begin(), options.settings.end(),
+                     [&](const std::string& each) { return parse_assignment(each, "--set").first == name; });
+}
+
 int threads_of(const MeshOptions& options) {
   return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
@@ -150,6 +155,12 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "stagger_strips", 1);
   // The worst triangles are what users look for; half of the time again at most sizes.
   set(session, "shape_trials", 1);
+  // Faces too narrow for the cuts above (slivers below the tolerance of a file, fillets of a micrometre) hold flat
+  // triangles only. Who asks for narrow faces means those of the library's default.
+  if (!asks_for(options, "narrow_faces")) {
+    require(session, carreau_set_text(session, "narrow_faces", "collapse"));
+    set(session, "narrow_ratio", 4e-4);
+  }
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));

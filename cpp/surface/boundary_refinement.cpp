@@ -70,6 +70,7 @@ class Refiner {
       if (!result_.failure[f].empty()) left_out_[f] = 1;
     }
     for (const NarrowFace& face : narrow_.strips) left_out_[face.face] = 1;
+    for (const int f : narrow_.folded) left_out_[f] = 1;
     if (!narrow_.vanishing.curve.empty())
       for (const NarrowFace& face : narrow_.points) left_out_[face.face] = 1;
   }

@@ -143,9 +143,7 @@ class Pipeline {
     result_.report.gradation_triangles = graded_.triangles;
     result_.report.seconds_gradation = seconds_since(start);
   }
-  [[nodiscard]] double slope() const noexcept {
-    return graded_.field ? graded_.field->slope() : 0;
-  }
+  [[nodiscard]] double slope() const noexcept { return graded_.field ? graded_.field->slope() : 0; }
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded_.field.get()}; }
 
   void discretise() {
@@ -168,6 +166,7 @@ class Pipeline {
   }
 
   void find_narrow() {
+    narrow_.folded = find_folded_faces(curve_model_, curves_);
     if (options_.narrow_faces == NarrowFaces::keep) return;
     const bool collapse = options_.narrow_faces == NarrowFaces::collapse;
     for (NarrowFace& face : find_narrow_faces(curve_model_, curves_, options_.narrow_ratio))
@@ -202,6 +201,11 @@ class Pipeline {
   }
 
   void say_what_is_narrow() {
+    for (const int f : narrow_.folded) {
+      FaceMesh& mesh = result_.mesh.faces[f];
+      mesh.status = FaceStatus::collapsed;
+      mesh.why = Where{.face = mesh.ref}.prefix() + "the face has no width: its sides are the same curves";
+    }
     for (const NarrowFace& face : narrow_.strips) {
       FaceMesh& mesh = result_.mesh.faces[face.face];
       mesh.status = FaceStatus::mended;

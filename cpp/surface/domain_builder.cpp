@@ -48,13 +48,16 @@ class Builder {
 
   FaceDomain run(bool turn) {
     measure_box();
+    choose_longest_part();
     find_points();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
       if (is_vanishing(curve_of_[c])) {
-        joining_reach_ += length_of(curves_[curve_of_[c]].uv_of_use[use_of(c)]);
+        joining_reach_ += length_of(uv_of(c));
       }
-    collect_sides();
-    collect_junctions();
+    do {
+      collect_sides();
+      collect_junctions();
+    } while (leave_out_spikes());
     if (turn && is_vanishing(curve_of_[seed_curve_ - 1])) choose_another_seed();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) add_curve(c);
     for (int p = 0; p < static_cast<int>(face_.points.size()); ++p) add_vertex(face_.points[p].uv, {.point = p}, {});
@@ -83,12 +86,14 @@ class Builder {
     return static_cast<int>(it - uses.begin());
   }
 
+  [[nodiscard]] const std::vector<Vec2>& uv_of(int c) const { return curves_[curve_of_[c]].uv_of_use[use_of(c)]; }
+
   // An angle beside a length in millionths of a model's unit: both count by what the whole domain has of them.
   void measure_box() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
-      for (const Vec2 p : curves_[curve_of_[c]].uv_of_use[use_of(c)]) {
+      for (const Vec2 p : uv_of(c)) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
       }
@@ -105,11 +110,17 @@ class Builder {
     return length;
   }
 
+  // All parts of the curve that gives the orientation tell the same; a tiny one may have to go.
+  void choose_longest_part() {
+    const int whole = host_rank(face_, seed_curve_ - 1);
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
+      if (host_rank(face_, c) == whole && length_of(uv_of(c)) > length_of(uv_of(seed_curve_ - 1))) seed_curve_ = c + 1;
+  }
+
   // The curve that gives the orientation stays, whatever its size.
   void find_points() {
     is_point_.assign(face_.curves.size(), 0);
     std::map<int, double> reach;  // by corner: shortest edge of other curves
-    const auto uv_of = [this](int c) -> const std::vector<Vec2>& { return curves_[curve_of_[c]].uv_of_use[use_of(c)]; };
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       const Curve& shape = topology_.curves[curve_of_[c]];
       if (shape.degenerate) continue;
@@ -132,10 +143,11 @@ class Builder {
   // Ends at one corner that a degenerate side keeps apart are two vertices, whichever curve comes first: both ends of a
   // side of 1e-5 are near each other for the long curves beside it.
   void collect_sides() {
+    side_at_.clear();
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       const Curve& shape = topology_.curves[curve_of_[c]];
       if (!shape.degenerate || is_left_out(c)) continue;
-      const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
+      const std::vector<Vec2>& uv = uv_of(c);
       const double reach = std::min(distance(uv[1], uv[0]), distance(uv.back(), uv[uv.size() - 2]));
       const auto [side, first] = side_at_.try_emplace(shape.end1, reach);
       if (!first) side->second = std::min(side->second, reach);
@@ -163,11 +175,12 @@ class Builder {
   }
 
   void collect_junctions() {
+    junctions_.clear();
     junctions_of_curve_.assign(face_.curves.size(), {-1, -1});
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       if (is_left_out(c)) continue;
       const Curve& shape = topology_.curves[curve_of_[c]];
-      const std::vector<Vec2>& uv = curves_[curve_of_[c]].uv_of_use[use_of(c)];
+      const std::vector<Vec2>& uv = uv_of(c);
       const std::size_t n = uv.size() - 1;
       const double length = length_of(uv);
       junctions_of_curve_[c] = {junction_at(shape.end1, uv[0], distance(uv[1], uv[0]), length),
@@ -176,6 +189,32 @@ class Builder {
       for (const int j : junctions_of_curve_[c]) ++junctions_[j].degree;
     }
     close_loops();
+  }
+
+  // A short side that is one point in space and that closes no loop: an edge below the tolerance of its host, which the
+  // ends of its neighbours do not heed. Whether there was one.
+  bool leave_out_spikes() {
+    const std::vector<char> before = is_point_;
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      if (is_left_out(c) || c + 1 == seed_curve_ || face_.curves[c].type == CurveType::internal) continue;
+      const auto [i, j] = junctions_of_curve_[c];
+      if (!topology_.curves[curve_of_[c]].degenerate || i == j) continue;
+      if (junctions_[i].degree % 2 == 0 && junctions_[j].degree % 2 == 0) continue;
+      is_point_[c] = length_of(uv_of(c)) <= joining_share * shortest_beside(c);
+    }
+    return is_point_ != before;
+  }
+
+  // Length of the shortest other curve that ends at the corner of a side; 0 when there is none.
+  [[nodiscard]] double shortest_beside(int side) const {
+    const auto corner_of = [this](int c) { return stand_in(topology_.curves[curve_of_[c]].end1); };
+    double shortest = std::numeric_limits<double>::infinity();
+    for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
+      const int far_end = stand_in(topology_.curves[curve_of_[c]].end2);
+      if (c == side || is_left_out(c) || (corner_of(c) != corner_of(side) && far_end != corner_of(side))) continue;
+      shortest = std::min(shortest, length_of(uv_of(c)));
+    }
+    return std::isfinite(shortest) ? shortest : 0;
   }
 
   // Two junctions of one corner at which an odd number of curves end were torn apart by a gap: nearest ones first.

@@ -1,6 +1,7 @@
 #include "surface/narrow_faces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,10 @@ constexpr double longest_tip = 2;
 constexpr std::size_t most_curves = 60;
 // Choices whose widths differ by less are equally near: the one with more curves in its tips is taken.
 constexpr double same_width = 1e-3;
+
+// A face is without width where its surface, halfway between two uses of a curve, is no farther from them than this
+// many times their gap, or this share of their length.
+constexpr double folded_gap = 4, folded_share = 1e-9;
 
 // Boundary curves end to end in the parameter plane, where loops have no ambiguity.
 std::vector<Side> find_loops(const std::vector<CurveSupport>& supports) {
@@ -224,7 +229,45 @@ std::vector<int> vanishing_loop(const CurveModel& model, const std::vector<char>
   return {};
 }
 
+/// Whether the face has nothing between the two uses that it makes of one curve.
+bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int face, std::array<CurveUse, 2> uses) {
+  const int ref = model.model.faces[face].ref;
+  const double near = std::max(folded_gap * curve.gap, folded_share * model.length(curve.curve));
+  for (const double r : {0.25, 0.5, 0.75}) {
+    std::array<Vec2, 2> uv;
+    std::array<Vec3, 2> p;
+    for (int i = 0; i < 2; ++i) {
+      uv[i] =
+          model.cad.curve(model.face_ref(uses[i]), uses[i].curve + 1, want_position, parameter_at(model, uses[i], r)).c;
+      p[i] = surface_at(model.cad, ref, want_position, uv[i]).s;
+    }
+    const Vec3 between = surface_at(model.cad, ref, want_position, 0.5 * (uv[0] + uv[1])).s;
+    if (!(norm(between - p[0]) <= near) || !(norm(between - p[1]) <= near)) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves) {
+  std::vector<int> folded;
+  for (int f = 0; f < static_cast<int>(model.model.faces.size()); ++f) {
+    const std::vector<int>& curve_of = model.topology.curve_of[f];
+    if (!model.model.faces[f].left_out.empty()) continue;
+    bool is_folded = false;
+    for (const int c : curve_of) {
+      const Curve& curve = model.curve(c);
+      if (curve.degenerate) continue;
+      std::vector<CurveUse> here;
+      for (const CurveUse& use : curve.uses)
+        if (use.face == f) here.push_back(use);
+      is_folded = here.size() == 2 && is_folded_along(model, curves[c], f, {here[0], here[1]});
+      if (!is_folded) break;
+    }
+    if (is_folded) folded.push_back(f);
+  }
+  return folded;
+}
 
 void let_tips_vanish(const CurveModel& model, NarrowModel& narrow) {
   std::vector<char>& gone = narrow.vanishing.curve;

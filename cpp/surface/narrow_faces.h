@@ -43,9 +43,15 @@ struct NarrowModel {
   std::vector<NarrowFace> points;  ///< near a point
   /// The tips of strips and all curves of points, when their faces are to collapse.
   VanishingCurves vanishing;
+  std::vector<int> folded;  ///< faces without width (find_folded_faces()): nothing is meshed there, whatever is asked
 
   [[nodiscard]] bool empty() const noexcept { return strips.empty() && points.empty(); }
 };
+
+/// Faces whose whole boundary is there and back along the same curves, with no more between them than the gap of those:
+/// slivers below the tolerance of their file. A closed surface along its seam is none. Indices in Model::faces,
+/// ascending.
+std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
 
 /// Fills `vanishing`. A face whose curves are a whole loop of another one, a small hole, is left out of the lists: the
 /// hole would vanish with it.

@@ -135,6 +135,8 @@ void use_command_parameters(carreau_session* session, double size, double diagon
   carreau_set_real(session, "edge_gradation", 1.5);
   carreau_set_integer(session, "stagger_strips", 1);
   carreau_set_integer(session, "shape_trials", 1);
+  carreau_set_text(session, "narrow_faces", "collapse");
+  carreau_set_real(session, "narrow_ratio", 4e-4);
   carreau_set_integer(session, "CheckAdjacentEdges", 20);
 }
 

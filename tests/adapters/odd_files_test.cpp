@@ -31,6 +31,8 @@ namespace {
 
 carreau_occ::ShapeFile file_of(const TopoDS_Shape& shape) { return {.shape = shape, .labels = {}, .unit = ""}; }
 
+void keep_narrow_faces(carreau_session* session) { carreau_set_text(session, "narrow_faces", "keep"); }
+
 template <typename Visit>
 void for_each_edge_of_faces(const TopoDS_Shape& shape, Visit visit) {
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next())
@@ -94,10 +96,27 @@ TEST(TinyEdges, LeaveNarrowFacesMeshed) {
   polygon.Close();
   carreau_occ::BrepHost host(
       file_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 0, 3)).Shape()));
-  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 30);
+  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 30, keep_narrow_faces);
   EXPECT_EQ(mesh.trouble(true), "");
   EXPECT_NEAR(mesh.volume, 30, 1e-3);
   EXPECT_LT(mesh.quality.triangles, 5000);  // not as many as edges of that length would make
+}
+
+// Chamfers that no triangle of the wanted size can resolve vanish; their neighbours meet in one curve.
+TEST(NarrowFaces, NarrowerThanAnyCutVanish) {
+  for (const double width : {1e-7, 1e-5, 1e-4}) {
+    SCOPED_TRACE(width);
+    BRepBuilderAPI_MakePolygon polygon;
+    for (const auto& [x, y] : {std::pair{0., 0.}, {5., 0.}, {5. - width, width}, {2., 4.}})
+      polygon.Add(gp_Pnt(x, y, 0));
+    polygon.Close();
+    carreau_occ::BrepHost host(
+        file_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 0, 3)).Shape()));
+    const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 15);
+    EXPECT_EQ(mesh.trouble(true), "");
+    EXPECT_NEAR(mesh.volume, 30, 20 * width);
+    EXPECT_GT(mesh.quality.q2_min, 0.5);
+  }
 }
 
 // Two tiny edges one after the other, first in the wires of two faces: one of them must not tell how the loop is
@@ -111,7 +130,7 @@ TEST(TinyEdges, FirstInTheirWiresTearNoLoop) {
     polygon.Close();
     carreau_occ::BrepHost host(
         file_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(0, 0, 3)).Shape()));
-    const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 30);
+    const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, host.diagonal() / 30, keep_narrow_faces);
     EXPECT_EQ(mesh.trouble(true), "");
     EXPECT_NEAR(mesh.volume, 30, 20 * tiny);
   }

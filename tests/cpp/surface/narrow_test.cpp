@@ -14,6 +14,7 @@ namespace carreau {
 namespace {
 
 using testing::AnalyticCad;
+using testing::AnalyticCurve;
 using testing::AnalyticFace;
 constexpr double pi = std::numbers::pi;
 
@@ -92,12 +93,13 @@ AnalyticCad stepped(double step, double angle) {
   return cad;
 }
 
+FaceCurve curve(int ref, int end1, int end2) { return {.ref = ref, .end1 = end1, .end2 = end2}; }
+Face face(int ref, std::vector<FaceCurve> curves) {
+  return Face{.ref = ref, .curves = std::move(curves), .points = {}};
+}
+
 /// Gluing by polylines cannot tell circles as near as that.
 Model stepped_model() {
-  const auto curve = [](int ref, int end1, int end2) { return FaceCurve{.ref = ref, .end1 = end1, .end2 = end2}; };
-  const auto face = [](int ref, std::vector<FaceCurve> curves) {
-    return Face{.ref = ref, .curves = std::move(curves), .points = {}};
-  };
   Model model;
   model.faces = {face(1, {curve(1, 1, 1)}), face(2, {curve(1, 1, 1), curve(2, 1, 2), curve(3, 2, 2), curve(2, 2, 1)}),
                  face(3, {curve(3, 2, 2), curve(4, 3, 3)}),
@@ -111,13 +113,14 @@ struct Meshed {
 
   Meshed(const AnalyticCad& cad, double size, const char* mode, double ratio = 0.1)
       : Meshed(testing::unglued(cad), cad, size, mode, ratio) {}
-  Meshed(const Model& model, const AnalyticCad& cad, double size, const char* mode, double ratio = 0.1) {
+  Meshed(const Model& model, const AnalyticCad& cad, double size, const char* mode, double ratio = 0.1,
+         double eps_glue = 1e-8) {
     session.set_cad(std::make_shared<AnalyticCad>(cad));
     session.set_model(model);
     session.parameters().set("hphydef", size);
     session.parameters().set("hphymin", size / 10);
     session.parameters().set("hphymax", size * 10);
-    session.parameters().set("eps_glue", 1e-8);
+    session.parameters().set("eps_glue", eps_glue);
     session.parameters().set("eps_ends", 0.0);
     session.parameters().set("narrow_faces", mode);
     session.parameters().set("narrow_ratio", ratio);
@@ -347,6 +350,57 @@ TEST(Narrow, ThinPlateStaysClosed) {
     const Meshed run(prism({{0, 0}, {1, 0}, {1, 1e-3}, {0, 1e-3}}), size, "collapse");
     run.expect_closed(2);
   }
+}
+
+// ---- below the tolerance of a file ----
+
+// A sliver whose two sides were glued to each other: nothing is between them, whatever is asked.
+TEST(Folded, FaceWithoutWidthIsNoFailure) {
+  constexpr double width = 1e-9;
+  AnalyticCad cad;
+  cad.faces[1] = plane_face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  cad.faces[2] = plane_face({{0, 2, 0}, {1, 2, 0}, {1, 2 + width, 0}, {0, 2 + width, 0}});
+  Model model;
+  model.faces = {face(1, {curve(1, 1, 2), curve(2, 2, 3), curve(3, 3, 4), curve(4, 4, 1)}),
+                 face(2, {curve(5, 5, 6), curve(6, 6, 6), curve(5, 6, 5), curve(7, 5, 5)})};
+  const Meshed run(model, cad, 0.1, "keep");
+  EXPECT_EQ(find_defects(run.mesh(), {.closed = false, .limit = 5}), std::vector<std::string>{});
+  EXPECT_EQ(run.face(1).status, FaceStatus::meshed) << run.face(1).why;
+  EXPECT_EQ(run.face(2).status, FaceStatus::collapsed) << run.face(2).why;
+  EXPECT_NE(run.face(2).why.find("no width"), std::string::npos) << run.face(2).why;
+  EXPECT_TRUE(run.face(2).triangles.empty());
+}
+
+// The same curve there and back bounds a whole cylinder, too, between its ends.
+TEST(Folded, SeamsAreNot) {
+  const AnalyticCad cad = stepped(0.1, 0.3);
+  const Meshed run(stepped_model(), cad, 0.1, "keep");
+  run.expect_closed(2);
+  for (const FaceMesh& face : run.mesh().faces) EXPECT_NE(face.status, FaceStatus::collapsed) << face.ref;
+}
+
+// A side runs past its corner by less than points may be apart, and the rest of it is a curve of its own, as gluing
+// cuts it: the next side starts at the corner.
+TEST(Spikes, AreLeftOut) {
+  for (const double spike : {1e-4, 4e-4, 1e-3})
+    for (const double size : {0.3, 0.1, 0.02}) {
+      SCOPED_TRACE(spike);
+      SCOPED_TRACE(size);
+      AnalyticCad cad;
+      cad.faces[1] = {[](Vec2 p) {
+                        return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                      },
+                      testing::rectangle({0, 0}, {1, 1})};
+      std::vector<AnalyticCurve>& curves = cad.faces[1].curves;
+      curves.push_back(curves.back());
+      curves[3] = testing::segment({0, 1}, {-spike, 1});
+      Model model;
+      model.faces = {face(1, {curve(1, 1, 2), curve(2, 2, 3), curve(3, 3, 4), curve(4, 4, 4), curve(5, 4, 1)})};
+      const Meshed run(model, cad, size, "keep", 0.1, 2 * spike);
+      EXPECT_EQ(find_defects(run.mesh(), {.closed = false, .limit = 5}), std::vector<std::string>{});
+      EXPECT_NE(run.face(1).status, FaceStatus::failed) << run.face(1).why;
+      EXPECT_NEAR(run.quality().area, 1, 1e-12);
+    }
 }
 
 }  // namespace
