@@ -104,9 +104,11 @@ Metric2 square_root(Metric2 m) noexcept {
 
 LengthRatios length_ratios(Metric2 m, Metric2 reference) noexcept {
   const Metric2 n = transformed_back(m, factor(reference));
-  const double half = 0.5 * (n.a - n.c);
-  const double major = 0.5 * (n.a + n.c) + std::sqrt(half * half + n.b * n.b);
-  const double minor = accurate_determinant(m) / accurate_determinant(reference) / major;
+  const double half = 0.5 * (n.a - n.c), mean = 0.5 * (n.a + n.c), radius = std::sqrt(half * half + n.b * n.b);
+  const double major = mean + radius;
+  // Of two metrics that are much alike the difference is as accurate, and cheap.
+  const double minor =
+      2 * radius < mean ? mean - radius : accurate_determinant(m) / accurate_determinant(reference) / major;
   return {std::sqrt(std::max(minor, 0.0)), std::sqrt(major)};
 }
 

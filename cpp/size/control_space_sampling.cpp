@@ -29,7 +29,7 @@ constexpr double negligible_length = 0.03;
 constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1, least_width = 0.25;
 // The error that is refined for whatever it costs is the tolerance in cells at least so many edges wide. Below it grows
 // with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
-constexpr double plain_width = 1.5;
+constexpr double plain_width = 2.5;
 // What is left of a cell's error when its centre is known: a cubic along a side errs by half as much as one for the
 // centre, to which both directions contribute.
 constexpr double left_by_centre = 0.5;
@@ -48,7 +48,7 @@ constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5, trusted = 0.25;
 constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
 // Where errors are no larger than edges can show these may be used beyond the samples for each vertex; in a large mesh
 // only so many vertices count, and a share of the others.
-constexpr double spare_samples = 100, vertices_that_count = 1500, share_of_others = 1.0 / 6;
+constexpr double spare_samples = 100, vertices_that_count = 1500, share_of_others = 1.0 / 12;
 // The same where the tolerance is violated.
 constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 // Gradation leaves more kinks, and promises something of each.
