@@ -29,6 +29,7 @@ class Optimiser {
   void collect_edges(std::int32_t first, std::int32_t end);
   void prefetch_beyond(std::size_t k) const;
   void swap_to_delaunay();
+  void shorten_long_edges();
   [[nodiscard]] bool wants_swap(int t, int i) const;
   [[nodiscard]] bool wants_bent_swap(int a, int b, int c, int d) const;
   void swap_to_degree_six();

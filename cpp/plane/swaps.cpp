@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "metric/field_length.h"
 #include "plane/metric_delaunay.h"
 #include "plane/optimiser.h"
 
@@ -13,6 +14,7 @@ namespace {
 constexpr int passes = 10;
 constexpr std::int32_t triangles_at_once = 256;
 constexpr int triangles_between_checks = 1 << 16;
+constexpr int edges_between_checks = 256;
 // Nearly cocircular vertices keep their diagonal.
 constexpr double cocircular = 1e-9;
 // A swap for the sake of degrees leaves no triangle worse than this.
@@ -124,7 +126,39 @@ void Optimiser::swap_to_delaunay() {
   // edge is long, swaps run in circles between triangles that are as good as each other.
   if (!mesh_.bends.empty()) return;
   std::erase_if(work_, [this](std::int32_t t) { return !has_long_edge(mesh_.triangles[t]); });
+  shorten_long_edges();
   make_delaunay_in_metric(mesh_, work_, monitor_);
+}
+
+// Where hundreds of edges lean over dozens of units one swap gains less than the metrics of neighbouring triangles
+// differ by, and angles taken in these do not tell which diagonal is better; lengths measured along them do. Their sum
+// falls, so that there is an end. Starts with the triangles of `work_`, and adds those that it has changed.
+void Optimiser::shorten_long_edges() {
+  const auto length_along = [this](int p, int q) {
+    return field_length([this](Vec2 at) { return field_.at(at); }, mesh_.at(p), mesh_.at(q));
+  };
+  std::vector<HalfEdge>& open = edges_;
+  open.clear();
+  for (const std::int32_t t : work_)
+    for (int i = 0; i < 3; ++i) open.push_back(4 * t + i);
+  const std::size_t seeds = work_.size();
+  long measured = 0;
+  while (!open.empty()) {
+    const int t = open.back() >> 2, i = open.back() & 3;
+    open.pop_back();
+    const Triangle& A = mesh_.triangles[t];
+    if (A.n[i] == no_edge || mesh_.is_imposed(t, i)) continue;
+    const int u = A.n[i] >> 2, c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh_.triangles[u].v[A.n[i] & 3];
+    if (!(mesh_.squared_length(a, b) > long_edge * long_edge) || !mesh_.can_swap(t, i)) continue;
+    if (++measured % edges_between_checks == 0) monitor_.checkpoint();
+    if (!(length_along(c, d) < (1 - cocircular) * length_along(a, b))) continue;
+    mesh_.swap_edge(t, i);
+    work_.insert(work_.end(), {t, u});
+    open.insert(open.end(), {4 * t, 4 * t + 2, 4 * u, 4 * u + 1});
+  }
+  if (work_.size() == seeds) return;
+  std::sort(work_.begin(), work_.end());
+  work_.erase(std::unique(work_.begin(), work_.end()), work_.end());
 }
 
 // Beside a fine border sizes may be longer than a strip is wide: there edges are long that are none of three units.

@@ -92,6 +92,40 @@ TEST(MeshPlane, LongStripsAreDelaunayInTheMetric) {
   }
 }
 
+// One unit wide and four hundred long, in parameters that make it a square, with a cut end; off its axes the metric
+// changes from unit to unit by more than one swap gains where all edges lean over dozens of units.
+TEST(MeshPlane, LongStripsOfOneLayerDoNotLean) {
+  constexpr int along = 400;
+  for (const double cut : {0.09, 0.2}) {
+    SCOPED_TRACE(cut);
+    PlaneCase c;
+    std::vector<Vec2>& p = c.domain.vertices;
+    for (int i = 0; i <= along; ++i) p.push_back({static_cast<double>(i) / along, 0});
+    const int end = static_cast<int>(cut * along);
+    for (int i = 1; i < end; ++i) p.push_back({1 - cut * i / end, static_cast<double>(i) / end});
+    const int top = static_cast<int>(along * (1 - cut));
+    for (int i = top; i >= 0; --i) p.push_back({(1 - cut) * i / top, 1});
+    for (int i = 0; i < static_cast<int>(p.size()); ++i)
+      c.domain.edges.push_back({i, (i + 1) % static_cast<int>(p.size()), PlaneEdgeKind::boundary, 0, i});
+    SampledDomain sampled{p, {}};
+    for (const PlaneEdge& e : c.domain.edges) sampled.edges.emplace_back(e.a, e.b);
+    Monitor monitor;
+    const auto field = [&](std::span<const Vec2> at, std::span<Metric2> metric) {
+      for (std::size_t k = 0; k < at.size(); ++k) {
+        const double s = std::sin(2 * along * at[k].x + 3 * at[k].y);
+        metric[k] = {along * along, -0.04 * along * (0.5 + s), 1.2 * (1 + 0.4 * s)};
+      }
+    };
+    const PlaneMesh mesh = mesh_plane(c.domain, ControlSpace::build(sampled, field, {}, monitor), {}, monitor);
+    EXPECT_EQ(find_plane_defects(c.domain, mesh), Defects{});
+    double longest = 0;
+    for (const auto& t : mesh.triangles)
+      for (int i = 0; i < 3; ++i)
+        longest = std::max(longest, along * std::abs(mesh.vertices[t[i]].x - mesh.vertices[t[(i + 1) % 3]].x));
+    EXPECT_LT(longest, 1.5);
+  }
+}
+
 TEST(MeshPlane, DoesNotDependOnTheUnitOfTheParameters) {
   // The same patch in parameters multiplied by powers of two: the same triangles.
   const PlaneCase c = paraboloid(0.3);
