@@ -12,6 +12,7 @@
 #include "predicates/polygon_locator.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
+#include "surface/bulging_edges.h"
 #include "surface/finest_lengths.h"
 #include "surface/near_vertices.h"
 #include "surface/seam_loops.h"
@@ -82,6 +83,9 @@ class Refiner {
         [this](int f, Found& found) {
           found.edges =
               edges_to_split_for_waists(curve_model_, curves_, f, result_.domain[f]->plane, options_.coef_rectangle);
+          const std::vector<int> bulging =
+              edges_to_split_for_bulges(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle);
+          found.edges.insert(found.edges.end(), bulging.begin(), bulging.end());
           if (!found.ask_metric) return;
           for (const Strip& strip : found.strips)
             if (lies_between(f, strip)) found.edges.push_back(strip.edge);
@@ -363,18 +367,11 @@ class Refiner {
     return norm(at(strip.middle) - at(uv[strip.vertex])) <= norm(at(uv[edge.a]) - at(uv[edge.b]));
   }
 
-  // How far a curve leaves the chord of an edge, from what it is longer (of an arc of height d: 8 d^2 / (3 chord)).
-  [[nodiscard]] double bulge_of(const PlaneEdge& edge, double chord) const {
-    const std::vector<double>& r = curves_[edge.curve].r;
-    const double length = (r[edge.segment + 1] - r[edge.segment]) * curve_model_.length(edge.curve);
-    return std::sqrt(std::max(0.0, 0.375 * chord * (length - chord)));
-  }
-
   // Whether the curve of an edge passes by a vertex, and its chord does not: at distance d, fraction s of the chord. At
   // the tip of two curves that touch each other any two edges are like that, however short.
   [[nodiscard]] bool bulges_past(const PlaneEdge& edge, const FaceDomain& domain, const std::vector<Vec3>& xyz, int v,
                                  double s, double d) const {
-    const double bulge = bulge_of(edge, norm(xyz[edge.b] - xyz[edge.a]));
+    const double bulge = bulge_of(curve_model_, curves_, edge, norm(xyz[edge.b] - xyz[edge.a]));
     if (d > bulge) return false;
     const double between = d + 4 * s * (1 - s) * bulge;
     const auto is_tip = [&](int end) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -23,6 +24,9 @@ constexpr double suspicious = 0.5;
 // Edges divided for each triangle that was wrong to begin with; a bend needs two or three halvings. More are
 // a host whose surface is rough at every scale.
 constexpr std::size_t most_divisions = 32;
+// Times that a triangle was divided to make another: beside a chord so coarse that each triangle on it is turned over
+// divisions would go on until vertices coincide.
+constexpr std::uint8_t deepest = 12;
 // The surface is not divided where it is farther from the middle of an edge than this many lengths: it jumps there.
 constexpr double farthest = 1;
 // Where deviations of edges are sampled: that of an arc is largest in its middle, that of an S at 0.21 and 0.79.
@@ -47,12 +51,13 @@ class SpaceRefinement {
     std::erase_if(wrong, [this](int t) { return is_sound(t); });
     if (wrong.empty()) return;
     const PatchMesh untouched = mesh_;
+    depth_.assign(mesh_.plane.triangles.size(), 0);
     std::size_t left = most_divisions * wrong.size();
     queue_ = wrong;
     for (std::size_t k = 0; k < queue_.size() && left > 0; ++k) {
       if (k % 256 == 0) monitor_.checkpoint();
       const int t = queue_[k];
-      if (is_sound(t) || swap_one(t) || !divide(t)) continue;
+      if (is_sound(t) || swap_one(t) || depth_[t] >= deepest || !divide(t)) continue;
       --left;
       queue_.push_back(t);
     }
@@ -341,6 +346,9 @@ class SpaceRefinement {
     across_[u] = {t, ad, w};
     across_.push_back({w, bc, t});
     across_.push_back({v, u, db});
+    ++depth_[t], ++depth_[u];
+    depth_.push_back(depth_[t]);
+    depth_.push_back(depth_[u]);
     reconnect(bc, t, v);
     reconnect(db, u, w);
     queue_.insert(queue_.end(), {t, u, v, w});
@@ -362,6 +370,7 @@ class SpaceRefinement {
   double sine_;         // of the angle that is kept
   bool known_ = false;  // normals at all vertices are
   std::vector<std::array<int, 3>> across_;
+  std::vector<std::uint8_t> depth_;  // by triangle
   std::vector<int> queue_;
 };
 

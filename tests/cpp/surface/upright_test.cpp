@@ -138,5 +138,60 @@ TEST(Guaranteed, NothingIsDividedBelowTheSmallestSize) {
 INSTANTIATE_TEST_SUITE_P(Surfaces, Upright, ::testing::ValuesIn(surfaces_that_bend),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
+// A fillet in a corner that turns inwards, one edge on its outer side and seven on the inner one: the chord of that
+// edge passes inside of the inner side, and the outer curve outside of it.
+TEST(UprightBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
+  const AnalyticCad cad = one_face([](Vec2 p) { return torus_jet(p, 7.5, 0.6); }, rectangle({0, pi / 2}, {1.3, pi}));
+  for (const bool by_direction : {false, true}) {
+    SCOPED_TRACE(by_direction ? "by direction" : "one size");
+    Monitor monitor;
+    Session session(monitor);
+    const auto host = std::make_shared<AnalyticCad>(cad);
+    host->size_on_curve = [](int, int ic, double) { return ic == 1 ? 12. : 1.3; };
+    session.set_cad(host);
+    session.set_model(unglued(*host));
+    Parameters& p = session.parameters();
+    p.set("hphy_flag", 2);
+    p.set("hphymin", 0.01);
+    p.set("hphymax", 20.0);
+    p.set("CheckCloseEdges", 20);
+    p.set("CoefRectangle", 0.065);
+    if (by_direction) {
+      p.set("hgeo_flag", 1);
+      p.set("geo_metric", 1);
+      p.set("angle_mesh", 60.0);
+      p.set("hgeomax", 20.0);
+    }
+    session.make_mesh();
+    EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
+    EXPECT_EQ(session.delivered().folded_triangles, 0);
+  }
+}
+
+// As it is where such edges are left alone: no division makes the triangles on them upright, and none goes on until
+// vertices coincide.
+TEST(UprightBesideChords, AreNotDividedForEver) {
+  const AnalyticCad cad = one_face([](Vec2 p) { return torus_jet(p, 7.5, 0.6); }, rectangle({0, pi / 2}, {2 * pi, pi}));
+  Monitor monitor;
+  Session session(monitor);
+  const auto host = std::make_shared<AnalyticCad>(cad);
+  host->size_on_curve = [](int, int ic, double) { return ic == 1 ? 8.8 : 1.3; };
+  session.set_cad(host);
+  session.set_model(unglued(*host));
+  Parameters& p = session.parameters();
+  p.set("hphy_flag", 2);
+  p.set("hphymin", 0.01);
+  p.set("hphymax", 20.0);
+  p.set("hgeo_flag", 1);
+  p.set("geo_metric", 1);
+  p.set("angle_mesh", 40.0);
+  p.set("hgeomin", 0.01);
+  p.set("hgeomax", 20.0);
+  session.make_mesh();
+  EXPECT_EQ(session.mesh().faces[0].why, "");
+  EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
+  EXPECT_LT(session.mesh().faces[0].triangles.size(), 1000U);
+}
+
 }  // namespace
 }  // namespace carreau
