@@ -42,8 +42,8 @@ std::vector<int> edges_to_split_for_bulges(const CurveModel& model, const std::v
   const auto normal_at = [&](Vec2 uv) {
     return unit_normal(surface_at(model.cad, model.model.faces[face].ref, want_first, uv)).value_or(Vec3{});
   };
-  for (const auto& [e, height] : bulging) {
-    const PlaneEdge& edge = plane.edges[e];
+  for (const Bulging& one : bulging) {
+    const PlaneEdge& edge = plane.edges[one.edge];
     const Vec2 a = plane.vertices[edge.a], b = plane.vertices[edge.b];
     // In space the triangle of the edge and a vertex is turned against the surface at the vertex or beside the edge.
     const auto is_turned = [&](int v) {
@@ -54,11 +54,16 @@ std::vector<int> edges_to_split_for_bulges(const CurveModel& model, const std::v
       return dot(n, normal_at(p)) < 0 || dot(n, normal_at(middle)) < 0;
     };
     bool any = false;
-    near.each_beside(xyz[edge.a], xyz[edge.b], height, [&](int v) {
-      any = domain.origin[v].curve != edge.curve && is_turned(v);
+    // Beside the chord, nearer than the curve is there.
+    const auto is_passed = [&](int v) {
+      const double s = fraction_on_segment(xyz[v], xyz[edge.a], xyz[edge.b]);
+      return norm(xyz[v] - lerp(xyz[edge.a], xyz[edge.b], s)) <= 4 * s * (1 - s) * one.height;
+    };
+    near.each_beside(xyz[edge.a], xyz[edge.b], one.height, [&](int v) {
+      any = domain.origin[v].curve != edge.curve && is_passed(v) && is_turned(v);
       return !any;
     });
-    if (any) passed.push_back(e);
+    if (any) passed.push_back(one.edge);
   }
   return passed;
 }
