@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "plane/findings.h"
 #include "plane/frame.h"
 #include "plane/shapes.h"
 #include "plane/triangulation.h"
@@ -99,6 +100,7 @@ class Optimiser {
   bool move_to_best(int v);
   void collapse(int v, int k);
   bool collect_star(int v);
+  [[nodiscard]] PlaceKey key_of_star(int v) const;
   [[nodiscard]] bool has_imposed_spoke(int v) const;
   /// What `of` says of the shapes of the star collected around v. Once the sum is `enough` the rest does not matter.
   template <typename Of>
@@ -138,7 +140,10 @@ class Optimiser {
   void collect_zone(int t);
   void restore_zone();
   ZoneCost cost_of_zone(double enough);
+  double known_shape(int p, int q, int r);
   double star_cost(int v, double enough);
+  void place(int v, Vec2 p);
+  Vec2 best_place(int v, bool quick, bool settled);
   void move_in_zone(int v, bool quick);
   void swap_in_zone();
   void settle_zone(bool quick);
@@ -178,6 +183,12 @@ class Optimiser {
   std::int64_t shapes_asked_ = 0;          // of stars, by the rescue
   Zone zone_;
   std::vector<Trial> trials_;
+  Findings<bool> failed_moves_;    // of stars, by the rescue
+  Findings<bool> failed_points_;   // of new points and their cavities, by the rescue
+  std::vector<PlaceKey> places_;   // by vertex, during trials
+  Findings<double> known_shapes_;  // of triangles
+  Findings<Vec2> known_moves_;     // of stars: where the vertex goes
+  Findings<bool> known_swaps_;     // of diagonals: whether they are swapped
   std::vector<std::uint8_t> degree_, wanted_degree_;
   std::vector<std::pair<std::int32_t, std::int32_t>> glided_;  // diagonals of the swaps of a glide
 };

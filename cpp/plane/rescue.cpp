@@ -133,8 +133,25 @@ bool Optimiser::move_to_best(int v) {
   return best < before * (1 - gain);
 }
 
+PlaceKey Optimiser::key_of_star(int v) const {
+  PlaceKey sum = 5 * key_of_place(mesh_.at(v)), last = key_of_place(mesh_.at(ring_.back()));
+  for (const std::int32_t u : ring_) {
+    const PlaceKey key = key_of_place(mesh_.at(u));
+    sum += key_of_side(last, key);
+    last = key;
+  }
+  return sum;
+}
+
 bool Optimiser::rescue_by_move(int v) {
-  if (!collect_star(v) || !move_to_best(v)) return false;
+  if (!collect_star(v)) return false;
+  const PlaceKey star = key_of_star(v);
+  if (failed_moves_.find(star) != nullptr) return false;
+  if (!move_to_best(v)) {
+    // Small steps that gain little are kept even so.
+    if (key_of_star(v) == star) failed_moves_.put(star, true);
+    return false;
+  }
   next_.insert(next_.end(), star_.begin(), star_.end());
   return true;
 }
@@ -238,9 +255,16 @@ bool Optimiser::insert_to_improve(Vec2 p, int t, bool spaced) {
   if (start < 0 || !mesh_.dig(p, field_.at(p), start, {})) return false;
   shapes_asked_ += static_cast<std::int64_t>(mesh_.cavity().size() + mesh_.rim().size());
   double before = 1, after = 1;
+  PlaceKey key = 5 * key_of_place(p) + (spaced ? 1 : 0);
   for (const std::int32_t c : mesh_.cavity()) {
     const Triangle& C = mesh_.triangles[c];
     if (C.done == Done::frozen) return false;
+    key +=
+        key_of_triangle(key_of_place(mesh_.at(C.v[0])), key_of_place(mesh_.at(C.v[1])), key_of_place(mesh_.at(C.v[2])));
+  }
+  if (failed_points_.find(key) != nullptr) return false;
+  for (const std::int32_t c : mesh_.cavity()) {
+    const Triangle& C = mesh_.triangles[c];
     before = std::min(before, shape(C.v[0], C.v[1], C.v[2]));
   }
   const auto v = static_cast<std::int32_t>(mesh_.vertices.size());
@@ -260,6 +284,7 @@ bool Optimiser::insert_to_improve(Vec2 p, int t, bool spaced) {
   if (after <= before + gain) {
     mesh_.vertices.pop_back();
     if (!mesh_.bends.empty()) mesh_.bends.pop_back();
+    failed_points_.put(key, true);
     return false;
   }
   mesh_.fill(v);
@@ -339,6 +364,7 @@ void Optimiser::rescue_all(Needy needy) {
   const std::int64_t budget = std::max(least_shapes, shapes_a_triangle * total);
   std::int64_t checked = 0;
   shapes_asked_ = 0;
+  if (!work_.empty()) failed_moves_.open(), failed_points_.open();
   for (int pass = 0; pass < rescue_passes && !work_.empty() && shapes_asked_ <= budget; ++pass) {
     doubtful_.insert(doubtful_.end(), work_.begin(), work_.end());
     next_.clear();

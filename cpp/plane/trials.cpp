@@ -14,9 +14,9 @@ namespace {
 constexpr double tried_quality = 0.88;
 constexpr int most_passes = 8;
 // Work, counted by shapes, is bounded by a multiple of the mesh.
-constexpr std::int64_t least_shapes = 40'000, shapes_a_triangle = 120;
+constexpr std::int64_t least_shapes = 16'000, shapes_a_triangle = 48;
 // Where nothing helps, strips between fixed borders, there is an end sooner.
-constexpr std::int64_t first_shapes = 6'000, first_shapes_a_triangle = 10, shapes_a_success = 30'000;
+constexpr std::int64_t first_shapes = 2'400, first_shapes_a_triangle = 4, shapes_a_success = 12'000;
 // Of the mean penalty of a neighbourhood.
 constexpr double trial_gain = 0.01, settled_gain = 0.02;
 constexpr int settling_rounds = 4;
@@ -99,7 +99,8 @@ void Optimiser::restore_zone() {
   mesh_.triangles.resize(z.mesh_triangles);
   mesh_.vertices.resize(z.mesh_vertices);
   for (const auto& [t, T] : z.as_they_were) mesh_.triangles[t] = T;
-  for (const auto& [v, V] : z.old_vertices) mesh_.vertices[v] = V;
+  places_.resize(z.mesh_vertices);
+  for (const auto& [v, V] : z.old_vertices) mesh_.vertices[v] = V, places_[v] = key_of_place(V.point());
   z.triangles.resize(z.own);
   z.movable.resize(z.own_movable);
   next_.clear();  // what collapse() tells the rescue
@@ -116,8 +117,7 @@ Optimiser::ZoneCost Optimiser::cost_of_zone(double enough) {
   for (const std::int32_t t : zone_.triangles) {
     const Triangle& T = mesh_.triangles[t];
     if (T.v[0] < 0 || T.done == Done::frozen) continue;
-    const double q = shape(T.v[0], T.v[1], T.v[2]);
-    ++shapes_asked_;
+    const double q = known_shape(T.v[0], T.v[1], T.v[2]);
     sum += cost(q);
     if (sum > most) break;
     all.worst = std::min(all.worst, q);
@@ -131,35 +131,80 @@ Optimiser::ZoneCost Optimiser::cost_of_zone(double enough) {
   return all;
 }
 
+double Optimiser::known_shape(int p, int q, int r) {
+  const PlaceKey key = key_of_triangle(places_[p], places_[q], places_[r]);
+  if (const double* known = known_shapes_.find(key)) return *known;
+  ++shapes_asked_;
+  const double found = shape(p, q, r);
+  known_shapes_.put(key, found);
+  return found;
+}
+
 double Optimiser::star_cost(int v, double enough) { return star_sum(v, enough, cost); }
 
-void Optimiser::move_in_zone(int v, bool quick) {
-  if (mesh_.vertices[v].triangle < 0 || !collect_star(v)) return;
+void Optimiser::place(int v, Vec2 p) {
   Vertex& P = mesh_.vertices[v];
-  double best = star_cost(v, std::numeric_limits<double>::infinity());
-  if (best < static_cast<double>(ring_.size()) * good_enough) return;
-  bool moved = false;
+  P.x = p.x, P.y = p.y;
+  P.set_metric(field_.at(p));
+  places_[v] = key_of_place(p);
+}
+
+// Where move_in_zone() finds the star of v, which is collected, to be best; its old place, if no other is better.
+// `settled`: steps of the first length lead nowhere.
+Vec2 Optimiser::best_place(int v, bool quick, bool settled) {
+  Vertex& P = mesh_.vertices[v];
+  const Vertex old = P;
+  double best = 0, most = 0;
+  std::size_t worst = 0;
+  const std::size_t n = ring_.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const double one = cost(known_shape(v, ring_[k], ring_[k + 1 < n ? k + 1 : 0]));
+    best += one;
+    if (one > most) most = one, worst = k;
+  }
+  if (best < static_cast<double>(n) * good_enough) return old.point();
+  // What is worst is asked first: most moves need no more.
+  std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(worst), ring_.end());
   for (const double step : steps) {
+    if (settled && step == steps[0]) continue;
     for (int turn = 0; turn < (quick ? 1 : 3); ++turn) {
       const UnitCircle circle(P.metric());
       const Vec2 centre = P.point();
       bool any = false;
       for (const Vec2 d : six_directions) {
-        const Vertex kept = P;
-        const Vec2 to = centre + circle.vector(step * d);
+        const Vec2 kept = P.point(), to = centre + circle.vector(step * d);
         P.x = to.x, P.y = to.y;
         const double now = star_cost(v, best);
         if (now < best * (1 - tie))
           best = now, any = true;
         else
-          P = kept;
+          P.x = kept.x, P.y = kept.y;
       }
       if (!any) break;
-      moved = true;
     }
     if (quick) break;
   }
-  if (moved) P.set_metric(field_.at(P.point()));
+  const Vec2 found = P.point();
+  P = old;
+  return found;
+}
+
+void Optimiser::move_in_zone(int v, bool quick) {
+  if (mesh_.vertices[v].triangle < 0 || !collect_star(v)) return;
+  const Vec2 from = mesh_.at(v);
+  PlaceKey star = 5 * places_[v];
+  for (std::size_t k = 0; k < ring_.size(); ++k)
+    star += key_of_side(places_[ring_[k]], places_[ring_[k + 1 < ring_.size() ? k + 1 : 0]]);
+  const PlaceKey key = quick ? star : star + 1;
+  Vec2 to{};
+  if (const Vec2* known = known_moves_.find(key)) {
+    to = *known;
+  } else {
+    const Vec2* quickly = quick ? nullptr : known_moves_.find(star);
+    to = best_place(v, quick, quickly != nullptr && *quickly == from);
+    known_moves_.put(key, to);
+  }
+  if (to != from) place(v, to);
 }
 
 void Optimiser::swap_in_zone() {
@@ -167,13 +212,22 @@ void Optimiser::swap_in_zone() {
   for (const std::int32_t t : zone_.triangles)
     for (int i = 0; i < 3; ++i) {
       const Triangle& T = mesh_.triangles[t];
-      if (T.v[0] < 0 || T.n[i] == no_edge || mesh_.triangles[T.n[i] >> 2].mark == 0 || !mesh_.can_swap(t, i)) continue;
+      if (T.v[0] < 0 || T.n[i] == no_edge || mesh_.is_imposed(t, i)) continue;
       const Triangle& U = mesh_.triangles[T.n[i] >> 2];
+      if (U.mark == 0) continue;
       const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]], d = U.v[T.n[i] & 3];
-      shapes_asked_ += 4;
-      const double before = cost(shape(c, a, b)) + cost(shape(d, b, a));
-      if (!(cost(shape(c, a, d)) + cost(shape(c, d, b)) < before * (1 - tie))) continue;
-      mesh_.swap_edge(t, i);
+      const PlaceKey key = key_of_diagonal(places_[c], places_[a], places_[b], places_[d]);
+      const bool* known = known_swaps_.find(key);
+      bool swaps = known != nullptr && *known;
+      if (known == nullptr) {
+        if (mesh_.can_swap(t, i)) {
+          const double before = (cost(known_shape(c, a, b)) + cost(known_shape(d, b, a))) * (1 - tie);
+          const double after = cost(known_shape(c, a, d));
+          swaps = after < before && after + cost(known_shape(c, d, b)) < before;
+        }
+        known_swaps_.put(key, swaps);
+      }
+      if (swaps) mesh_.swap_edge(t, i);
     }
   for (const std::int32_t t : zone_.triangles) mesh_.triangles[t].mark = 0;
 }
@@ -196,6 +250,7 @@ void Optimiser::split_edge(int t, int i) {
   mesh_.vertices.push_back({p.x, p.y});
   mesh_.vertices.back().triangle = t;
   shapes_.set_metric(m);
+  places_.push_back(key_of_place(p));
   // Edge 0 of each of the four is a half of the edge.
   const auto make = [&](int place, const Triangle& from, std::array<std::int32_t, 3> v, std::array<HalfEdge, 3> n,
                         int outer, int source) {
@@ -226,10 +281,9 @@ bool Optimiser::collapse_in_zone(int v) {
   for (int k = 0; k < n; ++k) {
     double least = 1;
     for (int j = 1; j + 1 < n && least > best; ++j)
-      least = std::min(least, shape(ring_[k], ring_[(k + j) % n], ring_[(k + j + 1) % n]));
+      least = std::min(least, known_shape(ring_[k], ring_[(k + j) % n], ring_[(k + j + 1) % n]));
     if (least > best * (1 + tie)) best = least, into = k;
   }
-  shapes_asked_ += n * n / 2;
   if (into < 0) return false;
   collapse(v, into);
   return true;
@@ -330,6 +384,9 @@ void Optimiser::improve_worst() {
   const std::int64_t budget = least_shapes + shapes_a_triangle * total;
   std::int64_t allowed = first_shapes + first_shapes_a_triangle * total;
   shapes_asked_ = 0;
+  places_.clear();
+  for (const Vertex& V : mesh_.vertices) places_.push_back(key_of_place(V.point()));
+  known_shapes_.open(), known_moves_.open(), known_swaps_.open();
   std::vector<char> in_vain(mesh_.triangles.size(), 0);
   std::vector<std::pair<double, std::int32_t>> bad;
   for (int pass = 0; pass < most_passes; ++pass) {

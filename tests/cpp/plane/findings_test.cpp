@@ -1,0 +1,61 @@
+// Keys by which the optimiser knows triangles, edges and stars again.
+#include "plane/findings.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <vector>
+
+namespace carreau::plane {
+namespace {
+
+PlaceKey triangle(const std::array<Vec2, 3>& p) {
+  return key_of_triangle(key_of_place(p[0]), key_of_place(p[1]), key_of_place(p[2]));
+}
+
+// A triangle is the same from each of its corners, and another one when it is turned over or one corner moves by the
+// last bit.
+TEST(Findings, KeysOfTrianglesDependOnPlacesAndTurn) {
+  const Vec2 a{0, 0}, b{1, 0}, c{0.5, 1};
+  EXPECT_EQ(triangle({a, b, c}), triangle({b, c, a}));
+  EXPECT_EQ(triangle({a, b, c}), triangle({c, a, b}));
+  EXPECT_NE(triangle({a, b, c}), triangle({a, c, b}));
+  EXPECT_NE(triangle({a, b, c}), triangle({a, b, Vec2{0.5, 1 + 0x1p-52}}));
+}
+
+// A diagonal is the same from both of its sides; the other one of the quadrilateral is not.
+TEST(Findings, KeysOfDiagonalsTellWhichOneItIs) {
+  const PlaceKey a = key_of_place({0, 0}), b = key_of_place({1, 1}), c = key_of_place({0, 1}), d = key_of_place({1, 0});
+  EXPECT_EQ(key_of_diagonal(c, a, b, d), key_of_diagonal(d, b, a, c));
+  EXPECT_NE(key_of_diagonal(c, a, b, d), key_of_diagonal(a, d, c, b));
+}
+
+// Coordinates of regular grids have few bits: all their triangles are told apart even so.
+TEST(Findings, TrianglesOfAGridHaveKeysOfTheirOwn) {
+  constexpr int n = 64;
+  std::set<PlaceKey> keys;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const auto at = [&](int di, int dj) { return Vec2{(i + di) / 64., (j + dj) / 64.}; };
+      keys.insert({triangle({at(0, 0), at(1, 0), at(0, 1)}), triangle({at(1, 1), at(0, 1), at(1, 0)}),
+                   triangle({at(0, 0), at(1, 0), at(1, 1)}), triangle({at(0, 0), at(1, 1), at(0, 1)})});
+    }
+  EXPECT_EQ(keys.size(), 4U * n * n);
+}
+
+TEST(Findings, WhatIsNotKnownIsNotFound) {
+  Findings<double> findings;
+  findings.open();
+  const PlaceKey known = key_of_place({0.25, 0.5}), other = key_of_place({0.5, 0.25});
+  EXPECT_EQ(findings.find(known), nullptr);
+  findings.put(known, 0.75);
+  ASSERT_NE(findings.find(known), nullptr);
+  EXPECT_EQ(*findings.find(known), 0.75);
+  EXPECT_EQ(findings.find(other), nullptr);
+  findings.open();
+  EXPECT_EQ(findings.find(known), nullptr);
+}
+
+}  // namespace
+}  // namespace carreau::plane
