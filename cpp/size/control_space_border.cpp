@@ -16,6 +16,8 @@ constexpr int terms = 6;  // 1, x, y, x^2, x y, y^2
 constexpr std::size_t enough = 10;
 // As many as there usually are.
 constexpr std::size_t usual_neighbours = 48;
+// So many sampled nodes are gone through faster than the places of a grid are looked up.
+constexpr std::size_t few_nodes = 400;
 // Reach of the neighbourhood in units of the size asked for, and how much the weights prefer near samples.
 constexpr double reach_in_sizes = 2.2, near_share = 0.5, softness = 0.04;
 // Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
@@ -104,7 +106,17 @@ void BorderSamples::add(Vec2 position, Metric2 root) {
   samples_.push_back({position, root});
 }
 
-void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std::vector<Sample>& found) const {
+void BorderSamples::sort_nodes() {
+  const std::span<const std::int32_t> sampled = lattice_.samples();
+  const std::size_t known = nodes_.size();
+  for (std::size_t k = known; k < sampled.size(); ++k) nodes_.push_back({lattice_.point(sampled[k]), sampled[k]});
+  const auto before = [](const NodeAt& p, const NodeAt& q) { return p.p.j != q.p.j ? p.p.j < q.p.j : p.p.i < q.p.i; };
+  const auto fresh = nodes_.begin() + static_cast<std::ptrdiff_t>(known);
+  std::sort(fresh, nodes_.end(), before);
+  std::inplace_merge(nodes_.begin(), fresh, nodes_.end(), before);
+}
+
+void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std::vector<Sample>& found) {
   found.clear();
   const auto cells = [&](double x, int count) {
     return std::clamp(static_cast<int>(std::floor(x / lattice_.step())), 0, count - 1);
@@ -117,23 +129,43 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
         const Vec2 d = samples_[k].position - centre;
         if (std::max(std::abs(d.x), std::abs(d.y)) <= reach) found.push_back(samples_[k]);
       }
+  // Far nodes of the finer of both grids would add little but time.
+  const double near = near_share * reach;
+  const auto is_left_out = [&](std::int32_t i, std::int32_t j) {
+    const bool fine = ((i | j) & spacing) != 0;
+    return fine && (std::abs(i - centre.x) > near || std::abs(j - centre.y) > near);
+  };
+  const auto lowest = [&](double x) { return static_cast<std::int32_t>(std::ceil(std::max(x - reach, 0.))); };
+  const auto highest = [&](double x, std::int32_t end) {
+    return static_cast<std::int32_t>(std::floor(std::min<double>(x + reach, end)));
+  };
+  if (lattice_.samples().size() <= few_nodes) {
+    if (nodes_.size() < lattice_.samples().size()) sort_nodes();
+    const std::int32_t left = lowest(centre.x), right = highest(centre.x, lattice_.end().i);
+    const std::int32_t bottom = lowest(centre.y), top = highest(centre.y, lattice_.end().j);
+    auto n = std::lower_bound(nodes_.begin(), nodes_.end(), bottom,
+                              [](const NodeAt& at, std::int32_t j) { return at.p.j < j; });
+    for (; n != nodes_.end() && n->p.j <= top; ++n) {
+      const auto [i, j] = n->p;
+      if (i < left || i > right || ((i | j) & (spacing - 1)) != 0 || is_left_out(i, j)) continue;
+      found.push_back({{static_cast<double>(i), static_cast<double>(j)}, lattice_.value(n->node)});
+    }
+    return;
+  }
   const auto first = [&](double x) {
     return std::max(0, static_cast<std::int32_t>(std::ceil((x - reach) / spacing)) * spacing);
   };
   const double right = std::min<double>(centre.x + reach, lattice_.end().i);
   const double top = std::min<double>(centre.y + reach, lattice_.end().j);
-  // Far nodes of the finer of both grids would add little but time.
-  const double near = near_share * reach;
   for (std::int32_t j = first(centre.y); j <= top; j += spacing)
     for (std::int32_t i = first(centre.x); i <= right; i += spacing) {
-      const bool fine = ((i | j) & spacing) != 0;
-      if (fine && (std::abs(i - centre.x) > near || std::abs(j - centre.y) > near)) continue;
+      if (is_left_out(i, j)) continue;
       if (const Metric2* root = lattice_.sample({i, j}))
         found.push_back({{static_cast<double>(i), static_cast<double>(j)}, *root});
     }
 }
 
-Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) const {
+Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
   std::vector<Sample> near;
   near.reserve(usual_neighbours);
   double scale = size;

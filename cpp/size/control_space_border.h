@@ -22,19 +22,26 @@ class BorderSamples {
   /// few times `size` (units of the finest grid), the nearer the better (moving least squares); the neighbourhood grows
   /// until it holds something, and the degree falls where it holds too little. Positive definite when all samples are.
   /// Needs at least one sample of either kind.
-  [[nodiscard]] Metric2 fit(Vec2 position, std::int32_t size) const;
+  [[nodiscard]] Metric2 fit(Vec2 position, std::int32_t size);
 
  private:
   struct Sample {
     Vec2 position;
     Metric2 root;
   };
-  void collect(Vec2 centre, double reach, std::int32_t spacing, std::vector<Sample>& found) const;
+  void collect(Vec2 centre, double reach, std::int32_t spacing, std::vector<Sample>& found);
+  void sort_nodes();
 
   const Lattice& lattice_;
   int columns_, rows_;
   std::vector<Sample> samples_;
   std::vector<std::vector<std::int32_t>> in_cell_;  // by coarsest cells
+  // While samples are few: the sampled nodes, row by row.
+  struct NodeAt {
+    GridPoint p;
+    std::int32_t node;
+  };
+  std::vector<NodeAt> nodes_;
 };
 
 }  // namespace carreau::detail

@@ -85,8 +85,9 @@ std::int32_t Lattice::node(GridPoint p, Place place) {
   return number;
 }
 
-void Lattice::set_sample(std::int32_t node, Metric2 root) noexcept {
+void Lattice::set_sample(std::int32_t node, Metric2 root) {
   nodes_[node].root = root;
+  if (!nodes_[node].sampled) samples_.push_back(node);
   nodes_[node].sampled = true;
 }
 

@@ -131,7 +131,7 @@ class Lattice {
     return nodes_[node].place == Place::inside || nodes_[node].place == Place::by_border;
   }
   [[nodiscard]] bool sampled(std::int32_t node) const noexcept { return nodes_[node].sampled; }
-  void set_sample(std::int32_t node, Metric2 root) noexcept;
+  void set_sample(std::int32_t node, Metric2 root);
   [[nodiscard]] const Metric2& value(std::int32_t node) const noexcept { return nodes_[node].root; }
   /// Gives a node its last value, when all predictions have been made.
   void settle(std::int32_t node, Metric2 root) noexcept {
@@ -148,6 +148,8 @@ class Lattice {
     const std::int32_t n = sampled_node(p);
     return n >= 0 ? &nodes_[n].root : nullptr;
   }
+  /// All nodes that were sampled, in the order in which they first were.
+  [[nodiscard]] std::span<const std::int32_t> samples() const noexcept { return samples_; }
   /// What the samples known so far say about a node inside the domain: predictions are remembered until forget().
   Prediction predict(std::int32_t node);
   void forget() noexcept { ++pass_; }
@@ -228,6 +230,7 @@ class Lattice {
   const PolygonLocator& domain_;
   BlockIndex index_;
   std::vector<Block> blocks_;
+  std::vector<std::int32_t> samples_;
   SegmentedArray<Node> nodes_;
   std::int32_t pass_ = 0;
 };

@@ -37,7 +37,7 @@ class ControlSpaceSampling {
   [[nodiscard]] Tree& tree() noexcept { return *tree_; }
   [[nodiscard]] Lattice& lattice() noexcept { return *lattice_; }
   [[nodiscard]] NodePredictor& predictor() noexcept { return *predictor_; }
-  [[nodiscard]] const BorderSamples& border() const noexcept { return *border_; }
+  [[nodiscard]] BorderSamples& border() noexcept { return *border_; }
   [[nodiscard]] const PolygonLocator& locator() const noexcept { return locator_; }
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
 

@@ -48,6 +48,43 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
   return points;
 }
 
+// How many points of that grid are inside. Row by row, from the crossings of the boundary with the row; points that are
+// too near to it for that are located.
+int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLocator& locator, int n) {
+  constexpr double near = 1e-9;
+  const Vec2 w = s.high - s.low;
+  const auto at = [&](int k, double low, double width) { return low + (k + 0.5) / n * width; };
+  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(n));
+  std::vector<char> doubtful(static_cast<std::size_t>(n), 0);
+  for (const auto& [a, b] : domain.edges) {
+    Vec2 p = domain.vertices[a], q = domain.vertices[b];
+    if (p.y > q.y) std::swap(p, q);
+    const int first = std::max(0, static_cast<int>((p.y - s.low.y) / w.y * n) - 1);
+    for (int j = first; j < n; ++j) {
+      const double y = at(j, s.low.y, w.y);
+      if (y < p.y - near * w.y) continue;
+      if (y > q.y + near * w.y) break;
+      if (y < p.y + near * w.y || y > q.y - near * w.y)
+        doubtful[static_cast<std::size_t>(j)] = 1;
+      else
+        crossings[static_cast<std::size_t>(j)].push_back(p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x));
+    }
+  }
+  int count = 0;
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const double x = at(i, s.low.x, w.x), y = at(j, s.low.y, w.y);
+      bool inside = false, close = doubtful[static_cast<std::size_t>(j)] != 0;
+      for (const double crossing : crossings[static_cast<std::size_t>(j)]) {
+        if (crossing < x) inside = !inside;
+        close = close || std::abs(crossing - x) < near * w.x;
+      }
+      if (close) inside = locator.contains({x, y});
+      count += inside ? 1 : 0;
+    }
+  return count;
+}
+
 // The smallest eigenvalue allowed, from the smallest lengths of the box at the samples.
 double floor_from(std::vector<double> shortest, double longest) {
   std::sort(shortest.begin(), shortest.end());
@@ -121,7 +158,7 @@ Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
     s.aspect *= std::clamp(ratio / s.aspect, 1 / most_stretch, most_stretch);
   }
   const double points = share_points * share_points;
-  s.share = (static_cast<double>(inner_grid(s, locator, share_points).size()) + 1) / (points + 1);
+  s.share = (count_inside(domain, s, locator, share_points) + 1.0) / (points + 1);
   s.metrics.resize(s.vertices.size());
   return s;
 }
