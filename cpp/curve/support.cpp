@@ -95,12 +95,13 @@ class Builder {
   CurveSupport run() {
     const Interval interval = checked_interval();
     start(interval);
+    bool limited = true;  // or all deviations are known to be small enough
     for (int pass = 0; pass < most_passes; ++pass) {
-      const std::vector<double> added = wanted(pass);
+      const std::vector<double> added = wanted(pass, limited);
       if (added.empty()) break;
       insert(added);
     }
-    note_limits();
+    if (limited) note_limits();
     fill_arc(support_);
     return std::move(support_);
   }
@@ -145,6 +146,8 @@ class Builder {
       if (!is_finite(jets[i].s)) throw not_finite("surf0", added[i]);
     }
     CurveSupport merged;
+    const std::size_t count = support_.t.size() + added.size();
+    merged.t.reserve(count), merged.uv.reserve(count), merged.xyz.reserve(count);
     std::size_t old = 0;
     for (std::size_t i = 0; i <= added.size(); ++i) {
       for (; old < support_.t.size() && (i == added.size() || support_.t[old] < added[i]); ++old) {
@@ -201,15 +204,17 @@ class Builder {
     return width > narrowest * span && width > 8 * std::numeric_limits<double>::epsilon() * magnitude;
   }
 
-  /// New parameters that this pass has to add, ascending.
-  [[nodiscard]] std::vector<double> wanted(int pass) const {
+  /// New parameters that this pass has to add, ascending. `limited`: whether a deviation is too large.
+  [[nodiscard]] std::vector<double> wanted(int pass, bool& limited) const {
     std::vector<double> added;
+    limited = false;
     if (support_.t.size() < 3) return added;
     const Tolerance plane = tolerance_of(support_.uv);
     const Tolerance space = tolerance_of(support_.xyz);
     for (std::size_t i = 0; i + 1 < support_.t.size(); ++i) {
       const Excess excess = worse(edge_excess(support_.uv, i, plane), edge_excess(support_.xyz, i, space));
       const int parts = std::min(excess.parts, most_parts_in(pass));
+      limited = limited || excess.ratio > 1;
       if (excess.ratio <= 1 || !divisible(i, parts)) continue;
       for (int k = 1; k < parts; ++k) {
         const auto seed = (static_cast<std::uint64_t>(pass) << 40U) + (static_cast<std::uint64_t>(i) << 8U) +

@@ -88,6 +88,18 @@ class SpaceSmoothing {
     }
     return worst;
   }
+  // The same of the triangles of order_: the one that told last is asked first.
+  [[nodiscard]] double worst_in_order(double least) {
+    double worst = 1;
+    for (std::int32_t& t : order_) {
+      worst = std::min(worst, quality_of(t));
+      if (worst < least) {
+        std::swap(t, order_.front());
+        break;
+      }
+    }
+    return worst;
+  }
   [[nodiscard]] double sum_around(const Star& star) const {
     double sum = 0;
     for (const std::int32_t t : star.triangles) sum += quality_of(t);
@@ -141,12 +153,13 @@ class SpaceSmoothing {
         {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
     Vec2 way;
     double best = worst_around(star);
+    order_ = star.triangles;
     for (double step = first_step; step > last_step;) {
       Vec2 next = way;
       for (const Vec2 direction : directions) {
         const Vec2 there = way + (step * length) * direction;
         mesh_.xyz[star.vertex] = home + there.x * e1 + there.y * e2;
-        const double worst = worst_around(star, best);
+        const double worst = worst_in_order(best);
         if (worst > best) best = worst, next = there;
       }
       if (next == way) step /= 2;
@@ -219,6 +232,7 @@ class SpaceSmoothing {
   Monitor& monitor_;
   std::vector<int> rank_;  // by vertex: index in stars_, or -1
   std::vector<Star> stars_;
+  std::vector<std::int32_t> order_;       // scratch of best_way()
   std::vector<double> agreement_before_;  // of the triangles of the star that is moved
 };
 
