@@ -22,7 +22,8 @@ class Optimiser {
   Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
   void run();
   /// At bad triangles, worst first, changes of the mesh around are tried, and the best is kept. Not where fields bend.
-  void improve_worst();
+  /// On curved surfaces none adds an edge between two fixed vertices: it would leave a flat spot of two edges' width.
+  void improve_worst(bool curved);
 
  private:
   // swaps.cpp
@@ -134,6 +135,7 @@ class Optimiser {
   struct ZoneCost {
     double mean = 0, worst = 1;          // of triangles
     double shortest2 = 1, longest2 = 1;  // squared lengths of edges that are not imposed, and 1
+    int across = 0;                      // halves of edges that are not imposed, between two fixed vertices
   };
   template <typename Use>
   void for_star(int v, const Use& use) const;
@@ -183,6 +185,7 @@ class Optimiser {
   std::int64_t shapes_asked_ = 0;          // of stars, by the rescue
   Zone zone_;
   std::vector<Trial> trials_;
+  bool spare_middles_ = false;     // trials add no edge between two fixed vertices
   Findings<bool> failed_moves_;    // of stars, by the rescue
   Findings<bool> failed_points_;   // of new points and their cavities, by the rescue
   std::vector<PlaceKey> places_;   // by vertex, during trials

@@ -14,6 +14,8 @@ namespace carreau {
 struct PlaneMesherOptions {
   bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
   bool shape_trials = false;  ///< changes of the mesh around its worst triangles are tried, the best is kept
+  bool curved = false;        ///< of a surface: they add no edge between two vertices of curves, as a row amid others
+                              ///< would be replaced by a flat spot
   std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
   /// Squares that another mesh has missed (ControlSpace::deserts()), as places of each: what is still far from all
   /// vertices when points have been placed is settled, and they go on from there.

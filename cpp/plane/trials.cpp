@@ -123,7 +123,9 @@ Optimiser::ZoneCost Optimiser::cost_of_zone(double enough) {
     all.worst = std::min(all.worst, q);
     for (int i = 0; i < 3; ++i) {
       if (mesh_.is_imposed(t, i)) continue;
-      const double l2 = mesh_.squared_length(T.v[next3[i]], T.v[prev3[i]]);
+      const std::int32_t a = T.v[next3[i]], b = T.v[prev3[i]];
+      all.across += a < fixed_ && b < fixed_ ? 1 : 0;
+      const double l2 = mesh_.squared_length(a, b);
       all.shortest2 = std::min(all.shortest2, l2), all.longest2 = std::max(all.longest2, l2);
     }
   }
@@ -336,7 +338,7 @@ bool Optimiser::improve_around(int t) {
   const double shortest2 = std::min(before.shortest2, shortest_left2);
   const auto is_better = [&](const ZoneCost& now, double than) {
     return now.mean < than && now.worst >= std::min(before.worst, tried_quality) && now.longest2 <= longest2 &&
-           now.shortest2 >= shortest2;
+           now.shortest2 >= shortest2 && (!spare_middles_ || now.across <= before.across);
   };
   list_trials(t);
   if (trials_.size() > most_promising) {
@@ -378,8 +380,9 @@ bool Optimiser::improve_around(int t) {
   return false;
 }
 
-void Optimiser::improve_worst() {
+void Optimiser::improve_worst(bool curved) {
   if (!mesh_.bends.empty()) return;
+  spare_middles_ = curved;
   const auto total = static_cast<std::int64_t>(mesh_.triangles.size());
   const std::int64_t budget = least_shapes + shapes_a_triangle * total;
   std::int64_t allowed = first_shapes + first_shapes_a_triangle * total;

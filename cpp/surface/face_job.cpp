@@ -96,7 +96,7 @@ void FaceJob::sample(Monitor& monitor) {
     const std::vector<Vec2> tips = input_.limits.field->tips(input_.face);
     suspects_.insert(suspects_.end(), tips.begin(), tips.end());
   }
-  space_ = sample_face(input_, cad_, rules_, suspects_, monitor);
+  space_ = sample_face(input_, cad_, rules_, suspects_, monitor, &curved_);
   refuse_beyond_limit(space_->measure());
   next_ = Step::mesh;
 }
@@ -106,6 +106,7 @@ void FaceJob::mesh(Monitor& monitor) {
   mesh_ = mesh_patch(input_, *space_,
                      {.frontal = options_.frontal,
                       .shape_trials = options_.shape_trials,
+                      .curved = curved_,
                       .max_triangles = most_triangles_,
                       .deserts = deserts_},
                      monitor);
