@@ -34,6 +34,7 @@ class Optimiser {
   void shorten_long_edges();
   [[nodiscard]] bool wants_swap(int t, int i) const;
   [[nodiscard]] bool wants_bent_swap(int a, int b, int c, int d) const;
+  [[nodiscard]] double squared_length_along(int u, int v) const;
   void swap_to_degree_six();
   void count_degrees();
 

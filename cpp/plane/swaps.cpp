@@ -35,11 +35,20 @@ bool sum_exceeds_pi(double dot_c, double area_c, double dot_d, double area_d) no
 
 }  // namespace
 
+// By Simpson's rule: on an edge of several units sizes may change manifold, as beside a waist.
+double Optimiser::squared_length_along(int u, int v) const {
+  const Vertex &U = mesh_.vertices[u], &V = mesh_.vertices[v];
+  const Vec2 d = V.point() - U.point();
+  const double sum =
+      length(U.metric(), d) + 4 * length(field_.at(0.5 * (U.point() + V.point())), d) + length(V.metric(), d);
+  return sum * sum / 36;
+}
+
 // Cosines by the lengths of the edges. What is long is swapped if that makes it shorter: over more than about two units
 // straight lines say little.
 bool Optimiser::wants_bent_swap(int a, int b, int c, int d) const {
   const double ab = shapes_.squared_length(a, b);
-  if (ab > longest_bent2) return shapes_.squared_length(c, d) < ab * (1 - cocircular);
+  if (ab > longest_bent2) return squared_length_along(c, d) < squared_length_along(a, b) * (1 - cocircular);
   const Lengths abc{shapes_.squared_length(b, c), shapes_.squared_length(c, a), ab},
       abd{shapes_.squared_length(b, d), shapes_.squared_length(d, a), ab};
   return sum_exceeds_pi(abc.a + abc.b - ab, std::sqrt(abc.area2()), abd.a + abd.b - ab, std::sqrt(abd.area2()));
