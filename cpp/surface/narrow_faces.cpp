@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "metric/metric3_algebra.h"
 #include "model/traces.h"
 #include "model/union_find.h"
 #include "surface/side_ruler.h"
@@ -241,8 +242,9 @@ bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int fa
           model.cad.curve(model.face_ref(uses[i]), uses[i].curve + 1, want_position, parameter_at(model, uses[i], r)).c;
       p[i] = surface_at(model.cad, ref, want_position, uv[i]).s;
     }
-    const Vec3 between = surface_at(model.cad, ref, want_position, 0.5 * (uv[0] + uv[1])).s;
-    if (!(norm(between - p[0]) <= near) || !(norm(between - p[1]) <= near)) return false;
+    const SurfaceJet between = surface_at(model.cad, ref, want_position | want_first, 0.5 * (uv[0] + uv[1]));
+    if (!TangentFrame::of(between.su, between.sv)) return false;  // no width because the surface has none
+    if (!(norm(between.s - p[0]) <= near) || !(norm(between.s - p[1]) <= near)) return false;
   }
   return true;
 }
