@@ -143,10 +143,10 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   }
   const bool sizes_by_face = !options.face_sizes.empty() && !input.answers_face_sizes();
   set(session, "threads", threads_of(options));
-  // Zones narrower than 6.5 % of their edges would have triangles of no shape (Q2 below .1); cutting more adds
+  // Zones narrower than 6 % of their edges would have triangles of no shape (Q2 below .1); cutting more adds
   // bad triangles to meshes that were asked to be coarse, and takes none away.
   set(session, "CheckCloseEdges", 20);
-  set(session, "CoefRectangle", 0.065);
+  set(session, "CoefRectangle", 0.06);
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
   set(session, "CheckAdjacentEdges", 20);
   // Whatever made edges of a border short, triangles grow from them to the size inside.

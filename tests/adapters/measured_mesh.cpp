@@ -131,7 +131,7 @@ void use_command_parameters(carreau_session* session, double size, double diagon
   carreau_set_real(session, "hphymin", std::min(size, diagonal) * 1e-6);
   carreau_set_real(session, "hphymax", std::max(size, diagonal));
   carreau_set_integer(session, "CheckCloseEdges", 20);
-  carreau_set_real(session, "CoefRectangle", 0.065);
+  carreau_set_real(session, "CoefRectangle", 0.06);
   carreau_set_real(session, "edge_gradation", 1.5);
   carreau_set_integer(session, "stagger_strips", 1);
   carreau_set_integer(session, "shape_trials", 1);

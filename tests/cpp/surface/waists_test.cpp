@@ -28,7 +28,7 @@ TEST(Waists, HaveNoTrianglesAcross) {
     parameters.set("hphymin", 1e-7);
     parameters.set("CheckCloseEdges", 20);
     parameters.set("CheckAdjacentEdges", 20);
-    parameters.set("CoefRectangle", 0.065);
+    parameters.set("CoefRectangle", 0.06);
     parameters.set("edge_gradation", 1.5);
     session->make_mesh();
     const FlatMesh mesh = session->exported();
