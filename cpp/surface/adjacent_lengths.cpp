@@ -30,8 +30,6 @@ constexpr double least_agreement = 0.7;
 // A change beside a vertex is judged by what is around its neighbours' neighbours; one beside these may follow.
 constexpr int rings = 3;
 constexpr int placements = 4;  // of a new vertex
-// Places are tried at these distances in the metric.
-constexpr std::array<double, 5> steps{0.24, 0.12, 0.06, 0.03, 0.015};
 // Points of surfaces that may be asked, whatever the mesh, and for each vertex of larger ones: a model whose curves
 // contradict its sizes leaves uneven vertices everywhere.
 constexpr double least_budget = 5'000, budget_a_vertex = 0.25;
@@ -199,7 +197,7 @@ class LengthEvening {
     std::optional<State> found;
     const Judgement before = judge(around);
     best = before;
-    for (const double step : steps)
+    for (const double step : placement_distances)
       for (const Vec2 d : six_directions) {
         mesh_.faces[v.face].uv[v.local] = here.uv + circle.vector(step * d);
         if (left_ > 0 && local_->are_positive(fan)) {  // so it is inside the domain

@@ -9,6 +9,7 @@
 
 #include "support/format.h"
 #include "surface/adjacent_lengths.h"
+#include "surface/adjacent_sizes.h"
 #include "surface/assembly.h"
 #include "surface/boundary_refinement.h"
 #include "surface/face_job.h"
@@ -100,7 +101,11 @@ class Pipeline {
       refine();
       mesh_and_assemble();
     }
-    if (slope() > 0 && !rules_.uses_metrics())
+    if (slope() > 0 && rules_.uses_metrics())
+      even_out_sizes(tolerated_gradation * options_.gradation,
+                     options_.size.geo_guarantee ? geometric_limits(options_.size) : GeometricLimits{}, rules_, cad_,
+                     result_, monitor_);
+    else if (slope() > 0)
       even_out_lengths(adjacent_lengths * options_.gradation, rules_, cad_, result_, monitor_);
     result_.report.calls = cad_.counts();
     result_.report.seconds_total = seconds_since(start);

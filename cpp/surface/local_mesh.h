@@ -11,6 +11,9 @@
 
 namespace carreau {
 
+/// A vertex that may move is tried in six directions at these distances in the metric.
+inline constexpr std::array<double, 5> placement_distances{0.24, 0.12, 0.06, 0.03, 0.015};
+
 /// Triangles around some vertices of a mesh, over all its faces, kept up to date while edges are swapped or divided.
 /// Vertices and edges of curves, imposed points and triangles that are flat in space (FaceMesh::flattened) stay.
 /// Vertices are indices in SurfaceMesh::vertices unless they are said to be local.

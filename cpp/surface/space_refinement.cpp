@@ -10,6 +10,7 @@
 #include "cad/fundamental_forms.h"
 #include "mesh/quality.h"
 #include "predicates/predicates.h"
+#include "surface/cubic_offset.h"
 #include "surface/triangle_distance.h"
 
 namespace carreau {
@@ -29,8 +30,6 @@ constexpr std::size_t most_divisions = 32;
 constexpr std::uint8_t deepest = 12;
 // The surface is not divided where it is farther from the middle of an edge than this many lengths: it jumps there.
 constexpr double farthest = 1;
-// Where deviations of edges are sampled: that of an arc is largest in its middle, that of an S at 0.21 and 0.79.
-constexpr std::array<double, 3> along_edge{0.21, 0.5, 0.79};
 
 class SpaceRefinement {
  public:
@@ -133,9 +132,8 @@ class SpaceRefinement {
     return looks_far(t);
   }
 
-  // By the cubics that leave the ends of edges as the surface does, and by the middle of the patch that they bound
-  // (cubic patches of Vlachos et al.: "Curved PN triangles", 2001): the mean of the six offsets of their control
-  // points.
+  // By the cubics that leave the ends of edges as the surface does, and by the middle of the patch that they bound:
+  // the mean of the six offsets of their control points.
   [[nodiscard]] bool looks_far(const Triangle& t) const {
     if (!kept_.any()) return false;
     double middle = 0;
@@ -145,7 +143,7 @@ class SpaceRefinement {
       const double p = dot(e, mesh_.normal[a]), q = -dot(e, mesh_.normal[b]), l = norm(e);
       if (std::max(std::abs(p), std::abs(q)) > sine_ * l) return true;
       for (const double s : along_edge)
-        if (std::abs(s * (1 - s) * ((1 - s) * p + s * q)) > kept_.deviation) return true;
+        if (std::abs(cubic_offset(s, p, q)) > kept_.deviation) return true;
       middle += p + q;
     }
     return std::abs(middle) / 18 > kept_.deviation;
