@@ -7,6 +7,7 @@
 
 #include "size/facing.h"
 #include "size/proximity.h"
+#include "surface/steep_places.h"
 
 namespace carreau::detail {
 
@@ -44,6 +45,8 @@ GradedModel GradingRound::run(const std::vector<SizeSamples>& raw, const GradedM
   faces_.resize(model_.model.faces.size());
   place_of_.resize(faces_.size());
   samples_.resize(faces_.size());
+  missed_ = before.missed;
+  missed_.resize(faces_.size());
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     monitor_.checkpoint();
     place_of_[f] = graph_.places.size();
@@ -61,7 +64,9 @@ GradedModel GradingRound::run(const std::vector<SizeSamples>& raw, const GradedM
     bound_narrow_zones();
     bound_facing_faces();
   }
-  return metrics_ ? grade_by_direction(raw) : grade(raw);
+  GradedModel result = metrics_ ? grade_by_direction(raw) : grade(raw);
+  result.missed = std::move(missed_);
+  return result;
 }
 
 SizeSamples GradingRound::coarsened(SizeSamples samples) const {
@@ -116,9 +121,7 @@ void GradingRound::add_face(std::size_t f, const SizeLimits& limits) {
                    .curve_xyz = positions_on_curves(domain, curves_, model_.topology),
                    .limits = limits,
                    .tolerance = graph_tolerance};
-  const ControlSpace space = sample(input);
-  PlaneMesh mesh =
-      mesh_plane(domain.plane, space, {.frontal = options_.frontal, .max_triangles = options_.max_triangles}, monitor_);
+  PlaneMesh mesh = mesh_face(input);
   GradedFace& face = faces_[f];
   face.uv = std::move(mesh.vertices);
   face.triangles = std::move(mesh.triangles);
@@ -163,8 +166,30 @@ void GradingRound::locate_samples(std::size_t f) {
   }
 }
 
+// Where fields are known to be steep they are looked at, as in the mesh to come: sizes would grow from there within the
+// face only.
+PlaneMesh GradingRound::mesh_face(const PatchInput& input) {
+  const PlaneMesherOptions how{.frontal = options_.frontal, .max_triangles = options_.max_triangles};
+  std::vector<Vec2> suspects = rules_.steep_places(input.face);
+  std::vector<Vec2>& known = missed_[input.face];
+  suspects.insert(suspects.end(), known.begin(), known.end());
+  ControlSpace space = sample(input, suspects);
+  PatchMesh mesh = mesh_patch(input, space, how, monitor_);
+  if (rules_.steep_in_space().empty()) return std::move(mesh.plane);
+  PatchInput unshaped = input;
+  unshaped.isotropic = false;
+  lift_patch(unshaped, model_.cad, mesh, monitor_);
+  const std::vector<Vec2> missed = missed_steep_places(input, space, model_.cad, rules_, mesh, monitor_);
+  if (missed.empty()) return std::move(mesh.plane);
+  known.insert(known.end(), missed.begin(), missed.end());
+  suspects.insert(suspects.end(), missed.begin(), missed.end());
+  samples_[input.face].clear();
+  space = sample(input, suspects);
+  return std::move(mesh_patch(input, space, how, monitor_).plane);
+}
+
 // The graph's own control space; what the host says meanwhile is kept.
-ControlSpace GradingRound::sample(const PatchInput& input) {
+ControlSpace GradingRound::sample(const PatchInput& input, std::span<const Vec2> suspects) {
   FaceMetric prescribed(input.face, rules_, input.domain->plane, input.domain->physical, monitor_);
   std::vector<Sample>& samples = samples_[input.face];
   std::vector<SurfaceJet> jets;
@@ -181,6 +206,7 @@ ControlSpace GradingRound::sample(const PatchInput& input) {
   ControlSpaceOptions options;
   options.tolerance = input.tolerance;
   options.thorough = true;
+  options.suspects = suspects;
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor_);
 }
 

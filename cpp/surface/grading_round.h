@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "size/metric_grading.h"
@@ -53,7 +54,8 @@ class GradingRound {
   void locate_samples(std::size_t f);
   void find_rough(std::size_t f);
   static void widen_rough(GradedFace& face);
-  ControlSpace sample(const PatchInput& input);
+  PlaneMesh mesh_face(const PatchInput& input);
+  ControlSpace sample(const PatchInput& input, std::span<const Vec2> suspects);
   void keep_sample(Vec2 uv, const SurfaceJet& jet, Metric2 metric, std::vector<Sample>& samples) const;
   void evaluate(const PatchInput& input, GradedFace& face, std::size_t first);
   static void mend_normals(GradedFace& face, std::size_t);
@@ -91,6 +93,7 @@ class GradingRound {
   std::vector<GradedFace> faces_;
   std::vector<std::size_t> place_of_;  // first place of a face
   std::vector<std::vector<Sample>> samples_;
+  std::vector<std::vector<Vec2>> missed_;  // as GradedModel
   std::vector<GradationSource> sources_;
   std::vector<TangentMetric> metric_;      // of places, where sizes differ by direction
   std::vector<TangentMetric> prescribed_;  // before any bound

@@ -16,6 +16,8 @@ struct GradedModel {
   std::vector<SizeSamples> curves;           ///< by curve (index in Topology::curves): bounded already
   int rounds = 0;                            ///< graphs that were made
   std::size_t triangles = 0;                 ///< of the last graph
+  /// By face: steep places of fields in space that the samples of a graph have missed.
+  std::vector<std::vector<Vec2>> missed = {};
 };
 
 /// Grades the sizes of a model with the ratio options.gradation > 1. The graph is a mesh of its own, of twice the

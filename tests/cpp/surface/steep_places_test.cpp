@@ -128,5 +128,61 @@ TEST(SteepPlaces, SpotsOfABackgroundInSpaceAreMeshed) {
   EXPECT_GE(in_range / spots, 2. / 3);
 }
 
+/// [0, 2] x [0, 1] of the plane, as two faces.
+std::shared_ptr<AnalyticCad> two_squares() {
+  auto cad = std::make_shared<AnalyticCad>();
+  for (const int face : {1, 2})
+    cad->faces[face] = {[face](Vec2 p) {
+                          return SurfaceJet{{p.x + face - 1, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                        },
+                        testing::rectangle({0, 0}, {1, 1})};
+  return cad;
+}
+
+// From a spot in one face sizes grow in the other one too, wherever it lies (the samples of the graph of the gradation
+// alone miss all of these: sizes beyond the common side were thirteen times too large). Between vertices of the graph,
+// whose edges are two sizes long, they may exceed the cone.
+TEST(SteepPlaces, SizesGrowFromSpotsInAllFaces) {
+  constexpr double gradation = 1.3, narrow = 0.02;
+  const Patch plane{"plane", [](Vec2 p) { return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; },
+                    {0, 0},  {2, 1},
+                    100,     50};
+  for (const double y : {0.23, 0.37, 0.49, 0.66, 0.78}) {
+    BackgroundMesh background = lifted_grid(plane);
+    const Vec3 place{0.93, y, 0};
+    std::vector<Vec3> spot;
+    for (std::size_t v = 0; v < background.vertices.size(); ++v)
+      if (norm(background.vertices[v] - place) < narrow) {
+        background.values.sizes[v] = fine;
+        spot.push_back(background.vertices[v]);
+      }
+    Monitor monitor;
+    Session session(monitor);
+    const auto cad = two_squares();
+    session.set_cad(cad);
+    session.set_model(testing::unglued(*cad));
+    session.parameters().set("hphy_flag", 2);
+    session.parameters().set("hphymin", 1e-4);
+    session.parameters().set("hphymax", 10.);
+    session.parameters().set("gradation", gradation);
+    session.set_background(std::make_shared<BackgroundField>(background));
+    session.make_mesh();
+    EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
+    double steepest = 0;
+    for (std::size_t v = 0; v < session.mesh().vertices.size(); ++v) {
+      const Vec3 x = session.mesh().vertices[v];
+      if (x.x < 1) continue;
+      double away = std::numeric_limits<double>::infinity();
+      for (const Vec3 s : spot) away = std::min(away, norm(x - s));
+      steepest = std::max(steepest, session.vertex_sizes()[v] / std::min(coarse, fine + std::log(gradation) * away));
+    }
+    EXPECT_LE(steepest, gradation * gradation) << y;
+    if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
+      std::printf("spot at %.2f: %.3f times the cone; %zu triangles, %d rounds of %zu\n", y, steepest,
+                  session.mesh().triangle_count(), session.report().gradation_rounds,
+                  session.report().gradation_triangles);
+  }
+}
+
 }  // namespace
 }  // namespace carreau
