@@ -6,6 +6,7 @@
 #include <span>
 
 #include "size/facing.h"
+#include "size/place_fans.h"
 #include "size/proximity.h"
 #include "surface/steep_places.h"
 
@@ -18,6 +19,8 @@ constexpr double graph_factor = 2, graph_share = 1. / 20;
 // Of its control spaces: sizes and positions are asked at its vertices again.
 constexpr double graph_tolerance = 0.1;
 constexpr std::size_t batch = 512;
+// Least cosine of normals that differ by rounding.
+constexpr double parallel = 1 - 1e-9;
 
 }  // namespace
 
@@ -268,8 +271,14 @@ void GradingRound::add_triangles(const FaceDomain& domain, GradedFace& face, std
     if (!metrics_) continue;
     // A pole has no directions of its own.
     TangentMetric& m = metric_[first + v];
-    if (!std::isfinite(m.h1))
+    if (!std::isfinite(m.h1)) {
       m.d1 = unit(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
+      continue;
+    }
+    // Those of a limit lie in the tangent plane of a meridian, where what a bound says along the normal of that plane
+    // would make all sizes vanish.
+    const Vec3 of_limit = cross(m.d1, m.d2), near = dot(of_limit, n) < 0 ? -1 * of_limit : of_limit;
+    if (dot(near, n) < parallel) m.d1 = roll(m.d1, near, n), m.d2 = roll(m.d2, near, n);
   }
   std::vector<std::array<int, 2>> imposed;
   for (const PlaneEdge& e : domain.plane.edges)
