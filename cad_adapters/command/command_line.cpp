@@ -18,6 +18,11 @@ constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh or .msh
 constexpr const char* geometry_files = "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom";
 constexpr int most_listed = 1'000'000;
 
+std::string is_gradation(const std::string& value) {
+  double ratio = -1;
+  const bool known = CLI::detail::lexical_cast(value, ratio) && (ratio == 0 || (ratio >= 1.0001 && ratio <= 1e9));
+  return known ? "" : "'" + value + "' is neither a ratio from 1.0001 to 1e9 nor 0";
+}
 std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
 
 void parse_picture_size(const std::string& text, PictureOptions& options) {
@@ -98,11 +103,13 @@ void CommandLine::add_mesh() {
   mesh->add_option("--chord", mesh_.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
       ->check(not_empty)
       ->type_name(kind::length);
-  mesh->add_option("--gradation", mesh_.gradation, "Sizes grow by at most this ratio from one edge to the next")
-      ->check(CLI::Range(1.0001, 1e9))
+  mesh->add_option("--gradation", mesh_.gradation,
+                   "Sizes grow by at most this ratio from one edge to the next; 0: by any. 1.3 with --anisotropic")
+      ->check(is_gradation)
       ->type_name("RATIO");
   mesh->add_flag("--anisotropic{1000}", mesh_.anisotropy,
-                 "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them")
+                 "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
+                 "--gradation 1.3")
       ->check(CLI::Range(1.0, 1e9));
   mesh->add_option("--min", mesh_.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
   mesh->add_option("--max", mesh_.maximum, "Largest size")->check(not_empty)->type_name(kind::length);

@@ -1,6 +1,7 @@
 // What the sub-commands do. Each returns the exit code, and throws Failure when it cannot be done.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct MeshOptions {
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
   std::string size_map;                       ///< formula or file; empty: none
   double angle = 0;                           ///< degrees; 0: not given
-  double gradation = 0;                       ///< 0: not given
+  std::optional<double> gradation;            ///< 0: none
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> settings;          ///< "parameter=value"

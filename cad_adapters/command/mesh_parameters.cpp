@@ -19,6 +19,9 @@ void set(carreau_session* session, const char* name, std::int32_t value) {
   require(session, carreau_set_integer(session, name, value));
 }
 
+/// Of sizes by direction, when none is given (the papers' value).
+constexpr double usual_gradation = 1.3;
+
 /// Lengths of the command line in model units.
 struct Lengths {
   std::optional<double> size, minimum, maximum, chord;
@@ -92,8 +95,12 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
       throw Failure("--anisotropic stretches sizes that follow the curvature: it goes with --angle or --chord.");
     set(session, "geo_metric", 1);
     set(session, "anisotropy_max", options.anisotropy);
+    // Where sizes jump from face to face, stretched triangles leave half of all lengths out of range.
+    double graded = 0;
+    require(session, carreau_get_real(session, "gradation", &graded));
+    if (graded == 0) set(session, "gradation", usual_gradation);
   }
-  if (options.gradation > 0) set(session, "gradation", options.gradation);
+  if (options.gradation) set(session, "gradation", *options.gradation);
 }
 
 /// "1%" of a parameter that is a model length.

@@ -151,6 +151,14 @@ nlohmann::ordered_json interfaces_json(const std::vector<carreau_interface>& int
   return list;
 }
 
+/// What is implied and nobody has asked for.
+std::string gradation_line(const MeshRun& run) {
+  if (!(run.options.anisotropy > 0) || run.options.gradation) return "";
+  double ratio = 0;
+  require(run.session, carreau_get_real(run.session, "gradation", &ratio));
+  return ratio > 0 ? text("sizes      by direction, growing by %.6g at most (--gradation 0: by any ratio)", ratio) : "";
+}
+
 }  // namespace
 
 std::string failed_faces(const std::vector<FaceResult>& faces) {
@@ -192,6 +200,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   if (std::string line = short_edges_line(run.short_edges); !line.empty()) lines.push_back(std::move(line));
   lines.push_back(interfaces_line(interfaces));
   for (std::string& line : gluing_lines(interfaces)) lines.push_back(std::move(line));
+  if (std::string line = gradation_line(run); !line.empty()) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
   const std::int32_t threads = threads_of(run.session);
   lines.push_back(text("seconds    reading %.3f, meshing %.3f (%d %s), writing %.3f", run.seconds_reading,

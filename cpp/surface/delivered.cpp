@@ -42,6 +42,9 @@ std::array<Barycentric, 7> triangle_rule() {
   return rule;
 }
 
+// Gradations are judged over no less than this length: over a hundredth of a unit sizes that differ by a tenth, which
+// nobody could see, would have one of 14 000.
+constexpr double shortest_way = 0.1;
 // Trapezoids of a length in a control space are no longer than that.
 constexpr double fine_length = 0.1;
 
@@ -307,7 +310,7 @@ class Measurement {
       l = field_length([space](Vec2 uv) { return space->at(uv); }, from, to, fine_length);
     }
     if (!(p > 0) || !(q > 0) || !(l > 0)) return;
-    of(DeliveredKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / l);
+    of(DeliveredKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / std::max(l, shortest_way));
   }
 
   void measure_triangles() {

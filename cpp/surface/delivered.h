@@ -39,7 +39,8 @@ enum class DeliveredKind : int {
   edge_angle = 2,
   /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
   /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in DeliveredOptions::spaces
-  /// where there are any. NaN where an end is singular.
+  /// where there are any. Edges shorter than a tenth of a unit are judged by the ratio of sizes alone, as if they were
+  /// that long. NaN where an end is singular.
   gradation = 3,
   /// Of a vertex: longest over shortest of its edges, lengths in space; where the metric has directions, each divided
   /// by the size along it over the mean size, so that they compare. NaN without triangles.

@@ -305,6 +305,15 @@ class Sizes(Folder):
         self.assertGreater(counts[0] / counts[1], 1.4)
         self.assertGreater(counts[1] / counts[2], 1.5)
         self.assertGreaterEqual(counts[2], counts[3])
+        # Stretched sizes grow gently unless nobody wants it.
+        usual, graded, free, by_set = (self.mesh(bent, "--angle", "3", "--anisotropic", *options).triangles for options in
+                                       ((), ("--gradation", "1.3"), ("--gradation", "0"), ("--set", "gradation=0")))
+        self.assertEqual(usual, graded)
+        self.assertEqual(free, by_set)
+        self.assertNotEqual(usual, free)
+        env = self.write("graded.env", "gradation 1.1\n")
+        self.assertEqual(self.mesh(bent, "--angle", "3", "--anisotropic", "--env", env).triangles,
+                         self.mesh(bent, "--angle", "3", "--anisotropic", "--gradation", "1.1").triangles)
         self.refused(bent, "-o", "a.mesh", "--anisotropic", sentence="--angle or --chord")
         self.refused(bent, "-o", "a.mesh", "--angle", "3", "--anisotropic=0.5", sentence="--anisotropic")
         self.refused(bent, "-o", "a.mesh", "--angle", "3", "--anisotropic=x", sentence="--anisotropic")
@@ -316,7 +325,10 @@ class Sizes(Folder):
         # ln(1.2) per edge: at the distance d from the small face sizes are at most 0.02 + ln(1.2) d.
         near = lengths_near(soft, lambda x, y, z: 0.6 < x < 0.9)
         self.assertLess(mean(near), 0.02 + math.log(1.2) * 0.4)
-        self.refused(self.two, "-o", "a.mesh", "--gradation", "0.9", sentence="--gradation")
+        for ratio in ("0.9", "1", "-1"):
+            self.refused(self.two, "-o", "a.mesh", "--gradation", ratio, sentence="--gradation")
+        self.assertEqual(self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02", "--gradation", "0").triangles,
+                         sharp.triangles)
 
     def test_an_env_file_sets_parameters_and_the_command_line_wins(self):
         env = self.write("blsurf.env", "hphydef 0.1 ! edges\nhphymax 1\nangle_mesh 4\ncall inimesh\nhphydef 7\npref other\ncall export\ncall exit\n")

@@ -176,6 +176,22 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   EXPECT_TRUE(said);
 }
 
+TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
+  // Cells of 0.01 by 1, sizes that differ by a tenth from one column to the next: 1.1^105 over their own lengths.
+  Case run{one_face(plane_jet), {}, {}};
+  run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {0.03, 1}, 3, 1}});
+  const auto size = [](double x) { return std::pow(1.1, 100 * x); };
+  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return size(p.x); }), {});
+  int along = 0;
+  for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
+    const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
+    if (p.y != q.y) continue;
+    ++along;
+    EXPECT_NEAR(d[Kind::gradation].values[e], std::pow(1.1, 10), 1e-12);
+  }
+  EXPECT_EQ(along, 6);
+}
+
 TEST(DeliveredPlane, AnisotropicMetricIsThatOfTheStretchedTriangle) {
   // Sizes 2 along a direction and 0.1 across: the quality is Q2 of the image, and edges compare through it.
   const double angle = 0.4, h1 = 2, h2 = 0.1;
