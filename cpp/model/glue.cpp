@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 #include <map>
@@ -198,6 +199,7 @@ class Gluer {
           pairs.push_back({*gap, first, second});
       }
     std::sort(pairs.begin(), pairs.end());
+    if (!pairs.empty()) list_curves_at_points();
     std::vector<char> taken(entries_.size(), 0);
     for (const Candidate& pair : pairs) {
       const auto [gap, first, second] = pair;
@@ -234,18 +236,48 @@ class Gluer {
     return given(k).part_of != 0 && trace_length(entries_[k].trace) < eps_open_;
   }
 
+  /// By set of points: curves that join it to another one and may not become loops.
+  void list_curves_at_points() {
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const std::size_t p = points_.find(2 * k), q = points_.find(2 * k + 1);
+      if (p == q || is_cut_off(k)) continue;
+      at_point_[p].push_back(k);
+      at_point_[q].push_back(k);
+    }
+  }
+
   /// Merges the ends of two curves, unless the two ends of a curve of the host would become one.
   bool merge_ends_of(const Candidate& pair) {
-    const bool against = runs_against(entries_[pair.first], entries_[pair.second]);
-    UnionFind merged = points_;
-    merged.merge(2 * pair.first, 2 * pair.second + (against ? 1 : 0));
-    merged.merge(2 * pair.first + 1, 2 * pair.second + (against ? 0 : 1));
-    for (std::size_t k = 0; k < entries_.size(); ++k)
-      if (merged.find(2 * k) == merged.find(2 * k + 1) && points_.find(2 * k) != points_.find(2 * k + 1) &&
-          !is_cut_off(k))
-        return false;
-    points_ = std::move(merged);
+    const std::size_t against = runs_against(entries_[pair.first], entries_[pair.second]) ? 1 : 0;
+    const std::array<std::array<std::size_t, 2>, 2> ends{
+        {{points_.find(2 * pair.first), points_.find(2 * pair.second + against)},
+         {points_.find(2 * pair.first + 1), points_.find(2 * pair.second + 1 - against)}}};
+    const auto is_of = [&](std::size_t point, std::size_t one) {
+      return point == ends[one][0] || point == ends[one][1];
+    };
+    const bool all_one = is_of(ends[0][0], 1) || is_of(ends[0][1], 1);
+    const auto become_one = [&](std::size_t p, std::size_t q) {
+      if (all_one) return (is_of(p, 0) || is_of(p, 1)) && (is_of(q, 0) || is_of(q, 1));
+      return (is_of(p, 0) && is_of(q, 0)) || (is_of(p, 1) && is_of(q, 1));
+    };
+    for (const auto& two : ends)
+      for (const std::size_t point : two)
+        for (const std::size_t k : at_point_[point]) {
+          const std::size_t p = points_.find(2 * k), q = points_.find(2 * k + 1);
+          if (p != q && become_one(p, q)) return false;
+        }
+    for (const auto& [p, q] : ends) merge_points(p, q);
     return true;
+  }
+
+  void merge_points(std::size_t p, std::size_t q) {
+    p = points_.find(p), q = points_.find(q);
+    if (p == q) return;
+    std::vector<std::size_t> of_p = std::move(at_point_[p]), of_q = std::move(at_point_[q]);
+    if (of_p.size() < of_q.size()) of_p.swap(of_q);
+    of_p.insert(of_p.end(), of_q.begin(), of_q.end());
+    points_.merge(p, q);
+    at_point_[points_.find(p)] = std::move(of_p);
   }
 
   void sort_pairs() {
@@ -286,6 +318,7 @@ class Gluer {
   bool known_;  // the model has references
   std::vector<char> takes_part_;
   UnionFind points_, curves_;
+  std::map<std::size_t, std::vector<std::size_t>> at_point_;
   double eps_inside_;  // between two sides of one face
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> by_ends_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "models.h"
 
@@ -61,6 +62,31 @@ TEST(Glue, BridgesWiderGapsBetweenOpenCurves) {
   EXPECT_NEAR(report.pairs[0].gap, 0.009, 1e-15);
   EXPECT_EQ(report.open.size(), 6U);
   EXPECT_EQ(references(glued_where_open(cad, 0.001, 0.0089)), references(glued(cad, 0.001)));
+}
+
+// Ends that are one already have the curves of both: a grid of squares with gaps between all of them comes out whole.
+TEST(Glue, AGridOfOpenSquaresBecomesOneSurface) {
+  constexpr int n = 9;
+  constexpr double half_gap = 0.004;
+  AnalyticCad cad;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      cad.faces[1 + i * n + j] = flat(rectangle({i + half_gap, j + half_gap}, {i + 1 - half_gap, j + 1 - half_gap}));
+  GlueReport report;
+  const Model model = glued_where_open(cad, 0.001, 0.01, &report);
+  std::map<int, int> curves;
+  std::set<int> points;
+  for (const Face& face : model.faces)
+    for (const FaceCurve& curve : face.curves) {
+      ++curves[curve.ref];
+      points.insert({curve.end1, curve.end2});
+      EXPECT_NE(curve.end1, curve.end2);
+    }
+  EXPECT_EQ(points.size(), static_cast<std::size_t>((n + 1) * (n + 1)));
+  EXPECT_EQ(curves.size(), static_cast<std::size_t>(2 * n * (n + 1)));
+  EXPECT_EQ(report.pairs.size(), static_cast<std::size_t>(2 * n * (n - 1)));
+  EXPECT_EQ(report.open.size(), static_cast<std::size_t>(4 * n));
+  EXPECT_TRUE(find_model_defects(model).empty());
 }
 
 TEST(Glue, OpenCurvesMayBeATenthOfTheirOwnLengthApart) {
