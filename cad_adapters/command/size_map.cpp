@@ -55,6 +55,7 @@ SizeMap::SizeMap(const std::string& text) {
 
 void SizeMap::give_to(carreau_session* session, const CadInput& input) {
   input_ = &input;
+  session_ = session;
   carreau_metric_callbacks callbacks{};
   callbacks.struct_size = sizeof callbacks;
   callbacks.user = this;
@@ -95,7 +96,8 @@ std::int32_t SizeMap::size_at(std::int32_t face, double u, double v, double& siz
   if (failure_.empty())
     failure_ = "the size map '" + formula_->text() + "' gives " + number + ", which is no size, on face " +
                std::to_string(face) + " at " + place_text(place);
-  return 1;
+  carreau_stop(session_);  // a failure would be the face's, and another run without it would begin
+  return CARREAU_NO_ANSWER;
 }
 
 }  // namespace command

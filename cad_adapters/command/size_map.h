@@ -39,6 +39,7 @@ class SizeMap {
   std::optional<Formula> formula_;
   std::string mesh_, solution_;
   const CadInput* input_ = nullptr;
+  carreau_session* session_ = nullptr;
   std::string failure_;
 };
 

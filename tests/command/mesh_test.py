@@ -252,6 +252,8 @@ class Sizes(Folder):
                 self.refused(self.square, "-o", "a.mesh", "--size-map", formula, sentence=sentence)
         done = self.refused(self.square, "-o", "a.mesh", "--size-map", "x", sentence="which is no size, on face 1 at x = ")
         self.assertIn("the size map 'x' gives -", done.stderr)
+        done = self.refused(self.two, "-o", "a.mesh", "--size-map", "0.9 - x", sentence="which is no size, on face ")
+        self.assertNotIn("meshing again", done.stderr)
         self.refused(self.square, "-o", "a.mesh", "--size-map", "sqrt(x)", sentence="gives nan")
         self.refused(self.square, "-o", "a.mesh", "--size-map", "1/(x - x)", sentence="gives inf")
 
