@@ -343,6 +343,17 @@ TEST(Narrow, BodyDoesNotVanish) {
   EXPECT_GT(run.volume(), 0.3);
 }
 
+// Nor half of it: a wire with a square section is no prism of three sides, an end of it neither.
+TEST(Narrow, WireKeepsItsSection) {
+  for (const double width : {1e-2, 1e-4}) {
+    SCOPED_TRACE(width);
+    const Meshed run(prism({{0, 0}, {width, 0}, {width, width}, {0, width}}), 0.3, "collapse");
+    run.expect_closed(2);
+    for (const FaceMesh& f : run.mesh().faces) EXPECT_NE(f.status, FaceStatus::collapsed) << f.why;
+    EXPECT_NEAR(run.volume(), width * width, 1e-9 * width * width);
+  }
+}
+
 // A plate thinner than the size: its rim collapses if that leaves a sound mesh, and stays otherwise.
 TEST(Narrow, ThinPlateStaysClosed) {
   for (const double size : {0.5, 0.1, 0.05}) {
