@@ -17,6 +17,7 @@
 #include "surface/narrow_faces.h"
 #include "surface/shared_chords.h"
 #include "surface/size_grading.h"
+#include "surface/thin_bodies.h"
 #include "surface/verification.h"
 
 #if defined(__unix__)
@@ -176,7 +177,7 @@ class Pipeline {
     const bool collapse = options_.narrow_faces == NarrowFaces::collapse;
     for (NarrowFace& face : find_narrow_faces(curve_model_, curves_, options_.narrow_ratio))
       if (!face.point || collapse) (face.point ? narrow_.points : narrow_.strips).push_back(std::move(face));
-    if (collapse) keep_thin_bodies(curve_model_, narrow_);
+    if (collapse) keep_thin_bodies(curve_model_, curves_, narrow_);
     if (narrow_.empty()) return;
     if (collapse) let_tips_vanish(curve_model_, narrow_);
     match_sides(curve_model_, narrow_.strips, curves_);

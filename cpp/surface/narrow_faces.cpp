@@ -230,16 +230,6 @@ std::vector<int> vanishing_loop(const CurveModel& model, const std::vector<char>
   return {};
 }
 
-/// Curves across which a narrow face would be joined to its neighbours.
-std::vector<int> joining_curves(const CurveModel& model, const NarrowFace& narrow) {
-  const std::vector<int>& curve_of = model.topology.curve_of[narrow.face];
-  if (narrow.point) return curve_of;
-  std::vector<int> curves;
-  for (const Side& side : narrow.side)
-    for (const SidePart& part : side) curves.push_back(curve_of[part.curve]);
-  return curves;
-}
-
 /// Whether the face has nothing between the two uses that it makes of one curve.
 bool is_folded_along(const CurveModel& model, const DiscreteCurve& curve, int face, std::array<CurveUse, 2> uses) {
   const int ref = model.model.faces[face].ref;
@@ -279,28 +269,6 @@ std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<Di
     if (is_folded) folded.push_back(f);
   }
   return folded;
-}
-
-void keep_thin_bodies(const CurveModel& model, NarrowModel& narrow) {
-  const std::size_t faces = model.model.faces.size();
-  std::vector<char> is_narrow(faces, 0), beside_wide(faces, 0);
-  for (const auto* list : {&narrow.strips, &narrow.points})
-    for (const NarrowFace& face : *list) is_narrow[face.face] = 1;
-  UnionFind together(faces);
-  const auto for_each_neighbour = [&](auto&& use) {
-    for (const auto* list : {&narrow.strips, &narrow.points})
-      for (const NarrowFace& face : *list)
-        for (const int c : joining_curves(model, face))
-          for (const CurveUse& other : model.topology.curves[c].uses) use(face.face, other.face);
-  };
-  for_each_neighbour([&](int face, int other) {
-    if (is_narrow[other] != 0) together.merge(face, other);
-  });
-  for_each_neighbour([&](int face, int other) {
-    if (is_narrow[other] == 0) beside_wide[together.find(face)] = 1;
-  });
-  for (auto* list : {&narrow.strips, &narrow.points})
-    std::erase_if(*list, [&](const NarrowFace& face) { return beside_wide[together.find(face.face)] == 0; });
 }
 
 void let_tips_vanish(const CurveModel& model, NarrowModel& narrow) {

@@ -53,10 +53,6 @@ struct NarrowModel {
 /// ascending.
 std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
 
-/// Leaves out of the lists what would take a body with it: narrow faces whose sides meet other narrow ones only, as a
-/// wire's do, or nothing. What vanishes lies beside a face that is not narrow, or beside narrow ones that do.
-void keep_thin_bodies(const CurveModel& model, NarrowModel& narrow);
-
 /// Fills `vanishing`. A face whose curves are a whole loop of another one, a small hole, is left out of the lists: the
 /// hole would vanish with it.
 void let_tips_vanish(const CurveModel& model, NarrowModel& narrow);
