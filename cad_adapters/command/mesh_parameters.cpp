@@ -19,6 +19,15 @@ void set(carreau_session* session, const char* name, std::int32_t value) {
   require(session, carreau_set_integer(session, name, value));
 }
 
+double real(carreau_session* session, const char* name) {
+  double value = 0;
+  require(session, carreau_get_real(session, name, &value));
+  return value;
+}
+
+/// Faces narrower than this share of the size are left to flat triangles: no edge is cut for them.
+constexpr double narrower_than_cuts = 4e-4;
+
 /// Of sizes by direction, when none is given (the papers' value).
 constexpr double usual_gradation = 1.3;
 
@@ -96,9 +105,7 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
     set(session, "geo_metric", 1);
     set(session, "anisotropy_max", options.anisotropy);
     // Where sizes jump from face to face, stretched triangles leave half of all lengths out of range.
-    double graded = 0;
-    require(session, carreau_get_real(session, "gradation", &graded));
-    if (graded == 0) set(session, "gradation", usual_gradation);
+    if (real(session, "gradation") == 0) set(session, "gradation", usual_gradation);
   }
   if (options.gradation) set(session, "gradation", *options.gradation);
 }
@@ -163,11 +170,10 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // The worst triangles are what users look for; half of the time again at most sizes.
   set(session, "shape_trials", 1);
   // Faces too narrow for the cuts above (slivers below the tolerance of a file, fillets of a micrometre) hold flat
-  // triangles only. Who asks for narrow faces means those of the library's default.
-  if (!asks_for(options, "narrow_faces")) {
-    require(session, carreau_set_text(session, "narrow_faces", "collapse"));
-    set(session, "narrow_ratio", 4e-4);
-  }
+  // triangles only.
+  const double usual_ratio = real(session, "narrow_ratio");
+  require(session, carreau_set_text(session, "narrow_faces", "collapse"));
+  set(session, "narrow_ratio", narrower_than_cuts);
   set(session, "flag", 1);
   // One bad face in a thousand is no reason to have no mesh.
   require(session, carreau_set_text(session, "failing_faces", "leave_out"));
@@ -180,6 +186,11 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);
   if (!options.env.empty()) require(session, carreau_read_env(session, options.env.c_str()));
+  // Who asks for narrow faces means those of the library's own ratio, unless he gives another.
+  const char* narrow_faces = nullptr;
+  require(session, carreau_get_text(session, "narrow_faces", &narrow_faces));
+  const bool asked = asks_for(options, "narrow_faces") || std::strcmp(narrow_faces, "collapse") != 0;
+  if (asked && real(session, "narrow_ratio") == narrower_than_cuts) set(session, "narrow_ratio", usual_ratio);
   if (options.threads > 0) set(session, "threads", options.threads);
   set_sizes(session, options, lengths_of(options, diagonal), input);
   for (const std::string& setting : options.settings) set_by_name(session, setting, diagonal);

@@ -102,7 +102,17 @@ class Optimiser {
   bool move_to_best(int v);
   void collapse(int v, int k);
   bool collect_star(int v);
-  [[nodiscard]] PlaceKey key_of_star(int v) const;
+  /// Of the star collected around v; `place`: the key of a vertex's place.
+  template <typename Place>
+  [[nodiscard]] PlaceKey key_of_star(int v, const Place& place) const {
+    PlaceKey sum = 5 * place(v), last = place(ring_.back());
+    for (const std::int32_t u : ring_) {
+      const PlaceKey key = place(u);
+      sum += key_of_side(last, key);
+      last = key;
+    }
+    return sum;
+  }
   [[nodiscard]] bool has_imposed_spoke(int v) const;
   /// What `of` says of the shapes of the star collected around v. Once the sum is `enough` the rest does not matter.
   template <typename Of>

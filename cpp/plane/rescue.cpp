@@ -133,23 +133,14 @@ bool Optimiser::move_to_best(int v) {
   return best < before * (1 - gain);
 }
 
-PlaceKey Optimiser::key_of_star(int v) const {
-  PlaceKey sum = 5 * key_of_place(mesh_.at(v)), last = key_of_place(mesh_.at(ring_.back()));
-  for (const std::int32_t u : ring_) {
-    const PlaceKey key = key_of_place(mesh_.at(u));
-    sum += key_of_side(last, key);
-    last = key;
-  }
-  return sum;
-}
-
 bool Optimiser::rescue_by_move(int v) {
   if (!collect_star(v)) return false;
-  const PlaceKey star = key_of_star(v);
+  const auto key = [&] { return key_of_star(v, [this](int u) { return key_of_place(mesh_.at(u)); }); };
+  const PlaceKey star = key();
   if (failed_moves_.find(star) != nullptr) return false;
   if (!move_to_best(v)) {
     // Small steps that gain little are kept even so.
-    if (key_of_star(v) == star) failed_moves_.put(star, true);
+    if (key() == star) failed_moves_.put(star, true);
     return false;
   }
   next_.insert(next_.end(), star_.begin(), star_.end());

@@ -194,9 +194,7 @@ Vec2 Optimiser::best_place(int v, bool quick, bool settled) {
 void Optimiser::move_in_zone(int v, bool quick) {
   if (mesh_.vertices[v].triangle < 0 || !collect_star(v)) return;
   const Vec2 from = mesh_.at(v);
-  PlaceKey star = 5 * places_[v];
-  for (std::size_t k = 0; k < ring_.size(); ++k)
-    star += key_of_side(places_[ring_[k]], places_[ring_[k + 1 < ring_.size() ? k + 1 : 0]]);
+  const PlaceKey star = key_of_star(v, [this](int u) { return places_[u]; });
   const PlaceKey key = quick ? star : star + 1;
   Vec2 to{};
   if (const Vec2* known = known_moves_.find(key)) {

@@ -221,6 +221,24 @@ class Mesh(unittest.TestCase):
         self.assertEqual(len(warnings), 24)  # each curve of each face is shorter than that
         self.assertEqual(told, warnings[:4] + ["20 more like these"])
 
+    def test_narrow_faces_that_are_asked_for_have_the_ratio_of_the_library(self):
+        # 9e-4 of the size: more than what vanishes unasked, less than a tenth.
+        sliver = os.path.join(SHAPES, "sliver.step")
+        env = self.out("narrow.env")
+        with open(env, "w", encoding="utf-8") as file:
+            file.write("narrow_faces one_layer\n")
+
+        def reasons(*more):
+            done = run("mesh", sliver, "-o", self.out("a.mesh"), "--size", "0.2", "-q", "--json", *more)
+            return [face["why"] for face in json.loads(done.stdout)["faces"] if "narrow" in face["why"]]
+
+        self.assertEqual(reasons(), [])
+        self.assertEqual(reasons("--set", "narrow_faces=keep"), [])
+        for asked in (("--env", env), ("--set", "narrow_faces=one_layer")):
+            self.assertTrue(any("one layer" in why for why in reasons(*asked)), asked)
+        self.assertTrue(any("vanished" in why for why in reasons("--set", "narrow_faces=collapse")))
+        self.assertEqual(reasons("--env", env, "--set", "narrow_ratio=1e-4"), [])
+
     def test_edges_below_the_smallest_size_are_told(self):
         sliver = os.path.join(SHAPES, "sliver.step")
         wide = json.loads(run("mesh", sliver, "-o", self.out("a.mesh"), "--size", "0.2", "-q", "--json").stdout)

@@ -138,59 +138,59 @@ TEST(Guaranteed, NothingIsDividedBelowTheSmallestSize) {
 INSTANTIATE_TEST_SUITE_P(Surfaces, Upright, ::testing::ValuesIn(surfaces_that_bend),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
-// A fillet in a corner that turns inwards, one edge on its outer side and seven on the inner one: the chord of that
-// edge passes inside of the inner side, and the outer curve outside of it.
-TEST(UprightBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
-  const AnalyticCad cad = one_face([](Vec2 p) { return torus_jet(p, 7.5, 0.6); }, rectangle({0, pi / 2}, {1.3, pi}));
-  for (const bool by_direction : {false, true}) {
-    SCOPED_TRACE(by_direction ? "by direction" : "one size");
-    Monitor monitor;
-    Session session(monitor);
-    const auto host = std::make_shared<AnalyticCad>(cad);
-    host->size_on_curve = [](int, int ic, double) { return ic == 1 ? 12. : 1.3; };
+/// A fillet in a corner that turns inwards, of u from 0 to `angle`: edges of `outer` on its outer side, of 1.3 on the
+/// others.
+struct Fillet {
+  Monitor monitor;
+  Session session{monitor};
+
+  Fillet(double angle, double outer, const std::function<void(Parameters&)>& more) {
+    const auto host = std::make_shared<AnalyticCad>(
+        one_face([](Vec2 p) { return torus_jet(p, 7.5, 0.6); }, rectangle({0, pi / 2}, {angle, pi})));
+    host->size_on_curve = [outer](int, int ic, double) { return ic == 1 ? outer : 1.3; };
     session.set_cad(host);
     session.set_model(unglued(*host));
     Parameters& p = session.parameters();
     p.set("hphy_flag", 2);
     p.set("hphymin", 0.01);
     p.set("hphymax", 20.0);
-    p.set("CheckCloseEdges", 20);
-    p.set("CoefRectangle", 0.065);
-    if (by_direction) {
-      p.set("hgeo_flag", 1);
-      p.set("geo_metric", 1);
-      p.set("angle_mesh", 60.0);
-      p.set("hgeomax", 20.0);
-    }
+    more(p);
     session.make_mesh();
-    EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
-    EXPECT_EQ(session.delivered().folded_triangles, 0);
+  }
+};
+
+void by_direction(Parameters& p, double angle) {
+  p.set("hgeo_flag", 1);
+  p.set("geo_metric", 1);
+  p.set("angle_mesh", angle);
+  p.set("hgeomax", 20.0);
+}
+
+// One edge on the outer side and seven on the inner one: the chord of that edge passes inside of the inner side, and
+// the outer curve outside of it.
+TEST(UprightBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
+  for (const bool directed : {false, true}) {
+    SCOPED_TRACE(directed ? "by direction" : "one size");
+    Fillet run(1.3, 12, [&](Parameters& p) {
+      p.set("CheckCloseEdges", 20);
+      p.set("CoefRectangle", 0.065);
+      if (directed) by_direction(p, 60);
+    });
+    EXPECT_EQ(find_defects(run.session.mesh()), std::vector<std::string>{});
+    EXPECT_EQ(run.session.delivered().folded_triangles, 0);
   }
 }
 
 // As it is where such edges are left alone: no division makes the triangles on them upright, and none goes on until
 // vertices coincide.
 TEST(UprightBesideChords, AreNotDividedForEver) {
-  const AnalyticCad cad = one_face([](Vec2 p) { return torus_jet(p, 7.5, 0.6); }, rectangle({0, pi / 2}, {2 * pi, pi}));
-  Monitor monitor;
-  Session session(monitor);
-  const auto host = std::make_shared<AnalyticCad>(cad);
-  host->size_on_curve = [](int, int ic, double) { return ic == 1 ? 8.8 : 1.3; };
-  session.set_cad(host);
-  session.set_model(unglued(*host));
-  Parameters& p = session.parameters();
-  p.set("hphy_flag", 2);
-  p.set("hphymin", 0.01);
-  p.set("hphymax", 20.0);
-  p.set("hgeo_flag", 1);
-  p.set("geo_metric", 1);
-  p.set("angle_mesh", 40.0);
-  p.set("hgeomin", 0.01);
-  p.set("hgeomax", 20.0);
-  session.make_mesh();
-  EXPECT_EQ(session.mesh().faces[0].why, "");
-  EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
-  EXPECT_LT(session.mesh().faces[0].triangles.size(), 1000U);
+  Fillet run(2 * pi, 8.8, [](Parameters& p) {
+    by_direction(p, 40);
+    p.set("hgeomin", 0.01);
+  });
+  EXPECT_EQ(run.session.mesh().faces[0].why, "");
+  EXPECT_EQ(find_defects(run.session.mesh()), std::vector<std::string>{});
+  EXPECT_LT(run.session.mesh().faces[0].triangles.size(), 1000U);
 }
 
 }  // namespace
