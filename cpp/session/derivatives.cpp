@@ -6,6 +6,7 @@
 
 #include "cad/derivative_check.h"
 #include "session/left_out.h"
+#include "support/stepped_tasks.h"
 
 namespace carreau {
 
@@ -44,10 +45,11 @@ std::vector<Vec2> sample_points(const std::vector<CurveSupport>& supports) {
 void check_derivatives(const Model& model, const ModelSupports& supports, Cad& cad, const CompositeOptions& options,
                        Model* known, Monitor& monitor) {
   const bool second = options.size.hgeo_flag == 1;
-  std::vector<WrongDerivative> wrong;
-  const auto take = [&](std::vector<WrongDerivative>&& more) { wrong.insert(wrong.end(), more.begin(), more.end()); };
-  for (std::size_t f = 0; f < model.faces.size(); ++f) {
-    monitor.checkpoint();
+  std::vector<std::vector<WrongDerivative>> of_face(model.faces.size());
+  const auto look = [&](std::size_t f, Monitor&) {
+    const auto take = [&](std::vector<WrongDerivative>&& more) {
+      of_face[f].insert(of_face[f].end(), more.begin(), more.end());
+    };
     const Box box = box_of(supports.of_face[f]);
     if (box.high.x > box.low.x && box.high.y > box.low.y)
       take(find_wrong_surface_derivatives(cad, model.faces[f].ref, sample_points(supports.of_face[f]), box.low,
@@ -57,7 +59,10 @@ void check_derivatives(const Model& model, const ModelSupports& supports, Cad& c
       const std::array<double, 1> middle{range.a + 0.43 * (range.b - range.a)};
       take(find_wrong_curve_derivatives(cad, model.faces[f].ref, static_cast<int>(c) + 1, middle, range, second));
     }
-  }
+  };
+  run_each(model.faces.size(), !cad.reentrant(), options.threads, look, monitor);
+  std::vector<WrongDerivative> wrong;
+  for (const auto& some : of_face) wrong.insert(wrong.end(), some.begin(), some.end());
   if (wrong.empty()) return;
   const WrongDerivative& first = wrong.front();
   for (std::size_t i = 1; i < wrong.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
 #include "surface/bulging_edges.h"
+#include "surface/face_job.h"
 #include "surface/finest_lengths.h"
 #include "surface/near_vertices.h"
 #include "surface/seam_loops.h"
@@ -66,6 +67,7 @@ class Refiner {
     changed_.assign(n, 1);
     crossable_.assign(n, 1);
     left_out_.assign(n, 0);
+    spaces_.resize(n);
     for (std::size_t f = 0; f < n; ++f) {
       result_.failure[f] = model_.faces[f].left_out;
       if (!result_.failure[f].empty()) left_out_[f] = 1;
@@ -80,7 +82,7 @@ class Refiner {
     uncross();
     repeat(
         options_.check_close_edges, [this](int f) { return look_for_closeness(f); },
-        [this](int f, Found& found) {
+        [this](int f, Found& found, Monitor& monitor) {
           found.edges =
               edges_to_split_for_waists(curve_model_, curves_, f, result_.domain[f]->plane, options_.coef_rectangle);
           const std::vector<int> bulging =
@@ -90,16 +92,16 @@ class Refiner {
           for (const Strip& strip : found.strips)
             if (lies_between(f, strip)) found.edges.push_back(strip.edge);
           const std::vector<int> close =
-              edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f), options_.coef_rectangle);
+              edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f, monitor), options_.coef_rectangle);
           found.edges.insert(found.edges.end(), close.begin(), close.end());
         });
     if (rules_.uses_metrics()) finest_.emplace(topology_, curves_);
     repeat(
         options_.check_adjacent_edges, [this](int f) { return Found{.ask_metric = may_be_unbalanced(f)}; },
-        [this](int f, Found& found) {
+        [this](int f, Found& found, Monitor& monitor) {
           if (!found.ask_metric) return;
           const PlaneDomain& plane = result_.domain[f]->plane;
-          found.edges = edges_to_split_for_balance(plane, space_of(f));
+          found.edges = edges_to_split_for_balance(plane, space_of(f, monitor));
           if (!finest_) return;
           std::erase_if(found.edges, [&](int e) {
             return finest_->reached_by(curves_[plane.edges[e].curve], plane.edges[e].segment);
@@ -162,18 +164,19 @@ class Refiner {
   }
 
   // Rounds of one check, until nothing more is split; only faces that have changed are looked at again.
-  template <typename Find, typename FindAlone>
-  void repeat(int rounds, Find&& find, FindAlone&& find_alone) {
+  template <typename Find, typename Ask>
+  void repeat(int rounds, Find&& find, Ask&& ask) {
+    const bool alone = !asks_from_threads(options_, curve_model_.cad);
     rebuild_stale();
     changed_.assign(changed_.size(), 1);
     for (int i = 0; i < rounds; ++i)
-      if (!refine(std::exchange(changed_, std::vector<char>(changed_.size(), 0)), find, find_alone)) return;
+      if (!refine(std::exchange(changed_, std::vector<char>(changed_.size(), 0)), find, ask, alone)) return;
   }
 
-  // One round: asks the faces in `look` which edges to split, splits them in every face that holds the curve. `find`
-  // asks no host and is called from several threads; then `find_alone` may change what it has found.
-  template <typename Find, typename FindAlone>
-  bool refine(const std::vector<char>& look, Find&& find, FindAlone&& find_alone) {
+  // One round: splits what the faces in `look` want split, in every face that holds the curve. `find` asks no host and
+  // is called from several threads; so is `ask`, which may change what it has found, unless it is to be `alone`.
+  template <typename Find, typename Ask>
+  bool refine(const std::vector<char>& look, Find&& find, Ask&& ask, bool alone) {
     rebuild_stale();
     Splits splits;
     add_loose_edges(splits);
@@ -181,11 +184,14 @@ class Refiner {
     for (int f = 0; f < face_count(); ++f)
       if (result_.domain[f] && look[f] != 0 && !given_up_.contains(f)) asked.push_back(f);
     std::vector<Found> found(asked.size());
-    run_each(
-        asked.size(), false, options_.threads, [&](std::size_t i, Monitor&) { found[i] = find(asked[i]); }, monitor_);
+    const auto look_at = [&](std::size_t i, Monitor& monitor) {
+      found[i] = find(asked[i]);
+      if (!alone) ask(asked[i], found[i], monitor);
+    };
+    run_each(asked.size(), false, options_.threads, look_at, monitor_);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       const int f = asked[i];
-      find_alone(f, found[i]);
+      if (alone) ask(f, found[i], monitor_);
       for (const int e : found[i].edges) {
         const PlaneEdge& edge = result_.domain[f]->plane.edges[e];
         if (topology_.curves[edge.curve].degenerate) continue;
@@ -246,7 +252,7 @@ class Refiner {
   void stagger_strips() {
     if (!options_.stagger_strips || !narrow_.empty() || rules_.uses_metrics()) return;
     rebuild_stale();
-    for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, monitor_)) {
+    for (const int c : curves_to_stagger(curve_model_, curves_, result_.domain, options_.threads, monitor_)) {
       stagger(curves_[c], curve_model_);
       mark_stale(c);
     }
@@ -268,7 +274,7 @@ class Refiner {
     for (int i = 0; i < most_halvings; ++i)
       if (!refine(
               crossable_, [this](int f) { return Found{edges_to_split_for_crossings(result_.domain[f]->plane)}; },
-              [this](int f, Found& found) { give_up_if_fruitless(f, found); }))
+              [this](int f, Found& found, Monitor&) { give_up_if_fruitless(f, found); }, true))
         return;
   }
 
@@ -390,12 +396,12 @@ class Refiner {
   }
 
   // Loose spaces are enough to compare edges with their neighbours; they are kept while the curves change.
-  const ControlSpace& space_of(int f) {
+  const ControlSpace& space_of(int f, Monitor& monitor) {
     auto& space = spaces_[f];
     if (!space) {
       const PatchInput input{
           .face = f, .ref = model_.faces[f].ref, .domain = &*result_.domain[f], .curve_xyz = {}, .limits = limits_};
-      space = sample_face(input, curve_model_.cad, rules_, {}, monitor_);
+      space = sample_face(input, curve_model_.cad, rules_, {}, monitor);
     }
     return *space;
   }
@@ -449,8 +455,8 @@ class Refiner {
     int fruitless = 0;                                        // halvings in a row that left it as it was
   };
   std::map<int, Crossing> crossings_;
-  std::optional<FinestLengths> finest_;  // before edges were balanced; none without metrics
-  std::map<int, std::optional<ControlSpace>> spaces_;
+  std::optional<FinestLengths> finest_;              // before edges were balanced; none without metrics
+  std::vector<std::optional<ControlSpace>> spaces_;  // by face
 };
 
 }  // namespace

@@ -30,6 +30,8 @@ namespace {
 
 // What a triangle may cost while a patch is meshed, the mesh itself and copies included.
 constexpr double bytes_per_triangle = 300;
+// Curves that are cut between two reports of progress where several threads cut them.
+constexpr std::size_t curves_at_once = 64;
 // Shares of the progress fraction.
 constexpr double curves_share = 0.1, patches_share = 0.85;
 // Share of the whole that the gradation takes before these, when there is one.
@@ -128,7 +130,7 @@ class Pipeline {
     left_ = options_.max_triangles;
     mesh_faces();
     tell(Phase::assembly, 0, curves_share + patches_share);
-    separate_chords(model_, topology_, domains_, curves_, cad_, patches_, monitor_);
+    separate_chords(model_, topology_, domains_, curves_, cad_, patches_, options_.threads, monitor_);
     refuse_degenerate();
     assemble(model_, topology_, domains_, curves_, patches_, result_);
     keep_prescriptions();
@@ -154,17 +156,28 @@ class Pipeline {
 
   void discretise() {
     const auto start = std::chrono::steady_clock::now();
-    std::int64_t edges = 0;
-    for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
-      monitor_.checkpoint();
-      tell(Phase::curves, topology_.curves[c].ref,
-           curves_share * static_cast<double>(c) / static_cast<double>(topology_.curves.size()));
+    const std::size_t n = topology_.curves.size();
+    curves_.resize(n);
+    const auto cut = [this](std::size_t c) {
       const SizeSamples* known = graded_.curves.empty() ? nullptr : &graded_.curves[c];
-      curves_.push_back(
-          discretise_curve(curve_model_, static_cast<int>(c), rules_, {.lss = options_.lss, .known = known}));
-      edges += curves_.back().segments();
-      if (edges > options_.max_triangles)
-        refuse_triangles(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges), options_.max_triangles);
+      curves_[c] = discretise_curve(curve_model_, static_cast<int>(c), rules_, {.lss = options_.lss, .known = known});
+    };
+    // Rules remember what they were told at points, unless there is nothing to ask.
+    const bool alone = !rules_.constant() || !asks_from_threads(options_, cad_);
+    const std::size_t at_once = alone ? 1 : curves_at_once;
+    std::int64_t edges = 0;
+    for (std::size_t begin = 0; begin < n; begin += at_once) {
+      const std::size_t end = std::min(begin + at_once, n);
+      monitor_.checkpoint();
+      tell(Phase::curves, topology_.curves[begin].ref,
+           curves_share * static_cast<double>(begin) / static_cast<double>(n));
+      run_each(
+          end - begin, alone, options_.threads, [&](std::size_t i, Monitor&) { cut(begin + i); }, monitor_);
+      for (std::size_t c = begin; c < end; ++c) {
+        edges += curves_[c].segments();
+        if (edges > options_.max_triangles)
+          refuse_triangles(Where{.curve = topology_.curves[c].ref}, static_cast<double>(edges), options_.max_triangles);
+      }
     }
     separate_coincident_curves(curve_model_, curves_);
     find_narrow();
@@ -252,7 +265,7 @@ class Pipeline {
 
   /// Jobs of the faces whose domains could be made.
   void make_jobs() {
-    const bool reentrant = options_.threads > 1 && cad_.reentrant() && options_.size.sources.empty();
+    const bool reentrant = asks_from_threads(options_, cad_);
     face_of_job_.clear();
     short_edges_.assign(model_.faces.size(), {});
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {

@@ -57,6 +57,10 @@ std::string format_count(double n) { return std::to_string(static_cast<std::int6
 
 }  // namespace
 
+bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept {
+  return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
+}
+
 void refuse_triangles(const Where& where, double expected, std::int64_t most) {
   throw LimitError(where, "the mesh would have about " + format_count(expected) +
                               " triangles or more, beyond the limit of " + format_count(static_cast<double>(most)) +

@@ -11,6 +11,9 @@
 
 namespace carreau {
 
+/// Whether several threads may ask the host: it allows that, and no source of prescriptions is asked.
+bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept;
+
 /// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
 class FaceJob final : public SteppedTask {
  public:

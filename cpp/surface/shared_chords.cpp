@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "support/stepped_tasks.h"
+
 namespace carreau {
 
 namespace {
@@ -30,8 +32,16 @@ struct Chord {
 class Separator {
  public:
   Separator(const Model& model, const Topology& topology, const RefinedDomains& domains,
-            const std::vector<DiscreteCurve>& curves, Cad& cad, std::vector<std::optional<PatchMesh>>& patches)
-      : model_(model), topology_(topology), domains_(domains), curves_(curves), cad_(cad), patches_(patches) {
+            const std::vector<DiscreteCurve>& curves, Cad& cad, std::vector<std::optional<PatchMesh>>& patches,
+            int threads, Monitor& monitor)
+      : model_(model),
+        topology_(topology),
+        domains_(domains),
+        curves_(curves),
+        cad_(cad),
+        patches_(patches),
+        threads_(threads),
+        monitor_(monitor) {
     auto next = static_cast<std::int64_t>(topology.points.size());
     for (const DiscreteCurve& curve : curves) {
       first_.push_back(next);
@@ -41,15 +51,16 @@ class Separator {
     collect_curve_edges();
   }
 
-  std::int64_t run(Monitor& monitor) {
+  std::int64_t run() {
     // A new vertex may see both sides of a seam: the next pass finds that.
     for (int pass = 0; pass < most_passes; ++pass) {
       const std::int64_t before = added_;
       chords_.clear();
-      for (int f = 0; f < face_count(); ++f) {
-        monitor.checkpoint();
-        if (patches_[f] && (pass == 0 || changed_[f])) collect_chords(f);
-      }
+      std::vector<std::vector<Chord>> of_face(patches_.size());
+      each_patch([&](int f) {
+        if (pass == 0 || changed_[f]) of_face[f] = chords_of(f);
+      });
+      for (const std::vector<Chord>& some : of_face) chords_.insert(chords_.end(), some.begin(), some.end());
       std::sort(chords_.begin(), chords_.end());
       changed_.assign(patches_.size(), false);
       for (std::size_t from = 0, to = 0; from < chords_.size(); from = to) {
@@ -67,7 +78,14 @@ class Separator {
   }
 
  private:
-  [[nodiscard]] int face_count() const { return static_cast<int>(patches_.size()); }
+  /// Calls work(f) for each face that has a patch, from several threads.
+  template <typename Work>
+  void each_patch(const Work& work) {
+    const auto look = [&](std::size_t f, Monitor&) {
+      if (patches_[f]) work(static_cast<int>(f));
+    };
+    run_each(patches_.size(), false, threads_, look, monitor_);
+  }
 
   // Those inside faces have numbers beyond all others.
   [[nodiscard]] std::int64_t identity(int f, std::int32_t v) const {
@@ -81,8 +99,7 @@ class Separator {
     identity_.resize(patches_.size());
     several_.resize(patches_.size());
     on_curves_.resize(patches_.size(), 0);
-    for (std::size_t f = 0; f < patches_.size(); ++f) {
-      if (!patches_[f]) continue;
+    each_patch([this](int f) {
       std::vector<std::int64_t>& identity = identity_[f];
       for (const DomainVertexOrigin& origin : domains_.domain[f]->origin) {
         if (origin.curve < 0) break;  // imposed points come last
@@ -95,7 +112,7 @@ class Separator {
         const auto [low, high] = std::equal_range(sorted.begin(), sorted.end(), id);
         several_[f].push_back(high - low > 1);
       }
-    }
+    });
   }
 
   // From one side of a seam to the other.
@@ -144,7 +161,8 @@ class Separator {
     return imposed;
   }
 
-  void collect_chords(int f) {
+  [[nodiscard]] std::vector<Chord> chords_of(int f) const {
+    std::vector<Chord> chords;
     const std::int32_t count = on_curves_[f];
     const std::vector<Local> keep = edges_to_keep(f);
     for (const auto& t : patches_[f]->plane.triangles)
@@ -154,8 +172,9 @@ class Separator {
         if (a >= count || a != t[i]) continue;
         if (b >= count && !several_[f][a]) continue;
         if (std::binary_search(keep.begin(), keep.end(), Local{a, b})) continue;
-        chords_.push_back({ordered(identity(f, a), identity(f, b)), f, {a, b}});
+        chords.push_back({ordered(identity(f, a), identity(f, b)), f, {a, b}});
       }
+    return chords;
   }
 
   std::int32_t add_vertex(int f, Vec2 uv, Vec3 xyz, double size) {
@@ -222,9 +241,8 @@ class Separator {
       int face;
       std::size_t triangle;
     };
-    std::vector<Corners> all;
-    for (int f = 0; f < face_count(); ++f) {
-      if (!patches_[f]) continue;
+    std::vector<std::vector<Corners>> of_face(patches_.size());
+    each_patch([&](int f) {
       const std::int32_t count = on_curves_[f];
       const auto& triangles = patches_[f]->plane.triangles;
       for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -233,9 +251,11 @@ class Separator {
         if ((a >= count) + (b >= count) + (c >= count) > 1) continue;
         std::array<std::int64_t, 3> key{identity(f, a), identity(f, b), identity(f, c)};
         std::sort(key.begin(), key.end());
-        if (key[0] != key[1] && key[1] != key[2]) all.push_back({key, f, t});
+        if (key[0] != key[1] && key[1] != key[2]) of_face[f].push_back({key, f, t});
       }
-    }
+    });
+    std::vector<Corners> all;
+    for (const std::vector<Corners>& some : of_face) all.insert(all.end(), some.begin(), some.end());
     std::stable_sort(all.begin(), all.end(), [](const Corners& p, const Corners& q) { return p.key < q.key; });
     for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
       while (to < all.size() && all[to].key == all[from].key) ++to;
@@ -260,6 +280,8 @@ class Separator {
   const std::vector<DiscreteCurve>& curves_;
   Cad& cad_;
   std::vector<std::optional<PatchMesh>>& patches_;
+  int threads_;
+  Monitor& monitor_;
   std::vector<std::int64_t> first_;                      // [curve]: number of its vertex 0
   std::vector<std::vector<std::int64_t>> identity_;      // [face][local vertex on a curve]
   std::vector<std::vector<bool>> several_;               // [face][local vertex on a curve]: there twice in this face
@@ -275,8 +297,8 @@ class Separator {
 
 std::int64_t separate_chords(const Model& model, const Topology& topology, const RefinedDomains& domains,
                              const std::vector<DiscreteCurve>& curves, Cad& cad,
-                             std::vector<std::optional<PatchMesh>>& patches, Monitor& monitor) {
-  return Separator(model, topology, domains, curves, cad, patches).run(monitor);
+                             std::vector<std::optional<PatchMesh>>& patches, int threads, Monitor& monitor) {
+  return Separator(model, topology, domains, curves, cad, patches, threads, monitor).run();
 }
 
 }  // namespace carreau

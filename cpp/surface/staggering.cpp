@@ -8,6 +8,7 @@
 #include "plane/domain_graph.h"
 #include "predicates/polygon_locator.h"
 #include "support/segment.h"
+#include "support/stepped_tasks.h"
 #include "surface/boundary_refinement.h"
 #include "surface/near_vertices.h"
 
@@ -137,23 +138,28 @@ std::vector<char> movable_curves(const CurveModel& model, const std::vector<Disc
 }  // namespace
 
 std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
-                                   std::span<const std::optional<FaceDomain>> domains, Monitor& monitor) {
+                                   std::span<const std::optional<FaceDomain>> domains, int threads, Monitor& monitor) {
   const std::vector<char> may_move = movable_curves(model, curves, domains);
-  std::map<Pair, double> gain;  // when one of the two is moved, or both are, no matter which
-  for (const auto& domain : domains) {
-    monitor.checkpoint();
-    if (!domain) continue;
-    for (const Pair& pair : FacingCurves(*domain, curves, model.topology).find(curves)) {
-      const auto [c, d] = pair;
+  std::vector<std::vector<std::pair<Pair, double>>> in_face(domains.size());
+  const auto look = [&](std::size_t f, Monitor& of_task) {
+    of_task.checkpoint();
+    if (!domains[f]) return;
+    for (const Pair& pair : FacingCurves(*domains[f], curves, model.topology).find(curves)) {
+      const int c = pair.first, d = pair.second;
       const bool first = may_move[c] != 0;
       if (!first && may_move[d] == 0) continue;
       const DiscreteCurve& moved = curves[first ? c : d];
       const std::vector<Vec3>& other = curves[first ? d : c].xyz;
       const Lack now = lack_between(moved.xyz, other);
       const Lack then = lack_between(staggered(moved, model), other);
-      gain[pair] += then.worst < largest_fall * now.worst ? ruin : now.edges * (now.mean() - then.mean());
+      in_face[f].emplace_back(pair,
+                              then.worst < largest_fall * now.worst ? ruin : now.edges * (now.mean() - then.mean()));
     }
-  }
+  };
+  run_each(domains.size(), !model.cad.reentrant(), threads, look, monitor);
+  std::map<Pair, double> gain;  // when one of the two is moved, or both are, no matter which
+  for (const auto& found : in_face)
+    for (const auto& [pair, g] : found) gain[pair] += g;
   std::map<int, std::vector<std::pair<int, double>>> beside;
   for (const auto& [pair, g] : gain) {
     beside[pair.first].emplace_back(pair.second, g);
