@@ -527,7 +527,9 @@ typedef struct carreau_estimator {
 
 /* Sizes or metrics at the n vertices of the session's mesh, from the values of a field there; give them back to
  * carreau_set_vertex_sizes or carreau_set_vertex_metrics. ISOTROPIC: out_sizes (n) or out_metrics (n x 6) may be NULL;
- * otherwise out_metrics is needed, and out_sizes is the smallest size of each. Errors: ARGUMENT, SEQUENCE. */
+ * otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long, set the
+ * parameter gradation (2, say): sizes that jump between neighbours hide the bends of a front from the fit of its values.
+ * Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
                                             const double* values, double* out_sizes, double* out_metrics);
 
@@ -549,7 +551,7 @@ typedef struct carreau_adaptation {
   void* user;          /* handed to field */
   int32_t iterations;  /* at most; 0: 5 */
   int32_t differences; /* 1: derivatives of the field itself, by differences (plane z = 0 only); 0: from values at the
-                          vertices alone, as carreau_estimate does */
+                          vertices alone, as carreau_estimate does, best with a gradation of 2 */
   double convergence;  /* ends when the number of triangles changes by a smaller share; 0: makes all iterations */
 } carreau_adaptation;
 

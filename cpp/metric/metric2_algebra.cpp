@@ -71,8 +71,9 @@ Eigen2 eigen(Metric2 m) noexcept {
   const double radius = std::hypot(half, m.b);
   const double angle = 0.5 * std::atan2(m.b, half);
   Eigen2 e{mean + radius, mean - radius, {std::cos(angle), std::sin(angle)}};
-  // The difference mean - radius has lost all its digits when the tensor is nearly singular.
-  if (e.major > 0) e.minor = accurate_determinant(m) / e.major;
+  // The difference of mean and radius has lost all its digits when the tensor is nearly singular.
+  if (mean > 0) e.minor = accurate_determinant(m) / e.major;
+  if (mean < 0) e.major = accurate_determinant(m) / e.minor;
   return e;
 }
 

@@ -403,6 +403,32 @@ TEST_F(Adaptation, BumpsAmidLargeSizesAreNotLost) {
   }
 }
 
+// A front twenty times as steep as high, of the kind of HDR eq. 4.95. Between its wall and the plains around it sizes
+// jump, and neighbours beyond a bend hide it: with a gradation values alone lead to the meshes of the field's own
+// derivatives.
+TEST_F(Adaptation, SteepFrontsAreFoundFromValuesAloneWithAGradation) {
+  set("gradation", 2);
+  Field field{[](double x, double y) { return std::tanh((0.5 * std::sin(3 * x) - y) / 0.05); }};
+  for (const int32_t shape : {CARREAU_GRAPH, CARREAU_ANISOTROPIC}) {
+    carreau_adaptation_report reports[2];
+    for (const int32_t differences : {0, 1}) {
+      auto estimator = abi_tests::sized<carreau_estimator>();
+      estimator.source = CARREAU_CURVATURE;
+      estimator.shape = shape;
+      estimator.tolerance = 8;
+      estimator.hmin = 0.004, estimator.hmax = 0.4;
+      carreau_adaptation a = adaptation(estimator, field);
+      a.iterations = 7;
+      a.differences = differences;
+      ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+      reports[differences] = abi_tests::sized<carreau_adaptation_report>();
+      ASSERT_EQ(carreau_adapt(session, &a, &reports[differences]), CARREAU_OK) << error();
+    }
+    EXPECT_NEAR(double(reports[0].triangles) / double(reports[1].triangles), 1, 0.15) << shape;
+    EXPECT_LT(reports[0].error_rms, 1.2 * reports[1].error_rms) << shape;
+  }
+}
+
 TEST_F(Adaptation, TheLoopEndsWhenTheMeshNoLongerChanges) {
   // The size is the same everywhere: one mesh, and one to see it.
   Field field{[](double x, double y) { return x * x + y * y; }};

@@ -80,6 +80,21 @@ TEST(Eigen, TheSmallValueIsAsGoodAsTheEntriesAllow) {
   }
 }
 
+TEST(Eigen, TensorsOfAnySignAreAsGood) {
+  // The Hessian of a field that bends one way along one direction only has a value near 0 beside a negative one.
+  RandomMetrics random;
+  for (int k = 0; k < 2000; ++k) {
+    const Metric2 m = random.next(30);
+    const Eigen2 plus = eigen(m), minus = eigen(-1. * m);
+    EXPECT_EQ(minus.minor, -plus.major);
+    EXPECT_EQ(minus.major, -plus.minor);
+    const double angle = pi * (random.unit() - 0.5), tiny = 1e-16 * (random.unit() - 0.5);
+    const Eigen2 e = eigen(turned(tiny, -2, angle));
+    EXPECT_NEAR(e.minor, -2, 1e-13);
+    EXPECT_NEAR(e.major, 0, 1e-13);
+  }
+}
+
 TEST(Eigen, ComposeIsTheInverse) {
   RandomMetrics random;
   for (int k = 0; k < 2000; ++k) {
