@@ -53,6 +53,8 @@ class Field {
     constexpr Metric2 none{0, 0, 0};
     return {p, {at(p), none, none}};
   }
+  /// Parameters of the host.
+  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x * unscale_.x, p.y * unscale_.y}; }
   /// Whether there may be places where it bends.
   [[nodiscard]] bool bends() const noexcept { return bends_; }
   /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).

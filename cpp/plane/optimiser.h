@@ -9,6 +9,7 @@
 
 #include "plane/findings.h"
 #include "plane/frame.h"
+#include "plane/sampled_normals.h"
 #include "plane/shapes.h"
 #include "plane/triangulation.h"
 #include "support/monitor.h"
@@ -22,8 +23,9 @@ class Optimiser {
   Optimiser(Triangulation& mesh, int fixed, const Field& field, Monitor& monitor);
   void run();
   /// At bad triangles, worst first, changes of the mesh around are tried, and the best is kept. Not where fields bend.
-  /// On curved surfaces none adds an edge between two fixed vertices: it would leave a flat spot of two edges' width.
-  void improve_worst(bool curved);
+  /// On surfaces that are no planes, whose `normals` are given, none adds an edge between two fixed vertices, nor edges
+  /// along which the surface turns more than along those that were there: flat spots.
+  void improve_worst(const SampledNormals* normals);
 
  private:
   // swaps.cpp
@@ -144,9 +146,11 @@ class Optimiser {
     std::size_t mesh_triangles = 0, mesh_vertices = 0, own = 0, own_movable = 0;  // numbers without what trials add
   };
   struct ZoneCost {
-    double mean = 0, worst = 1;          // of triangles
-    double shortest2 = 1, longest2 = 1;  // squared lengths of edges that are not imposed, and 1
-    int across = 0;                      // halves of edges that are not imposed, between two fixed vertices
+    double mean = 0, worst = 1, sum = 0;  // of triangles
+    double shortest2 = 1, longest2 = 1;   // squared lengths of edges that are not imposed, and 1
+    int across = 0;                       // halves of edges that are not imposed, between two fixed vertices
+    // Of the surface along these edges, as chords of unit normals, from a floor on: largest square, sum of 4th powers.
+    double turn2 = 0, turns4 = 0;
   };
   template <typename Use>
   void for_star(int v, const Use& use) const;
@@ -154,6 +158,7 @@ class Optimiser {
   void restore_zone();
   ZoneCost cost_of_zone(double enough);
   double known_shape(int p, int q, int r);
+  Vec3 known_normal(int v);
   double star_cost(int v, double enough);
   void place(int v, Vec2 p);
   Vec2 best_place(int v, bool quick, bool settled);
@@ -196,13 +201,14 @@ class Optimiser {
   std::int64_t shapes_asked_ = 0;          // of stars, by the rescue
   Zone zone_;
   std::vector<Trial> trials_;
-  bool spare_middles_ = false;     // trials add no edge between two fixed vertices
-  Findings<bool> failed_moves_;    // of stars, by the rescue
-  Findings<bool> failed_points_;   // of new points and their cavities, by the rescue
-  std::vector<PlaceKey> places_;   // by vertex, during trials
-  Findings<double> known_shapes_;  // of triangles
-  Findings<Vec2> known_moves_;     // of stars: where the vertex goes
-  Findings<bool> known_swaps_;     // of diagonals: whether they are swapped
+  const SampledNormals* normals_ = nullptr;  // of a curved surface, during trials
+  Findings<bool> failed_moves_;              // of stars, by the rescue
+  Findings<bool> failed_points_;             // of new points and their cavities, by the rescue
+  std::vector<PlaceKey> places_;             // by vertex, during trials
+  Findings<double> known_shapes_;            // of triangles
+  Findings<Vec2> known_moves_;               // of stars: where the vertex goes
+  Findings<bool> known_swaps_;               // of diagonals: whether they are swapped
+  Findings<Vec3> known_normals_;             // of places
   std::vector<std::uint8_t> degree_, wanted_degree_;
   std::vector<std::pair<std::int32_t, std::int32_t>> glided_;  // diagonals of the swaps of a glide
 };

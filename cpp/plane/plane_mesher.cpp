@@ -56,7 +56,7 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
   boundary.mesh.renumber_if_large();
   plane::Optimiser optimiser(boundary.mesh, fixed, field, monitor);
   optimiser.run();
-  if (options.shape_trials) optimiser.improve_worst(options.curved);
+  if (options.shape_trials) optimiser.improve_worst(options.normals);
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 

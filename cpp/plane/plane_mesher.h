@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plane/plane_mesh.h"
+#include "plane/sampled_normals.h"
 #include "size/control_space.h"
 #include "support/monitor.h"
 
@@ -14,8 +15,9 @@ namespace carreau {
 struct PlaneMesherOptions {
   bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
   bool shape_trials = false;  ///< changes of the mesh around its worst triangles are tried, the best is kept
-  bool curved = false;        ///< of a surface: they add no edge between two vertices of curves, as a row amid others
-                              ///< would be replaced by a flat spot
+  /// Of a curved surface, indexed: changes leave no edges along which it turns more than it did along those before, and
+  /// add none between two vertices of curves. Null: a plane.
+  const SampledNormals* normals = nullptr;
   std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
   /// Squares that another mesh has missed (ControlSpace::deserts()), as places of each: what is still far from all
   /// vertices when points have been placed is settled, and they go on from there.

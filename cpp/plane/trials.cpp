@@ -27,6 +27,8 @@ constexpr std::size_t most_promising = 5;
 // Squared lengths of the edges that a trial leaves, unless some were longer or shorter before.
 constexpr double longest_left2 = 2.4, shortest_left2 = 0.4;
 constexpr double least_split2 = 1.1;  // squared length of an edge that is split
+// Square of the turn of the surface along an edge, as a chord of unit normals, that leaves no flat spot: 20 degrees.
+constexpr double least_turn2 = 0.12;
 constexpr double steps[] = {0.15, 0.05};
 // What is better by less than this share is no better: where meshes are symmetric, the last bits of a host's numbers
 // would decide.
@@ -127,9 +129,13 @@ Optimiser::ZoneCost Optimiser::cost_of_zone(double enough) {
       all.across += a < fixed_ && b < fixed_ ? 1 : 0;
       const double l2 = mesh_.squared_length(a, b);
       all.shortest2 = std::min(all.shortest2, l2), all.longest2 = std::max(all.longest2, l2);
+      if (normals_ == nullptr) continue;
+      const Vec3 turn = known_normal(a) - known_normal(b);
+      const double turn2 = std::max(dot(turn, turn), least_turn2);
+      all.turn2 = std::max(all.turn2, turn2), all.turns4 += turn2 * turn2 - least_turn2 * least_turn2;
     }
   }
-  all.mean = count > 0 ? sum / count : 0;
+  all.mean = count > 0 ? sum / count : 0, all.sum = sum;
   return all;
 }
 
@@ -139,6 +145,13 @@ double Optimiser::known_shape(int p, int q, int r) {
   ++shapes_asked_;
   const double found = shape(p, q, r);
   known_shapes_.put(key, found);
+  return found;
+}
+
+Vec3 Optimiser::known_normal(int v) {
+  if (const Vec3* known = known_normals_.find(places_[v])) return *known;
+  const Vec3 found = normals_->at(field_.outward(mesh_.at(v)));
+  known_normals_.put(places_[v], found);
   return found;
 }
 
@@ -334,9 +347,14 @@ bool Optimiser::improve_around(int t) {
   const ZoneCost before = cost_of_zone(std::numeric_limits<double>::infinity());
   const double longest2 = std::max(before.longest2, longest_left2);
   const double shortest2 = std::min(before.shortest2, shortest_left2);
+  const auto leaves_flat_spots = [&](const ZoneCost& now) {
+    return normals_ != nullptr && (now.across > before.across || now.turn2 > before.turn2 * (1 + tie) ||
+                                   now.turns4 > before.turns4 * (1 + tie));
+  };
+  // The sum too: a mean is made better by good triangles more, whatever becomes of the bad ones.
   const auto is_better = [&](const ZoneCost& now, double than) {
-    return now.mean < than && now.worst >= std::min(before.worst, tried_quality) && now.longest2 <= longest2 &&
-           now.shortest2 >= shortest2 && (!spare_middles_ || now.across <= before.across);
+    return now.mean < than && now.sum < before.sum && now.worst >= std::min(before.worst, tried_quality) &&
+           now.longest2 <= longest2 && now.shortest2 >= shortest2 && !leaves_flat_spots(now);
   };
   list_trials(t);
   if (trials_.size() > most_promising) {
@@ -378,16 +396,16 @@ bool Optimiser::improve_around(int t) {
   return false;
 }
 
-void Optimiser::improve_worst(bool curved) {
+void Optimiser::improve_worst(const SampledNormals* normals) {
   if (!mesh_.bends.empty()) return;
-  spare_middles_ = curved;
+  normals_ = normals;
   const auto total = static_cast<std::int64_t>(mesh_.triangles.size());
   const std::int64_t budget = least_shapes + shapes_a_triangle * total;
   std::int64_t allowed = first_shapes + first_shapes_a_triangle * total;
   shapes_asked_ = 0;
   places_.clear();
   for (const Vertex& V : mesh_.vertices) places_.push_back(key_of_place(V.point()));
-  known_shapes_.open(), known_moves_.open(), known_swaps_.open();
+  known_shapes_.open(), known_moves_.open(), known_swaps_.open(), known_normals_.open();
   std::vector<char> in_vain(mesh_.triangles.size(), 0);
   std::vector<std::pair<double, std::int32_t>> bad;
   for (int pass = 0; pass < most_passes; ++pass) {

@@ -100,8 +100,9 @@ void FaceJob::sample(Monitor& monitor) {
     const std::vector<Vec2> tips = input_.limits.field->tips(input_.face);
     suspects_.insert(suspects_.end(), tips.begin(), tips.end());
   }
-  space_ = sample_face(input_, cad_, rules_, suspects_, monitor, &curved_);
+  space_ = sample_face(input_, cad_, rules_, suspects_, monitor, options_.shape_trials ? &normals_ : nullptr);
   refuse_beyond_limit(space_->measure());
+  normals_.index(*space_);
   next_ = Step::mesh;
 }
 
@@ -110,7 +111,7 @@ void FaceJob::mesh(Monitor& monitor) {
   mesh_ = mesh_patch(input_, *space_,
                      {.frontal = options_.frontal,
                       .shape_trials = options_.shape_trials,
-                      .curved = curved_,
+                      .normals = normals_.differ() ? &normals_ : nullptr,
                       .max_triangles = most_triangles_,
                       .deserts = deserts_},
                      monitor);

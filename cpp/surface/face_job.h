@@ -59,7 +59,7 @@ class FaceJob final : public SteppedTask {
   std::vector<std::vector<Vec2>> deserts_;  // that meshes so far have missed
   std::vector<Vec2> suspects_;
   std::optional<ControlSpace> space_;
-  bool curved_ = false;  // as far as samples have shown
+  SampledNormals normals_;
   std::optional<PatchMesh> mesh_;
   std::string failure_;
   CompositeReport report_;

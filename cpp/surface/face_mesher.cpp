@@ -17,29 +17,6 @@ constexpr std::size_t batch = 512;
 // Of swaps and moves in space, each of which makes room for the other.
 constexpr int most_rounds = 4;
 
-// Sine of the angle between normals of a plane, which rounding leaves.
-constexpr double flat_angle = 1e-6;
-
-/// Whether normals differ.
-class Normals {
- public:
-  void add(const SurfaceJet& jet) noexcept {
-    const Vec3 n = cross(jet.su, jet.sv);
-    const double length = norm(n);
-    if (differ_ || !(length > 0)) return;
-    if (first_length_ > 0)
-      differ_ = norm(cross(first_, n)) > flat_angle * first_length_ * length;
-    else
-      first_ = n, first_length_ = length;
-  }
-  [[nodiscard]] bool differ() const noexcept { return differ_; }
-
- private:
-  Vec3 first_{};
-  double first_length_ = 0;
-  bool differ_ = false;
-};
-
 // Of the vertices from `xyz.size()` on.
 void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
   std::vector<SurfaceJet> jets(batch);
@@ -61,20 +38,17 @@ SampledDomain sampled_domain(const PlaneDomain& domain) {
 }
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
-                         Monitor& monitor, bool* curved) {
+                         Monitor& monitor, SampledNormals* normals) {
   FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
   std::vector<SurfaceJet> jets;
-  Normals normals;
   const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
                                      std::span<SurfaceTangents> tangents) {
     jets.resize(uv.size());
     cad.surface(input.ref, prescribed.wants(), uv, jets);
     prescribed.at(uv, jets, metric);
     for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = {jets[i].su, jets[i].sv};
-    if (curved != nullptr) {
-      for (const SurfaceJet& jet : jets) normals.add(jet);
-      *curved = normals.differ();
-    }
+    if (normals == nullptr) return;
+    for (std::size_t i = 0; i < uv.size(); ++i) normals->add(uv[i], cross(jets[i].su, jets[i].sv));
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;

@@ -53,9 +53,9 @@ struct PatchInput {
 SampledDomain sampled_domain(const PlaneDomain& domain);
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
-/// `curved`, where given: whether normals at the samples differ.
+/// `normals`, where given, gets those at the samples.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
-                         Monitor& monitor, bool* curved = nullptr);
+                         Monitor& monitor, SampledNormals* normals = nullptr);
 
 /// Plane mesh in the sampled metric; asks no host.
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const PlaneMesherOptions& options,
