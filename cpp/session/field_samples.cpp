@@ -13,8 +13,12 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Vec3 nowhere{nan, nan, nan};
+constexpr SurfaceJet nothing{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
 // Points to evaluate at a time, as elsewhere.
 constexpr std::size_t batch = 1024;
+// A host that fails everywhere, by an exception at each point, would take seconds to say so: when it has failed at so
+// many points one by one, one of so many is asked.
+constexpr std::size_t most_in_vain = 1024, stride_in_vain = 31;
 // Below this difference of the sizes the direction is one of rounding errors.
 constexpr double isotropic = 1e-6;
 
@@ -75,18 +79,36 @@ bool FieldSampler::prescribe(std::span<const Vec2> uv, std::span<const SurfaceJe
   return false;
 }
 
-void FieldSampler::sample_one(Vec2 uv, SurfaceJet& jet, Metric2& metric) {
+bool FieldSampler::sample_one(Vec2 uv, SurfaceJet& jet, Metric2& metric) {
   metric = {nan, nan, nan};
   failed_ = false;
+  bool told = true;
   if (!evaluate(want_, {&uv, 1}, {&jet, 1})) {
-    jet = {nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
+    told = false;
+    jet = nothing;
     SurfaceJet part;
-    if ((want_ & want_position) != 0 && evaluate(want_position, {&uv, 1}, {&part, 1})) jet.s = part.s;
-    if ((want_ & want_first) != 0 && evaluate(want_first, {&uv, 1}, {&part, 1})) jet.su = part.su, jet.sv = part.sv;
+    if ((want_ & want_position) != 0 && evaluate(want_position, {&uv, 1}, {&part, 1})) jet.s = part.s, told = true;
+    if ((want_ & want_first) != 0 && evaluate(want_first, {&uv, 1}, {&part, 1}))
+      jet.su = part.su, jet.sv = part.sv, told = true;
   } else if (prescribed_ != nullptr && !prescribe({&uv, 1}, {&jet, 1}, {&metric, 1})) {
     metric = {nan, nan, nan};
   }
   if (failed_) ++failures_;
+  return told;
+}
+
+// At one point of so many, and at none of the others. False, with nothing changed, when the host says something.
+bool FieldSampler::sample_some(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric) {
+  const std::int64_t before = failures_;
+  for (std::size_t k = 0; k < uv.size(); k += stride_in_vain)
+    if (sample_one(uv[k], jets[k], metric[k])) {
+      failures_ = before;
+      return false;
+    }
+  failures_ = before + static_cast<std::int64_t>(uv.size());
+  std::fill(jets.begin(), jets.end(), nothing);
+  std::fill(metric.begin(), metric.end(), Metric2{nan, nan, nan});
+  return true;
 }
 
 void FieldSampler::sample(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric) {
@@ -98,8 +120,15 @@ void FieldSampler::sample(std::span<const Vec2> uv, std::span<SurfaceJet> jets, 
     const auto points = uv.subspan(i, n);
     const auto there = jets.subspan(i, n);
     const auto here = metric.subspan(i, n);
-    if (evaluate(want_, points, there) && (prescribed_ == nullptr || prescribe(points, there, here))) continue;
-    for (std::size_t k = 0; k < n; ++k) sample_one(points[k], there[k], here[k]);
+    const bool told = evaluate(want_, points, there);
+    answered_ = answered_ || told;
+    if (told && (prescribed_ == nullptr || prescribe(points, there, here))) continue;
+    if (!answered_ && in_vain_ >= most_in_vain && sample_some(points, there, here)) continue;
+    for (std::size_t k = 0; k < n; ++k)
+      if (sample_one(points[k], there[k], here[k]))
+        answered_ = true;
+      else
+        ++in_vain_;
   }
 }
 

@@ -29,7 +29,8 @@ class FieldSampler {
   /// `want`: bits of the jets; those that `prescribed` (null: none) wants are added. Keeps references.
   FieldSampler(int ref, unsigned want, FaceMetric* prescribed, Cad& cad, Monitor& monitor);
 
-  /// Any size of batch. Metrics are NaN without `prescribed`. Throws Cancelled only.
+  /// Any size of batch. Metrics are NaN without `prescribed`. Throws Cancelled only. A host that has answered at none
+  /// of a thousand points is asked at some of those that follow only, until it answers.
   void sample(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric);
 
   [[nodiscard]] std::int64_t failures() const noexcept { return failures_; }
@@ -39,7 +40,9 @@ class FieldSampler {
   /// False when the host fails.
   bool evaluate(unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> jets);
   bool prescribe(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
-  void sample_one(Vec2 uv, SurfaceJet& jet, Metric2& metric);
+  /// False when the host says nothing at all.
+  bool sample_one(Vec2 uv, SurfaceJet& jet, Metric2& metric);
+  bool sample_some(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric);
   void keep(const char* sentence);
 
   int ref_;
@@ -48,7 +51,9 @@ class FieldSampler {
   Cad& cad_;
   Monitor& monitor_;
   std::int64_t failures_ = 0;
-  bool failed_ = false;  // at the point at hand
+  bool failed_ = false;      // at the point at hand
+  bool answered_ = false;    // at some point
+  std::size_t in_vain_ = 0;  // points asked one by one before that
   std::string first_failure_;
 };
 
