@@ -16,8 +16,8 @@ struct TrianglePlace {
   bool inside = false;  ///< within rounding
 };
 
-/// A TriangleSearch in units of the mean edge in u and in v, which may have nothing in common. find() is safe
-/// from several threads.
+/// A TriangleSearch in units of the mean edge in u and in v, which may have nothing in common. Most points are found by
+/// a walk from a triangle nearby, before it is asked. find() is safe from several threads.
 class TriangleTree {
  public:
   TriangleTree() = default;
@@ -29,9 +29,22 @@ class TriangleTree {
   [[nodiscard]] TrianglePlace find(Vec2 p) const noexcept;
 
  private:
+  struct Corners {
+    std::array<Vec2, 3> at{};                        // scaled
+    std::array<std::int32_t, 3> across{-1, -1, -1};  // triangles beyond the sides from each corner to the next
+  };
+  void join_sides(const std::vector<std::array<std::int32_t, 3>>& triangles);
+  void make_starts();
+  [[nodiscard]] std::size_t start_near(Vec2 p) const noexcept;
+  [[nodiscard]] std::int32_t walk(Vec2 p) const noexcept;
+
   Vec2 low_, scale_{1, 1};
   double inside_ = 0;  // distance that rounding may leave between a triangle and a point of it, scaled
   TriangleSearch search_;
+  std::vector<Corners> corners_;
+  std::int32_t columns_ = 0, rows_ = 0;
+  Vec2 start_scale_;                  // from scaled points to cells of starts_
+  std::vector<std::int32_t> starts_;  // a triangle near each cell of a grid
 };
 
 }  // namespace carreau
