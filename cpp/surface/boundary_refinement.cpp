@@ -314,9 +314,10 @@ class Refiner {
   }
 
   // Whether edges at a vertex differ so much that the balance needs a look. With one size everywhere lengths on curves
-  // say so, without a callback.
+  // say so, without a callback; with a gradation they do with the most that sizes change to the middles of edges.
   [[nodiscard]] bool may_be_unbalanced(int f) const {
-    if (!rules_.constant()) return true;
+    if (!rules_.constant() && (limits_.field == nullptr || rules_.uses_metrics())) return true;
+    const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
     const FaceDomain& domain = *result_.domain[f];
     struct Range {
       double low = std::numeric_limits<double>::infinity(), high = 0;
@@ -329,8 +330,12 @@ class Refiner {
       for (const int v : {edge.a, edge.b})
         at[v] = {.low = std::min(at[v].low, length), .high = std::max(at[v].high, length)};
     }
-    return std::any_of(at.begin(), at.end(),
-                       [](const Range& range) { return range.high > balance_to_look_at * range.low; });
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      const auto [low, high] = at[v];
+      const double least = 1 - half_slope * high / domain.size[v], most = 1 + half_slope * low / domain.size[v];
+      if (high * most > balance_to_look_at * low * least) return true;
+    }
+    return false;
   }
 
   // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
@@ -489,17 +494,6 @@ void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCur
   for (const auto& [ends, same] : by_ends)
     if (same.size() > 1)
       for (const int c : same) split_segment(curves[c], 0, model);
-}
-
-std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves,
-                                      const Topology& topology) {
-  std::vector<Vec3> positions;
-  for (const DomainVertexOrigin& origin : domain.origin) {
-    if (origin.curve < 0) break;
-    positions.push_back(origin.corner >= 0 ? topology.points[origin.corner].position
-                                           : curves[origin.curve].xyz[origin.node]);
-  }
-  return positions;
 }
 
 }  // namespace carreau

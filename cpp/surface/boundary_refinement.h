@@ -31,8 +31,4 @@ RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, c
 /// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);
 
-/// Positions in space of the domain's vertices that lie on curves (imposed points come last and are left out).
-std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves,
-                                      const Topology& topology);
-
 }  // namespace carreau

@@ -381,4 +381,15 @@ FaceDomain collect_face_domain(const Model& model, const Topology& topology, std
   return Builder(model, topology, curves, face, none).run(false);
 }
 
+std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves,
+                                      const Topology& topology) {
+  std::vector<Vec3> positions;
+  for (const DomainVertexOrigin& origin : domain.origin) {
+    if (origin.curve < 0) break;
+    positions.push_back(origin.corner >= 0 ? topology.points[origin.corner].position
+                                           : curves[origin.curve].xyz[origin.node]);
+  }
+  return positions;
+}
+
 }  // namespace carreau

@@ -54,4 +54,8 @@ FaceDomain collect_face_domain(const Model& model, const Topology& topology, std
 /// How messages call a curve of a face: "curve 2 (reference 17)", its rank from 1 and its reference.
 std::string curve_name(const Topology& topology, int curve, int face);
 
+/// Positions in space of the domain's vertices that lie on curves (imposed points come last and are left out).
+std::vector<Vec3> positions_on_curves(const FaceDomain& domain, const std::vector<DiscreteCurve>& curves,
+                                      const Topology& topology);
+
 }  // namespace carreau
