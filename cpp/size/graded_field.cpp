@@ -65,7 +65,7 @@ void find_beyond(GradedFace& face) {
 
 GradedField::GradedField(double slope, std::vector<GradedFace> faces) : slope_(slope), faces_(std::move(faces)) {
   for (GradedFace& face : faces_)
-    if (!face.front.empty()) find_beyond(face);
+    if (!face.front.empty() || !face.metric.empty()) find_beyond(face);
 }
 
 double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept {
@@ -101,7 +101,7 @@ double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const n
   return wave && place.inside ? std::min(h, linear) : h;
 }
 
-TangentMetric GradedField::sizes(int face, Vec2 uv, TangentMetric prescribed) const noexcept {
+TangentMetric GradedField::sizes(int face, Vec2 uv, Vec3 xyz, TangentMetric prescribed) const noexcept {
   if (static_cast<std::size_t>(face) >= faces_.size()) return prescribed;
   const GradedFace& f = faces_[face];
   const TrianglePlace place = f.tree.find(uv);
@@ -113,7 +113,19 @@ TangentMetric GradedField::sizes(int face, Vec2 uv, TangentMetric prescribed) co
     h1 += place.weight[i] * corner.matched(prescribed.d1);
     h2 += place.weight[i] * corner.matched(prescribed.d2);
   }
-  if (std::isfinite(h1) && std::isfinite(h2)) prescribed.h1 = h1, prescribed.h2 = h2;
+  if (!std::isfinite(h1) || !std::isfinite(h2)) return prescribed;
+  prescribed.h1 = h1, prescribed.h2 = h2;
+  // Means of corners are too large where a corner beside allows less: across a strip it is far nearer than they are.
+  const auto bound = [&](std::int32_t v) {
+    const TangentMetric& corner = f.metric[v];
+    const Vec3 way = step_on_surface(f.normal[v], xyz - f.xyz[v]);
+    const double l = norm(way), growth = l > 0 ? 1 + slope_ * l / corner.along((1 / l) * way) : 1;
+    prescribed.h1 = std::min(prescribed.h1, growth * corner.matched(prescribed.d1));
+    prescribed.h2 = std::min(prescribed.h2, growth * corner.matched(prescribed.d2));
+  };
+  for (const std::int32_t v : f.triangles[place.triangle]) bound(v);
+  for (const std::int32_t v : f.beyond[place.triangle])
+    if (v >= 0) bound(v);
   return prescribed;
 }
 

@@ -53,7 +53,7 @@ class GradedField {
   [[nodiscard]] double size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept;
 
   /// The same for sizes by direction: those of `prescribed` with its directions.
-  [[nodiscard]] TangentMetric sizes(int face, Vec2 uv, TangentMetric prescribed) const noexcept;
+  [[nodiscard]] TangentMetric sizes(int face, Vec2 uv, Vec3 xyz, TangentMetric prescribed) const noexcept;
   /// The smaller of both, interpolated: for places without a tangent plane. +infinity where nothing is bounded.
   [[nodiscard]] double smaller_size(int face, Vec2 uv) const noexcept;
 

@@ -26,7 +26,9 @@ constexpr std::size_t steps_between_checks = 1 << 12;
 class MetricGrading {
  public:
   MetricGrading(const GradationGraph& graph, std::vector<TangentMetric> sizes, double slope, Monitor& monitor)
-      : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {}
+      : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {
+    waits_.assign(sizes_.size(), 0);
+  }
 
   void add(const MetricSource& s) {
     bound(s.place, graph_.places[s.place].normal, s.way, [&](Vec3 w) { return s.sizes.along(w); });
@@ -36,9 +38,11 @@ class MetricGrading {
     for (std::size_t p = 0; p < sizes_.size(); ++p) enqueue(static_cast<int>(p));
     std::size_t steps = 0;
     while (!queue_.empty()) {
-      const auto [h, p] = queue_.top();
+      const int p = queue_.top().second;
       queue_.pop();
-      if (h != smaller(p)) continue;
+      // Not by the sizes that it was put there with: changes that are negligible come in between.
+      if (waits_[p] == 0) continue;
+      waits_[p] = 0;
       if (++steps % steps_between_checks == 0) monitor_.checkpoint();
       leave(p);
     }
@@ -48,7 +52,9 @@ class MetricGrading {
  private:
   [[nodiscard]] double smaller(int p) const noexcept { return sizes_[p].h1 * sizes_[p].h2; }
   void enqueue(int p) {
-    if (std::isfinite(smaller(p))) queue_.emplace(smaller(p), p);
+    if (!std::isfinite(smaller(p))) return;
+    queue_.emplace(smaller(p), p);
+    waits_[p] = 1;
   }
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
 
@@ -113,6 +119,7 @@ class MetricGrading {
   double slope_;
   Monitor& monitor_;
   detail::PlaceFans fans_;
+  std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
   using Entry = std::pair<double, int>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };

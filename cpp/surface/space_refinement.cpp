@@ -28,6 +28,9 @@ constexpr std::size_t most_divisions = 32;
 // Times that a triangle was divided to make another: beside a chord so coarse that each triangle on it is turned over
 // divisions would go on until vertices coincide.
 constexpr std::uint8_t deepest = 12;
+// What exceeds an angle or a distance is not divided where a median would be shorter than this share of the shortest
+// edge that is divided.
+constexpr double shortest_median = 0.3;
 // The surface is not divided where it is farther from the middle of an edge than this many lengths: it jumps there.
 constexpr double farthest = 1;
 
@@ -299,6 +302,8 @@ class SpaceRefinement {
   // Across a longest side there may be a longer one, and so on; the last one is divided, so that no thinner triangles
   // come out than went in (Rivara's path of longest edges).
   bool divide(int t) {
+    // Medians of triangles that are narrow already may be much shorter than halves.
+    const double least = is_upright(triangle(t)) ? shortest_median * kept_.shortest_divided : 0;
     int i = longest_side(t);
     while (i >= 0) {
       const int u = across_[t][i], j = longest_side(u);
@@ -308,10 +313,10 @@ class SpaceRefinement {
       if (!(norm(position(d[j]) - position(d[(j + 1) % 3])) > norm(position(c[i]) - position(c[(i + 1) % 3])))) break;
       t = u, i = j;
     }
-    return i >= 0 && divide_side(t, i);
+    return i >= 0 && divide_side(t, i, least);
   }
 
-  bool divide_side(int t, int i) {
+  bool divide_side(int t, int i, double least) {
     const int u = across_[t][i], j = side_towards(u, t);
     const std::int32_t a = triangle(t)[i], b = triangle(t)[(i + 1) % 3], c = triangle(t)[(i + 2) % 3],
                        d = triangle(u)[(j + 2) % 3], m = static_cast<std::int32_t>(mesh_.xyz.size());
@@ -322,7 +327,8 @@ class SpaceRefinement {
     }
     const SurfaceJet jet = jet_at(mesh_.plane.vertices.back());
     const Vec3 away = jet.s - lerp(position(a), position(b), 0.5);
-    if (!(norm(away) < farthest * norm(position(b) - position(a)))) {
+    if (!(norm(away) < farthest * norm(position(b) - position(a))) || norm(jet.s - position(c)) < least ||
+        norm(jet.s - position(d)) < least) {
       mesh_.plane.vertices.pop_back();
       return false;
     }

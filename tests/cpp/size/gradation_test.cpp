@@ -12,7 +12,9 @@
 #include <tuple>
 
 #include "plane/plane_mesher.h"
+#include "size/graded_field.h"
 #include "size/metric_grading.h"
+#include "size/place_fans.h"
 #include "size/space_gradation.h"
 #include "support/error.h"
 
@@ -259,6 +261,67 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
       EXPECT_LE(twice[v].h, once[v]);
       EXPECT_GE(twice[v].h, once[v] - 0.134 * slope * longest);
     }
+  }
+}
+
+// Sizes along edges, from both ends: what is lowered by next to nothing while it waits goes on to its neighbours too.
+TEST(Gradation, ByDirectionNoEdgeIsSteeper) {
+  Builder b;
+  b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x, p.y, 0.3 * std::sin(4 * p.x) * p.y}; });
+  std::uint64_t state = 12345;
+  const auto random = [&state] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<double>(state >> 40) / static_cast<double>(1 << 24);
+  };
+  std::vector<TangentMetric> sizes;
+  for (const GradationGraph::Place& p : b.graph.places) {
+    const Vec3 t = cross(p.normal, {0, 1, 0}), e = (1 / norm(t)) * t, f = cross(p.normal, e);
+    const double turn = pi * random();
+    sizes.push_back({std::cos(turn) * e + std::sin(turn) * f, std::cos(turn) * f - std::sin(turn) * e,
+                     0.01 + 0.2 * random(), 0.01 + 0.2 * random()});
+  }
+  Monitor monitor;
+  for (const double beta : {1.1, 1.3, 2.}) {
+    const double slope = slope_of_gradation(beta);
+    const auto graded = grade_metrics(b.graph, sizes, {}, slope, monitor);
+    double steepest = 0;
+    for (const auto& t : b.graph.triangles)
+      for (int i = 0; i < 3; ++i)
+        for (const auto& [p, q] : {std::pair{t[i], t[(i + 1) % 3]}, std::pair{t[(i + 1) % 3], t[i]}}) {
+          const Vec3 way = step_on_surface(b.graph.places[p].normal, b.graph.xyz[q] - b.graph.xyz[p]);
+          const double l = norm(way);
+          const Vec3 e = (1 / l) * way, there = detail::roll(e, b.graph.places[p].normal, b.graph.places[q].normal);
+          steepest = std::max(steepest, (graded[q].along(there) - graded[p].along(e)) / l);
+        }
+    EXPECT_LE(steepest, 1.02 * slope);
+  }
+}
+
+// A strip whose lower side has one vertex of a small size: amid the edge above it, whose ends are far, sizes are those
+// that the gradation allows from there.
+TEST(Gradation, ByDirectionItHoldsAcrossAStrip) {
+  constexpr double width = 0.1, slope = 0.25;
+  Builder b;
+  GradedFace face;
+  for (const double y : {0., width})
+    for (int i = 0; i < 6; ++i) face.uv.push_back({2. * i + (y > 0 ? 1 : 0), y});
+  for (std::int32_t i = 0; i < 5; ++i)
+    face.triangles.insert(face.triangles.end(), {{i, i + 1, i + 6}, {i + 1, i + 7, i + 6}});
+  Monitor monitor;
+  b.add({face.uv, face.triangles}, [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  face.xyz = b.graph.xyz;
+  std::vector<TangentMetric> sizes(12, {{1, 0, 0}, {0, 1, 0}, 4, 4});
+  sizes[3].h1 = 1, sizes[3].h2 = 1;
+  face.metric = grade_metrics(b.graph, sizes, {}, slope, monitor);
+  face.normal.assign(12, {0, 0, 1});
+  face.smooth.assign(10, 0);
+  face.on_curve.assign(10, 0);
+  face.tree = TriangleTree(face.uv, face.triangles, monitor);
+  const GradedField field(slope, {face});
+  for (double x = 5; x <= 7; x += 0.125) {
+    const TangentMetric there = field.sizes(0, {x, width}, {x, width, 0}, {{1, 0, 0}, {0, 1, 0}, 4, 4});
+    EXPECT_LE(std::max(there.h1, there.h2), 1 + slope * std::hypot(x - 6, width) + 1e-12) << x;
+    EXPECT_GE(std::min(there.h1, there.h2), 1 + 0.98 * slope * std::hypot(x - 6, width)) << x;
   }
 }
 
