@@ -177,6 +177,7 @@ typedef struct c_measure {
     double max;
     double limit;
     long beyond;
+    long forced;
 } c_measure;
 typedef struct c_metric_callbacks {
     long struct_size;

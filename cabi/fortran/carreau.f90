@@ -158,7 +158,7 @@ module carreau
     integer(c_int32_t) :: entity = 0, classes = 0
     integer(c_int64_t) :: values = 0, count = 0
     real(c_double) :: mean = 0, min = 0, p1 = 0, p99 = 0, max = 0, limit = 0
-    integer(c_int64_t) :: beyond = 0
+    integer(c_int64_t) :: beyond = 0, forced = 0
   end type carreau_measure
 
   type :: carreau_face
@@ -920,6 +920,7 @@ contains
     measure%max = c%max
     measure%limit = c%limit
     measure%beyond = c%beyond
+    measure%forced = c%forced
   end subroutine carreau_delivered_measure
 
   !> counts(i): values from bounds(i) up to bounds(i + 1)

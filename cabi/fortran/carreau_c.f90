@@ -130,7 +130,7 @@ module carreau_c
     integer(c_int32_t) :: entity = 0, classes = 0
     integer(c_int64_t) :: values = 0, count = 0
     real(c_double) :: mean = 0, min = 0, p1 = 0, p99 = 0, max = 0, limit = 0
-    integer(c_int64_t) :: beyond = 0
+    integer(c_int64_t) :: beyond = 0, forced = 0
   end type c_measure
 
   type, bind(c) :: c_face

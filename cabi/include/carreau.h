@@ -833,6 +833,8 @@ typedef struct carreau_measure {
   double mean, min, p1, p99, max; /* p1, p99: percentiles */
   double limit;                   /* what was asked: no value above this; infinity: nothing was */
   int64_t beyond;                 /* values above it (gradation: by more than 2 %) */
+  int64_t forced; /* of those: angles of edges as short as hgeomin lets them be (sqrt(2) times as long at most),
+                     gradations of edges that cross a face from a vertex of a curve to another one */
 } carreau_measure;
 
 CARREAU_API carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind,

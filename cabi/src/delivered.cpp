@@ -92,6 +92,7 @@ carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind,
     result.p99 = one.spread.p99, result.max = one.spread.max;
     result.limit = one.limit;
     result.beyond = one.beyond;
+    result.forced = one.forced;
     write_struct(result, out_measure, "out_measure");
   });
 }

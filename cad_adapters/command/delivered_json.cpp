@@ -24,11 +24,17 @@ nlohmann::ordered_json measure_json(carreau_session* session, std::int32_t kind,
   const auto value = [&](double x) {
     return measure.count > 0 ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
   };
-  return {{"of", entity_word(measure.entity)}, {"count", measure.count},
-          {"mean", value(measure.mean)},       {"min", value(measure.min)},
-          {"p1", value(measure.p1)},           {"p99", value(measure.p99)},
-          {"max", value(measure.max)},         {"limit", measure.limit},
-          {"beyond", measure.beyond},          {"histogram", {{"bounds", bounds}, {"counts", counts}}}};
+  return {{"of", entity_word(measure.entity)},
+          {"count", measure.count},
+          {"mean", value(measure.mean)},
+          {"min", value(measure.min)},
+          {"p1", value(measure.p1)},
+          {"p99", value(measure.p99)},
+          {"max", value(measure.max)},
+          {"limit", measure.limit},
+          {"beyond", measure.beyond},
+          {"forced", measure.forced},
+          {"histogram", {{"bounds", bounds}, {"counts", counts}}}};
 }
 
 /// The last `n` lines.

@@ -41,6 +41,7 @@ Json measure(const DeliveredMeasure& row, const Delivery& one) {
           {"max", value(s.max)},
           {"limit", number(one.limit)},
           {"beyond", one.beyond},
+          {"forced", one.forced},
           {"histogram", histogram(s.histogram)}};
 }
 

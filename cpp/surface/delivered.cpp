@@ -439,6 +439,22 @@ CallCounts difference(const CallCounts& p, const CallCounts& q) {
           p.curv1 - q.curv1, p.curv2 - q.curv2, p.sizes - q.sizes};
 }
 
+// Of the edges beyond a limit: those that are as short as the smallest size lets them be, and those inside faces that
+// curves hold at both ends.
+void count_forced(const SurfaceMesh& mesh, const DeliveredOptions& options, Delivered& d) {
+  std::vector<char> on_curve(mesh.vertices.size(), 0);
+  for (const CurveMesh& curve : mesh.curves)
+    for (const std::int32_t v : curve.vertices) on_curve[v] = 1;
+  Delivery &angle = d[DeliveredKind::edge_angle], &gradation = d[DeliveredKind::gradation];
+  angle.shortest = options.shortest_for_angle;
+  for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
+    const auto [a, b] = d.edges.vertices[e];
+    if (angle.exceeds(angle.values[e]) && norm(mesh.vertices[b] - mesh.vertices[a]) <= angle.shortest) ++angle.forced;
+    if (gradation.exceeds(gradation.values[e]) && d.edges.segment[e] < 0 && on_curve[a] != 0 && on_curve[b] != 0)
+      ++gradation.forced;
+  }
+}
+
 }  // namespace
 
 Delivered measure_delivered(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
@@ -451,6 +467,7 @@ Delivered measure_delivered(const SurfaceMesh& mesh, Cad& cad, const PrescribedM
   d[DeliveredKind::length_ratio].limit = options.length_ratio_limit;
   d[DeliveredKind::deviation].limit = options.deviation_limit;
   summarise(d);
+  count_forced(mesh, options, d);
   d.calls = difference(cad.counts(), before);
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return d;

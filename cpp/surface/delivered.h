@@ -80,6 +80,9 @@ struct DeliveredOptions {
   double gradation_limit = std::numeric_limits<double>::infinity();     ///< ratio
   double length_ratio_limit = std::numeric_limits<double>::infinity();  ///< ratio
   double deviation_limit = std::numeric_limits<double>::infinity();     ///< model length
+  /// Edges of this length in space and shorter ones are as short as the smallest size lets them be, whatever angle they
+  /// exceed: at an apex, where there is no tangent plane, all do.
+  double shortest_for_angle = 0;
   /// [curve of SurfaceMesh::curves][its vertex]: prescribed sizes along curves, which are another rule than those of
   /// the faces beside them; between two vertices they are interpolated by `law`. A curve without entries, and all when
   /// there are none: what the first face with the edge prescribes.
@@ -113,6 +116,12 @@ struct Delivery {
   double limit = std::numeric_limits<double>::infinity();  ///< asked; infinity: nothing was
   /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
   std::int64_t beyond = 0;
+  double tolerance = 0;  ///< share of the limit that may be exceeded
+  std::int64_t forced =
+      0;  ///< of those: angles of edges no longer than `shortest`, gradations between two curves' vertices
+  double shortest = 0;  ///< edges so long are as short as the smallest size lets them be; model length
+
+  [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }
 };
 
 /// All measures; prescriptions that are not met are counted.

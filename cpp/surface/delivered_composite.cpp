@@ -29,6 +29,7 @@ Delivered measure_composite(const Model& model, const Topology& topology, Cad& c
   measure.law = rules.law();
   const GeometricLimits geometric = geometric_limits(options.size);
   measure.edge_angle_limit = geometric.edge_angle_deg;
+  measure.shortest_for_angle = geometric.shortest_divided;
   measure.deviation_limit = geometric.deviation;
   if (options.gradation > 0) {
     measure.gradation_limit = options.gradation;

@@ -61,8 +61,8 @@ std::string part_of(std::int64_t part, std::int64_t all, const char* entities) {
   return std::to_string(part) + " of " + std::to_string(all) + " " + entities + " (" + percent(part, all) + ") have";
 }
 
-std::int64_t count_above(const std::vector<double>& values, double limit, double tolerance = rounding) {
-  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + tolerance); });
+std::int64_t count_above(const std::vector<double>& values, double limit) {
+  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + rounding); });
 }
 
 }  // namespace
@@ -147,7 +147,8 @@ void summarise(Delivered& d) {
         break;
     }
     one.spread = spread_of(one.values, bounds);
-    one.beyond = count_above(one.values, one.limit, measure.kind == DeliveredKind::gradation ? 0.02 : rounding);
+    one.tolerance = measure.kind == DeliveredKind::gradation ? 0.02 : rounding;
+    one.beyond = std::count_if(one.values.begin(), one.values.end(), [&one](double x) { return one.exceeds(x); });
   }
   const std::vector<double>& length = d[DeliveredKind::length].values;
   d.long_edges = count_above(length, long_limit);
@@ -172,10 +173,16 @@ DeliveredText describe(const Delivered& d) {
                            std::to_string(d.short_edges) + " are shorter, " + std::to_string(d.long_edges) + " longer");
   const auto check = [&](DeliveredKind kind, const char* entities, const char* rule) {
     const Delivery& one = d[kind];
-    if (one.beyond > 0)
-      text.not_met.push_back(part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
-                             " more than the " + short_number(one.limit) + " asked; the worst has " +
-                             short_number(one.spread.max));
+    if (one.beyond == 0) return;
+    std::string said = part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
+                       " more than the " + short_number(one.limit) + " asked; the worst has " +
+                       short_number(one.spread.max);
+    if (one.forced > 0)
+      said += "; " + std::to_string(one.forced) +
+              (kind == DeliveredKind::edge_angle
+                   ? " of them are as short as hgeomin lets edges be (" + short_number(one.shortest) + ")"
+                   : std::string(" of them cross a face from curve to curve"));
+    text.not_met.push_back(std::move(said));
   };
   check(DeliveredKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
   check(DeliveredKind::gradation, "edges", "a gradation of sizes of");

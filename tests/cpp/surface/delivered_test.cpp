@@ -176,6 +176,31 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   EXPECT_TRUE(said);
 }
 
+// Across the strip: the edges inside join the curves on both its sides, those at its ends lie on curves.
+TEST(DeliveredPlane, GradationsBetweenTwoCurvesAreForced) {
+  const double a = 0.5, b = 0.26;
+  Case run{one_face(plane_jet), {}, {}};
+  run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {5, 1}, 10, 1}});
+  CurveMesh loop;
+  for (std::int32_t v = 0; v < 22; ++v) loop.vertices.push_back(v);
+  const auto before = [&](std::int32_t v, std::int32_t w) {  // counterclockwise around the middle
+    const Vec3 p = run.mesh.vertices[v], q = run.mesh.vertices[w];
+    return std::atan2(p.y - 0.5, p.x - 2.5) < std::atan2(q.y - 0.5, q.x - 2.5);
+  };
+  std::sort(loop.vertices.begin(), loop.vertices.end(), before);
+  loop.vertices.push_back(loop.vertices.front());
+  run.mesh.curves.push_back(loop);
+  DeliveredOptions options;
+  options.gradation_limit = 1.25;
+  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.y; }), options);
+  EXPECT_EQ(d[Kind::gradation].beyond, 11);
+  EXPECT_EQ(d[Kind::gradation].forced, 9);
+  const auto said = describe(d).not_met;
+  EXPECT_TRUE(std::any_of(said.begin(), said.end(), [](const std::string& sentence) {
+    return sentence.find("the worst has 1.297; 9 of them cross a face from curve to curve") != std::string::npos;
+  }));
+}
+
 TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
   // Cells of 0.01 by 1, sizes that differ by a tenth from one column to the next: 1.1^105 over their own lengths.
   Case run{one_face(plane_jet), {}, {}};
@@ -241,8 +266,19 @@ TEST(DeliveredSphere, EquilateralTriangleHasItsClosedForms) {
       // HDR eq. 4.13 for two edges of one angle: sin(phi) = sin(theta) / cos(alpha / 2).
       EXPECT_NEAR(std::sin(d[Kind::angle].values[0] * pi / 180), chord / 2 / std::cos(pi / 6), 1e-12);
       EXPECT_EQ(d[Kind::edge_angle].beyond, met ? 0 : 3);
+      EXPECT_EQ(d[Kind::edge_angle].forced, 0);
       EXPECT_EQ(d[Kind::deviation].beyond, met ? 0 : 1);
       EXPECT_EQ(describe(d).not_met.size(), met ? 0U : 2U);
+      // The smallest size allows no shorter edges.
+      options.shortest_for_angle = chord * (1 + 1e-12);
+      const Delivered coarse = run.measure(uniform(chord), options);
+      EXPECT_EQ(coarse[Kind::edge_angle].beyond, met ? 0 : 3);
+      EXPECT_EQ(coarse[Kind::edge_angle].forced, met ? 0 : 3);
+      for (const std::string& sentence : describe(coarse).not_met)
+        EXPECT_EQ(sentence.find("; 3 of them are as short as hgeomin") != std::string::npos,
+                  sentence.find("an angle with") != std::string::npos)
+            << sentence;
+      options.shortest_for_angle = 0;
       EXPECT_EQ(d.folded_triangles, 0);
     }
   }

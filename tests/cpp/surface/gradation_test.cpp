@@ -409,7 +409,7 @@ TEST(GradedMetrics, CurvatureOfTheTeapot) {
 // the gradation in the field alone.
 TEST(GradedMetrics, CurvatureOfWaves) {
   for (const bool guaranteed : {false, true})
-    for (const double beta : {1.3, 2.}) {
+    for (const double beta : {1.1, 1.3, 2.}) {
       AnalyticCad cad;
       cad.faces[1] = {[](Vec2 p) {
                         const double a = 0.4, s = std::sin(2 * p.x), c = std::cos(2 * p.x), t = std::sin(3 * p.y),
