@@ -100,10 +100,17 @@ void FaceJob::sample(Monitor& monitor) {
     const std::vector<Vec2> tips = input_.limits.field->tips(input_.face);
     suspects_.insert(suspects_.end(), tips.begin(), tips.end());
   }
-  space_ = sample_face(input_, cad_, rules_, suspects_, monitor, options_.shape_trials ? &normals_ : nullptr);
+  SampledFacts facts{.normals = options_.shape_trials ? &normals_ : nullptr};
+  space_ = sample_face(input_, cad_, rules_, suspects_, monitor, &facts);
+  note_directions(facts);
   refuse_beyond_limit(space_->measure());
   normals_.index(*space_);
   next_ = Step::mesh;
+}
+
+// Metrics may turn out to be sizes. Those that a gradation bounds were sampled by direction.
+void FaceJob::note_directions(const SampledFacts& facts) {
+  if (rules_.uses_metrics()) input_.isotropic = input_.slope == 0 && facts.isotropic;
 }
 
 void FaceJob::mesh(Monitor& monitor) {
@@ -161,8 +168,10 @@ bool FaceJob::settle_deserts(std::vector<Vec2>& places, Monitor& monitor) {
 bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
   suspects_.insert(suspects_.end(), places.begin(), places.end());
-  ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor);
+  SampledFacts facts;
+  ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor, &facts);
   if (!differ_at(places, *space_, finer)) return false;
+  note_directions(facts);
   refuse_beyond_limit(finer.measure());
   space_ = std::move(finer);
   report_.corrections = ++corrections_;

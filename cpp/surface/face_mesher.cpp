@@ -1,6 +1,7 @@
 #include "surface/face_mesher.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "surface/bad_region.h"
 #include "surface/face_metric.h"
@@ -16,6 +17,18 @@ constexpr std::size_t batch = 512;
 
 // Of swaps and moves in space, each of which makes room for the other.
 constexpr int most_rounds = 4;
+
+// Relative difference of a metric from that of one size, which rounding leaves.
+constexpr double same_size = 1e-6;
+
+// Whether the metric is that of a size which is the same in all directions.
+bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
+  const double h = isotropic_size(jet, m), k = 1 / (h * h);
+  if (!(h > 0)) return true;
+  const double e = k * dot(jet.su, jet.su), f = k * dot(jet.su, jet.sv), g = k * dot(jet.sv, jet.sv);
+  return std::abs(m.a - e) <= same_size * e && std::abs(m.c - g) <= same_size * g &&
+         std::abs(m.b - f) <= same_size * std::sqrt(e * g);
+}
 
 // Of the vertices from `xyz.size()` on.
 void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
@@ -38,7 +51,7 @@ SampledDomain sampled_domain(const PlaneDomain& domain) {
 }
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
-                         Monitor& monitor, SampledNormals* normals) {
+                         Monitor& monitor, SampledFacts* facts) {
   FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
   std::vector<SurfaceJet> jets;
   const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
@@ -47,8 +60,11 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
     cad.surface(input.ref, prescribed.wants(), uv, jets);
     prescribed.at(uv, jets, metric);
     for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = {jets[i].su, jets[i].sv};
-    if (normals == nullptr) return;
-    for (std::size_t i = 0; i < uv.size(); ++i) normals->add(uv[i], cross(jets[i].su, jets[i].sv));
+    if (facts == nullptr) return;
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+      if (facts->normals != nullptr) facts->normals->add(uv[i], cross(jets[i].su, jets[i].sv));
+      facts->isotropic = facts->isotropic && has_one_size(jets[i], metric[i]);
+    }
   };
   ControlSpaceOptions space_options;
   space_options.suspects = suspects;

@@ -52,10 +52,15 @@ struct PatchInput {
 /// The boundary of a domain.
 SampledDomain sampled_domain(const PlaneDomain& domain);
 
+/// What samples of a face tell beside its metric.
+struct SampledFacts {
+  SampledNormals* normals = nullptr;  ///< gets those at the samples, where given
+  bool isotropic = true;              ///< sizes do not differ by direction at any of them
+};
+
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
-/// `normals`, where given, gets those at the samples.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
-                         Monitor& monitor, SampledNormals* normals = nullptr);
+                         Monitor& monitor, SampledFacts* facts = nullptr);
 
 /// Plane mesh in the sampled metric; asks no host.
 PatchMesh mesh_patch(const PatchInput& input, const ControlSpace& space, const PlaneMesherOptions& options,

@@ -94,7 +94,10 @@ class SpaceRefinement {
   // Those that look wrong from what is known at their corners, or against the mean of the triangles around.
   std::vector<int> find_wrong() {
     const std::vector<Triangle>& triangles = mesh_.plane.triangles;
-    known_ = mesh_.normal.size() == mesh_.xyz.size();
+    with_normals_ = mesh_.normal.size() == mesh_.xyz.size();
+    // Sizes that do not follow the curvature leave edges of curves that bend by more than a right angle: what divides
+    // the triangles at their ends ends in slivers, and mends none.
+    known_ = with_normals_ && (kept_.any() || rules_.uses_curvature());
     std::vector<Vec3> around;
     if (!known_) {
       around.resize(mesh_.xyz.size());
@@ -338,7 +341,7 @@ class SpaceRefinement {
       mesh_.xyz.pop_back();
       return false;
     }
-    if (known_) mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{}));
+    if (with_normals_) mesh_.normal.push_back(unit_normal(jet).value_or(Vec3{}));
     const int bc = across_[t][(i + 1) % 3], ca = across_[t][(i + 2) % 3], ad = across_[u][(j + 1) % 3],
               db = across_[u][(j + 2) % 3];
     const int v = static_cast<int>(mesh_.plane.triangles.size()), w = v + 1;
@@ -371,8 +374,9 @@ class SpaceRefinement {
   PatchMesh& mesh_;
   Monitor& monitor_;
   GeometricLimits kept_;
-  double sine_;         // of the angle that is kept
-  bool known_ = false;  // normals at all vertices are
+  double sine_;                // of the angle that is kept
+  bool with_normals_ = false;  // the mesh has them at all vertices
+  bool known_ = false;         // they are compared with those of triangles
   std::vector<std::array<int, 3>> across_;
   std::vector<std::uint8_t> depth_;  // by triangle
   std::vector<int> queue_;

@@ -387,6 +387,19 @@ TEST(Source, OfSizesIsAsGoodAsTheHostsOwn) {
   EXPECT_GE(delivered[DeliveredKind::q2].spread.mean, 0.98);
 }
 
+// Edges of the rim's curves bend by more than a right angle; triangles beside them were halved until edges had a
+// thousandth of the size.
+TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
+  for (const double h : {0.15, 0.2, 0.3}) {
+    const auto source = testing::field_of_space([h](Vec3) { return Prescription::of_size(h); });
+    Prescribed run(testing::teapot(), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
+    const Delivered delivered = run.measure([h](Vec3) { return isotropic_metric3(h); });
+    EXPECT_GE(delivered[DeliveredKind::length].spread.min, 0.1) << h;
+    EXPECT_GE(delivered[DeliveredKind::q2].spread.mean, 0.94) << h;
+    EXPECT_GE(delivered[DeliveredKind::q2].spread.min, 0.35) << h;
+  }
+}
+
 // What no sample hit, a vertex does.
 TEST(Source, DipsThatNoSampleHitsAreMeshed) {
   AnalyticCad square;
