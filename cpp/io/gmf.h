@@ -18,6 +18,9 @@ enum class GmfCode : std::int32_t {
   vertices = 4,
   edges = 5,
   triangles = 6,
+  quadrilaterals = 7,
+  triangles_of_order_2 = 24,
+  quadrilaterals_of_order_2 = 27,
   end = 54,
   sol_at_vertices = 62
 };

@@ -13,6 +13,7 @@ class GmfReader {
 
  private:
   void section(std::int32_t code);
+  void refuse_others(const char* what);
   void vertices();
   template <std::size_t N>
   void entities(const char* what, std::vector<std::array<std::int32_t, N>>& list, std::vector<std::int32_t>& refs,
@@ -72,6 +73,13 @@ void GmfReader::check_indices(const char* what, const std::vector<std::array<std
                                                               std::to_string(mesh_.vertices.size()) + ")");
 }
 
+// Without them the surface would have holes that its owner does not know.
+void GmfReader::refuse_others(const char* what) {
+  const std::size_t at = in_.position();
+  const std::int64_t n = in_.announced();
+  if (n != 0) in_.fail(at, std::to_string(n) + " " + what + "; triangles with three vertices are read only");
+}
+
 void GmfReader::section(std::int32_t code) {
   switch (static_cast<GmfCode>(code)) {
     case GmfCode::dimension:
@@ -85,6 +93,12 @@ void GmfReader::section(std::int32_t code) {
       return entities("edges", mesh_.edges, mesh_.edge_refs, edges_start_);
     case GmfCode::triangles:
       return entities("triangles", mesh_.triangles, mesh_.triangle_refs, triangles_start_);
+    case GmfCode::quadrilaterals:
+      return refuse_others("quadrilaterals");
+    case GmfCode::triangles_of_order_2:
+      return refuse_others("triangles of order 2");
+    case GmfCode::quadrilaterals_of_order_2:
+      return refuse_others("quadrilaterals of order 2");
     default:
       break;  // other sections are skipped whole
   }

@@ -17,6 +17,7 @@ class MeditReader {
   template <std::size_t N>
   void entities(const std::string& what, std::vector<std::array<std::int32_t, N>>& list,
                 std::vector<std::int32_t>& refs, const char*& start);
+  void refuse_others(std::string_view section);
   template <std::size_t N>
   void check_indices(const char* what, const std::vector<std::array<std::int32_t, N>>& list, const char* start);
 
@@ -76,17 +77,28 @@ void MeditReader::check_indices(const char* what, const std::vector<std::array<s
     }
 }
 
+// Without them the surface would have holes that its owner does not know.
+void MeditReader::refuse_others(std::string_view section) {
+  const std::int32_t n = in_.integer("the number of elements");
+  if (n != 0)
+    in_.fail(section.data(),
+             std::to_string(n) + " " + std::string(section) + "; triangles with three vertices are read only");
+}
+
 FlatMesh MeditReader::read() {
   in_.header("a mesh file");
   for (;;) {
-    const std::string_view name = in_.next_section({"Vertices", "Edges", "Triangles"});
+    const std::string_view name =
+        in_.next_section({"Vertices", "Edges", "Triangles", "Quadrilaterals", "TrianglesP2", "QuadrilateralsQ2"});
     if (name.empty()) break;
     if (name == "Vertices")
       vertices();
     else if (name == "Edges")
       entities("edges", mesh_.edges, mesh_.edge_refs, edges_start_);
-    else
+    else if (name == "Triangles")
       entities("triangles", mesh_.triangles, mesh_.triangle_refs, triangles_start_);
+    else
+      refuse_others(name);
   }
   if (!has_vertices_) in_.fail(in_.position(), "the file has no Vertices");
   check_indices("edge", mesh_.edges, edges_start_);

@@ -36,8 +36,9 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 /// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files only.
 FlatMesh read_mesh(const std::string& path);
 /// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() tells them apart by
-/// the content. Other sections of the format are skipped. A word that is no section of the format (ASCII), a section
-/// that comes twice, or a missing End is an error.
+/// the content. Other sections of the format are skipped, but for elements of surfaces that are not triangles of first
+/// order: those are errors, as are a word that is no section of the format (ASCII), a section that comes twice, and a
+/// missing End.
 FlatMesh read_mesh_text(std::string_view text, const std::string& name);
 FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
 /// Gmsh, versions 4.1 and 2.2, ASCII and binary (either byte order). References are the numbers of entities (not of
