@@ -22,8 +22,9 @@ constexpr double most_growth = 1000;
 /// Whether the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
 /// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
-  constexpr int halvings = 30;    // 1e-9 of the edge; more would compare numbers that are rounded
-  constexpr double shrunk = 0.1;  // a surface as steep as a square root leaves 3e-5
+  constexpr int halvings = 30;     // 1e-9 of the edge; more would compare numbers that are rounded
+  constexpr double shrunk = 0.1;   // a surface as steep as a square root leaves 3e-5
+  constexpr double noise = 1e-10;  // of coordinates, more than what evaluators leave
   Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
   const double whole = norm(q - p);
   for (int i = 0; i < halvings; ++i) {
@@ -34,7 +35,7 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
     else
       from = middle, p = m;
   }
-  return norm(q - p) > shrunk * whole;
+  return norm(q - p) > shrunk * whole + noise * std::max(norm(p), norm(q));
 }
 
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
@@ -110,6 +111,7 @@ void FaceJob::sample(Monitor& monitor) {
 
 // Metrics may turn out to be sizes. Those that a gradation bounds were sampled by direction.
 void FaceJob::note_directions(const SampledFacts& facts) {
+  input_.one_size = facts.isotropic;
   if (rules_.uses_metrics()) input_.isotropic = input_.slope == 0 && facts.isotropic;
 }
 

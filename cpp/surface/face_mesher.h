@@ -41,6 +41,8 @@ struct PatchInput {
   std::optional<double> constant_size = {};
   /// Sizes do not differ by direction: triangles may be judged by their shape in space.
   bool isotropic = true;
+  /// Before a gradation they do not, as far as samples have shown (SampledFacts).
+  bool one_size = true;
   /// What becomes of the prescribed sizes.
   SizeLimits limits = {};
   /// Largest derivative of sizes along the surface, kept in the control space too; 0: any.

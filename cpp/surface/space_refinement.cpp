@@ -95,9 +95,8 @@ class SpaceRefinement {
   std::vector<int> find_wrong() {
     const std::vector<Triangle>& triangles = mesh_.plane.triangles;
     with_normals_ = mesh_.normal.size() == mesh_.xyz.size();
-    // Sizes that do not follow the curvature leave edges of curves that bend by more than a right angle: what divides
-    // the triangles at their ends ends in slivers, and mends none.
-    known_ = with_normals_ && (kept_.any() || rules_.uses_curvature());
+    // Beside coarse edges that bend by more than a right angle divisions of shapely triangles end in slivers.
+    known_ = with_normals_ && (kept_.any() || rules_.uses_curvature() || !input_.one_size);
     std::vector<Vec3> around;
     if (!known_) {
       around.resize(mesh_.xyz.size());

@@ -7,11 +7,11 @@
 namespace carreau {
 
 /// Looks for triangles whose normal is more than 90 degrees from the surface's at their centre; where metrics govern
-/// that follow the curvature, more than 85 degrees there or at a corner, and, where sizes are guaranteed, also for
-/// those that exceed the limits `kept`. An edge of them is swapped when that mends it, else the longest edge around is
-/// divided at its middle. Edges on curves stay as they are: what is wrong along them is the curves'. Most meshes are
-/// left as they are, without a call where sizes are the same in all directions; so are those that no division makes
-/// better: cusps, creases, surfaces that jump. Keeps mesh.size and mesh.normal up to date.
+/// that follow the curvature or differ by direction, more than 85 degrees there or at a corner, and, where sizes are
+/// guaranteed, also for those that exceed the limits `kept`. An edge of them is swapped when that mends it, else the
+/// longest edge around is divided at its middle. Edges on curves stay as they are: what is wrong along them is the
+/// curves'. Most meshes are left as they are, without a call where sizes are the same in all directions; so are those
+/// that no division makes better: cusps, creases, surfaces that jump. Keeps mesh.size and mesh.normal up to date.
 ///
 /// Bends within one edge make such triangles: where a principal curvature vanishes, the size along it jumps from one
 /// vertex to the next, and a long edge leaves the surface between them.

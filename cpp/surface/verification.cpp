@@ -16,9 +16,9 @@ namespace {
 
 // True length over promised length. An arc of 150 degrees is 1.36 times its chord.
 constexpr double too_long = 1.3, too_short = 0.65;
-// Sizes of the finest features that are met in practice are off by some tens; anisotropy in the mean by the root of its
-// ratio.
-constexpr double excess = 1000;
+// Edges so many times longer than promised are looked at: where the surface is continuous between their ends, nothing
+// becomes of it.
+constexpr double excess = 8;
 constexpr std::size_t most_places = 500;
 constexpr std::size_t triangles_between_checks = 1 << 16;
 // A change of the control space, in relative length, that is worth another mesh.

@@ -164,6 +164,20 @@ TEST(BadModels, SurfaceThatJumps) {
   EXPECT_TRUE(outcome.sound);
 }
 
+// Nor where the step, which goes through the whole face, is a few edges high: triangles without area lay along it.
+TEST(BadModels, SurfaceThatJumpsByAFewEdges) {
+  AnalyticCad cad = square();
+  cad.faces[2] = {[](Vec2 p) {
+                    return plane({p.x + 2, p.y}, p.x > 0.6500123 ? 0.25 : 0);
+                  },
+                  testing::rectangle({0, 0}, {1, 1})};
+  for (const double size : {0.025, 0.05}) {
+    const Outcome outcome = try_mesh(cad, testing::unglued(cad), size);
+    EXPECT_NE((outcome.error + outcome.failures).find("face 2"), std::string::npos) << size;
+    EXPECT_TRUE(outcome.sound) << size;
+  }
+}
+
 // Derivatives vanish on one border (a cusp): edges there are many times longer than these say, and the surface is
 // continuous.
 TEST(BadModels, DerivativesThatVanishOnABorderAreNoJump) {

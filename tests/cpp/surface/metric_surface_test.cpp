@@ -390,13 +390,14 @@ TEST(Source, OfSizesIsAsGoodAsTheHostsOwn) {
 // Edges of the rim's curves bend by more than a right angle; triangles beside them were halved until edges had a
 // thousandth of the size.
 TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
-  for (const double h : {0.15, 0.2, 0.3}) {
-    const auto source = testing::field_of_space([h](Vec3) { return Prescription::of_size(h); });
-    Prescribed run(testing::teapot(), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
-    const Delivered delivered = run.measure([h](Vec3) { return isotropic_metric3(h); });
-    EXPECT_GE(delivered[DeliveredKind::length].spread.min, 0.1) << h;
-    EXPECT_GE(delivered[DeliveredKind::q2].spread.mean, 0.94) << h;
-    EXPECT_GE(delivered[DeliveredKind::q2].spread.min, 0.35) << h;
+  for (const auto& [h, gradation] : {std::pair{0.15, 0.}, {0.2, 0.}, {0.3, 0.}, {0.2, 1.3}}) {
+    const double size = h;
+    const auto source = testing::field_of_space([size](Vec3) { return Prescription::of_size(size); });
+    Prescribed run(testing::teapot(), source, {{"hphymin", 1e-3}, {"hphymax", 10.}, {"gradation", gradation}});
+    const Delivered delivered = run.measure([size](Vec3) { return isotropic_metric3(size); });
+    EXPECT_GE(delivered[DeliveredKind::length].spread.min, 0.1) << h << ' ' << gradation;
+    EXPECT_GE(delivered[DeliveredKind::q2].spread.mean, 0.94) << h << ' ' << gradation;
+    EXPECT_GE(delivered[DeliveredKind::q2].spread.min, 0.35) << h << ' ' << gradation;
   }
 }
 
