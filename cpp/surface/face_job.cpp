@@ -103,16 +103,10 @@ void FaceJob::sample(Monitor& monitor) {
   }
   SampledFacts facts{.normals = options_.shape_trials ? &normals_ : nullptr};
   space_ = sample_face(input_, cad_, rules_, suspects_, monitor, &facts);
-  note_directions(facts);
+  input_.one_size = facts.isotropic;
   refuse_beyond_limit(space_->measure());
   normals_.index(*space_);
   next_ = Step::mesh;
-}
-
-// Metrics may turn out to be sizes. Those that a gradation bounds were sampled by direction.
-void FaceJob::note_directions(const SampledFacts& facts) {
-  input_.one_size = facts.isotropic;
-  if (rules_.uses_metrics()) input_.isotropic = input_.slope == 0 && facts.isotropic;
 }
 
 void FaceJob::mesh(Monitor& monitor) {
@@ -173,7 +167,7 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   SampledFacts facts;
   ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor, &facts);
   if (!differ_at(places, *space_, finer)) return false;
-  note_directions(facts);
+  input_.one_size = facts.isotropic;
   refuse_beyond_limit(finer.measure());
   space_ = std::move(finer);
   report_.corrections = ++corrections_;

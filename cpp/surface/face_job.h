@@ -40,7 +40,6 @@ class FaceJob final : public SteppedTask {
   enum class Step { sample, mesh, lift, none };
 
   void sample(Monitor& monitor);
-  void note_directions(const SampledFacts& facts);
   void mesh(Monitor& monitor);
   void lift(Monitor& monitor);
   void refuse_unsound(Monitor& monitor) const;

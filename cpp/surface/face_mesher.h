@@ -41,7 +41,7 @@ struct PatchInput {
   std::optional<double> constant_size = {};
   /// Sizes do not differ by direction: triangles may be judged by their shape in space.
   bool isotropic = true;
-  /// Before a gradation they do not, as far as samples have shown (SampledFacts).
+  /// Metrics that govern may turn out to be sizes: as far as samples have shown (SampledFacts).
   bool one_size = true;
   /// What becomes of the prescribed sizes.
   SizeLimits limits = {};
