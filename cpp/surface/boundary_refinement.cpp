@@ -355,7 +355,7 @@ class Refiner {
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];
       const auto note_strip = [&](int v) {
         const double s = fraction_on_segment(xyz[v], a, b), d = norm(xyz[v] - lerp(a, b, s));
-        if (meet(edge.curve, domain.origin[v]) && !bulges_past(edge, domain, xyz, v, s, d)) return true;
+        if (meet(f, edge.curve, domain.origin[v]) && !bulges_past(edge, domain, xyz, v, s, d)) return true;
         const double size = std::min(domain.size[v], curve_model_.length(edge.curve));
         if (d >= norm(b - a) * coefficient_of_width(options_.coef_rectangle, d / size)) return true;
         const Vec2 nearest = lerp(plane.vertices[edge.a], plane.vertices[edge.b], s);
@@ -379,25 +379,41 @@ class Refiner {
   }
 
   // Whether the curve of an edge passes by a vertex, and its chord does not: at distance d, fraction s of the chord. At
-  // the tip of two curves that touch each other any two edges are like that, however short.
+  // the tip of two curves that touch each other any two edges are like that, however short. A curve between its chord
+  // and the vertex is nearer, but the triangle between these is the wider.
   [[nodiscard]] bool bulges_past(const PlaneEdge& edge, const FaceDomain& domain, const std::vector<Vec3>& xyz, int v,
                                  double s, double d) const {
     const double bulge = bulge_of(curve_model_, curves_, edge, norm(xyz[edge.b] - xyz[edge.a]));
     if (d > bulge) return false;
-    const double between = d + 4 * s * (1 - s) * bulge;
+    const double height = 4 * s * (1 - s) * bulge, between = d + height;
+    const Vec3 a = xyz[edge.a], b = xyz[edge.b];
+    if (d > height && dot(middle_of(edge) - lerp(a, b, 0.5), xyz[v] - lerp(a, b, s)) > 0) return false;
     const auto is_tip = [&](int end) {
       return domain.origin[end].corner >= 0 && between < bluntest_tip * norm(xyz[v] - xyz[end]);
     };
     return !is_tip(edge.a) && !is_tip(edge.b);
   }
 
-  // Whether a vertex lies on a curve that has an end in common with another one, or on that one.
-  [[nodiscard]] bool meet(int curve, const DomainVertexOrigin& origin) const {
+  [[nodiscard]] Vec3 middle_of(const PlaneEdge& edge) const {
+    const std::vector<double>& r = curves_[edge.curve].r;
+    const CurveSupport& support = curve_model_.support(topology_.curves[edge.curve].uses.front());
+    return support.point_at_arc((r[edge.segment] + r[edge.segment + 1]) / 2 * support.length());
+  }
+
+  // Whether a vertex lies on a curve of a face that has an end in common with another one, or on that one.
+  [[nodiscard]] bool meet(int face, int curve, const DomainVertexOrigin& origin) const {
     const Curve& one = topology_.curves[curve];
-    if (origin.corner >= 0) return origin.corner == one.end1 || origin.corner == one.end2;
-    const Curve& other = topology_.curves[origin.curve];
-    return origin.curve == curve || other.end1 == one.end1 || other.end1 == one.end2 || other.end2 == one.end1 ||
-           other.end2 == one.end2;
+    const auto meets = [&](int c) {
+      const Curve& other = topology_.curves[c];
+      return c == curve || other.end1 == one.end1 || other.end1 == one.end2 || other.end2 == one.end1 ||
+             other.end2 == one.end2;
+    };
+    if (origin.corner < 0) return meets(origin.curve);
+    const std::vector<int>& around = topology_.curve_of[face];
+    return std::any_of(around.begin(), around.end(), [&](int c) {
+      const Curve& other = topology_.curves[c];
+      return (other.end1 == origin.corner || other.end2 == origin.corner) && meets(c);
+    });
   }
 
   // Loose spaces are enough to compare edges with their neighbours; they are kept while the curves change.
