@@ -50,6 +50,8 @@ class CadInput {
                                       double& v) const noexcept = 0;
   /// What the file holds and the geometry does not, since it could not be read: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
+  /// Faces that bend inside, which curvatures do not tell: a sentence each.
+  [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
 };

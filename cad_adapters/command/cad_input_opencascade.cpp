@@ -15,6 +15,23 @@
 namespace command {
 namespace {
 
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string sentence(const carreau_occ::Danger& danger, const carreau_occ::BrepHost& host) {
+  std::string text;
+  if (danger.edge > 0) text += "edge " + std::to_string(danger.edge);
+  if (danger.face > 0) {
+    text += (text.empty() ? "face " : ", face ") + std::to_string(danger.face);
+    const std::string& name = host.face_name(danger.face);
+    if (!name.empty()) text += " (" + name + ")";
+  }
+  return text + ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
+}
+
 class OpenCascadeInput final : public CadInput {
  public:
   OpenCascadeInput(const std::string& path, const ReadingProgress& progress)
@@ -57,6 +74,12 @@ class OpenCascadeInput final : public CadInput {
   }
   [[nodiscard]] std::vector<std::string> losses() const override { return file_.losses; }
 
+  [[nodiscard]] std::vector<std::string> kinks() const override {
+    std::vector<std::string> sentences;
+    for (const carreau_occ::Danger& kink : carreau_occ::find_kinks(file_)) sentences.push_back(sentence(kink, host_));
+    return sentences;
+  }
+
   [[nodiscard]] std::string gaps() const override {
     const carreau_occ::Gaps gaps = carreau_occ::measure_gaps(file_);
     if (!(gaps.largest > 0)) return "none";
@@ -80,23 +103,6 @@ class OpenCascadeInput final : public CadInput {
   carreau_occ::ShapeFile file_;
   carreau_occ::BrepHost host_;
 };
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
-
-std::string sentence(const carreau_occ::Danger& danger, const carreau_occ::BrepHost& host) {
-  std::string text;
-  if (danger.edge > 0) text += "edge " + std::to_string(danger.edge);
-  if (danger.face > 0) {
-    text += (text.empty() ? "face " : ", face ") + std::to_string(danger.face);
-    const std::string& name = host.face_name(danger.face);
-    if (!name.empty()) text += " (" + name + ")";
-  }
-  return text + ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
-}
 
 void print_report(const carreau_occ::ShapeReport& r, const carreau_occ::ShapeFile& file,
                   const carreau_occ::BrepHost& host, int limit) {

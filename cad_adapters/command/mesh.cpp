@@ -67,6 +67,10 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
   for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
+  std::int32_t by_curvature = 0;
+  require(run.session, carreau_get_integer(run.session, "hgeo_flag", &by_curvature));
+  if (by_curvature != 0)
+    for (const std::string& kink : input.kinks()) progress.warning(kink);
   const std::clock_t start = std::clock();
   generate(run.session, input, map, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

@@ -21,11 +21,13 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <gp_Pnt2d.hxx>
 #include <map>
 
 #include "extent.h"
 #include "faults.h"
+#include "kinks.h"
 
 namespace carreau_occ {
 namespace {
@@ -75,9 +77,17 @@ class Inspector {
     for (const auto& [name, n] : kinds_) report_.surfaces.emplace_back(name, n);
     std::stable_sort(report_.dangers.begin(), report_.dangers.end(), [](const Danger& a, const Danger& b) {
       if (a.kind != b.kind) return a.kind < b.kind;
-      return a.kind == "gap" ? a.value > b.value : a.value < b.value;
+      const bool largest_first = a.kind == "gap" || a.kind == "kink" || a.kind == "wide tolerance";
+      return largest_first ? a.value > b.value : a.value < b.value;
     });
     return std::move(report_);
+  }
+
+  std::vector<Danger> kinks() {
+    for (int f = 1; f <= faces_.Extent(); ++f)
+      guarded("face", f, 0, [&] { look_for_kinks(f, TopoDS::Face(faces_(f))); });
+    std::erase_if(report_.dangers, [](const Danger& danger) { return danger.kind != "kink"; });
+    return std::move(report_.dangers);
   }
 
   Gaps gaps() {
@@ -152,12 +162,27 @@ class Inspector {
     if (!(width >= limit_)) add({"sliver face", number, 0, width, "about as narrow"});
     const BRepCheck_Analyzer check(face);
     if (!check.IsValid()) add({"invalid face", number, 0, 0, "OpenCASCADE's own check refuses it"});
+    look_for_kinks(number, face);
+  }
+
+  void look_for_kinks(int number, const TopoDS_Face& face) {
+    const std::vector<Kink> kinks = kinks_of(face);
+    if (kinks.empty()) return;
+    const Kink& sharpest =
+        *std::max_element(kinks.begin(), kinks.end(), [](const Kink& a, const Kink& b) { return a.angle < b.angle; });
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "degrees of bend inside it, at %s = %.6g%s; sizes by an angle or a chord do not see it",
+                  sharpest.of_u ? "u" : "v", sharpest.at, kinks.size() > 1 ? " (the sharpest of several)" : "");
+    add({"kink", number, 0, sharpest.angle, text});
   }
 
   void look_at_edge(int number) {
     const TopoDS_Edge edge = TopoDS::Edge(edges_(number));
     const std::vector<int>& uses = uses_[static_cast<std::size_t>(number)];
-    report_.largest_tolerance = std::max(report_.largest_tolerance, BRep_Tool::Tolerance(edge));
+    const double tolerance = BRep_Tool::Tolerance(edge);
+    report_.largest_tolerance = std::max(report_.largest_tolerance, tolerance);
+    if (tolerance > limit_) add({"wide tolerance", 0, number, tolerance, "is how far its faces may miss the edge"});
     if (BRep_Tool::Degenerated(edge)) {
       ++report_.poles;
       return;
@@ -225,6 +250,8 @@ class Inspector {
 }  // namespace
 
 Gaps measure_gaps(const ShapeFile& file) { return Inspector(file, 1).gaps(); }
+
+std::vector<Danger> find_kinks(const ShapeFile& file) { return Inspector(file, 1).kinks(); }
 
 ShapeReport inspect(const ShapeFile& file, double tiny) { return Inspector(file, tiny).run(); }
 

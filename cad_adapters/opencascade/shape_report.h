@@ -12,7 +12,7 @@ namespace carreau_occ {
 struct Danger {
   std::string kind;  ///< "tiny edge", "sliver face", "gap", "free edge", ...
   int face = 0, edge = 0;
-  double value = 0;  ///< a length in model units, or a number of faces
+  double value = 0;  ///< a length in model units, a number of faces, or an angle in degrees
   std::string text;  ///< the rest of the sentence
 };
 
@@ -26,7 +26,8 @@ struct ShapeReport {
 };
 
 /// Edges below `tiny` times the diagonal and faces that are narrower are dangers; so are gaps above it between the
-/// curve of an edge and its images on the surfaces beside, and above the edge's own tolerance. Costs some ten
+/// curve of an edge and its images on the surfaces beside, and above the edge's own tolerance; tolerances above it; and
+/// bends inside faces (kinks_of). Costs some ten
 /// evaluations an edge. Faces that OpenCASCADE fails on are dangers too; nothing is thrown.
 ShapeReport inspect(const ShapeFile& file, double tiny = 1e-3);
 
@@ -39,5 +40,8 @@ struct Gaps {
 
 /// Nothing is thrown; edges that OpenCASCADE fails on are left out.
 Gaps measure_gaps(const ShapeFile& file);
+
+/// The faces that bend inside (kinks_of), each with its sharpest bend; by number. Nothing is thrown.
+std::vector<Danger> find_kinks(const ShapeFile& file);
 
 }  // namespace carreau_occ

@@ -221,6 +221,14 @@ class Mesh(unittest.TestCase):
         self.assertEqual(len(warnings), 24)  # each curve of each face is shorter than that
         self.assertEqual(told, warnings[:4] + ["20 more like these"])
 
+    def test_bends_inside_faces_are_told_where_sizes_follow_the_curvature(self):
+        roof = os.path.join(SHAPES, "roof.brep")
+        for options, warned in ((["--angle", "8"], True), (["--chord", "1%"], True), (["--size", "0.2"], False)):
+            with self.subTest(options):
+                done = run("mesh", roof, "-o", self.out("a.mesh"), "-q", "--json", *options)
+                warnings = json.loads(done.stdout)["warnings"]
+                self.assertEqual([w for w in warnings if "60 degrees of bend inside it, at u = 0.25" in w] != [], warned)
+
     def test_narrow_faces_that_are_asked_for_have_the_ratio_of_the_library(self):
         # 9e-4 of the size: more than what vanishes unasked, less than a tenth.
         sliver = os.path.join(SHAPES, "sliver.step")

@@ -6,6 +6,7 @@
 //   open.igs               five faces of a box, each on its own
 //   plate.step, .brep, .igs   a plate with a hole, all of NURBS
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
+//   roof.brep              a face that bends inside
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -150,6 +151,7 @@ int main(int argc, char** argv) {
     write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");
     write_open_iges(folder + "open.igs");
     write_free_edges(folder + "free.brep");
+    BRepTools::Write(BRepBuilderAPI_MakeFace(shapes::roof(), 1e-7).Face(), (folder + "roof.brep").c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

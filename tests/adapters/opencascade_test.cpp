@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRep_Builder.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_NumericError.hxx>
 #include <TopExp_Explorer.hxx>
@@ -145,6 +147,35 @@ TEST(ShapeReport, FindsWhatIsDangerous) {
   EXPECT_EQ(sphere.seams, 1);
   EXPECT_TRUE(sphere.dangers.empty());
   EXPECT_NEAR(sphere.area, 4 * std::acos(-1.0), 1e-6);
+}
+
+// A roof of one B-spline face of degree 1, whose sides fall by 30 degrees; circles as rational splines have knots of
+// full multiplicity as well, but bend nowhere.
+TEST(ShapeReport, FindsKinksInsideFaces) {
+  const Handle(Geom_BSplineSurface) roof = shapes::roof();
+  const carreau_occ::ShapeFile whole = file_of(BRepBuilderAPI_MakeFace(roof, 1e-7).Face());
+  const auto kinks = carreau_occ::find_kinks(whole);
+  ASSERT_EQ(kinks.size(), 1U);
+  EXPECT_NEAR(kinks[0].value, 60, 1e-4);
+  EXPECT_EQ(kinks[0].face, 1);
+  EXPECT_NE(kinks[0].text.find("u = 0.25"), std::string::npos) << kinks[0].text;
+  const carreau_occ::ShapeReport report = carreau_occ::inspect(whole);
+  EXPECT_EQ(std::count_if(report.dangers.begin(), report.dangers.end(), [](const auto& d) { return d.kind == "kink"; }),
+            1);
+  // Half of it: the knot is no longer inside.
+  EXPECT_TRUE(carreau_occ::find_kinks(file_of(BRepBuilderAPI_MakeFace(roof, 0.25, 1, 0, 1, 1e-7).Face())).empty());
+  const TopoDS_Shape torus = BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeTorus(2, 0.5).Shape(), Standard_True).Shape();
+  EXPECT_TRUE(carreau_occ::find_kinks(file_of(torus)).empty());
+}
+
+TEST(ShapeReport, FindsWideTolerances) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 2, 3).Shape();
+  const TopExp_Explorer edge(box, TopAbs_EDGE);
+  BRep_Builder().UpdateEdge(TopoDS::Edge(edge.Current()), 0.01);
+  const carreau_occ::ShapeReport report = carreau_occ::inspect(file_of(box));
+  ASSERT_EQ(report.dangers.size(), 1U);
+  EXPECT_EQ(report.dangers[0].kind, "wide tolerance");
+  EXPECT_EQ(report.dangers[0].value, 0.01);
 }
 
 TEST(ShapeReport, FindsFreeEdges) {

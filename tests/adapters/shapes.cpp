@@ -11,7 +11,11 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <TColStd_Array1OfInteger.hxx>
+#include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array2OfPnt.hxx>
 #include <gp_Ax2.hxx>
+#include <numbers>
 #include <stdexcept>
 
 namespace shapes {
@@ -99,6 +103,18 @@ TopoDS_Shape make(const std::string& name) {
   for (const NamedShape& shape : torture_set())
     if (shape.name == name) return shape.make();
   throw std::runtime_error("there is no shape '" + name + "'");
+}
+
+Handle(Geom_BSplineSurface) roof() {
+  TColgp_Array2OfPnt poles(1, 3, 1, 2);
+  const double slope = std::tan(std::numbers::pi / 6);
+  for (int i = 1; i <= 3; ++i)
+    for (int j = 1; j <= 2; ++j) poles(i, j) = gp_Pnt(i - 2, j - 1, -slope * std::abs(i - 2));
+  TColStd_Array1OfReal u(1, 3), v(1, 2);
+  TColStd_Array1OfInteger mu(1, 3), mv(1, 2);
+  u(1) = 0, u(2) = 0.25, u(3) = 1, v(1) = 0, v(2) = 1;
+  mu(1) = mu(3) = mv(1) = mv(2) = 2, mu(2) = 1;
+  return new Geom_BSplineSurface(poles, u, v, mu, mv, 1, 1);
 }
 
 }  // namespace shapes

@@ -1,6 +1,7 @@
 // Shapes that are hard on a mesher, made by OpenCASCADE's own constructors.
 #pragma once
 
+#include <Geom_BSplineSurface.hxx>
 #include <TopoDS_Shape.hxx>
 #include <functional>
 #include <string>
@@ -19,5 +20,8 @@ const std::vector<NamedShape>& torture_set();
 
 /// By name; throws std::runtime_error when there is none.
 TopoDS_Shape make(const std::string& name);
+
+/// One B-spline face of degree 1 over [0, 1]^2 whose sides fall by 30 degrees from a ridge at u = 0.25.
+Handle(Geom_BSplineSurface) roof();
 
 }  // namespace shapes
