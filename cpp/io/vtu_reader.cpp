@@ -90,7 +90,7 @@ void VtuReader::collect(VtuArrays& numbers) {
     }
     if (tag.name == "DataArray" || tag.name == "Array") {
       if (!tag.opens) continue;
-      VtuArray array{.tag = tag, .text = {}};
+      VtuArray array{.tag = tag, .text = {tag.after, 0}};
       if (!tag.closes) {
         const XmlTag closing = tags_.next();
         if (closing.opens || closing.name != tag.name) tags_.fail(tag.at, array.shown_name() + " is not closed");

@@ -329,6 +329,17 @@ TEST(MeshReaders, VtuTextOfOtherPrograms) {
   EXPECT_EQ(mesh.fields[0].values[3], 4);
 }
 
+TEST(MeshReaders, VtuArraysInOneTagAreEmpty) {
+  const FlatMesh none = read_mesh_vtu(
+      "<VTKFile type='UnstructuredGrid'><UnstructuredGrid><Piece NumberOfPoints='0' NumberOfCells='0'><Points>"
+      "<DataArray type='Float64' NumberOfComponents='3' format='ascii'/></Points><Cells>"
+      "<DataArray type='Int32' Name='connectivity' format='ascii'/><DataArray type='Int32' Name='offsets' "
+      "format='ascii'/><DataArray type='UInt8' Name='types' format='ascii'/></Cells></Piece></UnstructuredGrid>"
+      "</VTKFile>",
+      "x");
+  EXPECT_TRUE(none.vertices.empty() && none.triangles.empty());
+}
+
 TEST(MeshReaders, VtuInBase64WithTheLengthApartOrNot) {
   // 32 bits of length, then 0 1 2 as Int32: together, and each ended by its own padding.
   for (const char* corners : {"DAAAAAAAAAABAAAAAgAAAA==", "DAAAAA==AAAAAAEAAAACAAAA"}) {
@@ -383,6 +394,8 @@ TEST(MeshReaders, VtuErrorsNameTheLine) {
             "x.vtu, line 3: its arrays are compressed by 'vtkLZ4DataCompressor'; only vtkZLibDataCompressor is known");
   EXPECT_EQ(sentence("NumberOfPoints='4'", "NumberOfPoints='400000000'"),
             "x.vtu, line 11: array '' has 12 numbers instead of 1200000000");
+  EXPECT_EQ(sentence("format='ascii'>\n0 0 0 1 0 0\n0 1 0 0 0 1</DataArray>", "format='ascii'/>"),
+            "x.vtu, line 11: array '' has 0 numbers instead of 12");
   EXPECT_EQ(sentence("0 1 0 0 0 1<", "0 1 0 0 0 x<"), "x.vtu, line 13: a number was expected, not 'x'");
   EXPECT_EQ(sentence("0 1 2 3", "0 1 2 4"), "x.vtu, line 16: a cell names point 4 of 4");
   EXPECT_EQ(sentence("3 7 10", "3 2 10"), "x.vtu, line 17: the offset of cell 1 (from 0) is 2, which cannot be");
