@@ -63,14 +63,14 @@ const char* kind_name(GeomAbs_SurfaceType type) {
 
 class Inspector {
  public:
-  Inspector(const ShapeFile& file, double tiny) : shape_(file.shape) {
+  explicit Inspector(const ShapeFile& file) : shape_(file.shape) {
     TopExp::MapShapes(shape_, TopAbs_FACE, faces_);
     TopExp::MapShapes(shape_, TopAbs_EDGE, edges_);
-    report_.diagonal = diagonal_of(shape_);
-    limit_ = tiny * report_.diagonal;
   }
 
-  ShapeReport run() {
+  ShapeReport run(double tiny) {
+    report_.diagonal = diagonal_of(shape_);
+    limit_ = tiny * report_.diagonal;
     count();
     for (int f = 1; f <= faces_.Extent(); ++f) guarded("face", f, 0, [&] { look_at_face(f); });
     for (int e = 1; e <= edges_.Extent(); ++e) guarded("edge", 0, e, [&] { look_at_edge(e); });
@@ -249,10 +249,10 @@ class Inspector {
 
 }  // namespace
 
-Gaps measure_gaps(const ShapeFile& file) { return Inspector(file, 1).gaps(); }
+Gaps measure_gaps(const ShapeFile& file) { return Inspector(file).gaps(); }
 
-std::vector<Danger> find_kinks(const ShapeFile& file) { return Inspector(file, 1).kinks(); }
+std::vector<Danger> find_kinks(const ShapeFile& file) { return Inspector(file).kinks(); }
 
-ShapeReport inspect(const ShapeFile& file, double tiny) { return Inspector(file, tiny).run(); }
+ShapeReport inspect(const ShapeFile& file, double tiny) { return Inspector(file).run(tiny); }
 
 }  // namespace carreau_occ

@@ -27,8 +27,8 @@ struct ShapeReport {
 
 /// Edges below `tiny` times the diagonal and faces that are narrower are dangers; so are gaps above it between the
 /// curve of an edge and its images on the surfaces beside, and above the edge's own tolerance; tolerances above it; and
-/// bends inside faces (kinks_of). Costs some ten
-/// evaluations an edge. Faces that OpenCASCADE fails on are dangers too; nothing is thrown.
+/// bends inside faces (kinks_of). Costs some ten evaluations an edge. Faces that OpenCASCADE fails on are dangers too;
+/// nothing is thrown.
 ShapeReport inspect(const ShapeFile& file, double tiny = 1e-3);
 
 /// Gaps between the curves of edges and their images on the faces beside, at ten places each.

@@ -45,8 +45,7 @@ TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<
       corners_[t].at[i] = {p.x, p.y};
     }
   join_sides(triangles);
-  start_scale_ = {(high.x - low.x) * scale_.x, (high.y - low.y) * scale_.y};
-  make_starts();
+  make_starts({(high.x - low.x) * scale_.x, (high.y - low.y) * scale_.y});
 }
 
 void TriangleTree::join_sides(const std::vector<std::array<std::int32_t, 3>>& triangles) {
@@ -73,8 +72,7 @@ void TriangleTree::join_sides(const std::vector<std::array<std::int32_t, 3>>& tr
 }
 
 // A cell for each triangle, about; it holds the last centre in it, or what the cell before holds.
-void TriangleTree::make_starts() {
-  const Vec2 extent = start_scale_;
+void TriangleTree::make_starts(Vec2 extent) {
   const double count = static_cast<double>(corners_.size());
   const double side = std::sqrt(std::max(extent.x * extent.y / count, 1e-300));
   const auto cells = [&](double length) {

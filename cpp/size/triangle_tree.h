@@ -34,7 +34,7 @@ class TriangleTree {
     std::array<std::int32_t, 3> across{-1, -1, -1};  // triangles beyond the sides from each corner to the next
   };
   void join_sides(const std::vector<std::array<std::int32_t, 3>>& triangles);
-  void make_starts();
+  void make_starts(Vec2 extent);  // of the scaled vertices
   [[nodiscard]] std::size_t start_near(Vec2 p) const noexcept;
   [[nodiscard]] std::int32_t walk(Vec2 p) const noexcept;
 

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "plane/domain_check.h"
-#include "plane/domain_graph.h"
-#include "predicates/polygon_locator.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
 #include "surface/bulging_edges.h"
@@ -17,6 +15,7 @@
 #include "surface/finest_lengths.h"
 #include "surface/near_vertices.h"
 #include "surface/seam_loops.h"
+#include "surface/space_strips.h"
 #include "surface/staggering.h"
 
 namespace carreau {
@@ -39,8 +38,6 @@ constexpr double straight_reserve = 2;
 // Ratio of lengths from which the balance of edges is looked at in the metric, whose chords are not the curves'
 // lengths; there it may be 2.
 constexpr double balance_to_look_at = 1.6;
-// Curves that leave a corner at less than this slope are its tip.
-constexpr double bluntest_tip = 0.1;
 
 /// Segments to split, by curve.
 using Splits = std::map<int, std::set<int>>;
@@ -89,8 +86,8 @@ class Refiner {
               edges_to_split_for_bulges(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle);
           found.edges.insert(found.edges.end(), bulging.begin(), bulging.end());
           if (!found.ask_metric) return;
-          for (const Strip& strip : found.strips)
-            if (lies_between(f, strip)) found.edges.push_back(strip.edge);
+          for (const SpaceStrip& strip : found.strips)
+            if (lies_between(curve_model_, f, *result_.domain[f], strip)) found.edges.push_back(strip.edge);
           const std::vector<int> close =
               edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f, monitor), options_.coef_rectangle);
           found.edges.insert(found.edges.end(), close.begin(), close.end());
@@ -115,16 +112,10 @@ class Refiner {
   }
 
  private:
-  /// An edge, a vertex close to it in space, and the point halfway between them in (u, v), which is in the domain.
-  struct Strip {
-    int edge = -1, vertex = -1;
-    Vec2 middle;
-  };
-
   /// What a check says of one face.
   struct Found {
     std::vector<int> edges = {};  // to be split
-    std::vector<Strip> strips = {};
+    std::vector<SpaceStrip> strips = {};
     bool ask_metric = false;
   };
 
@@ -294,7 +285,8 @@ class Refiner {
 
   [[nodiscard]] Found look_for_closeness(int f) const {
     if (!may_be_narrow(f)) return {};
-    return {.strips = strips_in_space(f), .ask_metric = true};
+    return {.strips = strips_in_space(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle),
+            .ask_metric = true};
   }
 
   // Whether closeness needs a look: in space, no vertex is as near to an edge that it does not end as the check allows.
@@ -336,84 +328,6 @@ class Refiner {
       if (high * most > balance_to_look_at * low * least) return true;
     }
     return false;
-  }
-
-  // On a strip that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side
-  // however far they are on the surface. What is near a corner where curves meet is left to the check in the metric,
-  // which knows angles; away from it, bulges are as elsewhere.
-  [[nodiscard]] std::vector<Strip> strips_in_space(int f) const {
-    std::vector<Strip> strips;
-    const FaceDomain& domain = *result_.domain[f];
-    const PlaneDomain& plane = domain.plane;
-    const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
-    if (xyz.size() < domain.origin.size()) return strips;  // imposed points
-    const NearVertices near(xyz);
-    const PolygonLocator inside(plane.vertices, bounding_edges(plane));
-    for (int e = 0; e < static_cast<int>(plane.edges.size()); ++e) {
-      const PlaneEdge& edge = plane.edges[e];
-      if (edge.kind == PlaneEdgeKind::degenerate) continue;
-      const Vec3 a = xyz[edge.a], b = xyz[edge.b];
-      const auto note_strip = [&](int v) {
-        const double s = fraction_on_segment(xyz[v], a, b), d = norm(xyz[v] - lerp(a, b, s));
-        if (meet(f, edge.curve, domain.origin[v]) && !bulges_past(edge, domain, xyz, v, s, d)) return true;
-        const double size = std::min(domain.size[v], curve_model_.length(edge.curve));
-        if (d >= norm(b - a) * coefficient_of_width(options_.coef_rectangle, d / size)) return true;
-        const Vec2 nearest = lerp(plane.vertices[edge.a], plane.vertices[edge.b], s);
-        const Vec2 middle = lerp(plane.vertices[v], nearest, 0.5);
-        if (inside.contains(middle)) strips.push_back({e, v, middle});
-        return true;
-      };
-      near.each_beside(a, b, options_.coef_rectangle * norm(b - a), note_strip);
-    }
-    return strips;
-  }
-
-  // The two borders of a slit, or of a seam that is two curves, are close in space with the outside or the whole
-  // surface between them: no strip, and no number of cuts would part them.
-  [[nodiscard]] bool lies_between(int f, const Strip& strip) {
-    const FaceDomain& domain = *result_.domain[f];
-    const PlaneEdge& edge = domain.plane.edges[strip.edge];
-    const auto at = [&](Vec2 uv) { return surface_at(curve_model_.cad, model_.faces[f].ref, want_position, uv).s; };
-    const std::vector<Vec2>& uv = domain.plane.vertices;
-    return norm(at(strip.middle) - at(uv[strip.vertex])) <= norm(at(uv[edge.a]) - at(uv[edge.b]));
-  }
-
-  // Whether the curve of an edge passes by a vertex, and its chord does not: at distance d, fraction s of the chord. At
-  // the tip of two curves that touch each other any two edges are like that, however short. A curve between its chord
-  // and the vertex is nearer, but the triangle between these is the wider.
-  [[nodiscard]] bool bulges_past(const PlaneEdge& edge, const FaceDomain& domain, const std::vector<Vec3>& xyz, int v,
-                                 double s, double d) const {
-    const double bulge = bulge_of(curve_model_, curves_, edge, norm(xyz[edge.b] - xyz[edge.a]));
-    if (d > bulge) return false;
-    const double height = 4 * s * (1 - s) * bulge, between = d + height;
-    const Vec3 a = xyz[edge.a], b = xyz[edge.b];
-    if (d > height && dot(middle_of(edge) - lerp(a, b, 0.5), xyz[v] - lerp(a, b, s)) > 0) return false;
-    const auto is_tip = [&](int end) {
-      return domain.origin[end].corner >= 0 && between < bluntest_tip * norm(xyz[v] - xyz[end]);
-    };
-    return !is_tip(edge.a) && !is_tip(edge.b);
-  }
-
-  [[nodiscard]] Vec3 middle_of(const PlaneEdge& edge) const {
-    const std::vector<double>& r = curves_[edge.curve].r;
-    const CurveSupport& support = curve_model_.support(topology_.curves[edge.curve].uses.front());
-    return support.point_at_arc((r[edge.segment] + r[edge.segment + 1]) / 2 * support.length());
-  }
-
-  // Whether a vertex lies on a curve of a face that has an end in common with another one, or on that one.
-  [[nodiscard]] bool meet(int face, int curve, const DomainVertexOrigin& origin) const {
-    const Curve& one = topology_.curves[curve];
-    const auto meets = [&](int c) {
-      const Curve& other = topology_.curves[c];
-      return c == curve || other.end1 == one.end1 || other.end1 == one.end2 || other.end2 == one.end1 ||
-             other.end2 == one.end2;
-    };
-    if (origin.corner < 0) return meets(origin.curve);
-    const std::vector<int>& around = topology_.curve_of[face];
-    return std::any_of(around.begin(), around.end(), [&](int c) {
-      const Curve& other = topology_.curves[c];
-      return (other.end1 == origin.corner || other.end2 == origin.corner) && meets(c);
-    });
   }
 
   // Loose spaces are enough to compare edges with their neighbours; they are kept while the curves change.

@@ -117,8 +117,8 @@ struct Delivery {
   /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
   std::int64_t beyond = 0;
   double tolerance = 0;  ///< share of the limit that may be exceeded
-  std::int64_t forced =
-      0;  ///< of those: angles of edges no longer than `shortest`, gradations between two curves' vertices
+  /// Of those: angles of edges no longer than `shortest`, gradations of inner edges between vertices of curves.
+  std::int64_t forced = 0;
   double shortest = 0;  ///< edges so long are as short as the smallest size lets them be; model length
 
   [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }

@@ -1,13 +1,11 @@
 // Tongues of faces that end where a curve touches another one: their tips are as narrow as the tongues are long.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
 
-#include "mesh/quality.h"
 #include "session_of_size.h"
 
 namespace carreau {
@@ -39,18 +37,10 @@ TEST(Tongues, AreNotCutToTheirTips) {
         SCOPED_TRACE(std::to_string(r) + " " + std::to_string(l) + " " + std::to_string(size));
         const AnalyticCad cad = tongue(l, r);
         Monitor monitor;
-        const auto session = session_of_size(cad, size, monitor);
-        Parameters& parameters = session->parameters();
-        parameters.set("hphymin", 1e-7);
-        parameters.set("CheckCloseEdges", 20);
-        parameters.set("CheckAdjacentEdges", 20);
-        parameters.set("CoefRectangle", 0.06);
-        parameters.set("edge_gradation", 1.5);
+        const auto session = session_of_command(cad, size, monitor);
         session->make_mesh();
         const FlatMesh mesh = session->exported();
-        double worst = 1;
-        for (const auto& [a, b, c] : mesh.triangles)
-          worst = std::min(worst, quality_q2(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+        const double worst = worst_q2(mesh);
         if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
           std::printf("r %g, l %g, size %g: %zu triangles, worst %.4f of %.4f\n", r, l, size, mesh.triangles.size(),
                       worst, std::sqrt(3) * l / (2 * r));

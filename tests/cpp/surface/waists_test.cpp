@@ -1,12 +1,10 @@
 // A torus whose hole is ten thousand times narrower than its tube: around the waist sizes change manifold along edges.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>
 
-#include "mesh/quality.h"
 #include "session_of_size.h"
 
 namespace carreau {
@@ -23,18 +21,10 @@ TEST(Waists, HaveNoTrianglesAcross) {
     const auto at = [](Vec2 p) { return torus_jet(p, 1 + 1e-4, 1); };
     cad.faces[1] = {at, rectangle({0, 0}, {2 * pi, 2 * pi})};
     Monitor monitor;
-    const auto session = session_of_size(cad, 6 / share, monitor);
-    Parameters& parameters = session->parameters();
-    parameters.set("hphymin", 1e-7);
-    parameters.set("CheckCloseEdges", 20);
-    parameters.set("CheckAdjacentEdges", 20);
-    parameters.set("CoefRectangle", 0.06);
-    parameters.set("edge_gradation", 1.5);
+    const auto session = session_of_command(cad, 6 / share, monitor);
     session->make_mesh();
     const FlatMesh mesh = session->exported();
-    double worst = 1;
-    for (const auto& [a, b, c] : mesh.triangles)
-      worst = std::min(worst, quality_q2(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]));
+    const double worst = worst_q2(mesh);
     if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
       std::printf("%g: %zu triangles, worst %.4f\n", share, mesh.triangles.size(), worst);
     EXPECT_GE(worst, 0.02);
