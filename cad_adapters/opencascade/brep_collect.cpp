@@ -16,6 +16,7 @@
 #include "face_check.h"
 #include "faults.h"
 #include "missing_curves.h"
+#include "torn_loops.h"
 #include "wire_periods.h"
 
 namespace carreau_occ {
@@ -61,6 +62,7 @@ void BrepHost::State::collect() {
       face.broken = error.what();
     }
   }
+  close_torn_loops(host_faces, vertices);
 }
 
 void BrepHost::State::collect_face(int number) {

@@ -3,8 +3,10 @@
 #include <shape_file.h>
 #include <shape_report.h>
 
+#include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -13,6 +15,7 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Line.hxx>
+#include <Geom_Plane.hxx>
 #include <Geom_Surface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -20,6 +23,7 @@
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <numbers>
@@ -194,6 +198,35 @@ TEST(PeriodicSurfaces, LoopsThatLieAPeriodApartClose) {
     EXPECT_NEAR(mesh.quality.area, 4 * std::numbers::pi, 0.01);
     EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 0);  // a ring
   }
+}
+
+// Two edges of each torn loop end at vertices of their own, at one place: a lid's, and those of its hole.
+TEST(TornLoops, CloseWhereTheirEndsAreOnePlace) {
+  const BRep_Builder builder;
+  TopoDS_Compound shape;
+  builder.MakeCompound(shape);
+  TopoDS_Face lid;
+  builder.MakeFace(lid, new Geom_Plane(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1e-7);
+  const auto add_torn_loop = [&](const std::vector<gp_Pnt>& corners) {
+    TopoDS_Wire wire;
+    builder.MakeWire(wire);
+    const TopoDS_Vertex first = BRepBuilderAPI_MakeVertex(corners.front());
+    TopoDS_Vertex from = first;
+    for (std::size_t i = 1; i <= corners.size(); ++i) {
+      const TopoDS_Vertex to = BRepBuilderAPI_MakeVertex(corners[i % corners.size()]);  // the last one is not `first`
+      builder.Add(wire, BRepBuilderAPI_MakeEdge(from, to).Edge());
+      from = to;
+    }
+    builder.Add(lid, wire);
+  };
+  add_torn_loop({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  add_torn_loop({{0.3, 0.3, 0}, {0.3, 0.7, 0}, {0.7, 0.7, 0}, {0.7, 0.3, 0}});
+  builder.Add(shape, lid);
+  carreau_occ::BrepHost host(file_of(shape));
+  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.1);
+  EXPECT_EQ(mesh.trouble(false), "");
+  EXPECT_NEAR(mesh.quality.area, 1 - 0.16, 1e-12);
+  EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 0);  // a ring
 }
 
 }  // namespace

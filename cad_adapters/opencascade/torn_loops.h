@@ -1,0 +1,15 @@
+// Loops that OpenCASCADE's readers cut open at a seam: their ends are two vertices at one place.
+#pragma once
+
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <vector>
+
+namespace carreau_occ {
+
+struct HostFace;
+
+/// Vertices of one face where odd numbers of its curves end, and which are one within their tolerances, become the one
+/// of the smaller number, in all faces; the nearest first.
+void close_torn_loops(std::vector<HostFace>& faces, const TopTools_IndexedMapOfShape& vertices);
+
+}  // namespace carreau_occ
