@@ -1,6 +1,8 @@
 // carreau: meshes of CAD files, pictures and checks of meshes, fields that govern them, and the list of parameters.
 // Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 the command line or a file cannot be used, or there is
 // no mesh.
+#include <fcntl.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +13,15 @@
 namespace {
 
 constexpr int unusable = 2;
+
+/// A standard file that is closed would be the next one that opens, and what is printed would be among its bytes. What
+/// is opened in its place cannot be written (or read), as before.
+void open_standard_files() {
+  for (int file = 0; file < 3; ++file) {
+    if (fcntl(file, F_GETFD) != -1 || errno != EBADF) continue;
+    if (open("/dev/null", file == 0 ? O_WRONLY : O_RDONLY) == -1) return;  // the lowest number that is free
+  }
+}
 
 /// What was printed may still be in a buffer, and the disk full.
 int flushed(int code) {
@@ -24,6 +35,7 @@ int flushed(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_files();
   try {
     command::CommandLine line;
     return flushed(line.run(argc, argv));

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -23,7 +24,9 @@ struct Staged {
   std::string folder, file, temporary;
 };
 std::vector<Staged> staged;
-volatile std::sig_atomic_t active = 0, written = 0;
+volatile std::sig_atomic_t active = 0;
+/// Of all OutputFiles: writes that have succeeded, and objects that have not come to one.
+volatile std::sig_atomic_t successes = 0, unwritten = 0;
 
 void remove_staged() noexcept {
   // Another thread may open a file between its removal and that of its folder, but only once.
@@ -44,7 +47,23 @@ std::string name_of(const std::string& path) { return path.substr(path.find_last
   throw Failure("'" + path + "' cannot be written: " + why + ".");
 }
 
-/// Signals wait while files get their names.
+/// Where a path leads: itself (also where links form a ring), or the end of a chain of symbolic links, which need not
+/// exist.
+std::string behind_links(const std::string& path) {
+  namespace fs = std::filesystem;
+  constexpr int longest_chain = 40;  // as the kernel's own limit
+  fs::path target = path;
+  for (int i = 0; i < longest_chain; ++i) {
+    std::error_code error;
+    if (!fs::is_symlink(target, error) || error) return target.string();
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) return target.string();
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return path;
+}
+
+/// Signals wait while files get their names; the handler runs in this thread only.
 class SignalsBlocked {
  public:
   SignalsBlocked() {
@@ -62,7 +81,8 @@ class SignalsBlocked {
 };
 
 /// The same for all names of one file, whether it exists or not: its own place, behind symbolic links.
-std::string place_of(const std::string& path) {
+std::string place_of(const std::string& given) {
+  const std::string path = behind_links(given);
   const auto resolved = [](const std::string& name) {
     char* const real = realpath(name.c_str(), nullptr);
     const std::string result = real != nullptr ? real : "";
@@ -73,16 +93,18 @@ std::string place_of(const std::string& path) {
   return whole.empty() ? resolved(folder_of(path)) + "/" + name_of(path) : whole;
 }
 
-void check(const std::string& path, const std::vector<std::string>& suffixes) {
+void check(const std::string& path, const std::string& target, const std::vector<std::string>& suffixes) {
   if (std::find(suffixes.begin(), suffixes.end(), suffix_of(path)) == suffixes.end()) {
     std::string known;
     for (const std::string& each : suffixes) known += (known.empty() ? "" : ", ") + each;
     refuse(path, "its suffix is " + std::string(suffixes.size() > 1 ? "none of " : "not ") + known);
   }
   struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) refuse(path, "it is not an ordinary file");
-  if (access(folder_of(path).c_str(), W_OK | X_OK) != 0)
-    refuse(path, "folder '" + folder_of(path) + "': " + std::strerror(errno));
+  const bool known = stat(target.c_str(), &status) == 0;
+  if (!known && errno == ELOOP) refuse(path, std::strerror(ELOOP));
+  if (known && !S_ISREG(status.st_mode)) refuse(path, "it is not an ordinary file");
+  if (access(folder_of(target).c_str(), W_OK | X_OK) != 0)
+    refuse(path, "folder '" + folder_of(target) + "': " + std::strerror(errno));
 }
 
 }  // namespace
@@ -94,14 +116,17 @@ OutputFiles::OutputFiles(std::vector<std::string> paths, const std::vector<std::
   for (const std::string& path : inputs)
     if (!path.empty()) read.insert(place_of(path));
   for (const std::string& path : paths_) {
-    check(path, suffixes);
+    targets_.push_back(behind_links(path));
+    check(path, targets_.back(), suffixes);
     const std::string place = place_of(path);
     if (read.contains(place)) refuse(path, "it is what is read");
     if (!places.insert(place).second) refuse(path, "it is named twice");
   }
+  unwritten = unwritten + 1;
 }
 
 OutputFiles::~OutputFiles() {
+  if (!succeeded_) unwritten = unwritten - 1;
   if (active == 0) return;
   active = 0;
   remove_staged();
@@ -115,11 +140,13 @@ void OutputFiles::write(const std::function<void(const std::vector<std::string>&
     staged.clear();
     staged.reserve(paths_.size());
     active = 1;
-    std::map<std::string, std::string> folders;
-    for (const std::string& path : paths_) {
-      std::string& folder = folders[folder_of(path)];
+    // Beside the file itself, not beside a link to it, which may lie on another file system.
+    std::map<std::pair<std::string, std::string>, std::string> folders;
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      const std::string &path = paths_[i], beside = folder_of(targets_[i]);
+      std::string& folder = folders[{beside, folder_of(path)}];  // where names differ
       if (folder.empty()) {
-        folder = folder_of(path) + "/.carreau-XXXXXX";
+        folder = beside + "/.carreau-XXXXXX";
         if (mkdtemp(folder.data()) == nullptr) refuse(path, std::strerror(errno));
       }
       hidden.push_back(folder + "/" + name_of(path));
@@ -130,21 +157,21 @@ void OutputFiles::write(const std::function<void(const std::vector<std::string>&
   const SignalsBlocked blocked;
   for (std::size_t i = 0; i < staged.size(); ++i) {
     struct stat old {};
-    if (stat(paths_[i].c_str(), &old) == 0) chmod(staged[i].file.c_str(), old.st_mode & 07777);
-    char* const real = realpath(paths_[i].c_str(), nullptr);  // a symbolic link stays one
-    const std::string target = real != nullptr ? real : paths_[i];
-    std::free(real);
-    if (std::rename(staged[i].file.c_str(), target.c_str()) != 0) refuse(paths_[i], std::strerror(errno));
+    if (stat(targets_[i].c_str(), &old) == 0) chmod(staged[i].file.c_str(), old.st_mode & 07777);
+    if (std::rename(staged[i].file.c_str(), targets_[i].c_str()) != 0) refuse(paths_[i], std::strerror(errno));
   }
   active = 0;
-  written = 1;
+  succeeded_ = true;
+  successes = 1;
+  unwritten = unwritten - 1;
   remove_staged();  // the folders
   staged.clear();
 }
 
-bool OutputFiles::remove_in_handler() noexcept {
+WrittenFiles OutputFiles::remove_in_handler() noexcept {
   if (active != 0) remove_staged();
-  return written != 0;
+  if (successes == 0) return WrittenFiles::none;
+  return unwritten == 0 ? WrittenFiles::all : WrittenFiles::some;
 }
 
 }  // namespace command

@@ -7,8 +7,10 @@
 
 namespace command {
 
-/// Files are written in a hidden folder beside each, and get their names together. A signal that ends the program in
-/// between removes what was written.
+enum class WrittenFiles { none, some, all };
+
+/// Files are written in a hidden folder beside each, and get their names together; symbolic links stay. A signal that
+/// ends the program in between removes what was written.
 class OutputFiles {
  public:
   /// Throws Failure for a suffix that is none of `suffixes`, a file that comes twice or is one of `inputs`, or a folder
@@ -23,11 +25,13 @@ class OutputFiles {
   /// that have one folder. Then the files get their own names. Throws Failure, and what `make` throws.
   void write(const std::function<void(const std::vector<std::string>& hidden)>& make);
 
-  /// Removes the files of a write() under way; for signal handlers. Whether a write() has succeeded before.
-  static bool remove_in_handler() noexcept;
+  /// Removes the files of a write() under way; for signal handlers. Tells what has been written before: all when no
+  /// object is left whose write() has not succeeded.
+  static WrittenFiles remove_in_handler() noexcept;
 
  private:
-  std::vector<std::string> paths_;
+  std::vector<std::string> paths_, targets_;  ///< as they were named; behind symbolic links
+  bool succeeded_ = false;
 };
 
 }  // namespace command

@@ -12,6 +12,7 @@ namespace command {
 namespace {
 
 volatile std::sig_atomic_t bar = 0;
+pthread_t main_thread;  // set before the first signal is caught
 
 template <std::size_t N>
 void tell(const char (&text)[N]) noexcept {
@@ -23,10 +24,17 @@ void tell(const char (&text)[N]) noexcept {
 // not in OpenCASCADE, which reads for seconds without a question, nor in a host's routine. Only what POSIX allows in
 // a handler is called.
 extern "C" void end_now(int signal) {
-  const bool written = OutputFiles::remove_in_handler();
+  // A signal that waits in the main thread, where files get their names, would run in any other thread.
+  if (pthread_equal(pthread_self(), main_thread) == 0) {
+    pthread_kill(main_thread, signal);
+    return;
+  }
+  const WrittenFiles written = OutputFiles::remove_in_handler();
   if (bar != 0) tell("\r\033[K");
-  if (written)
+  if (written == WrittenFiles::all)
     tell("stopped; the files are written\n");
+  else if (written == WrittenFiles::some)
+    tell("stopped; not all files are written\n");
   else
     tell("stopped; nothing was written\n");
   std::signal(signal, SIG_DFL);
@@ -41,6 +49,7 @@ extern "C" void end_now(int signal) {
 }  // namespace
 
 void catch_signals() {
+  main_thread = pthread_self();
   struct sigaction action {};
   action.sa_handler = end_now;
   sigemptyset(&action.sa_mask);

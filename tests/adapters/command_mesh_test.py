@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""command_mesh_test.py CARREAU MAKE_SHAPES: `carreau mesh` on files that OpenCASCADE makes."""
+"""command_mesh_test.py CARREAU MAKE_SHAPES SLOW_RENAME: `carreau mesh` on files that OpenCASCADE makes."""
 import json
 import math
 import os
@@ -14,7 +14,7 @@ import tempfile
 import time
 import unittest
 
-PROGRAM, MAKE_SHAPES = sys.argv[1:3]
+PROGRAM, MAKE_SHAPES, SLOW_RENAME = sys.argv[1:4]
 SHAPES = tempfile.mkdtemp(prefix="carreau shapes ")
 
 
@@ -325,6 +325,68 @@ class Mesh(unittest.TestCase):
                     os.remove(self.out(name))
             else:
                 self.assertIn(status, (-signal.SIGINT, -signal.SIGTERM))
+
+    def test_a_signal_while_files_get_their_names_waits_for_the_last_one(self):
+        # Threads that mesh are still there, and would take a signal that the thread that writes does not.
+        environment = os.environ | {"LD_PRELOAD": SLOW_RENAME, "SLOW_RENAME": "300000", "ASAN_OPTIONS": "verify_asan_link_order=0"}
+        process = subprocess.Popen([PROGRAM, "mesh", os.path.join(SHAPES, "torus.step"), "-o", self.out("a.mesh"), "-o", self.out("a.vtu"),
+                                    "--size", "1%", "--threads", "2"], stderr=subprocess.PIPE, text=True, env=environment)
+        deadline = time.monotonic() + 60
+        while not os.path.exists(self.out("a.mesh")) and time.monotonic() < deadline:
+            time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        _, told = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertIn("stopped; the files are written", told)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.mesh", "a.vtu"])
+
+    def test_what_is_told_does_not_reach_files_where_standard_files_are_closed(self):
+        cone, names = os.path.join(SHAPES, "cone.step"), ["a" + suffix for suffix in (".mesh", ".meshb", ".vtu", ".stl", ".msh", ".exr")]
+        outputs = [word for name in names for word in ("-o", self.out(name))]
+        self.assertEqual(run("mesh", cone, *outputs).returncode, 0)
+        whole = [content(self.out(name), True) for name in names]
+        for closed in ([2], [1, 2], [0, 1, 2]):
+            for name in names:
+                os.remove(self.out(name))
+            done = subprocess.run([PROGRAM, "mesh", cone, *outputs], timeout=120,
+                                  preexec_fn=lambda files=tuple(closed): [os.close(file) for file in files])
+            self.assertEqual(done.returncode, 0)
+            self.assertEqual([content(self.out(name), True) for name in names], whole, closed)
+
+    def test_links_stay_and_files_appear_where_they_lead(self):
+        cone, target = os.path.join(SHAPES, "cone.step"), tempfile.mkdtemp(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None)
+        try:
+            # To another file system as a rule, where no file can be renamed to; to a file that is there, and to one that is not.
+            for folder in (target, self.folder):
+                for old in (True, False):
+                    for name in ("a.mesh", "b.vtu"):
+                        if old:
+                            open(os.path.join(folder, "of_" + name), "w").close()
+                        os.symlink(os.path.join(folder, "of_" + name), self.out(name))
+                    done = run("mesh", cone, "-o", self.out("a.mesh"), "-o", self.out("b.vtu"), "-o", self.out("c.mesh"))
+                    self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+                    whole = content(self.out("c.mesh"))
+                    for name in ("a.mesh", "b.vtu"):
+                        self.assertTrue(os.path.islink(self.out(name)))
+                        os.remove(self.out(name))
+                    self.assertEqual(content(os.path.join(folder, "of_a.mesh")), whole)
+                    self.assertTrue(content(os.path.join(folder, "of_b.vtu"), True).rstrip().endswith(b"</VTKFile>"))
+                    self.assertEqual({name for name in os.listdir(folder) if name.startswith(".")}, set())
+                    os.remove(os.path.join(folder, "of_a.mesh"))
+                    os.remove(os.path.join(folder, "of_b.vtu"))
+            os.symlink(self.out("round.mesh"), self.out("round.mesh"))
+            self.refused(cone, "-o", self.out("round.mesh"), sentence="Too many levels of symbolic links")
+            os.symlink(self.out("no/such.mesh"), self.out("lost.mesh"))
+            self.refused(cone, "-o", self.out("lost.mesh"), sentence="No such file or directory")
+            # Two links of one name.
+            for folder in ("one", "two"):
+                os.mkdir(self.out(folder))
+                os.symlink(os.path.join(target, folder + ".mesh"), self.out(folder + "/x.mesh"))
+            self.assertEqual(run("mesh", cone, "-o", self.out("one/x.mesh"), "-o", self.out("two/x.mesh")).returncode, 0)
+            self.assertEqual(sorted(os.listdir(target)), ["one.mesh", "two.mesh"])
+            self.assertEqual(content(self.out("one/x.mesh")), content(self.out("two/x.mesh")))
+        finally:
+            shutil.rmtree(target)
 
     def test_a_disk_that_is_full_is_told_and_old_files_stay(self):
         def small_files():
