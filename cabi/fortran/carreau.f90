@@ -506,7 +506,8 @@ contains
     status = c_set_cad_m(session%handle, routines)
   end subroutine carreau_set_cad_m
 
-  !> surface_order and curve_order: 2 when they are left out. user: c_loc of a target, c_null_ptr when left out.
+  !> surface_order and curve_order: the derivatives that `surface` and `curve` give, 2 when they are left out (carreau.h: 0);
+  !> what they do not give is found by finite differences. user: c_loc of a target, c_null_ptr when left out.
   subroutine carreau_set_cad(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
       reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, &
       failure)
@@ -693,7 +694,7 @@ contains
     integer(c_int32_t), intent(out) :: status
     type(c_parameter) :: c
     c%struct_size = size(transfer(c, [c_null_char]))
-    status = c_parameter_info(index - 1, c)
+    status = c_parameter_info(index - 1_c_int32_t, c)
     if (status /= CARREAU_OK) return
     parameter%name = carreau_string(c%name)
     parameter%help = carreau_string(c%help)

@@ -1,6 +1,7 @@
 #include "cad/host_cad.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ constexpr std::size_t batch_size = 4096;
 /// What a routine does not write must not pass for a value.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr Vec3 nan3{nan, nan, nan};
+
+bool is_unset(Vec2 v) { return std::isnan(v.x) && std::isnan(v.y); }
+bool is_unset(Vec3 v) { return std::isnan(v.x) && std::isnan(v.y) && std::isnan(v.z); }
 
 std::optional<double> answer_of(double value) {
   return value == no_answer ? std::nullopt : std::optional<double>(value);
@@ -116,6 +120,7 @@ class CHost : public Cad {
       check_status(table_.surface(face, uv[i].x, uv[i].y, order_of(want), &jet.s.x, &jet.su.x, &jet.sv.x, &jet.suu.x,
                                   &jet.suv.x, &jet.svv.x, table_.user),
                    {.face = face, .uv = uv[i]}, "surface");
+      check_written(jet, want, {.face = face, .uv = uv[i]}, "surface");
       merge(jet, want, out[i]);
     }
   }
@@ -130,6 +135,11 @@ class CHost : public Cad {
     CurveJet jet{{nan, nan}, {nan, nan}, {nan, nan}};
     check_status(table_.curve(face, ic, t, order_of(want), &jet.c.x, &jet.ct.x, &jet.ctt.x, table_.user),
                  {.face = face, .curve_index = ic, .t = t}, "curve");
+    if (!is_unset(jet.c)) {
+      const Where where{.face = face, .curve_index = ic, .t = t};
+      if ((want & want_first) != 0 && is_unset(jet.ct)) fail_order(where, "curve", 1);
+      if ((want & want_second) != 0 && is_unset(jet.ctt)) fail_order(where, "curve", 2);
+    }
     return jet;
   }
   std::optional<double> surface_size(int face, Vec2 uv) override {
@@ -175,8 +185,11 @@ class CHost : public Cad {
       const double* const v = array(k);
       return v != nullptr ? Vec3{v[3 * i], v[3 * i + 1], v[3 * i + 2]} : Vec3{};
     };
-    for (std::size_t i = 0; i < n; ++i)
-      merge({vector(0, i), vector(1, i), vector(2, i), vector(3, i), vector(4, i), vector(5, i)}, want, out[i]);
+    for (std::size_t i = 0; i < n; ++i) {
+      const SurfaceJet jet{vector(0, i), vector(1, i), vector(2, i), vector(3, i), vector(4, i), vector(5, i)};
+      check_written(jet, want, {.face = face, .uv = uv[i]}, "surface_batch");
+      merge(jet, want, out[i]);
+    }
   }
 
   [[noreturn]] void fail(std::int32_t status, const Where& where, const char* callback, const std::string& more) const {
@@ -185,6 +198,19 @@ class CHost : public Cad {
     throw CallbackError(where, std::string("the callback ") + callback + " returned the status " +
                                    std::to_string(status) + more +
                                    (why != nullptr && *why != '\0' ? " (" + std::string(why) + ")" : ""));
+  }
+  /// A host that gives points alone often does not say so: a registration may have other orders by default.
+  static void check_written(const SurfaceJet& jet, unsigned want, const Where& where, const char* callback) {
+    if ((want & want_position) != 0 && is_unset(jet.s)) return;  // nothing was written at all
+    if ((want & want_first) != 0 && is_unset(jet.su) && is_unset(jet.sv)) fail_order(where, callback, 1);
+    if ((want & want_second) != 0 && is_unset(jet.suu) && is_unset(jet.suv) && is_unset(jet.svv))
+      fail_order(where, callback, 2);
+  }
+  [[noreturn]] static void fail_order(const Where& where, const char* callback, int order) {
+    const std::string name = std::string(callback).starts_with("surface") ? "surface_order" : "curve_order";
+    throw CallbackError(where, std::string("the callback ") + callback + " gave no " +
+                                   (order == 1 ? "first" : "second") + " derivatives: if it has none, " + name +
+                                   " must be " + std::to_string(order - 1));
   }
   void check_status(std::int32_t status, const Where& where, const char* callback) const {
     if (status != 0) fail(status, where, callback, "");

@@ -2,9 +2,9 @@
 """The program of RT-0232 sec. 5 around an unchanged cad_m: its files, its messages, its exit codes.
 
     blsurf_test.py <blsurf> <folder with x.pardom>
-    blsurf_test.py --by-hand <gfortran> <cabi/fortran> <folder of libcarreau.so> <folder with cad_m.f90 and x.pardom>
+    blsurf_test.py --by-hand <gfortran> <cabi/fortran> <folder of libcarreau.so> <folder with cad_m.f90 and x.pardom> [<flag>...]
 
---by-hand compiles the program as README tells people without CMake to.
+--by-hand compiles the program as README tells people without CMake to, with the flags of theirs.
 """
 import os
 import shutil
@@ -79,10 +79,10 @@ class Blsurf(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
 
-def build_by_hand(gfortran, sources, library, data):
+def build_by_hand(gfortran, sources, library, data, *flags):
     folder = tempfile.mkdtemp(prefix="carreau by hand ")
     names = ["carreau_c.f90", "carreau.f90", "blsurf_m.f90", "blsurf.f90"]
-    subprocess.run([gfortran, os.path.join(data, "cad_m.f90"), *[os.path.join(sources, name) for name in names],
+    subprocess.run([gfortran, *flags, os.path.join(data, "cad_m.f90"), *[os.path.join(sources, name) for name in names],
                     "-L" + library, "-lcarreau", "-Wl,-rpath," + library, "-o", "blsurf"], cwd=folder, check=True)
     return folder
 
@@ -90,7 +90,7 @@ def build_by_hand(gfortran, sources, library, data):
 if __name__ == "__main__":
     if sys.argv[1] == "--by-hand":
         DATA = sys.argv[5]
-        folder = build_by_hand(*sys.argv[2:6])
+        folder = build_by_hand(*sys.argv[2:])
         PROGRAM = os.path.join(folder, "blsurf")
     else:
         folder = None

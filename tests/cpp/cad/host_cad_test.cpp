@@ -285,6 +285,42 @@ TEST(HostCad, HearsSizesOfACHostItsSilenceAndItsFailures) {
             "face 1, curve 3, t = 0.5: the callback curve_radius returned the status 5");
 }
 
+TEST(HostCad, TellsOfOrdersThatAHostDoesNotGive) {
+  User user;
+  HostTable table = host(user);
+  table.surface = [](std::int32_t, double u, double v, std::int32_t, double* s, double*, double*, double*, double*,
+                     double*, void*) { return s[0] = u, s[1] = v, s[2] = 0, 0; };
+  table.curve = [](std::int32_t, std::int32_t, double t, std::int32_t, double* c, double*, double*, void*) {
+    return c[0] = t, c[1] = 0, 0;
+  };
+  const auto told = [&](std::int32_t surface_order, std::int32_t curve_order, unsigned want) {
+    table.surface_order = surface_order;
+    table.curve_order = curve_order;
+    HostCad host_cad(table);
+    CheckedCad cad(host_cad);
+    return std::pair{callback_error([&] {
+                       surface_at(cad, 3, want, {0, 1});
+                     }),
+                     callback_error([&] { cad.curve(3, 2, want, 0.5); })};
+  };
+  const std::string surface = "face 3, u = 0, v = 1: the callback surface gave no ",
+                    curve = "face 3, curve 2, t = 0.5: the callback curve gave no ";
+  EXPECT_EQ(told(2, 2, want_position | want_first),
+            std::pair(surface + "first derivatives: if it has none, surface_order must be 0",
+                      curve + "first derivatives: if it has none, curve_order must be 0"));
+  EXPECT_EQ(told(2, 2, want_second), std::pair(surface + "second derivatives: if it has none, surface_order must be 1",
+                                               curve + "second derivatives: if it has none, curve_order must be 1"));
+  EXPECT_EQ(told(0, 0, want_position | want_first), std::pair(std::string(), std::string()));
+  table.surface_batch = [](std::int32_t, std::int64_t n, const double* uv, std::int32_t, double* s, double*, double*,
+                           double*, double*, double*, void*) {
+    for (std::int64_t i = 0; i < n; ++i) s[3 * i] = uv[2 * i], s[3 * i + 1] = uv[2 * i + 1], s[3 * i + 2] = 0;
+    return 0;
+  };
+  EXPECT_EQ(told(1, 0, want_first).first,
+            "face 3, u = 0, v = 1: the callback surface_batch gave no first derivatives: if it has none, surface_order "
+            "must be 0");
+}
+
 TEST(HostCad, ShowsWhatAHostForgetsToWrite) {
   User user;
   user.writes = false;
