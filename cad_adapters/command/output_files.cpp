@@ -63,6 +63,16 @@ std::string behind_links(const std::string& path) {
   return path;
 }
 
+/// A sentence about hidden files, about the files as they will be called.
+std::string without_hidden_folders(std::string sentence) {
+  for (const Staged& s : staged) {
+    const std::string hidden = s.folder.substr(s.folder.find_last_of('/'));
+    for (std::size_t at = 0; (at = sentence.find(hidden + "/", at)) != std::string::npos;)
+      sentence.erase(at, hidden.size());
+  }
+  return sentence;
+}
+
 /// Signals wait while files get their names; the handler runs in this thread only.
 class SignalsBlocked {
  public:
@@ -153,7 +163,11 @@ void OutputFiles::write(const std::function<void(const std::vector<std::string>&
       staged.push_back({folder, hidden.back(), hidden.back() + ".0.tmp"});
     }
   }
-  make(hidden);
+  try {
+    make(hidden);
+  } catch (const Failure& failure) {
+    throw Failure(without_hidden_folders(failure.what()));
+  }
   const SignalsBlocked blocked;
   for (std::size_t i = 0; i < staged.size(); ++i) {
     struct stat old {};

@@ -1,6 +1,7 @@
 // What a BrepHost takes from a shape: topology, names, doubts.
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <TopAbs.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -23,6 +24,37 @@ namespace carreau_occ {
 
 namespace {
 
+/// Whether two curves of the parameter plane are one, but for rounding; those of a seam are a period apart.
+bool coincide(const EdgeImage& a, const EdgeImage& b) {
+  constexpr double rounding = 1e-9;  // of coordinates
+  constexpr int pieces = 8;
+  for (int i = 0; i <= pieces; ++i) {
+    const auto at = [&](const EdgeImage& image) {
+      return image.curve->Value(image.first + (image.last - image.first) * i / pieces);
+    };
+    const gp_Pnt2d p = at(a), q = at(b);
+    if (p.Distance(q) > rounding * (std::abs(p.X()) + std::abs(p.Y()) + 1)) return false;
+  }
+  return true;
+}
+
+/// An edge along which a wire goes to and fro, as from an outer border to that of a hole, has the face on both sides:
+/// it is a curve inside.
+void make_returns_internal(std::vector<EdgeImage>& images) {
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const TopAbs_Orientation way = images[i].edge.Orientation();
+    if ((way != TopAbs_FORWARD && way != TopAbs_REVERSED) || BRep_Tool::Degenerated(images[i].edge)) continue;
+    for (std::size_t j = i + 1; j < images.size(); ++j) {
+      if (images[j].edge.Orientation() != TopAbs::Reverse(way) || !images[j].edge.IsSame(images[i].edge) ||
+          !coincide(images[i], images[j]))
+        continue;
+      images[i].edge.Orientation(TopAbs_INTERNAL);
+      images.erase(images.begin() + static_cast<std::ptrdiff_t>(j));
+      break;
+    }
+  }
+}
+
 std::vector<EdgeImage> images_of(const TopoDS_Wire& wire, const TopoDS_Face& face) {
   std::vector<EdgeImage> images;
   for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) {
@@ -34,6 +66,7 @@ std::vector<EdgeImage> images_of(const TopoDS_Wire& wire, const TopoDS_Face& fac
     images.push_back(image);
   }
   close_over_periods(images, face);
+  make_returns_internal(images);
   return images;
 }
 

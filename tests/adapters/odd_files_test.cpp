@@ -8,6 +8,7 @@
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
+#include <BRepCheck_Analyzer.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
@@ -26,6 +27,8 @@
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
+#include <cmath>
+#include <gp_Pln.hxx>
 #include <numbers>
 
 #include "measured_mesh.h"
@@ -60,6 +63,52 @@ TEST(MissingCurves, AreMadeOfTheEdgesInSpace) {
   const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, size);
   EXPECT_EQ(mesh.trouble(true), "");
   EXPECT_NEAR(mesh.volume, expected.volume, 1e-3 * expected.volume);
+}
+
+/// A square of 4 whose one wire goes along an edge to (1, 1) and back, round a square hole in between or not.
+TopoDS_Face square_with_return(bool round_a_hole) {
+  const gp_Pnt places[] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {1, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
+  TopoDS_Vertex corner[8];
+  for (int i = 0; i < 8; ++i) corner[i] = BRepBuilderAPI_MakeVertex(places[i]);
+  const BRep_Builder builder;
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  const auto add = [&](int a, int b) { builder.Add(wire, BRepBuilderAPI_MakeEdge(corner[a], corner[b]).Edge()); };
+  const TopoDS_Edge there = BRepBuilderAPI_MakeEdge(corner[0], corner[4]);
+  add(0, 1), add(1, 2), add(2, 3), add(3, 0);
+  builder.Add(wire, there);
+  if (round_a_hole) add(4, 7), add(7, 6), add(6, 5), add(5, 4);
+  builder.Add(wire, there.Reversed());
+  wire.Closed(Standard_True);
+  TopoDS_Face face;
+  builder.MakeFace(face, new Geom_Plane(gp_Pln()), 1e-7);
+  builder.Add(face, wire);
+  return face;
+}
+
+// Such an edge was two sides of a boundary that met itself.
+TEST(Returns, AreCurvesInside) {
+  for (const bool round_a_hole : {true, false}) {
+    const TopoDS_Face face = square_with_return(round_a_hole);
+    ASSERT_TRUE(BRepCheck_Analyzer(face).IsValid());
+    carreau_occ::BrepHost host(file_of(face));
+    const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.5);
+    ASSERT_EQ(mesh.trouble(false), "");
+    EXPECT_NEAR(mesh.quality.area, round_a_hole ? 15 : 16, 1e-12);
+    // The way to (1, 1) is edges of the mesh: nothing crosses u = v before it.
+    const auto on_way = [](const std::array<double, 3>& p) {
+      return std::abs(p[0] - p[1]) < 1e-12 && p[0] < 1 + 1e-12;
+    };
+    double on_the_way = 0;
+    for (const auto& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto &p = mesh.vertices[static_cast<std::size_t>(t[i])],
+                   &q = mesh.vertices[static_cast<std::size_t>(t[(i + 1) % 3])];
+        if (on_way(p) && on_way(q)) on_the_way += std::abs(q[0] - p[0]);
+      }
+    EXPECT_NEAR(on_the_way, 2, 1e-12);  // from both sides
+    EXPECT_EQ(mesh.open_edges, round_a_hole ? 40 : 32);
+  }
 }
 
 // A gap is what lies between two curves, not between points of equal parameters.
