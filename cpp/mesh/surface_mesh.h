@@ -23,7 +23,8 @@ struct FaceMesh {
   std::string why;                                     ///< sentence for `mended`, `failed` and `collapsed`
   std::vector<Vec2> uv;                                ///< of local vertices
   std::vector<std::int32_t> vertex;                    ///< local -> index in SurfaceMesh::vertices
-  std::vector<std::array<std::int32_t, 3>> triangles;  ///< local indices; counterclockwise in (u, v)
+  /// Local indices; counterclockwise in (u, v), but for those that `why` of a mended face tells of.
+  std::vector<std::array<std::int32_t, 3>> triangles;
   /// Triangles of (u, v) that a degenerate side flattens in space: part of the plane mesh, not of the mesh in space.
   std::vector<std::array<std::int32_t, 3>> flattened;
 };

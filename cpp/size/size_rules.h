@@ -84,6 +84,9 @@ class SizeRules {
   /// angle_mesh lies outside ]0, 90], eps_chord is needed and not positive, or anisotropy_max is below 1.
   SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
+  /// The same rules asking another host, by the same sources.
+  [[nodiscard]] SizeRules asking(Cad& cad) const { return {model_, topology_, cad, parameters_}; }
+
   /// The Want bits that on_surface or metrics_on_surface needs in its jets.
   [[nodiscard]] unsigned surface_wants() const noexcept;
 
@@ -91,6 +94,10 @@ class SizeRules {
   [[nodiscard]] std::optional<double> constant() const noexcept;
 
   [[nodiscard]] bool uses_curvature() const noexcept { return parameters_.hgeo_flag != 0; }
+  /// Whether sources of prescriptions are asked.
+  [[nodiscard]] bool asks_sources() const noexcept {
+    return parameters_.hphy_flag != 0 && !parameters_.sources.empty();
+  }
   /// Whether sizes may differ by direction or come from sources.
   [[nodiscard]] bool uses_metrics() const noexcept {
     return (uses_curvature() && parameters_.geo_anisotropic) || asks_sources();
@@ -172,9 +179,6 @@ class SizeRules {
   using Answers = std::vector<Prescription>;
   struct CurvePlace;
   struct AlongCurve;
-  [[nodiscard]] bool asks_sources() const noexcept {
-    return parameters_.hphy_flag != 0 && !parameters_.sources.empty();
-  }
   [[nodiscard]] bool needs_positions() const noexcept;
   Answers answers_on_surface(int face, Vec2 uv, Vec3 xyz) const;
   Answers answers_on_curve(int curve, std::span<const double> t);

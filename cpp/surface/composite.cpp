@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -135,6 +136,7 @@ class Pipeline {
     assemble(model_, topology_, domains_, curves_, patches_, result_);
     keep_prescriptions();
     say_what_is_narrow();
+    say_what_is_remarkable();
   }
 
   void tell(Phase phase, int entity, double share) { monitor_.progress(phase, entity, begin_ + (1 - begin_) * share); }
@@ -305,6 +307,7 @@ class Pipeline {
   }
 
   void mesh_faces() {
+    remarks_.clear();
     patches_.assign(model_.faces.size(), std::nullopt);
     place_narrow_patches();
     for (std::size_t f = 0; f < model_.faces.size(); ++f)
@@ -344,6 +347,7 @@ class Pipeline {
     result_.spaces[f] = job(i).take_space();
     if (job(i).failure().empty()) {
       patches_[f] = job(i).take();
+      if (!job(i).remark().empty()) remarks_[f] = job(i).remark();
       left_ -= static_cast<std::int64_t>(patches_[f]->plane.triangles.size());
       if (left_ < 0)
         refuse_triangles(Where{.face = model_.faces[f].ref}, static_cast<double>(options_.max_triangles - left_),
@@ -376,6 +380,16 @@ class Pipeline {
         result_.interfaces[f] = {std::move(domains_.domain[f]->plane), std::move(domains_.domain[f]->physical)};
   }
 
+  void say_what_is_remarkable() {
+    for (const auto& [f, what] : remarks_) {
+      FaceMesh& mesh = result_.mesh.faces[f];
+      if (mesh.status != FaceStatus::meshed) continue;
+      mesh.status = FaceStatus::mended;
+      mesh.why = what;
+      monitor_.message(Level::warning, what);
+    }
+  }
+
   void fail(std::size_t f, const std::string& why) {
     result_.mesh.faces[f].status = FaceStatus::failed;
     result_.mesh.faces[f].why = why;
@@ -401,6 +415,7 @@ class Pipeline {
   std::vector<std::size_t> face_of_job_;
   std::vector<EdgeSizes> short_edges_;  // by face
   std::vector<std::optional<PatchMesh>> patches_;
+  std::map<std::size_t, std::string> remarks_;  // of faces
   CompositeResult result_;
 };
 

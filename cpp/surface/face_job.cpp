@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <limits>
 
+#include "plane/domain_check.h"
 #include "support/format.h"
+#include "surface/even_parameters.h"
 #include "surface/space_refinement.h"
 #include "surface/steep_places.h"
 #include "surface/verification.h"
@@ -37,6 +40,10 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   }
   return norm(q - p) > shrunk * whole + noise * std::max(norm(p), norm(q));
 }
+
+// How many times faster than usual a parametrisation may be somewhere: else other parameters are looked for; and where
+// there are none.
+constexpr double uneven = 1000, hopeless = 30'000;
 
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
 constexpr double no_area = 1e-14;
@@ -96,13 +103,20 @@ void FaceJob::step(Monitor& monitor) {
 
 void FaceJob::sample(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
-  suspects_ = rules_.steep_places(input_.face);
+  suspects_ = rules_->steep_places(input_.face);
   if (input_.limits.field != nullptr) {
     const std::vector<Vec2> tips = input_.limits.field->tips(input_.face);
     suspects_.insert(suspects_.end(), tips.begin(), tips.end());
   }
-  SampledFacts facts{.normals = options_.shape_trials ? &normals_ : nullptr};
-  space_ = sample_face(input_, cad_, rules_, suspects_, monitor, &facts);
+  SampledFacts facts{.normals = options_.shape_trials ? &normals_ : nullptr,
+                     .usual_speed = even_ ? 1. : 0.,
+                     .most_uneven = most_uneven()};
+  try {
+    space_ = sample_face(input_, *cad_, *rules_, suspects_, monitor, &facts);
+  } catch (const UnevenSpeed& speed) {
+    even_out(speed, monitor);
+    return;  // and the same step again
+  }
   input_.one_size = facts.isotropic;
   refuse_beyond_limit(space_->measure());
   normals_.index(*space_);
@@ -125,10 +139,10 @@ void FaceJob::lift(Monitor& monitor) {
   std::vector<Vec2> places;
   {
     const Stopwatch watch(report_.seconds_lift);
-    lift_patch(input_, cad_, *mesh_, monitor);
-    places = verify_lift(input_, *space_, cad_, rules_, *mesh_, monitor);
+    lift_patch(input_, *cad_, *mesh_, monitor);
+    places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor);
     if (corrections_ < most_corrections) {
-      const std::vector<Vec2> steep = missed_steep_places(input_, *space_, cad_, rules_, *mesh_, monitor);
+      const std::vector<Vec2> steep = missed_steep_places(input_, *space_, *cad_, *rules_, *mesh_, monitor);
       places.insert(places.end(), steep.begin(), steep.end());
     }
   }
@@ -139,10 +153,54 @@ void FaceJob::lift(Monitor& monitor) {
   }
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
-  shape_in_space(input_, cad_, rules_, *mesh_, monitor);
-  const bool kept = options_.size.geo_guarantee && rules_.uses_metrics();
-  refine_in_space(input_, cad_, rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
+  shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
+  const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
+  refine_in_space(input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
+  if (even_) return_to_host(monitor);
   next_ = Step::none;
+}
+
+// Fields and sources know the host's parameters only.
+double FaceJob::most_uneven() const noexcept {
+  if (input_.limits.field != nullptr || rules_->asks_sources()) return std::numeric_limits<double>::infinity();
+  return evened_out_ && !even_ ? hopeless : uneven;
+}
+
+void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
+  normals_ = {};
+  if (even_) {  // in vain
+    input_.domain = even_->host_domain, cad_ = even_->host_cad, rules_ = even_->host_rules;
+    even_.reset();
+    return;
+  }
+  if (evened_out_)
+    throw DomainError(
+        Where{.face = input_.ref, .uv = speed.uv},
+        "the parametrisation is " + format_number(speed.times) +
+            " times as fast as elsewhere in the face, and not so along lines of one parameter; no mesh can follow it");
+  evened_out_ = true;
+  auto map = even_parameters(input_.ref, *cad_, sampled_domain(input_.domain->plane), speed.uv, monitor);
+  if (!map) return;
+  auto even = std::make_unique<Even>();
+  even->map = std::move(*map);
+  even->domain = reparametrised(*input_.domain, even->map);
+  if (find_a_crossing(even->domain.plane)) return;
+  even->cad = reparametrised(*cad_, input_.ref, even->map);
+  even->rules.emplace(rules_->asking(*even->cad));
+  even->host_domain = input_.domain, even->host_cad = cad_, even->host_rules = rules_;
+  input_.domain = &even->domain, cad_ = even->cad.get(), rules_ = &*even->rules;
+  even_ = std::move(even);
+}
+
+void FaceJob::return_to_host(Monitor& monitor) {
+  const PlaneDomain& host = even_->host_domain->plane;
+  const std::size_t turned = carreau::return_to_host(host, even_->map, *mesh_);
+  space_ = returned_to_host(host, even_->map, *space_, monitor);
+  if (turned > 0)
+    remark_ = Where{.face = input_.ref}.prefix() +
+              "the parametrisation changes its speed a thousand times and more within next to nothing: " +
+              std::to_string(turned) + (turned == 1 ? " triangle is" : " triangles are") +
+              " turned over in (u, v), not in space";
 }
 
 // Whether the mesh has missed places that the control space rightly knows. Others are added to `places`.
@@ -151,7 +209,7 @@ bool FaceJob::settle_deserts(std::vector<Vec2>& places, Monitor& monitor) {
   if (resettlements_ == most_resettlements || vertices <= vertices_when_settled_ || input_.constant_size) return false;
   if (space_->measure() > most_growth * static_cast<double>(mesh_->plane.triangles.size())) return false;
   const Stopwatch watch(report_.seconds_lift);
-  Deserts found = find_deserts(input_, *space_, cad_, rules_, *mesh_, monitor);
+  Deserts found = find_deserts(input_, *space_, *cad_, *rules_, *mesh_, monitor);
   places.insert(places.end(), found.mistaken.begin(), found.mistaken.end());
   if (found.confirmed.empty()) return false;
   ++resettlements_;
@@ -165,7 +223,7 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
   suspects_.insert(suspects_.end(), places.begin(), places.end());
   SampledFacts facts;
-  ControlSpace finer = sample_face(input_, cad_, rules_, suspects_, monitor, &facts);
+  ControlSpace finer = sample_face(input_, *cad_, *rules_, suspects_, monitor, &facts);
   if (!differ_at(places, *space_, finer)) return false;
   input_.one_size = facts.isotropic;
   refuse_beyond_limit(finer.measure());
@@ -193,8 +251,8 @@ void FaceJob::refuse_unsound(Monitor& monitor) const {
   }
   for (const EdgeExcess& edge : mesh_->excesses) {
     monitor.checkpoint();
-    if (jumps(cad_, input_.ref, edge.from, edge.to))
-      throw DomainError(Where{.face = input_.ref, .uv = 0.5 * (edge.from + edge.to)},
+    if (jumps(*cad_, input_.ref, edge.from, edge.to))
+      throw DomainError(Where{.face = input_.ref, .uv = host_uv(0.5 * (edge.from + edge.to))},
                         "the surface jumps: an edge of its mesh is " + format_number(edge.ratio) +
                             " times as long as the derivatives say; it is not continuous there");
   }

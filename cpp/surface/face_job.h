@@ -1,10 +1,12 @@
 // One face on its way through sampling, plane mesh and lift.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cad/reparametrisation.h"
 #include "size/control_space.h"
 #include "support/stepped_tasks.h"
 #include "surface/face_mesher.h"
@@ -20,7 +22,7 @@ class FaceJob final : public SteppedTask {
   /// Keeps references to `cad` and `options`.
   /// `max_triangles` may change until the job starts.
   FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
-      : input_(std::move(input)), cad_(cad), rules_(rules), options_(options), reentrant_(reentrant) {}
+      : input_(std::move(input)), cad_(&cad), rules_(&rules), options_(options), reentrant_(reentrant) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
@@ -29,6 +31,8 @@ class FaceJob final : public SteppedTask {
   void limit_triangles(std::int64_t most) { most_triangles_ = most; }
   /// Why the domain could not be meshed; empty when it was.
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+  /// What is to be known of a mesh that could only be made in another way; empty: nothing.
+  [[nodiscard]] const std::string& remark() const noexcept { return remark_; }
   /// Times and corrections.
   [[nodiscard]] const CompositeReport& report() const noexcept { return report_; }
   /// After a finish without failure. Once.
@@ -46,10 +50,26 @@ class FaceJob final : public SteppedTask {
   bool settle_deserts(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
+  void even_out(const UnevenSpeed& speed, Monitor& monitor);
+  [[nodiscard]] double most_uneven() const noexcept;
+  void return_to_host(Monitor& monitor);
+  [[nodiscard]] Vec2 host_uv(Vec2 p) const { return even_ ? even_->map.to_host(p) : p; }
+
+  /// What is asked and meshed in other parameters than the host's.
+  struct Even {
+    Reparametrisation map;
+    FaceDomain domain;
+    std::unique_ptr<Cad> cad;
+    std::optional<SizeRules> rules;
+    // The host's own:
+    const FaceDomain* host_domain = nullptr;
+    Cad* host_cad = nullptr;
+    const SizeRules* host_rules = nullptr;
+  };
 
   PatchInput input_;
-  Cad& cad_;
-  const SizeRules& rules_;
+  Cad* cad_;
+  const SizeRules* rules_;
   const CompositeOptions& options_;
   bool reentrant_;
   std::int64_t most_triangles_ = 0;
@@ -58,10 +78,12 @@ class FaceJob final : public SteppedTask {
   std::size_t vertices_when_settled_ = 0;
   std::vector<std::vector<Vec2>> deserts_;  // that meshes so far have missed
   std::vector<Vec2> suspects_;
+  std::unique_ptr<Even> even_;  // null: the host's parameters will do
+  bool evened_out_ = false;     // once is enough
   std::optional<ControlSpace> space_;
   SampledNormals normals_;
   std::optional<PatchMesh> mesh_;
-  std::string failure_;
+  std::string failure_, remark_;
   CompositeReport report_;
 };
 

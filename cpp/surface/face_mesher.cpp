@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "surface/bad_region.h"
 #include "surface/face_metric.h"
@@ -30,6 +31,37 @@ bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
          std::abs(m.b - f) <= same_size * std::sqrt(e * g);
 }
 
+// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
+class SpeedWatch {
+ public:
+  SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
+  void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets) {
+    if (std::isinf(most2_)) return;
+    if (usual_u2_ == 0 && usual_v2_ == 0) find_usual(jets);
+    for (std::size_t i = 0; i < uv.size(); ++i) {
+      const double u2 = dot(jets[i].su, jets[i].su), v2 = dot(jets[i].sv, jets[i].sv);
+      if (u2 > most2_ * usual_u2_) throw UnevenSpeed{uv[i], std::sqrt(u2 / usual_u2_)};
+      if (v2 > most2_ * usual_v2_) throw UnevenSpeed{uv[i], std::sqrt(v2 / usual_v2_)};
+    }
+  }
+
+ private:
+  // Where most do not move nothing is usual.
+  static double usual(std::vector<double>& squares) {
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    return *middle > 0 ? *middle : std::numeric_limits<double>::infinity();
+  }
+  void find_usual(std::span<const SurfaceJet> jets) {
+    if (jets.empty()) return;
+    std::vector<double> u2, v2;
+    for (const SurfaceJet& jet : jets) u2.push_back(dot(jet.su, jet.su)), v2.push_back(dot(jet.sv, jet.sv));
+    usual_u2_ = usual(u2), usual_v2_ = usual(v2);
+  }
+
+  double most2_, usual_u2_, usual_v2_;
+};
+
 // Of the vertices from `xyz.size()` on.
 void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
   std::vector<SurfaceJet> jets(batch);
@@ -54,10 +86,13 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
                          Monitor& monitor, SampledFacts* facts) {
   FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
   std::vector<SurfaceJet> jets;
+  const SampledFacts asked = facts != nullptr ? *facts : SampledFacts{};
+  SpeedWatch speeds(asked.most_uneven, asked.usual_speed);
   const SurfaceSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric,
                                      std::span<SurfaceTangents> tangents) {
     jets.resize(uv.size());
     cad.surface(input.ref, prescribed.wants(), uv, jets);
+    speeds.look(uv, jets);
     prescribed.at(uv, jets, metric);
     for (std::size_t i = 0; i < tangents.size(); ++i) tangents[i] = {jets[i].su, jets[i].sv};
     if (facts == nullptr) return;

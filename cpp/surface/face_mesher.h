@@ -1,6 +1,7 @@
 // One patch: sample, mesh, lift.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,6 +59,16 @@ SampledDomain sampled_domain(const PlaneDomain& domain);
 struct SampledFacts {
   SampledNormals* normals = nullptr;  ///< gets those at the samples, where given
   bool isotropic = true;              ///< sizes do not differ by direction at any of them
+  /// Stops with UnevenSpeed where a derivative is so many times as long as it is usual: as `usual_speed`; 0: as it is
+  /// along that parameter at the first samples.
+  double usual_speed = 0;
+  double most_uneven = std::numeric_limits<double>::infinity();
+};
+
+/// A place where the parametrisation is far faster than elsewhere. Not an error: sampling starts again in others.
+struct UnevenSpeed {
+  Vec2 uv;
+  double times;  ///< as fast
 };
 
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
