@@ -21,12 +21,14 @@ class Swapper {
   Swapper(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz)
       : region_(region), mesh_(mesh), xyz_(xyz), touched_(mesh.triangles.size(), 0), marked_(mesh.vertices.size(), 0) {}
 
-  bool run() {
+  bool run(Monitor& monitor) {
     bool any = false;
     for (int pass = 0; pass < most_passes; ++pass) {
       const std::vector<std::int32_t> bad = region_.below(poor_quality);
       if (bad.empty()) break;
+      monitor.checkpoint();
       collect_around(bad);
+      monitor.checkpoint();
       bool changed = false;
       for (const std::int32_t t : bad) changed |= improve(t);
       any |= changed;
@@ -130,8 +132,8 @@ class Swapper {
 
 }  // namespace
 
-bool swap_in_space(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz) {
-  return Swapper(region, mesh, xyz).run();
+bool swap_in_space(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz, Monitor& monitor) {
+  return Swapper(region, mesh, xyz).run(monitor);
 }
 
 }  // namespace carreau
