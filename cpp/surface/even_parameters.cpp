@@ -20,7 +20,7 @@ constexpr std::size_t first_places = 16, lines_at_once = 16;
 constexpr double finest = 1.0 / 128, narrowest = 1e-13;
 constexpr std::size_t most_places = 3000;
 // A chord that is this share of all although its piece is of the narrowest kind is a jump.
-constexpr double jump_share = 4 * finest;
+constexpr double jump_share = finest;
 // Where all lines of a family together are so many times as long as the longest one, what is fast in one is not in the
 // others.
 constexpr double most_detours = 8;

@@ -45,6 +45,9 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
 // there are none.
 constexpr double uneven = 1000, hopeless = 30'000;
 
+// Edges that are looked at for jumps before a patch is corrected; after that, all are.
+constexpr std::size_t most_looked_at_first = 30;
+
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
 constexpr double no_area = 1e-14;
 
@@ -146,6 +149,8 @@ void FaceJob::lift(Monitor& monitor) {
       places.insert(places.end(), steep.begin(), steep.end());
     }
   }
+  // Samples at a jump promise triangles without end.
+  refuse_jumps(most_looked_at_first, monitor);
   const bool again = settle_deserts(places, monitor);
   if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {
     next_ = Step::mesh;
@@ -249,7 +254,15 @@ void FaceJob::refuse_unsound(Monitor& monitor) const {
                              "as a point of space"
                            : "the surface has no area: it is a line or a point of space");
   }
-  for (const EdgeExcess& edge : mesh_->excesses) {
+  refuse_jumps(mesh_->excesses.size(), monitor);
+}
+
+// Looks at some of the edges that are far longer than promised.
+void FaceJob::refuse_jumps(std::size_t most, Monitor& monitor) const {
+  const std::vector<EdgeExcess>& edges = mesh_->excesses;
+  const std::size_t n = std::min(edges.size(), most);
+  for (std::size_t k = 0; k < n; ++k) {
+    const EdgeExcess& edge = edges[k * edges.size() / n];
     monitor.checkpoint();
     if (jumps(*cad_, input_.ref, edge.from, edge.to))
       throw DomainError(Where{.face = input_.ref, .uv = host_uv(0.5 * (edge.from + edge.to))},

@@ -47,6 +47,7 @@ class FaceJob final : public SteppedTask {
   void mesh(Monitor& monitor);
   void lift(Monitor& monitor);
   void refuse_unsound(Monitor& monitor) const;
+  void refuse_jumps(std::size_t most, Monitor& monitor) const;
   bool settle_deserts(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;

@@ -125,7 +125,7 @@ void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& mon
   lift(input.ref, mesh.plane.vertices, cad, mesh.xyz, monitor);
   if (!input.isotropic) return;
   const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, poor_quality);
-  swap_in_space(poor, mesh.plane, mesh.xyz);
+  swap_in_space(poor, mesh.plane, mesh.xyz, monitor);
 }
 
 std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,
@@ -151,7 +151,7 @@ void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, P
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<std::int32_t> now = smooth_in_space(region, input.ref, cad, mesh, monitor);
     moved.insert(moved.end(), now.begin(), now.end());
-    if (now.empty() || !swap_in_space(region, mesh.plane, mesh.xyz)) break;
+    if (now.empty() || !swap_in_space(region, mesh.plane, mesh.xyz, monitor)) break;
   }
   std::sort(moved.begin(), moved.end());
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());

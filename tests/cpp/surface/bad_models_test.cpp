@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
 
+#include "cad/difference_cad.h"
 #include "common/analytic_cad.h"
 #include "mesh/quality.h"
 #include "session/session.h"
@@ -175,6 +177,30 @@ TEST(BadModels, SurfaceThatJumpsByAFewEdges) {
     const Outcome outcome = try_mesh(cad, testing::unglued(cad), size);
     EXPECT_NE((outcome.error + outcome.failures).find("face 2"), std::string::npos) << size;
     EXPECT_TRUE(outcome.sound) << size;
+  }
+}
+
+// Steps in many places, from a host without derivatives: differences across a step promise triangles without end.
+TEST(BadModels, SurfaceThatJumpsInManyPlaces) {
+  const auto stairs = [](Vec2 p) { return 0.05 * std::floor(20 * p.x); };
+  const auto both = [](Vec2 p) { return 0.02 * (std::floor(50 * p.x) + std::floor(50 * p.y)); };
+  const auto chequers = [](Vec2 p) { return 0.2 * std::fmod(std::floor(10 * p.x) + std::floor(10 * p.y), 2); };
+  for (const std::function<double(Vec2)>& height : {std::function<double(Vec2)>(stairs), {both}, {chequers}}) {
+    auto cad = std::make_unique<AnalyticCad>(square());
+    cad->faces[1].at = [=](Vec2 p) { return plane(p, height(p)); };
+    Monitor monitor;
+    Session session(monitor);
+    session.set_model(testing::unglued(*cad));
+    session.set_cad(std::make_shared<DifferenceCad>(std::move(cad), want_position, want_position));
+    session.parameters().set("hphydef", 0.03);
+    try {
+      session.make_mesh();
+      ADD_FAILURE() << "no error";
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      EXPECT_NE(what.find("face 1, u = "), std::string::npos) << what;
+      EXPECT_NE(what.find("the surface jumps"), std::string::npos) << what;
+    }
   }
 }
 
