@@ -15,7 +15,7 @@ namespace carreau {
 namespace {
 
 // Along each parameter: first places, and boundary vertices among them; parallel lines that are looked at.
-constexpr std::size_t first_places = 16, lines_at_once = 16;
+constexpr std::size_t first_places = 16;
 // No piece of a parameter has a longer chord than this share of all, unless it is as narrow as that of the domain.
 constexpr double finest = 1.0 / 128, narrowest = 1e-13;
 constexpr std::size_t most_places = 3000;
