@@ -14,7 +14,7 @@ namespace carreau {
 
 namespace {
 
-// Along each parameter: first places, and boundary vertices among them; parallel lines that are looked at.
+// Along each parameter: first places, as many at boundary vertices, and lines across at such places.
 constexpr std::size_t first_places = 16;
 // No piece of a parameter has a longer chord than this share of all, unless it is as narrow as that of the domain.
 constexpr double finest = 1.0 / 128, narrowest = 1e-13;

@@ -41,10 +41,6 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
   return norm(q - p) > shrunk * whole + noise * std::max(norm(p), norm(q));
 }
 
-// How many times faster than usual a parametrisation may be somewhere: else other parameters are looked for; and where
-// there are none.
-constexpr double uneven = 1000, hopeless = 30'000;
-
 // Edges that are looked at for jumps before a patch is corrected; after that, all are.
 constexpr std::size_t most_looked_at_first = 30;
 
@@ -165,10 +161,10 @@ void FaceJob::lift(Monitor& monitor) {
   next_ = Step::none;
 }
 
-// Fields and sources know the host's parameters only.
+// Sources know the host's parameters only.
 double FaceJob::most_uneven() const noexcept {
-  if (input_.limits.field != nullptr || rules_->asks_sources()) return std::numeric_limits<double>::infinity();
-  return evened_out_ && !even_ ? hopeless : uneven;
+  if (rules_->asks_sources()) return std::numeric_limits<double>::infinity();
+  return evened_out_ && !even_ ? hopeless_speed : uneven_speed;
 }
 
 void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
@@ -193,6 +189,7 @@ void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
   even->cad = reparametrised(*cad_, input_.ref, even->map);
   even->rules.emplace(rules_->asking(*even->cad));
   even->host_domain = input_.domain, even->host_cad = cad_, even->host_rules = rules_;
+  input_.limits.field = nullptr;  // it knows nothing of such faces, or (u, v) only
   input_.domain = &even->domain, cad_ = even->cad.get(), rules_ = &*even->rules;
   even_ = std::move(even);
 }
@@ -200,7 +197,10 @@ void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
 void FaceJob::return_to_host(Monitor& monitor) {
   const PlaneDomain& host = even_->host_domain->plane;
   const std::size_t turned = carreau::return_to_host(host, even_->map, *mesh_);
-  space_ = returned_to_host(host, even_->map, *space_, monitor);
+  if (input_.slope > 0)
+    space_.reset();  // sizes along edges are judged by what governed
+  else
+    space_ = returned_to_host(host, even_->map, *space_, monitor);
   if (turned > 0)
     remark_ = Where{.face = input_.ref}.prefix() +
               "the parametrisation changes its speed a thousand times and more within next to nothing: " +

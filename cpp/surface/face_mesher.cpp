@@ -31,36 +31,12 @@ bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
          std::abs(m.b - f) <= same_size * std::sqrt(e * g);
 }
 
-// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
-class SpeedWatch {
- public:
-  SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
-  void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets) {
-    if (std::isinf(most2_)) return;
-    if (usual_u2_ == 0 && usual_v2_ == 0) find_usual(jets);
-    for (std::size_t i = 0; i < uv.size(); ++i) {
-      const double u2 = dot(jets[i].su, jets[i].su), v2 = dot(jets[i].sv, jets[i].sv);
-      if (u2 > most2_ * usual_u2_) throw UnevenSpeed{uv[i], std::sqrt(u2 / usual_u2_)};
-      if (v2 > most2_ * usual_v2_) throw UnevenSpeed{uv[i], std::sqrt(v2 / usual_v2_)};
-    }
-  }
-
- private:
-  // Where most do not move nothing is usual.
-  static double usual(std::vector<double>& squares) {
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
-    return *middle > 0 ? *middle : std::numeric_limits<double>::infinity();
-  }
-  void find_usual(std::span<const SurfaceJet> jets) {
-    if (jets.empty()) return;
-    std::vector<double> u2, v2;
-    for (const SurfaceJet& jet : jets) u2.push_back(dot(jet.su, jet.su)), v2.push_back(dot(jet.sv, jet.sv));
-    usual_u2_ = usual(u2), usual_v2_ = usual(v2);
-  }
-
-  double most2_, usual_u2_, usual_v2_;
-};
+// The median; where most do not move nothing is usual.
+double usual_square(std::vector<double>& squares) {
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return *middle > 0 ? *middle : std::numeric_limits<double>::infinity();
+}
 
 // Of the vertices from `xyz.size()` on.
 void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
@@ -74,6 +50,23 @@ void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, 
 }
 
 }  // namespace
+
+void SpeedWatch::look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets) {
+  if (std::isinf(most2_)) return;
+  if (usual_u2_ == 0 && usual_v2_ == 0) find_usual(jets);
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double u2 = dot(jets[i].su, jets[i].su), v2 = dot(jets[i].sv, jets[i].sv);
+    if (u2 > most2_ * usual_u2_) throw UnevenSpeed{uv[i], std::sqrt(u2 / usual_u2_)};
+    if (v2 > most2_ * usual_v2_) throw UnevenSpeed{uv[i], std::sqrt(v2 / usual_v2_)};
+  }
+}
+
+void SpeedWatch::find_usual(std::span<const SurfaceJet> jets) {
+  if (jets.empty()) return;
+  std::vector<double> u2, v2;
+  for (const SurfaceJet& jet : jets) u2.push_back(dot(jet.su, jet.su)), v2.push_back(dot(jet.sv, jet.sv));
+  usual_u2_ = usual_square(u2), usual_v2_ = usual_square(v2);
+}
 
 SampledDomain sampled_domain(const PlaneDomain& domain) {
   SampledDomain sampled{domain.vertices, {}};

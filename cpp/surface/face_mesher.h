@@ -71,6 +71,24 @@ struct UnevenSpeed {
   double times;  ///< as fast
 };
 
+/// How many times faster than usual a parametrisation may be somewhere: else other parameters are looked for; and where
+/// there are none.
+inline constexpr double uneven_speed = 1000, hopeless_speed = 30'000;
+
+/// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
+class SpeedWatch {
+ public:
+  /// As SampledFacts::most_uneven and usual_speed.
+  SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
+  /// Throws UnevenSpeed.
+  void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets);
+
+ private:
+  void find_usual(std::span<const SurfaceJet> jets);
+
+  double most2_, usual_u2_, usual_v2_;
+};
+
 /// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor, SampledFacts* facts = nullptr);

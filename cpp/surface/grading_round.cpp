@@ -59,6 +59,9 @@ GradedModel GradingRound::run(const std::vector<SizeSamples>& raw, const GradedM
     } catch (const DomainError&) {
       faces_[f] = {};  // it will fail again, and then say so
       samples_[f].clear();
+    } catch (const UnevenSpeed&) {
+      faces_[f] = {};  // sizes grow inside it by its own control space alone
+      samples_[f].clear();
     }
   }
   prescribed_ = metric_;
@@ -196,9 +199,11 @@ ControlSpace GradingRound::sample(const PatchInput& input, std::span<const Vec2>
   FaceMetric prescribed(input.face, rules_, input.domain->plane, input.domain->physical, monitor_);
   std::vector<Sample>& samples = samples_[input.face];
   std::vector<SurfaceJet> jets;
+  SpeedWatch speeds(rules_.asks_sources() ? infinity : uneven_speed, 0);
   const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     jets.resize(uv.size());
     model_.cad.surface(input.ref, want_position | prescribed.wants(), uv, jets);
+    speeds.look(uv, jets);
     prescribed.at(uv, jets, metric);
     for (std::size_t i = 0; i < uv.size(); ++i) keep_sample(uv[i], jets[i], metric[i], samples);
     if (metrics_)

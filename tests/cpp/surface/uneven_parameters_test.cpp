@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include "common/analytic_cad.h"
@@ -91,6 +92,27 @@ TEST(UnevenParameters, FastAtABorder) {
 }
 TEST(UnevenParameters, FastAlongBoth) {
   for (const double width : {1e-5, 1e-7}) expect_like_an_ordinary_one(quarter_of({0.437, width}, {0.2, width}), width);
+}
+
+// Sizes that the host gives by place, and a gradation: as many triangles as in ordinary parameters.
+TEST(UnevenParameters, SizesByPlaceAndGradation) {
+  const Step fast{0.437, 1e-6};
+  const auto triangles = [](const Step& x, double gradation) {
+    AnalyticCad cad = quarter_of(x, linear);
+    cad.size_on_surface = [x](int, Vec2 p) { return std::optional(0.03 + 0.1 * std::abs(x.at(p.x) - 0.5)); };
+    Monitor monitor;
+    auto session = testing::session_of_size(cad, 0.05, monitor);
+    session->parameters().set("hphy_flag", 2);
+    session->parameters().set("gradation", gradation);
+    session->make_mesh();
+    EXPECT_TRUE(find_defects(session->mesh()).empty());
+    EXPECT_GT(summarise_quality(session->exported()).q2.min, 0.4);
+    return static_cast<double>(session->mesh().triangle_count());
+  };
+  for (const double gradation : {0., 1.3}) {
+    const double usual = triangles(linear, gradation);
+    EXPECT_NEAR(triangles(fast, gradation), usual, 0.1 * usual) << gradation;
+  }
 }
 
 // The curve that a plane face has in common with such a one is one, and an imposed point keeps its parameters to the
