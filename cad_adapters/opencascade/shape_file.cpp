@@ -29,6 +29,7 @@
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
+#include <vector>
 
 #include "entity_check.h"
 #include "faults.h"
@@ -133,6 +134,30 @@ class Indicator final : public Message_ProgressIndicator {
 Handle(XSControl_WorkSession) session_of(STEPCAFControl_Reader& reader) { return reader.ChangeReader().WS(); }
 Handle(XSControl_WorkSession) session_of(IGESCAFControl_Reader& reader) { return reader.WS(); }
 
+/// Whether all bytes of a file above 127 are parts of characters of UTF-8.
+bool is_utf8(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> block(1 << 16);
+  int missing = 0;  // bytes of the character
+  while (stream) {
+    stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+    for (std::streamsize i = 0; i < stream.gcount(); ++i) {
+      const auto byte = static_cast<unsigned char>(block[static_cast<std::size_t>(i)]);
+      const bool continues = byte >= 0x80 && byte < 0xC0;
+      if (continues != (missing > 0) || byte == 0xC0 || byte == 0xC1 || byte > 0xF4) return false;
+      missing = continues ? missing - 1 : byte < 0xC0 ? 0 : byte < 0xE0 ? 1 : byte < 0xF0 ? 2 : 3;
+    }
+  }
+  return missing == 0;
+}
+
+/// Texts of STEP are ASCII, with escapes for other characters (ISO 10303-21); what writers put there beside is UTF-8,
+/// or the code of their machine, of which that of Western Europe is the most common.
+void choose_encoding(STEPCAFControl_Reader&, const std::string& path) {
+  Interface_Static::SetCVal("read.step.codepage", is_utf8(path) ? "UTF8" : "CP1252");
+}
+void choose_encoding(IGESCAFControl_Reader&, const std::string&) {}
+
 void mend_resolution(STEPCAFControl_Reader&) {}
 
 /// What is smaller than the resolution that an IGES file claims OpenCASCADE takes for a point: holes vanish without a
@@ -155,6 +180,7 @@ void read_document(const std::string& path, const char* kind, const Handle(Indic
   Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
   Reader reader;
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);  // known once there is a reader
+  choose_encoding(reader, path);
   reader.SetNameMode(Standard_True);
   reader.SetColorMode(Standard_True);
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)

@@ -123,6 +123,16 @@ class Mesh(unittest.TestCase):
         solids = re.findall(r"^solid (.*)$", content(self.mesh("assembly.step", output="rig.stl")), re.M)
         self.assertEqual(sorted(solids), ["ball"] + 12 * ["block"])
 
+    def test_names_that_are_no_ascii_are_utf_8_or_of_western_europe(self):
+        whole = content(os.path.join(SHAPES, "named_faces.step"), binary=True)
+        name = "Pi\u00e8ce d'\u00e9t\u00e9 \u20ac"
+        for code in ("utf-8", "cp1252"):
+            path = self.out(code + ".step")
+            with open(path, "wb") as file:
+                file.write(whole.replace(b"'top'", name.replace("'", "''").join("''").encode(code)))
+            done = run("mesh", path, "-o", self.out("a.mesh"), "--json", "-q")
+            self.assertEqual({face["name"] for face in json.loads(done.stdout)["faces"]}, {"bottom", name, "side"})
+
     def test_parts_of_an_assembly_stand_where_it_says(self):
         path = self.mesh("assembly.step", "--size", "0.5")
         vertices, _ = read_mesh(path)
