@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <unordered_map>
+#include <utility>
 
 #include "brep_state.h"
 #include "face_check.h"
@@ -41,18 +43,26 @@ bool coincide(const EdgeImage& a, const EdgeImage& b) {
 /// An edge along which a wire goes to and fro, as from an outer border to that of a hole, has the face on both sides:
 /// it is a curve inside.
 void make_returns_internal(std::vector<EdgeImage>& images) {
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const TopAbs_Orientation way = images[i].edge.Orientation();
-    if ((way != TopAbs_FORWARD && way != TopAbs_REVERSED) || BRep_Tool::Degenerated(images[i].edge)) continue;
-    for (std::size_t j = i + 1; j < images.size(); ++j) {
-      if (images[j].edge.Orientation() != TopAbs::Reverse(way) || !images[j].edge.IsSame(images[i].edge) ||
-          !coincide(images[i], images[j]))
-        continue;
-      images[i].edge.Orientation(TopAbs_INTERNAL);
-      images.erase(images.begin() + static_cast<std::ptrdiff_t>(j));
-      break;
+  std::unordered_map<const TopoDS_TShape*, std::size_t> ways;  // the last use of each edge
+  std::vector<bool> back(images.size(), false);
+  for (std::size_t j = 0; j < images.size(); ++j) {
+    const TopoDS_Edge& edge = images[j].edge;
+    const bool side = edge.Orientation() == TopAbs_FORWARD || edge.Orientation() == TopAbs_REVERSED;
+    if (!side || BRep_Tool::Degenerated(edge)) continue;
+    const auto [there, first] = ways.try_emplace(edge.TShape().get(), j);
+    if (first) continue;
+    EdgeImage& other = images[there->second];
+    if (other.edge.Orientation() == TopAbs::Reverse(edge.Orientation()) && other.edge.IsSame(edge) &&
+        coincide(other, images[j])) {
+      other.edge.Orientation(TopAbs_INTERNAL);
+      back[j] = true;
     }
+    there->second = j;
   }
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j < images.size(); ++j)
+    if (!back[j]) std::swap(images[kept++], images[j]);
+  images.resize(kept);
 }
 
 std::vector<EdgeImage> images_of(const TopoDS_Wire& wire, const TopoDS_Face& face) {
