@@ -281,6 +281,8 @@ int carreau_model_curves (void *session, long capacity, int *face_refs, int *typ
 int carreau_model_faces (void *session, long capacity, int *refs, int *orientations);
 int carreau_model_leave_out_face (void *session, int face_ref, const char *why);
 int carreau_model_name_face (void *session, int face_ref, const char *name);
+int carreau_model_part_of_curve (void *session, int ref, int whole_ref);
+int carreau_model_part_of_face (void *session, int face_ref, int whole_ref);
 int carreau_model_points (void *session, long capacity, int *face_refs, int *refs, double *uv);
 int carreau_model_read_pardom (void *session, const char *path);
 int carreau_model_write_pardom (void *session, const char *path);

@@ -27,6 +27,7 @@ module carreau
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
+  public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
   public :: carreau_model_faces, carreau_model_curves, carreau_model_points
   public :: carreau_parameter_count, carreau_parameter_info
@@ -606,6 +607,21 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_model_color_face(session%handle, face_ref, rgb)
   end subroutine carreau_model_color_face
+
+  !> whole_ref: the first part, which it follows.
+  subroutine carreau_model_part_of_face(session, face_ref, whole_ref, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, whole_ref
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_part_of_face(session%handle, face_ref, whole_ref)
+  end subroutine carreau_model_part_of_face
+
+  subroutine carreau_model_part_of_curve(session, ref, whole_ref, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: ref, whole_ref
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_part_of_curve(session%handle, ref, whole_ref)
+  end subroutine carreau_model_part_of_curve
 
   !> "": it is meshed.
   subroutine carreau_model_leave_out_face(session, face_ref, why, status)

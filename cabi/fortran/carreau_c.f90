@@ -279,6 +279,22 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_color_face
 
+    function c_model_part_of_face(session, face_ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_face")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, whole_ref
+      integer(c_int32_t) :: status
+    end function c_model_part_of_face
+
+    function c_model_part_of_curve(session, ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_curve")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: ref, whole_ref
+      integer(c_int32_t) :: status
+    end function c_model_part_of_curve
+
     function c_model_leave_out_face(session, face_ref, why) result(status) bind(c, name="carreau_model_leave_out_face")
       import :: c_char, c_int32_t, c_ptr
       implicit none

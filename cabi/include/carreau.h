@@ -296,6 +296,16 @@ CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int
  * Errors: ARGUMENT (no such face, no such colour). */
 CARREAU_API carreau_status carreau_model_color_face(carreau_session* session, int32_t face_ref, int32_t rgb);
 
+/* Says that a face is a part of another one, the first part, which it follows in the model, maybe behind other parts: a
+ * face that was cut where its surface bends. What comes of a run has one face, that of the reference `whole_ref`, in
+ * their place: references of triangles, carreau_mesh_face, files. Callbacks, messages, interfaces and images of fields
+ * know each part by its own reference. Errors: ARGUMENT (no such face, another one is before it). */
+CARREAU_API carreau_status carreau_model_part_of_face(carreau_session* session, int32_t face_ref, int32_t whole_ref);
+
+/* The same for the curves of a reference that the model has: edges on them have the reference `whole_ref`, as those of
+ * the other parts of that curve. Errors: ARGUMENT (no such curve). */
+CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session, int32_t ref, int32_t whole_ref);
+
 /* Replaces the model by the content of a file x.pardom. On error the old model stays. Errors: FILE, MODEL. */
 CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
 
@@ -644,7 +654,8 @@ typedef struct carreau_face {
   size_t struct_size;
   int32_t ref;       /* reference of the face */
   int32_t status;    /* CARREAU_FACE_... */
-  int64_t triangles; /* their number; they follow those of the faces before */
+  int64_t triangles; /* their number; they follow those of the faces before. Of parts (carreau_model_part_of_face) all;
+                        the face has failed when one of them has */
   const char* why; /* sentence for `mended`, `failed` and `collapsed`, else ""; lives until the next call on the mesh */
   const char* name; /* given by carreau_model_name_face, else ""; lives as `why` does */
   int32_t rgb;      /* given by carreau_model_color_face, 0xRRGGBB, or -1 */

@@ -45,7 +45,7 @@ struct Counts {
     if (mesh.session != nullptr) {
       const SurfaceMesh& surface = surface_of(mesh);
       vertices = surface.vertices.size(), triangles = surface.triangle_count();
-      edges = surface.edge_count(), faces = surface.faces.size();
+      edges = surface.edge_count(), faces = carreau::whole_faces(surface).size();
     } else {
       vertices = mesh.flat.vertices.size(), triangles = mesh.flat.triangles.size();
       edges = mesh.flat.edges.size(), faces = mesh.flat_faces.size();
@@ -194,7 +194,7 @@ carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, 
     check_capacity(capacity, m, "triangles");
     std::int32_t* out = out_refs;
     if (mesh->session != nullptr)
-      for_each_triangle(surface_of(*mesh), [&](const FaceMesh& face, const auto&) { *out++ = face.ref; });
+      for_each_triangle(surface_of(*mesh), [&](const FaceMesh& face, const auto&) { *out++ = face.shown_ref(); });
     else
       copy_refs(mesh->flat.triangle_refs, m, out_refs);
   });
@@ -236,7 +236,7 @@ carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int3
     std::int32_t* out = out_refs;
     if (mesh->session != nullptr)
       for (const carreau::CurveMesh& curve : surface_of(*mesh).curves)
-        for (std::size_t i = 1; i < curve.vertices.size(); ++i) *out++ = curve.ref;
+        for (std::size_t i = 1; i < curve.vertices.size(); ++i) *out++ = curve.shown_ref();
     else
       copy_refs(mesh->flat.edge_refs, k, out_refs);
   });
@@ -244,32 +244,23 @@ carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int3
 
 carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face) {
   return guarded(mesh, [&] {
-    const std::size_t n = Counts(*mesh).faces;
+    require_content(*mesh);
+    std::vector<carreau::WholeFace> wholes;
+    if (mesh->session != nullptr) wholes = carreau::whole_faces(surface_of(*mesh));
+    const std::size_t n = mesh->session != nullptr ? wholes.size() : mesh->flat_faces.size();
     if (index < 0 || std::uint64_t(index) >= n)
       throw InvalidArgument("there is no face of index " + std::to_string(index) + ": the mesh has " +
                             std::to_string(n));
     const auto i = std::size_t(index);
+    const carreau::FlatFace& face = mesh->session != nullptr ? wholes[i].face : mesh->flat_faces[i].face;
     carreau_face result{};
-    result.why = result.name = "";
-    if (mesh->session != nullptr) {
-      const FaceMesh& face = surface_of(*mesh).faces[i];
-      mesh->text = face.why + '\0' + face.name;
-      result.ref = face.ref;
-      result.status = std::int32_t(face.status);
-      result.triangles = std::int64_t(face.triangles.size());
-      result.why = mesh->text.c_str();
-      result.name = result.why + face.why.size() + 1;
-      result.rgb = face.rgb;
-    } else {
-      const carreau_mesh::FaceOfFile& face = mesh->flat_faces[i];
-      mesh->text = face.face.why + '\0' + face.face.name;
-      result.ref = face.face.ref;
-      result.status = std::int32_t(face.face.status);
-      result.triangles = face.triangles;
-      result.why = mesh->text.c_str();
-      result.name = result.why + face.face.why.size() + 1;
-      result.rgb = face.face.rgb;
-    }
+    mesh->text = face.why + '\0' + face.name;
+    result.ref = face.ref;
+    result.status = std::int32_t(face.status);
+    result.triangles = mesh->session != nullptr ? std::int64_t(wholes[i].triangles) : mesh->flat_faces[i].triangles;
+    result.why = mesh->text.c_str();
+    result.name = result.why + face.why.size() + 1;
+    result.rgb = face.rgb;
     write_struct(result, out_face, "out_face");
   });
 }

@@ -88,6 +88,30 @@ carreau_status carreau_model_color_face(carreau_session* session, int32_t face_r
   });
 }
 
+carreau_status carreau_model_part_of_face(carreau_session* session, int32_t face_ref, int32_t whole_ref) {
+  return guarded(session, [&] {
+    Model& model = session->edited_model();
+    Face& face = face_of(model, face_ref);
+    const auto rank = std::size_t(&face - model.faces.data());
+    const Face* before = rank > 0 ? &model.faces[rank - 1] : nullptr;
+    if (before == nullptr || (before->part_of != 0 ? before->part_of : before->ref) != whole_ref)
+      throw InvalidArgument(carreau::Where{.face = face_ref},
+                            "it cannot be a part of face " + std::to_string(whole_ref) +
+                                ": parts are added right behind the first one, whose reference they all have");
+    face.part_of = whole_ref;
+  });
+}
+
+carreau_status carreau_model_part_of_curve(carreau_session* session, int32_t ref, int32_t whole_ref) {
+  return guarded(session, [&] {
+    bool found = false;
+    for (Face& face : session->edited_model().faces)
+      for (carreau::FaceCurve& curve : face.curves)
+        if (curve.ref == ref) curve.shown_as = whole_ref != ref ? whole_ref : 0, found = true;
+    if (!found) throw InvalidArgument("the model has no curve of reference " + std::to_string(ref));
+  });
+}
+
 carreau_status carreau_model_leave_out_face(carreau_session* session, int32_t face_ref, const char* why) {
   return guarded(session, [&] { face_of(session->edited_model(), face_ref).left_out = why != nullptr ? why : ""; });
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "mesh/flat_mesh.h"
+
 namespace carreau {
 
 namespace {
@@ -51,9 +53,10 @@ Json calls(const CallCounts& c) {
 }
 
 Json mesh_counts(const SurfaceMesh& mesh, const Delivered& delivered) {
-  const auto failed = std::count_if(mesh.faces.begin(), mesh.faces.end(),
-                                    [](const FaceMesh& face) { return face.status == FaceStatus::failed; });
-  return {{"faces", mesh.faces.size()},
+  const std::vector<WholeFace> all = whole_faces(mesh);
+  const auto failed = std::count_if(all.begin(), all.end(),
+                                    [](const WholeFace& each) { return each.face.status == FaceStatus::failed; });
+  return {{"faces", all.size()},
           {"failed_faces", failed},
           {"vertices", mesh.vertices.size()},
           {"triangles", delivered.edges.of_triangle.size()},

@@ -40,10 +40,16 @@ struct FlatMesh {
   std::vector<FlatFace> faces = {};  ///< may be empty, or lack references of triangles
 };
 
-/// All of it but the triangles.
-FlatFace flat_face(const FaceMesh& face);
+/// What there is of a face and of its parts, which follow it.
+struct WholeFace {
+  FlatFace face;              ///< failed when a part is, else mended when one is; `why` of the first such part
+  std::size_t triangles = 0;  ///< of all parts
+};
 
-/// The whole mesh in space, faces in order; with_edges: the edges of the curves too.
+/// In order; parts of one face are one.
+std::vector<WholeFace> whole_faces(const SurfaceMesh& mesh);
+
+/// The whole mesh in space, faces in order, parts of one face as one; with_edges: the edges of the curves too.
 FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges);
 
 }  // namespace carreau

@@ -27,6 +27,9 @@ struct FaceMesh {
   std::vector<std::array<std::int32_t, 3>> triangles;
   /// Triangles of (u, v) that a degenerate side flattens in space: part of the plane mesh, not of the mesh in space.
   std::vector<std::array<std::int32_t, 3>> flattened;
+  int part_of = 0;  ///< reference of the face that results speak of in place of this one; 0: none
+
+  [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
 };
 
 /// One appearance of a discretised curve in a face.
@@ -40,6 +43,9 @@ struct CurveMesh {
   int ref = 0;
   std::vector<std::int32_t> vertices;  ///< indices in SurfaceMesh::vertices; one entry for a degenerate curve
   std::vector<CurveMeshUse> uses;
+  int part_of = 0;  ///< reference of the curve that results speak of in its place; 0: none
+
+  [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
 };
 
 struct SurfaceMesh {

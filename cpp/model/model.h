@@ -33,6 +33,8 @@ struct FaceCurve {
   /// rank, whole.
   int part_of = 0;
   double part_a = 0, part_b = 0;
+  /// Reference of the curve that results speak of in place of this one, which is a part of it; 0: none.
+  int shown_as = 0;
 };
 
 struct Face {
@@ -45,6 +47,8 @@ struct Face {
   std::string name = {};  ///< for people and for files that hold names; empty: none
   std::int32_t rgb = -1;  ///< colour for files that hold colours, 0xRRGGBB (sRGB); -1: none
   int line = 0;
+  /// Reference of the face that results speak of in place of this one, which is a part of it; 0: none.
+  int part_of = 0;
   /// Why the face is not meshed: nothing is asked of its geometry, and its curves may break any rule; empty: it is.
   std::string left_out = {};
 };

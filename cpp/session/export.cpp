@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "mesh/quality.h"
@@ -27,7 +28,7 @@ std::vector<CurveEdge> edges_of_curves(const SurfaceMesh& mesh) {
   std::vector<CurveEdge> edges;
   for (const CurveMesh& curve : mesh.curves)
     for (std::size_t i = 1; i < curve.vertices.size(); ++i)
-      edges.push_back({ordered(curve.vertices[i - 1], curve.vertices[i]), curve.ref});
+      edges.push_back({ordered(curve.vertices[i - 1], curve.vertices[i]), curve.shown_ref()});
   std::sort(edges.begin(), edges.end());
   return edges;
 }
@@ -41,16 +42,19 @@ struct FlatSources {
 // Appends one face, in space or in its parameter plane, with its own vertices only.
 class FaceAppender {
  public:
-  FaceAppender(const SurfaceMesh& mesh, bool plane, bool with_edges) : mesh_(mesh), plane_(plane) {
+  FaceAppender(const SurfaceMesh& mesh, bool plane, bool with_edges)
+      : mesh_(mesh), wholes_(whole_faces(mesh)), plane_(plane) {
     if (with_edges) curve_edges_ = edges_of_curves(mesh);
     flat_.dimension = plane ? 2 : 3;
   }
 
   /// `first`: the first triangle of the face among those of the mesh.
   void append(const FaceMesh& face, std::size_t first) {
-    rank_.assign(plane_ ? face.uv.size() : mesh_.vertices.size(), -1);
+    // Parts of a face share their vertices of space.
+    const bool goes_on = !flat_.faces.empty() && flat_.faces.back().ref == face.part_of && face.part_of != 0;
+    if (plane_ || !goes_on) rank_.assign(plane_ ? face.uv.size() : mesh_.vertices.size(), -1);
     edges_.clear();
-    flat_.faces.push_back(flat_face(face));
+    if (!goes_on) flat_.faces.push_back(whole_of(face.shown_ref()));
     for (const auto& t : face.triangles) {
       append_triangle(face, t);
       triangle_source_.push_back(static_cast<std::int64_t>(first++));
@@ -70,6 +74,12 @@ class FaceAppender {
   [[nodiscard]] FlatSources sources() const { return {source_, triangle_source_}; }
 
  private:
+  [[nodiscard]] FlatFace whole_of(int ref) const {
+    const auto whole =
+        std::find_if(wholes_.begin(), wholes_.end(), [&](const WholeFace& w) { return w.face.ref == ref; });
+    return whole->face;
+  }
+
   std::int32_t vertex(const FaceMesh& face, std::int32_t local) {
     const std::int32_t global = face.vertex[local];
     std::int32_t& rank = rank_[plane_ ? local : global];
@@ -86,7 +96,7 @@ class FaceAppender {
     std::array<std::int32_t, 3> corners{};
     for (int i = 0; i < 3; ++i) corners[i] = vertex(face, t[i]);
     flat_.triangles.push_back(corners);
-    flat_.triangle_refs.push_back(face.ref);
+    flat_.triangle_refs.push_back(face.shown_ref());
     for (int i = 0; i < 3 && !curve_edges_.empty(); ++i) {
       const auto key = ordered(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]);
       auto it = std::lower_bound(curve_edges_.begin(), curve_edges_.end(), CurveEdge{key, INT32_MIN});
@@ -96,6 +106,7 @@ class FaceAppender {
   }
 
   const SurfaceMesh& mesh_;
+  std::vector<WholeFace> wholes_;
   bool plane_;
   FlatMesh flat_;
   std::vector<CurveEdge> curve_edges_, edges_;
@@ -103,10 +114,14 @@ class FaceAppender {
   std::vector<std::int64_t> triangle_source_;
 };
 
-std::size_t face_of_reference(const SurfaceMesh& mesh, int ref) {
+// The face of a reference and its parts, which follow it.
+std::vector<std::size_t> faces_of_reference(const SurfaceMesh& mesh, int ref) {
+  std::vector<std::size_t> found;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    if (mesh.faces[f].ref == ref) return f;
-  throw InvalidArgument("export: no face has the reference " + std::to_string(ref) + " (parameter refs)");
+    if (mesh.faces[f].shown_ref() == ref) found.push_back(f);
+  if (found.empty())
+    throw InvalidArgument("export: no face has the reference " + std::to_string(ref) + " (parameter refs)");
+  return found;
 }
 
 FlatMesh supports_as_mesh(const ExportSource& source) {
@@ -129,9 +144,7 @@ FlatMesh supports_as_mesh(const ExportSource& source) {
 }
 
 // What there is of a face that has failed.
-FlatMesh boundary_in_the_plane(const ExportSource& source, std::size_t f) {
-  FlatMesh flat;
-  flat.dimension = 2;
+void append_boundary(const ExportSource& source, std::size_t f, FlatMesh& flat) {
   for (std::size_t c = 0; c < source.supports.of_face[f].size(); ++c) {
     const FaceCurve& curve = source.model.faces[f].curves[c];
     const std::vector<Vec2>& uv = source.supports.of_face[f][c].uv;
@@ -142,6 +155,23 @@ FlatMesh boundary_in_the_plane(const ExportSource& source, std::size_t f) {
       if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);
     }
   }
+}
+
+// The curves of a face's parts without triangles; those that have some are not shown. Empty: all have.
+std::optional<FlatMesh> boundary_of_failed(const ExportSource& source, int ref) {
+  FlatMesh flat;
+  flat.dimension = 2;
+  bool any = false, known = false;
+  for (const std::size_t f : faces_of_reference(source.mesh, ref)) {
+    if (!source.mesh.faces[f].triangles.empty()) continue;
+    any = true;
+    if (!source.model.faces[f].left_out.empty()) continue;
+    known = true;
+    append_boundary(source, f, flat);
+  }
+  if (!any) return std::nullopt;
+  if (!known)
+    throw InvalidArgument(Where{.face = ref}, "the face was left out of the mesh: nothing is known of its domain");
   return flat;
 }
 
@@ -180,7 +210,7 @@ std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, con
   for (const FlatEdge& each : all) {
     const std::int32_t segment = delivered.edges.segment[each.edge];
     flat.edges.push_back(each.vertices);
-    flat.edge_refs.push_back(segment < 0 ? 0 : mesh.curves[delivered.edges.segments[segment].curve].ref);
+    flat.edge_refs.push_back(segment < 0 ? 0 : mesh.curves[delivered.edges.segments[segment].curve].shown_ref());
   }
   return all;
 }
@@ -225,11 +255,7 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
   const bool plane = option == "allsurf2d" || option == "onesurf2d", whole = option.empty() || option == "allsurf3d";
   if (!plane && !whole && option != "onesurf3d") throw InvalidArgument("export: unknown option \"" + option + "\"");
   if (option == "onesurf2d")
-    if (const std::size_t f = face_of_reference(source.mesh, face); source.mesh.faces[f].triangles.empty()) {
-      if (!source.model.faces[f].left_out.empty())
-        throw InvalidArgument(Where{.face = face}, "the face was left out of the mesh: nothing is known of its domain");
-      return boundary_in_the_plane(source, f);
-    }
+    if (std::optional<FlatMesh> failed = boundary_of_failed(source, face)) return std::move(*failed);
   FlatMesh flat;
   FlatSources sources;
   if (whole) {
@@ -237,10 +263,11 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
     sources = all_of(source.mesh);
   } else {
     FaceAppender appender(source.mesh, plane, with_edges);
-    const std::size_t wanted = option == "allsurf2d" ? 0 : face_of_reference(source.mesh, face);
+    if (option != "allsurf2d") (void)faces_of_reference(source.mesh, face);
     std::size_t first = 0;
     for (std::size_t f = 0; f < source.mesh.faces.size(); ++f) {
-      if (option == "allsurf2d" || f == wanted) appender.append(source.mesh.faces[f], first);
+      if (option == "allsurf2d" || source.mesh.faces[f].shown_ref() == face)
+        appender.append(source.mesh.faces[f], first);
       first += source.mesh.faces[f].triangles.size();
     }
     sources = appender.sources();

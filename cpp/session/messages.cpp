@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "mesh/flat_mesh.h"
 #include "mesh/quality.h"
 #include "support/format.h"
 #include "support/short_number.h"
@@ -31,13 +32,12 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
 
 void describe_result(const CompositeResult& result, int threads, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
+  const std::vector<WholeFace> all = whole_faces(mesh);
   const auto whole = [](std::int64_t n) { return std::to_string(n); };
   const auto count = [&](FaceStatus status) {
-    return std::count_if(mesh.faces.begin(), mesh.faces.end(),
-                         [&](const FaceMesh& face) { return face.status == status; });
+    return std::count_if(all.begin(), all.end(), [&](const WholeFace& each) { return each.face.status == status; });
   };
-  std::string faces =
-      whole(static_cast<std::int64_t>(mesh.faces.size())) + (mesh.faces.size() == 1 ? " face" : " faces");
+  std::string faces = whole(static_cast<std::int64_t>(all.size())) + (all.size() == 1 ? " face" : " faces");
   if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them mended";
   if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";

@@ -58,6 +58,8 @@ class Assembler {
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       const Curve& shape = topology_.curves[c];
       CurveMesh curve{.ref = shape.ref, .vertices = {}, .uses = {}};
+      if (!shape.uses.empty())
+        curve.part_of = model_.faces[shape.uses.front().face].curves[shape.uses.front().curve].shown_as;
       for (const CurveUse& use : shape.uses)
         curve.uses.push_back({use.face, model_.faces[use.face].curves[use.curve].type == CurveType::internal});
       if (is_used(shape)) {

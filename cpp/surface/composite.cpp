@@ -125,6 +125,7 @@ class Pipeline {
     result_.curve_size.clear();
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       result_.mesh.faces[f].ref = model_.faces[f].ref;
+      result_.mesh.faces[f].part_of = model_.faces[f].part_of;
       result_.mesh.faces[f].name = model_.faces[f].name;
       result_.mesh.faces[f].rgb = model_.faces[f].rgb;
     }
