@@ -50,7 +50,12 @@ class CadInput {
                                       double& v) const noexcept = 0;
   /// What the file holds and the geometry does not, since it could not be read: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> losses() const { return {}; }
-  /// Faces that bend inside, which curvatures do not tell: a sentence each.
+  /// The face of the file that a face of the session is or is a part of; the same for curves, and the parts of a face
+  /// of the file. A geometry that cuts no faces has none.
+  [[nodiscard]] virtual std::int32_t whole_face(std::int32_t face) const { return face; }
+  [[nodiscard]] virtual std::int32_t whole_curve(std::int32_t curve) const { return curve; }
+  [[nodiscard]] virtual std::vector<std::int32_t> parts(std::int32_t face) const { return {face}; }
+  /// Faces that bend inside and could not be cut there, which curvatures do not tell: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
@@ -70,6 +75,9 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const std::string&
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);
+
+/// A sentence of the library with faces as the file numbers them.
+std::string in_terms_of_file(const CadInput& input, const std::string& sentence);
 
 struct InfoOptions;
 /// `carreau info` on STEP, IGES and BREP files. Returns the exit code; throws Failure.

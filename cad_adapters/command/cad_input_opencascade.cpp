@@ -3,6 +3,7 @@
 #include <shape_file.h>
 #include <shape_report.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -29,7 +30,12 @@ std::string sentence(const carreau_occ::Danger& danger, const carreau_occ::BrepH
     const std::string& name = host.face_name(danger.face);
     if (!name.empty()) text += " (" + name + ")";
   }
-  return text + ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
+  text += ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
+  if (danger.kind != "kink") return text;
+  const std::vector<int>& bent = host.bent_faces();
+  const bool cut = std::find(bent.begin(), bent.end(), danger.face) == bent.end();
+  return text + (cut ? ", where it is cut: edges of meshes follow it"
+                     : "; it cannot be cut there, and sizes by an angle or a chord do not see it");
 }
 
 class OpenCascadeInput final : public CadInput {
@@ -64,6 +70,9 @@ class OpenCascadeInput final : public CadInput {
   [[nodiscard]] std::string face_name(std::int32_t face) const override {
     return face >= 1 && face <= host_.face_count() ? host_.face_name(face) : "";
   }
+  [[nodiscard]] std::int32_t whole_face(std::int32_t face) const override { return host_.whole_face(face); }
+  [[nodiscard]] std::int32_t whole_curve(std::int32_t curve) const override { return host_.whole_edge(curve); }
+  [[nodiscard]] std::vector<std::int32_t> parts(std::int32_t face) const override { return host_.parts(face); }
   [[nodiscard]] std::vector<std::int32_t> curves(std::int32_t face) const override { return host_.curves(face); }
   [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
                               double& v) const noexcept override {
@@ -76,7 +85,10 @@ class OpenCascadeInput final : public CadInput {
 
   [[nodiscard]] std::vector<std::string> kinks() const override {
     std::vector<std::string> sentences;
-    for (const carreau_occ::Danger& kink : carreau_occ::find_kinks(file_)) sentences.push_back(sentence(kink, host_));
+    const std::vector<int>& bent = host_.bent_faces();
+    if (bent.empty()) return sentences;
+    for (const carreau_occ::Danger& kink : carreau_occ::find_kinks(file_))
+      if (std::find(bent.begin(), bent.end(), kink.face) != bent.end()) sentences.push_back(sentence(kink, host_));
     return sentences;
   }
 

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -30,12 +31,16 @@ std::string domain_text(const CadInput& input, std::int32_t face) {
   constexpr int samples = 64;  // of each curve: for the eye
   std::string vertices, edges;
   int n = 0, m = 0, ic = 0;
-  for (const std::int32_t ref : input.curves(face)) {
+  std::vector<std::array<std::int32_t, 3>> curves;  // face, rank, reference
+  for (const std::int32_t part : input.parts(face)) {
+    ic = 0;
+    for (const std::int32_t ref : input.curves(part)) curves.push_back({part, ++ic, input.whole_curve(ref)});
+  }
+  for (const auto& [part, rank, ref] : curves) {
     bool before = false;
-    ++ic;
     for (int i = 0; i <= samples; ++i) {
       double u = 0, v = 0;
-      const bool known = input.on_curve(face, ic, static_cast<double>(i) / samples, u, v);
+      const bool known = input.on_curve(part, rank, static_cast<double>(i) / samples, u, v);
       if (known) {
         vertices += number(u) + " " + number(v) + " 0\n";
         ++n;
@@ -47,6 +52,10 @@ std::string domain_text(const CadInput& input, std::int32_t face) {
   if (m == 0) return "";
   return "MeshVersionFormatted 2\nDimension 2\nVertices " + std::to_string(n) + "\n" + vertices + "Edges " +
          std::to_string(m) + "\n" + edges + "End\n";
+}
+
+std::string fields_name(const std::string& path, std::int32_t face, std::int32_t part) {
+  return path + (part != face ? "_part_" + std::to_string(part) : "") + ".exr";
 }
 
 /// The parameters that say what is exported, as they were, whatever happens.
@@ -123,7 +132,7 @@ void FailedFaces::dump_without_mesh(carreau_session* session, const CadInput& in
     files_.push_back(path + ".mesh");
   }
   try {
-    write_fields(session, face, true, path + ".exr");
+    for (const std::int32_t part : input.parts(face)) write_fields(session, part, true, fields_name(path, face, part));
   } catch (const Failure& failure) {
     // Where not even the model is one there are no fields.
     progress.warning("face " + std::to_string(face) + " has no fields to dump: " + failure.what());
@@ -131,7 +140,8 @@ void FailedFaces::dump_without_mesh(carreau_session* session, const CadInput& in
 }
 
 // False: the mesher has left the face out.
-bool FailedFaces::dump_meshed(carreau_session* session, carreau_mesh* mesh, const FaceResult& face) {
+bool FailedFaces::dump_meshed(carreau_session* session, carreau_mesh* mesh, const CadInput& input,
+                              const FaceResult& face) {
   const ExportKept kept(session);
   const std::string path = stem(face.ref, face.name);
   require(session, carreau_set_text(session, "option", "onesurf2d"));
@@ -149,7 +159,8 @@ bool FailedFaces::dump_meshed(carreau_session* session, carreau_mesh* mesh, cons
     return false;
   }
   files_.push_back(path + ".mesh");
-  write_fields(session, face.ref, false, path + ".exr");
+  for (const std::int32_t part : input.parts(face.ref))
+    write_fields(session, part, false, fields_name(path, face.ref, part));
   return true;
 }
 
@@ -157,7 +168,7 @@ void FailedFaces::dump_of_mesh(carreau_session* session, carreau_mesh* mesh, con
                                const std::vector<FaceResult>& faces, Progress& progress) {
   if (folder_.empty()) return;
   for (const FaceResult& face : faces)
-    if (face.status == CARREAU_FACE_FAILED && !dump_meshed(session, mesh, face))
+    if (face.status == CARREAU_FACE_FAILED && !dump_meshed(session, mesh, input, face))
       dump_without_mesh(session, input, face.ref, progress);
 }
 

@@ -30,7 +30,7 @@ class FailedFaces {
 
  private:
   [[nodiscard]] std::string stem(std::int32_t ref, const std::string& name) const;
-  bool dump_meshed(carreau_session* session, carreau_mesh* mesh, const FaceResult& face);
+  bool dump_meshed(carreau_session* session, carreau_mesh* mesh, const CadInput& input, const FaceResult& face);
   void write_fields(carreau_session* session, std::int32_t face, bool raw, const std::string& path);
 
   std::string folder_;

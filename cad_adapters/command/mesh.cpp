@@ -49,20 +49,22 @@ std::vector<std::int32_t> faces_of_model(carreau_session* session) {
 void generate(carreau_session* session, CadInput& input, const SizeMap& map, FailedFaces& failed, Progress& progress) {
   require(session, input.give_to(session));
   const carreau_status status = carreau_mesh_generate(session);
-  const std::string sentence = carreau_last_error(session);
+  const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   if (!map.failure().empty()) throw Failure(map.failure());
   if (status == CARREAU_OK || status == CARREAU_ERR_PARTIAL) return;
   const std::int32_t face = face_of_error(session);
   if (status == CARREAU_ERR_DOMAIN)  // no face could be meshed
-    for (const std::int32_t each : faces_of_model(session)) failed.dump_without_mesh(session, input, each, progress);
+    for (const std::int32_t each : faces_of_model(session)) {
+      if (input.whole_face(each) == each) failed.dump_without_mesh(session, input, each, progress);
+    }
   else if (face != 0)
-    failed.dump_without_mesh(session, input, face, progress);
+    failed.dump_without_mesh(session, input, input.whole_face(face), progress);
   throw Failure(sentence);
 }
 
 void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, FailedFaces& failed,
               Progress& progress) {
-  progress.listen_to(run.session);
+  progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
@@ -76,6 +78,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
   run.faces = faces_of(run.mesh);
+  for (FaceResult& face : run.faces) face.why = in_terms_of_file(input, face.why);
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 

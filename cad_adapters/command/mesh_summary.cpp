@@ -62,7 +62,7 @@ std::vector<carreau_interface> interfaces_of(carreau_session* session) {
 bool is_open(const carreau_interface& i) { return i.boundary != 0 && i.uses == 1 && i.degenerate == 0; }
 
 /// How many curves were glued, and which are open, where the file has faces that are not sewn.
-std::vector<std::string> gluing_lines(const std::vector<carreau_interface>& interfaces) {
+std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
   constexpr int listed = 10;
   std::int64_t glued = 0, open = 0;
   double widest = 0;
@@ -70,7 +70,8 @@ std::vector<std::string> gluing_lines(const std::vector<carreau_interface>& inte
   for (const carreau_interface& each : interfaces) {
     if (each.glued != 0) ++glued, widest = std::max(widest, each.gap);
     if (!is_open(each) || ++open > listed) continue;
-    list += (list.empty() ? "" : ", ") + std::to_string(each.curve) + " (face " + std::to_string(each.face) + ")";
+    list += (list.empty() ? "" : ", ") + std::to_string(input.whole_curve(each.curve)) + " (face " +
+            std::to_string(input.whole_face(each.face)) + ")";
   }
   if (glued == 0) return {};
   std::vector<std::string> lines{text("glued      %lld curves, within %.6g", whole(glued), widest)};
@@ -137,12 +138,12 @@ std::vector<std::string> face_lines(const std::vector<FaceResult>& faces) {
   return lines;
 }
 
-nlohmann::ordered_json interfaces_json(const std::vector<carreau_interface>& interfaces) {
+nlohmann::ordered_json interfaces_json(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (const carreau_interface& each : interfaces)
-    list.push_back({{"reference", each.curve},
+    list.push_back({{"reference", input.whole_curve(each.curve)},
                     {"uses", each.uses},
-                    {"faces", {each.face, each.other_face}},
+                    {"faces", {input.whole_face(each.face), input.whole_face(each.other_face)}},
                     {"curves", {each.ic, each.other_ic}},
                     {"open", is_open(each)},
                     {"glued", each.glued != 0},
@@ -199,7 +200,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
                        q.open_edges == 0 ? "closed" : text("%lld open", whole(q.open_edges)).c_str()));
   if (std::string line = short_edges_line(run.short_edges); !line.empty()) lines.push_back(std::move(line));
   lines.push_back(interfaces_line(interfaces));
-  for (std::string& line : gluing_lines(interfaces)) lines.push_back(std::move(line));
+  for (std::string& line : gluing_lines(run.input, interfaces)) lines.push_back(std::move(line));
   if (std::string line = gradation_line(run); !line.empty()) lines.push_back(std::move(line));
   if (const std::string gaps = run.input.gaps(); !gaps.empty()) lines.push_back("gaps       " + gaps);
   const std::int32_t threads = threads_of(run.session);
@@ -237,7 +238,7 @@ void print_json(const MeshRun& run) {
                                     {"faces", faces},
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
-                                    {"interfaces", interfaces_json(interfaces_of(run.session))},
+                                    {"interfaces", interfaces_json(run.input, interfaces_of(run.session))},
                                     {"calls",
                                      {{"surf0", r.surf0_calls},
                                       {"surf1", r.surf1_calls},

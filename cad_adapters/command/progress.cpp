@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "cad_input.h"
 #include "signals.h"
 #include "terminal.h"
 
@@ -72,7 +73,8 @@ Progress::~Progress() {
   clear();
 }
 
-void Progress::listen_to(carreau_session* session) {
+void Progress::listen_to(carreau_session* session, const CadInput& input) {
+  input_ = &input;
   carreau_set_message_callback(session, on_message, this);
   carreau_set_progress_callback(session, on_progress, this);
 }
@@ -116,8 +118,9 @@ void Progress::error(const std::string& text) {
   print_marked("error", colour::red, text.c_str());
 }
 
-void Progress::on_message(std::int32_t level, const char* text, void* user) {
+void Progress::on_message(std::int32_t level, const char* sentence, void* user) {
   auto& self = *static_cast<Progress*>(user);
+  const std::string text = in_terms_of_file(*self.input_, sentence);
   if (level <= CARREAU_LEVEL_ERROR)
     self.error(text);
   else if (level <= CARREAU_LEVEL_WARNING)
@@ -134,7 +137,9 @@ void Progress::reading(double fraction) {
 }
 
 std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user) {
-  static_cast<Progress*>(user)->show(phase, entity, fraction);
+  auto& self = *static_cast<Progress*>(user);
+  const bool of_curve = phase == CARREAU_PHASE_CURVES;
+  self.show(phase, of_curve ? self.input_->whole_curve(entity) : self.input_->whole_face(entity), fraction);
   return 0;
 }
 

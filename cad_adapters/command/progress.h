@@ -11,6 +11,8 @@
 
 namespace command {
 
+class CadInput;
+
 /// A bar on a terminal, a line a tenth of the way in a log, nothing when quiet (errors are always told).
 /// Errors are red, warnings yellow and the bar green on a terminal, unless NO_COLOR is set or TERM is dumb.
 /// Of warnings that differ in their numbers only, a few are shown and the others counted.
@@ -21,8 +23,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Messages and progress of this session come here; it must not outlive this object.
-  void listen_to(carreau_session* session);
+  /// Messages and progress of this session, which has the geometry of `input`, come here; both must not outlive this
+  /// object.
+  void listen_to(carreau_session* session, const CadInput& input);
   /// How much of a file is read; a log gets a line a second.
   void reading(double fraction);
   /// A line of its own: what has begun, or a result.
@@ -43,6 +46,7 @@ class Progress {
   void tell_of_others();
 
   using Clock = std::chrono::steady_clock;
+  const CadInput* input_ = nullptr;
   bool quiet_, terminal_, colours_, bar_ = false;
   int tenth_ = -1, phase_ = -1;
   Clock::time_point drawn_;

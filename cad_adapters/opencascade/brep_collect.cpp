@@ -90,12 +90,10 @@ void BrepHost::State::collect() {
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
   evaluators.resize(host_faces.size());
-  for (auto* failed : {&surface_failed, &curves_failed}) {
-    *failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
-    for (std::size_t f = 0; f < host_faces.size(); ++f) (*failed)[f] = true;
-  }
+  vertex_total = vertices.Extent();
   for (int f = 1; f <= faces.Extent(); ++f) {
     HostFace& face = host_faces[static_cast<std::size_t>(f - 1)];
+    face.whole = f;
     try {
       guarded([&] { collect_face(f); });
       if (face.curves.empty()) face.broken = "no edge bounds it";
@@ -106,6 +104,13 @@ void BrepHost::State::collect() {
     }
   }
   close_torn_loops(host_faces, vertices);
+}
+
+void BrepHost::State::let_evaluate() {
+  for (auto* failed : {&surface_failed, &curves_failed}) {
+    *failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
+    for (std::size_t f = 0; f < host_faces.size(); ++f) (*failed)[f] = !host_faces[f].known;
+  }
 }
 
 void BrepHost::State::collect_face(int number) {
@@ -133,7 +138,7 @@ void BrepHost::State::collect_face(int number) {
       images.push_back(image.curve);
     }
   evaluators.set(static_cast<std::size_t>(number - 1), forward, std::move(images));
-  for (const auto* failed : {&surface_failed, &curves_failed}) (*failed)[static_cast<std::size_t>(number - 1)] = false;
+  host.known = true;
   refuse_unusable(forward);
 }
 

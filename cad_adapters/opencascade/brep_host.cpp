@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "brep_state.h"
@@ -24,6 +25,8 @@ BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
   state_->shape = file.shape;
   try {
     guarded([&] { state_->collect(), state_->collect_names(file), state_->collect_doubts(file); });
+    state_->cut_kinks();
+    state_->let_evaluate();
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
   }
@@ -72,7 +75,14 @@ carreau_status BrepHost::give_to(carreau_session* session) {
   cad.failure = State::failure;
   carreau_status status = carreau_set_cad(session, &cad);
   if (status == CARREAU_OK) status = carreau_model_clear(session);
-  for (std::size_t f = 0; f < state_->host_faces.size() && status == CARREAU_OK; ++f) {
+  // Parts behind the face that they belong to.
+  std::vector<std::size_t> order(state_->host_faces.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return state_->host_faces[a].whole < state_->host_faces[b].whole;
+  });
+  for (const std::size_t f : order) {
+    if (status != CARREAU_OK) break;
     const HostFace& face = state_->host_faces[f];
     int32_t orientation = face.broken.empty() ? 0 : 1;
     const auto ref = static_cast<int32_t>(f + 1);
@@ -83,6 +93,7 @@ carreau_status BrepHost::give_to(carreau_session* session) {
     status = carreau_model_add_face(session, ref, orientation);
     if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
     if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);
+    if (status == CARREAU_OK && ref != face.whole) status = carreau_model_part_of_face(session, ref, face.whole);
     if (status == CARREAU_OK && !face.broken.empty()) {
       status = carreau_model_leave_out_face(session, ref, ("face " + std::to_string(ref) + ": " + face.broken).c_str());
       continue;
@@ -92,12 +103,14 @@ carreau_status BrepHost::give_to(carreau_session* session) {
         status = carreau_model_add_curve(session, ref, curve.internal ? CARREAU_INTERNAL : CARREAU_BOUNDARY, curve.edge,
                                          curve.end1, curve.end2);
   }
+  for (const auto& [piece, whole] : state_->whole_edge)
+    if (status == CARREAU_OK) status = carreau_model_part_of_curve(session, piece, whole);
   return status;
 }
 
 void BrepHost::State::collect_sizes() {
   edge_size.assign(uses.size(), 0);
-  vertex_size.assign(static_cast<std::size_t>(vertices.Extent()), 0);
+  vertex_size.assign(static_cast<std::size_t>(vertex_total), 0);
   const auto lower = [](double& size, double other) { size = size > 0 ? std::min(size, other) : other; };
   for (const HostFace& face : host_faces)
     for (const HostCurve& curve : face.curves) {
@@ -110,7 +123,7 @@ void BrepHost::State::collect_sizes() {
 bool BrepHost::set_face_size(const std::string& face, double size) {
   bool found = false;
   for (std::size_t f = 0; f < state_->host_faces.size(); ++f) {
-    if (face != state_->host_faces[f].name && face != std::to_string(f + 1)) continue;
+    if (face != state_->host_faces[f].name && face != std::to_string(state_->host_faces[f].whole)) continue;
     state_->host_faces[f].size = size;
     found = true;
   }
@@ -129,6 +142,21 @@ const std::string& BrepHost::face_name(int number) const {
 }
 
 int BrepHost::face_count() const noexcept { return state_->faces.Extent(); }
+int BrepHost::whole_face(int reference) const noexcept {
+  const bool known = reference >= 1 && static_cast<std::size_t>(reference) <= state_->host_faces.size();
+  return known ? state_->host_faces[static_cast<std::size_t>(reference - 1)].whole : reference;
+}
+std::vector<int> BrepHost::parts(int face) const {
+  std::vector<int> parts;
+  for (std::size_t f = 0; f < state_->host_faces.size(); ++f)
+    if (state_->host_faces[f].whole == face) parts.push_back(static_cast<int>(f + 1));
+  return parts;
+}
+int BrepHost::whole_edge(int reference) const noexcept {
+  const auto found = state_->whole_edge.find(reference);
+  return found != state_->whole_edge.end() ? found->second : reference;
+}
+const std::vector<int>& BrepHost::bent_faces() const noexcept { return state_->bent; }
 int BrepHost::edge_count() const noexcept { return state_->edges.Extent(); }
 int BrepHost::vertex_count() const noexcept { return state_->vertices.Extent(); }
 
@@ -141,7 +169,7 @@ bool BrepHost::locate(int face, double u, double v, double* xyz, double* uv) con
 
 std::vector<std::int32_t> BrepHost::curves(int face) const {
   std::vector<std::int32_t> edges;
-  if (face < 1 || face > face_count()) return edges;
+  if (face < 1 || static_cast<std::size_t>(face) > state_->host_faces.size()) return edges;
   for (const HostCurve& curve : state_->host_faces[static_cast<std::size_t>(face - 1)].curves)
     edges.push_back(curve.edge);
   return edges;
@@ -189,6 +217,8 @@ BrepHost::GlueTolerances BrepHost::State::glue_tolerances() const {
     if (!box.IsVoid()) shortest = std::min(shortest, std::sqrt(box.SquareExtent()));
   }
   if (free < 2) return {};
+  shortest = std::min(shortest, shortest_free_piece);
+  tolerance += free_gap;
   // Each of two edges may be off by its own tolerance.
   return {.of_all = std::min(2 * tolerance, shortest / 10), .of_each = 2 * tolerance};
 }

@@ -13,8 +13,11 @@
 namespace carreau_occ {
 
 /// Faces, edges and vertices of a shape, numbered from 1 as OpenCASCADE's maps of the shape number them: those numbers
-/// are the references of faces, curves and points. A face that is reversed gets u and v exchanged, so that triangles,
-/// which are counterclockwise in (u, v), look outwards of a solid. Callbacks may come from several threads at a time.
+/// are the references of faces, curves and points. Faces that bend inside (kinks.h) are cut there into parts, which
+/// have no bend: the first one keeps the number, the others, and edges and vertices that this makes, have numbers
+/// behind all others; in meshes all parts are the face, or edge, of the shape. A face that is reversed gets u and v
+/// exchanged, so that triangles, which are counterclockwise in (u, v), look outwards of a solid. Callbacks may come
+/// from several threads at a time.
 class BrepHost {
  public:
   /// The shape and the names of its faces are kept. Throws std::runtime_error when it has no face.
@@ -38,6 +41,14 @@ class BrepHost {
   /// Own name of a face, or that of the smallest part that holds it; "": none. Numbers from 1.
   [[nodiscard]] const std::string& face_name(int number) const;
   [[nodiscard]] int face_count() const noexcept;
+  /// The face of the shape that a reference of the model is, or is a part of; other numbers stay.
+  [[nodiscard]] int whole_face(int reference) const noexcept;
+  /// References of the parts of a face of the shape, or its own; ascending.
+  [[nodiscard]] std::vector<int> parts(int face) const;
+  /// The edge of the shape that a reference of the model is a piece of; other numbers stay.
+  [[nodiscard]] int whole_edge(int reference) const noexcept;
+  /// Faces that bend inside and could not be cut there, ascending.
+  [[nodiscard]] const std::vector<int>& bent_faces() const noexcept;
   [[nodiscard]] int edge_count() const noexcept;
   [[nodiscard]] int vertex_count() const noexcept;
   /// Diagonal of the box of the faces that are not left out.

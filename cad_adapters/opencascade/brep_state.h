@@ -5,6 +5,7 @@
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 #include <atomic>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,12 +27,14 @@ struct HostCurve {
 };
 
 struct HostFace {
+  int whole = 0;         // number of the face of the shape that it is, or is a part of
   bool swapped = false;  // u and v exchanged
   std::vector<HostCurve> curves;
   std::string name;
   int32_t rgb = -1;    // 0xRRGGBB, -1: no colour
   double size = 0;     // 0: no size of its own
   std::string broken;  // why it cannot be meshed; "": it can
+  bool known = false;  // the evaluators have it
 };
 
 inline std::string sentence_of(const Standard_Failure& failure) {
@@ -41,8 +44,13 @@ inline std::string sentence_of(const Standard_Failure& failure) {
 struct BrepHost::State {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges, vertices;
-  std::vector<HostFace> host_faces;            // face number - 1
-  std::vector<int> uses;                       // of each edge, by its number - 1
+  std::vector<HostFace> host_faces;  // face number - 1; behind all faces the parts of those that were cut
+  std::vector<int> uses;             // of each edge, by its number - 1; behind all edges those of cuts
+  int vertex_total = 0;              // those of the shape and of cuts
+  std::map<int, int> whole_edge;     // of the numbers behind all edges that are pieces of one
+  double shortest_free_piece = std::numeric_limits<double>::infinity();  // of edges of one face that were cut
+  double free_gap = 0;                         // how far from such edges they were cut, at most
+  std::vector<int> bent;                       // faces that bend inside and could not be cut, ascending
   std::optional<double> diagonal;              // once asked for
   std::vector<double> edge_size, vertex_size;  // smallest of the faces beside, by number - 1; 0: none
   Evaluators evaluators;
@@ -57,6 +65,10 @@ struct BrepHost::State {
   void collect_names(const ShapeFile& file);
   void collect_doubts(const ShapeFile& file);
   void collect_face(int number);
+  /// Faces become parts that do not bend inside, where that can be done.
+  void cut_kinks();
+  /// Of faces that are known.
+  void let_evaluate();
 
   static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
                                double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept;

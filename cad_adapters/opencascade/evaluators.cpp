@@ -48,8 +48,9 @@ double Breaks::settle(double t) const noexcept {
   return next != breaks_.end() && *next - t <= rounding ? *next : t;
 }
 
-void Evaluators::set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves) {
-  Face entry{face, std::move(curves), {}, {}, {}};
+void Evaluators::set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves,
+                     PartBox box) {
+  Face entry{face, std::move(curves), {}, {}, {}, box};
   const BRepAdaptor_Surface surface(face, Standard_False);
   entry.u = breaks_in_u(surface), entry.v = breaks_in_v(surface);
   for (const Handle(Geom2d_Curve) & curve : entry.curves) entry.t.push_back(breaks_of(Geom2dAdaptor_Curve(curve)));
@@ -70,7 +71,22 @@ const Evaluators::Adaptors& Evaluators::mine(std::size_t face) {
 }
 
 Evaluators::Surface Evaluators::surface(std::size_t face) {
-  return {mine(face).surface, faces_[face].u, faces_[face].v};
+  return {mine(face).surface, faces_[face].u, faces_[face].v, faces_[face].box};
+}
+
+// Next to a line the adaptor may take the polynomials of either side: derivatives come from a little inside, and are
+// carried to the place by Taylor's formula. What it leaves out is of the second order of the distance in first
+// derivatives, of the first in second ones.
+void Evaluators::Surface::d2_beside(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv,
+                                    gp_Vec& suv) const {
+  u = std::clamp(u, box_->low_u, box_->high_u), v = std::clamp(v, box_->low_v, box_->high_v);
+  const double a = std::clamp(u, box_->low_u + box_->step_u, box_->high_u - box_->step_u);
+  const double b = std::clamp(v, box_->low_v + box_->step_v, box_->high_v - box_->step_v);
+  adaptor_.D2(u_.settle(a), v_.settle(b), p, su, sv, suu, svv, suv);
+  if (a == u && b == v) return;
+  adaptor_.D0(u_.settle(u), v_.settle(v), p);
+  su += suu * (u - a) + suv * (v - b);
+  sv += suv * (u - a) + svv * (v - b);
 }
 
 Evaluators::Curve Evaluators::curve(std::size_t face, std::size_t curve) {

@@ -7,7 +7,9 @@
 #include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2d_Curve.hxx>
 #include <TopoDS_Face.hxx>
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -29,6 +31,18 @@ class Breaks {
   double period_ = 0;
 };
 
+/// Where a part of a face ends on lines along which its surface bends: there derivatives are those of its own side, and
+/// beyond them, where rounding gets, there is nothing. Infinite: no line.
+struct PartBox {
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  double low_u = -none, high_u = none, low_v = -none, high_v = none;
+  double step_u = 0, step_v = 0;  ///< how far from a line derivatives are one-sided; above 0 where there are lines
+
+  [[nodiscard]] bool bounds() const noexcept {
+    return low_u > -none || high_u < none || low_v > -none || high_v < none;
+  }
+};
+
 /// Every thread has its own adaptors, since these keep the polynomial of the span that they evaluated last. What is
 /// returned does not depend on the thread or on what was asked before.
 class Evaluators {
@@ -36,24 +50,35 @@ class Evaluators {
   /// Room for `n` faces, counted from 0.
   void resize(std::size_t n) { faces_.resize(n); }
   /// Gives a face, which must be forward, with its curves. Not while others evaluate. Throws Standard_Failure.
-  void set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves);
+  void set(std::size_t number, const TopoDS_Face& face, std::vector<Handle(Geom2d_Curve)> curves, PartBox box = {});
+  /// As they were given.
+  [[nodiscard]] const std::vector<Handle(Geom2d_Curve)>& curves(std::size_t face) const { return faces_[face].curves; }
 
   /// Of the calling thread, and for it alone. Throw Standard_Failure.
   class Surface {
    public:
-    void d0(double u, double v, gp_Pnt& p) const { adaptor_.D0(u_.settle(u), v_.settle(v), p); }
+    void d0(double u, double v, gp_Pnt& p) const {
+      if (box_ != nullptr) u = std::clamp(u, box_->low_u, box_->high_u), v = std::clamp(v, box_->low_v, box_->high_v);
+      adaptor_.D0(u_.settle(u), v_.settle(v), p);
+    }
     void d1(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv) const {
+      gp_Vec suu, svv, suv;
+      if (box_ != nullptr) return d2(u, v, p, su, sv, suu, svv, suv);
       adaptor_.D1(u_.settle(u), v_.settle(v), p, su, sv);
     }
     void d2(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const {
+      if (box_ != nullptr) return d2_beside(u, v, p, su, sv, suu, svv, suv);
       adaptor_.D2(u_.settle(u), v_.settle(v), p, su, sv, suu, svv, suv);
     }
 
    private:
     friend class Evaluators;
-    Surface(const BRepAdaptor_Surface& adaptor, const Breaks& u, const Breaks& v) : adaptor_(adaptor), u_(u), v_(v) {}
+    Surface(const BRepAdaptor_Surface& adaptor, const Breaks& u, const Breaks& v, const PartBox& box)
+        : adaptor_(adaptor), u_(u), v_(v), box_(box.bounds() ? &box : nullptr) {}
+    void d2_beside(double u, double v, gp_Pnt& p, gp_Vec& su, gp_Vec& sv, gp_Vec& suu, gp_Vec& svv, gp_Vec& suv) const;
     const BRepAdaptor_Surface& adaptor_;
     const Breaks &u_, &v_;
+    const PartBox* box_;  // nullptr: there is none
   };
   [[nodiscard]] Surface surface(std::size_t face);
 
@@ -77,6 +102,7 @@ class Evaluators {
     std::vector<Handle(Geom2d_Curve)> curves;
     Breaks u, v;
     std::vector<Breaks> t;
+    PartBox box;
   };
   struct Adaptors {
     BRepAdaptor_Surface surface;

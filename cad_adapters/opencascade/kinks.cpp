@@ -3,6 +3,7 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <algorithm>
+#include <cmath>
 #include <gp_Pnt.hxx>
 #include <gp_Vec.hxx>
 #include <numbers>
@@ -14,21 +15,36 @@ constexpr double least_angle = 2;  // degrees
 constexpr int places = 9;
 constexpr double beside = 1e-7;  // of the interval on either side
 
-/// Largest angle between the normals at both sides of a line; places without a normal say nothing.
-double angle_at(const BRepAdaptor_Surface& surface, bool of_u, double before, double after, double from, double to) {
-  double largest = 0;
+struct Bend {
+  double angle = 0;  // degrees
+  bool torn = false;
+};
+
+/// Largest angle between the normals at both sides of a line; places without a normal say nothing. It is torn where the
+/// sides are farther apart than the way between them is long.
+Bend bend_at(const BRepAdaptor_Surface& surface, bool of_u, double before, double after, double from, double to) {
+  constexpr double longer = 100, rounding = 1e-9;
+  Bend bend;
   for (int i = 0; i < places; ++i) {
     const double along = from + (i + 0.5) / places * (to - from);
-    const auto normal = [&](double across) {
-      gp_Pnt p;
+    gp_Pnt p, q;
+    gp_Vec across;
+    const auto normal = [&](double at, gp_Pnt& place) {
       gp_Vec du, dv;
-      surface.D1(of_u ? across : along, of_u ? along : across, p, du, dv);
+      surface.D1(of_u ? at : along, of_u ? along : at, place, du, dv);
+      across = of_u ? du : dv;
       return du.Crossed(dv);
     };
-    const gp_Vec a = normal(before), b = normal(after);
-    if (a.Magnitude() > gp::Resolution() && b.Magnitude() > gp::Resolution()) largest = std::max(largest, a.Angle(b));
+    const gp_Vec a = normal(before, p);
+    double way = across.Magnitude() * std::abs(after - before);
+    const gp_Vec b = normal(after, q);
+    way = std::max(way, across.Magnitude() * std::abs(after - before));
+    if (a.Magnitude() > gp::Resolution() && b.Magnitude() > gp::Resolution())
+      bend.angle = std::max(bend.angle, a.Angle(b) * 180 / std::numbers::pi);
+    const double far = std::max(p.XYZ().Modulus(), q.XYZ().Modulus());
+    bend.torn = bend.torn || p.Distance(q) > longer * way + rounding * far;
   }
-  return largest * 180 / std::numbers::pi;
+  return bend;
 }
 
 void look_for(const BRepAdaptor_Surface& surface, bool of_u, std::vector<Kink>& kinks) {
@@ -44,8 +60,8 @@ void look_for(const BRepAdaptor_Surface& surface, bool of_u, std::vector<Kink>& 
   for (int i = 2; i <= n; ++i) {
     const double before = ends(i) - beside * (ends(i) - ends(i - 1)),
                  after = ends(i) + beside * (ends(i + 1) - ends(i));
-    const double angle = angle_at(surface, of_u, before, after, from, to);
-    if (angle > least_angle) kinks.push_back({of_u, ends(i), angle});
+    const Bend bend = bend_at(surface, of_u, before, after, from, to);
+    if (bend.angle > least_angle) kinks.push_back({of_u, ends(i), bend.angle, bend.torn});
   }
 }
 
@@ -57,6 +73,25 @@ std::vector<Kink> kinks_of(const TopoDS_Face& face) {
   look_for(surface, true, kinks);
   look_for(surface, false, kinks);
   return kinks;
+}
+
+ClosingKink closing_kink_of(const TopoDS_Face& face) {
+  const BRepAdaptor_Surface surface(face);
+  ClosingKink kink{.low_u = surface.FirstUParameter(),
+                   .high_u = surface.LastUParameter(),
+                   .low_v = surface.FirstVParameter(),
+                   .high_v = surface.LastVParameter()};
+  const auto bends = [&](bool of_u, double low, double high, double period) {
+    constexpr double rounding = 1e-9;
+    if (std::abs(high - low - period) > rounding * period) return false;
+    const double from = of_u ? kink.low_v : kink.low_u, to = of_u ? kink.high_v : kink.high_u;
+    const double before = high - beside * period, after = low + beside * period;
+    const Bend bend = bend_at(surface, of_u, before, after, from, to);
+    return bend.angle > least_angle;
+  };
+  kink.of_u = surface.IsUPeriodic() && bends(true, kink.low_u, kink.high_u, surface.UPeriod());
+  kink.of_v = surface.IsVPeriodic() && bends(false, kink.low_v, kink.high_v, surface.VPeriod());
+  return kink;
 }
 
 }  // namespace carreau_occ

@@ -171,9 +171,8 @@ class Inspector {
     const Kink& sharpest =
         *std::max_element(kinks.begin(), kinks.end(), [](const Kink& a, const Kink& b) { return a.angle < b.angle; });
     char text[120];
-    std::snprintf(text, sizeof text,
-                  "degrees of bend inside it, at %s = %.6g%s; sizes by an angle or a chord do not see it",
-                  sharpest.of_u ? "u" : "v", sharpest.at, kinks.size() > 1 ? " (the sharpest of several)" : "");
+    std::snprintf(text, sizeof text, "degrees of bend inside it, at %s = %.6g%s", sharpest.of_u ? "u" : "v",
+                  sharpest.at, kinks.size() > 1 ? " (the sharpest of several)" : "");
     add({"kink", number, 0, sharpest.angle, text});
   }
 

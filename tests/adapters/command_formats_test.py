@@ -90,6 +90,16 @@ class Formats(unittest.TestCase):
         self.assertGreater(red, green + 30)
         self.assertLess(blue, green - 30)
 
+    def test_faces_that_are_cut_keep_name_and_colour(self):
+        paths = self.files("bent.step", "--size", "0.4")
+        for name, read in (("msh", mesh_files.read_msh), ("msh2", mesh_files.read_msh), ("vtu", mesh_files.read_vtu)):
+            self.assertEqual(read(paths[name]).names, {1: "side", 2: "prism", 3: "prism"}, name)
+        self.assertEqual(sorted(mesh_files.read_stl(paths["stl"]).names.values()), ["prism", "prism", "side"])
+        vtu = mesh_files.read_vtu(paths["vtu"])
+        rgb = vtu.arrays["CellData", "rgb"]
+        self.assertEqual({tuple(rgb[3 * cell:3 * cell + 3]) for cell, ref in enumerate(vtu.refs) if ref == 1}, {(255, 0, 0)})
+        self.assertEqual(vtu.arrays["FieldData", "face_status"], 3 * [1])
+
     def test_all_formats_are_read_back(self):
         import json
         results = {}

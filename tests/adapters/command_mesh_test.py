@@ -231,13 +231,37 @@ class Mesh(unittest.TestCase):
         self.assertEqual(len(warnings), 24)  # each curve of each face is shorter than that
         self.assertEqual(told, warnings[:4] + ["20 more like these"])
 
-    def test_bends_inside_faces_are_told_where_sizes_follow_the_curvature(self):
-        roof = os.path.join(SHAPES, "roof.brep")
-        for options, warned in ((["--angle", "8"], True), (["--chord", "1%"], True), (["--size", "0.2"], False)):
+    def test_bends_inside_faces_that_cannot_be_cut_are_told_where_sizes_follow_the_curvature(self):
+        for name, bent in (("torn_roof.brep", True), ("roof.brep", False)):
+            for options, by_curvature in ((["--angle", "8"], True), (["--chord", "1%"], True), (["--size", "0.2"], False)):
+                with self.subTest(name=name, options=options):
+                    done = run("mesh", os.path.join(SHAPES, name), "-o", self.out("a.mesh"), "-q", "--json", *options)
+                    warnings = json.loads(done.stdout)["warnings"]
+                    told = [w for w in warnings if w.startswith("face 1: 60 degrees of bend inside it, at u = 0.25; it cannot")]
+                    self.assertEqual(told != [], bent and by_curvature)
+            told = run("info", os.path.join(SHAPES, name)).stdout
+            self.assertIn("60 degrees of bend inside it, at u = 0.25" + ("; it cannot be cut" if bent else ", where it is cut"), told)
+
+    def test_faces_are_cut_where_they_bend_and_stay_one_face(self):
+        for options in (["--angle", "15"], ["--angle", "15", "--chord", "0.5%", "--anisotropic"], ["--size", "5%"]):
             with self.subTest(options):
-                done = run("mesh", roof, "-o", self.out("a.mesh"), "-q", "--json", *options)
-                warnings = json.loads(done.stdout)["warnings"]
-                self.assertEqual([w for w in warnings if "60 degrees of bend inside it, at u = 0.25" in w] != [], warned)
+                path = self.out("bent.vtu")
+                done = run("mesh", os.path.join(SHAPES, "bent.step"), "-o", path, "-q", "--json", *options)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                summary = json.loads(done.stdout)
+                self.assertEqual([(f["reference"], f["name"], f["status"]) for f in summary["faces"]],
+                                 [(1, "side", "meshed"), (2, "prism", "meshed"), (3, "prism", "meshed")])
+                self.assertTrue(summary["closed"])
+                self.assertLessEqual({face for i in summary["interfaces"] for face in i["faces"]}, {1, 2, 3})
+                found = json.loads(run("check", path, "--closed", "--json").stdout)
+                self.assertEqual(found["defects"], [])
+                for face, area in zip(found["report"]["faces"], (24, 4, 4), strict=True):
+                    self.assertAlmostEqual(face["area"], area, delta=1e-9)
+
+    def test_sizes_of_faces_that_were_cut(self):
+        _, triangles = read_mesh(self.mesh("bent.step", "--size", "0.5", "--face-size", "side=0.1"))
+        fine = sum(t[3] == 1 for t in triangles)
+        self.assertAlmostEqual(fine / (24 / (math.sqrt(3) / 4 * 0.1**2)), 1, delta=0.05)
 
     def test_narrow_faces_that_are_asked_for_have_the_ratio_of_the_library(self):
         # 9e-4 of the size: more than what vanishes unasked, less than a tenth.

@@ -6,7 +6,9 @@
 //   open.igs               five faces of a box, each on its own
 //   plate.step, .brep, .igs   a plate with a hole, all of NURBS
 //   free.brep              a face with an edge inside, and a box whose orientation is reversed
-//   roof.brep              a face that bends inside
+//   NAME.brep              faces that bend inside: bent_shapes()
+//   torn_roof.brep         one that is not cut there, since its sides do not meet
+//   bent.step              the prism of bent_shapes(), whose side is named "side" and red
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
@@ -36,6 +38,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "bent_shapes.h"
 #include "shapes.h"
 
 namespace {
@@ -99,6 +102,20 @@ void write_named_faces(const std::string& path) {
   write_document(document, path);
 }
 
+void write_step_of_bent(const std::string& path) {
+  Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
+  const auto tool = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  TopoDS_Shape prism;
+  for (const shapes::BentShape& bent : shapes::bent_shapes())
+    if (bent.name == "prism") prism = bent.make();
+  const TDF_Label whole = tool->AddShape(prism, Standard_False);
+  const TDF_Label side = tool->AddSubShape(whole, TopExp_Explorer(prism, TopAbs_FACE).Current());
+  name(whole, "prism"), name(side, "side");
+  XCAFDoc_DocumentTool::ColorTool(document->Main())
+      ->SetColor(side, Quantity_Color(1, 0, 0, Quantity_TOC_sRGB), XCAFDoc_ColorSurf);
+  write_document(document, path);
+}
+
 void write_open_iges(const std::string& path) {
   IGESControl_Writer writer("MM", 0);
   int left = 5;
@@ -151,7 +168,10 @@ int main(int argc, char** argv) {
     write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");
     write_open_iges(folder + "open.igs");
     write_free_edges(folder + "free.brep");
-    BRepTools::Write(BRepBuilderAPI_MakeFace(shapes::roof(), 1e-7).Face(), (folder + "roof.brep").c_str());
+    for (const shapes::BentShape& bent : shapes::bent_shapes())
+      require(BRepTools::Write(bent.make(), (folder + bent.name + ".brep").c_str()), bent.name);
+    require(BRepTools::Write(shapes::torn_roof(), (folder + "torn_roof.brep").c_str()), "torn_roof.brep");
+    write_step_of_bent(folder + "bent.step");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

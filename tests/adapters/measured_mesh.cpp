@@ -81,6 +81,11 @@ void fetch(carreau_session* session, double size, MeasuredMesh& m) {
   carreau_mesh_vertices(mesh, n, m.vertices.front().data());
   carreau_mesh_triangles(mesh, t, m.triangles.front().data());
   carreau_mesh_triangle_refs(mesh, t, m.refs.data());
+  m.edges.resize(static_cast<std::size_t>(k));
+  m.edge_refs.resize(static_cast<std::size_t>(k));
+  if (k > 0) carreau_mesh_edges(mesh, k, m.edges.front().data());
+  carreau_mesh_edge_refs(mesh, k, m.edge_refs.data());
+  m.faces = f;
   for (std::int64_t i = 0; i < f; ++i) {
     carreau_face face{};
     face.struct_size = sizeof face;

@@ -21,7 +21,10 @@ struct MeasuredMesh {
   std::vector<std::string> defects;
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> refs;  ///< of triangles
+  std::vector<std::int32_t> refs;                  ///< of triangles
+  std::vector<std::array<std::int32_t, 2>> edges;  ///< of curves
+  std::vector<std::int32_t> edge_refs;
+  std::int64_t faces = 0;
   std::int64_t open_edges = 0;     ///< with one triangle
   std::int64_t crowded_edges = 0;  ///< with more than two
   std::int64_t turned_edges = 0;   ///< of two triangles that run along it the same way

@@ -1,0 +1,19 @@
+// Where curves of a parameter plane cross lines of constant u or v.
+#pragma once
+
+#include <Geom2d_Curve.hxx>
+#include <gp_Pnt2d.hxx>
+#include <vector>
+
+namespace carreau_occ {
+
+/// Points of a curve that follow it, both ends included: enough for each of its polynomials.
+std::vector<gp_Pnt2d> sampled(const Handle(Geom2d_Curve) & curve, double first, double last);
+
+/// Parameters, ascending and inside (first, last), where the curve goes from one side of the line to the other, touches
+/// it at a sample, or begins and ends to run along it, for more than `run`. On the line: within `near`. Ends of the
+/// curve on the line are no crossings.
+std::vector<double> crossings(const Handle(Geom2d_Curve) & curve, double first, double last, bool of_u, double at,
+                              double near, double run);
+
+}  // namespace carreau_occ
