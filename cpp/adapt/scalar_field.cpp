@@ -10,6 +10,13 @@
 
 namespace carreau {
 
+void check_value(double value, const std::string& where) {
+  constexpr double largest = 1e100;
+  if (std::isfinite(value) && std::abs(value) <= largest) return;
+  throw InvalidArgument("the value of a field " + where + " is " + format_number(value) +
+                        (std::isfinite(value) ? "; values up to " + format_number(largest) + " can be used" : ""));
+}
+
 void check_field(const ScalarField& field) {
   if (field.triangles.empty()) throw InvalidArgument("a field needs a mesh with one triangle at least");
   if (field.values.size() != field.vertices.size())
@@ -18,9 +25,7 @@ void check_field(const ScalarField& field) {
   for (std::size_t v = 0; v < field.values.size(); ++v) {
     if (!is_finite(field.vertices[v]))
       throw InvalidArgument("vertex " + std::to_string(v) + " of a field's mesh is not finite");
-    if (!std::isfinite(field.values[v]))
-      throw InvalidArgument("the value of a field at vertex " + std::to_string(v) + " is " +
-                            format_number(field.values[v]));
+    check_value(field.values[v], "at vertex " + std::to_string(v));
   }
   for (std::size_t t = 0; t < field.triangles.size(); ++t)
     for (const std::int32_t v : field.triangles[t])

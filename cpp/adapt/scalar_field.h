@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "support/vec.h"
@@ -18,7 +19,12 @@ struct ScalarField {
   std::span<const double> values;
 };
 
-/// Throws InvalidArgument unless there is a triangle, arrays fit, indices lie in range and numbers are finite.
+/// Throws InvalidArgument unless a value is finite and at most 1e100, so that squares of curvatures do not overflow.
+/// `where`: "at vertex 3".
+void check_value(double value, const std::string& where);
+
+/// Throws InvalidArgument unless there is a triangle, arrays fit, indices lie in range, numbers are finite and values
+/// not too large (check_value).
 void check_field(const ScalarField& field);
 
 /// The vertices beside each vertex: vertex v has neighbour[start[v]] .. neighbour[start[v + 1] - 1], ascending.

@@ -8,7 +8,6 @@
 
 #include "mesh/triangle_search.h"
 #include "support/error.h"
-#include "support/format.h"
 
 namespace carreau {
 
@@ -228,7 +227,7 @@ InterpolationError interpolation_error(const ScalarField& field, const FieldFunc
     area += a;
     for (std::size_t k = 0; k < 4; ++k) {
       const double value = values[4 * i + k];
-      if (!std::isfinite(value)) throw InvalidArgument("the field at a point is " + format_number(value));
+      check_value(value, "at a point");
       const double away = std::abs(value - linear[4 * i + k]);
       error.largest = std::max(error.largest, away);
       if (k < 3) squares += a / 3 * away * away;

@@ -461,6 +461,14 @@ TEST_F(Adaptation, FailuresOfTheFieldEndTheLoop) {
   field.at = [](double x, double) { return x > 0.5 ? std::nan("") : x; };
   EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_NE(error().find("nan"), std::string::npos) << error();
+  // Squares of what has such curvatures overflow.
+  for (const int differences : {0, 1}) {
+    a.differences = differences;
+    field.at = [](double x, double) { return 1e200 * x * x; };
+    EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_ARGUMENT);
+    EXPECT_NE(error().find("values up to 1e+100 can be used"), std::string::npos) << error();
+  }
+  a.differences = 0;
   field.at = [](double x, double) { return x; };
   field.stop = session;
   EXPECT_EQ(carreau_adapt(session, &a, nullptr), CARREAU_ERR_CANCELLED);
