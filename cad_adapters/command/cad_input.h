@@ -57,6 +57,8 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::int32_t> parts(std::int32_t face) const { return {face}; }
   /// Faces that bend inside and could not be cut there, which curvatures do not tell: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
+  /// Whether each edge of the file has two faces.
+  [[nodiscard]] virtual bool closed() const { return false; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
 };

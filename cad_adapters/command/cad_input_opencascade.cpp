@@ -92,6 +92,8 @@ class OpenCascadeInput final : public CadInput {
     return sentences;
   }
 
+  [[nodiscard]] bool closed() const override { return host_.is_closed(); }
+
   [[nodiscard]] std::string gaps() const override {
     const carreau_occ::Gaps gaps = carreau_occ::measure_gaps(file_);
     if (!(gaps.largest > 0)) return "none";

@@ -66,6 +66,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
               Progress& progress) {
   progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
+  for (const std::string& sentence : sizes_beyond_bounds(options, input.diagonal())) progress.warning(sentence);
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();
   for (std::size_t i = 0; i < losses.size() && i < told; ++i) progress.error(losses[i]);
@@ -79,6 +80,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
   run.faces = faces_of(run.mesh);
   for (FaceResult& face : run.faces) face.why = in_terms_of_file(input, face.why);
+  if (const std::string open = unexpectedly_open(run); !open.empty()) progress.warning(open);
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 

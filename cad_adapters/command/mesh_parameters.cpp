@@ -43,9 +43,12 @@ Lengths lengths_of(const MeshOptions& options, double diagonal) {
   };
   Lengths lengths{length(options.size, "--size"), length(options.minimum, "--min"), length(options.maximum, "--max"),
                   length(options.chord, "--chord")};
+  return lengths;
+}
+
+void refuse_contradictions(const MeshOptions& options, const Lengths& lengths) {
   if (lengths.minimum && lengths.maximum && *lengths.minimum > *lengths.maximum)
     throw Failure("--min " + options.minimum + " is above --max " + options.maximum + ".");
-  return lengths;
 }
 
 /// A length parameter that is neither set nor known before the first mesh has no value yet.
@@ -142,14 +145,33 @@ int threads_of(const MeshOptions& options) {
 }  // namespace
 
 void check_words(const MeshOptions& options) {
-  lengths_of(options, 1);
+  const Lengths lengths = lengths_of(options, 1);
+  // A share and a length compare when the diagonal is known.
+  if (options.minimum.ends_with('%') == options.maximum.ends_with('%')) refuse_contradictions(options, lengths);
   for (const std::string& each : options.face_sizes)
     parse_length(parse_assignment(each, "--face-size").second, "--face-size");
   for (const std::string& each : options.settings) parse_assignment(each, "--set");
 }
 
+std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double diagonal) {
+  const Lengths lengths = lengths_of(options, diagonal);
+  std::vector<std::string> sentences;
+  const auto compare = [&](const std::string& option, double size) {
+    if (lengths.minimum && size < *lengths.minimum)
+      sentences.push_back(option + " is below --min " + options.minimum + ", which counts.");
+    if (lengths.maximum && size > *lengths.maximum)
+      sentences.push_back(option + " is above --max " + options.maximum + ", which counts.");
+  };
+  if (lengths.size) compare("--size " + options.size, *lengths.size);
+  for (const std::string& each : options.face_sizes)
+    compare("--face-size " + each,
+            parse_length(parse_assignment(each, "--face-size").second, "--face-size").of(diagonal));
+  return sentences;
+}
+
 void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map) {
   const double diagonal = input.diagonal();
+  refuse_contradictions(options, lengths_of(options, diagonal));
   for (const std::string& each : options.face_sizes) {
     const auto [face, size] = parse_assignment(each, "--face-size");
     if (!input.set_face_size(face, parse_length(size, "--face-size").of(diagonal)))

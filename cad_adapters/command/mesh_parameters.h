@@ -3,6 +3,9 @@
 
 #include <carreau.h>
 
+#include <string>
+#include <vector>
+
 #include "cad_input.h"
 #include "commands.h"
 #include "size_map.h"
@@ -11,6 +14,9 @@ namespace command {
 
 /// Throws Failure for words that mean nothing, before the input is read.
 void check_words(const MeshOptions& options);
+
+/// A sentence for each size that was typed and that --min or --max changes.
+std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double diagonal);
 
 /// Gives face sizes to the input, and parameters and the size map to the session: first what this command chooses
 /// itself, then the env file, then the options, --set last. Throws Failure.

@@ -61,21 +61,31 @@ std::vector<carreau_interface> interfaces_of(carreau_session* session) {
 
 bool is_open(const carreau_interface& i) { return i.boundary != 0 && i.uses == 1 && i.degenerate == 0; }
 
-/// How many curves were glued, and which are open, where the file has faces that are not sewn.
-std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
-  constexpr int listed = 10;
+/// What became of curves where the file has faces that are not sewn.
+struct Gluing {
   std::int64_t glued = 0, open = 0;
   double widest = 0;
-  std::string list;
+  std::string list;  ///< of open curves: "14 (face 3), 39 (face 10), ..."
+};
+Gluing gluing_of(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
+  constexpr int listed = 10;
+  Gluing gluing;
   for (const carreau_interface& each : interfaces) {
-    if (each.glued != 0) ++glued, widest = std::max(widest, each.gap);
-    if (!is_open(each) || ++open > listed) continue;
-    list += (list.empty() ? "" : ", ") + std::to_string(input.whole_curve(each.curve)) + " (face " +
-            std::to_string(input.whole_face(each.face)) + ")";
+    if (each.glued != 0) ++gluing.glued, gluing.widest = std::max(gluing.widest, each.gap);
+    if (!is_open(each) || ++gluing.open > listed) continue;
+    gluing.list += (gluing.list.empty() ? "" : ", ") + std::to_string(input.whole_curve(each.curve)) + " (face " +
+                   std::to_string(input.whole_face(each.face)) + ")";
   }
-  if (glued == 0) return {};
-  std::vector<std::string> lines{text("glued      %lld curves, within %.6g", whole(glued), widest)};
-  if (open > 0) lines.push_back("open       curves " + list + (open > listed ? ", ..." : ""));
+  if (gluing.open > listed) gluing.list += ", ...";
+  return gluing;
+}
+
+/// How many curves were glued, and which are open.
+std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<carreau_interface>& interfaces) {
+  const Gluing gluing = gluing_of(input, interfaces);
+  if (gluing.glued == 0) return {};
+  std::vector<std::string> lines{text("glued      %lld curves, within %.6g", whole(gluing.glued), gluing.widest)};
+  if (gluing.open > 0) lines.push_back("open       curves " + gluing.list);
   return lines;
 }
 
@@ -184,6 +194,17 @@ std::string lost_entities(const CadInput& input) {
     list += (i == 0 ? "" : ", ") + losses[i].substr(0, losses[i].find(": "));
   return std::to_string(losses.size()) + (losses.size() == 1 ? " entity" : " entities") +
          " of the file could not be read: " + list + (losses.size() > listed ? ", ..." : "");
+}
+
+std::string unexpectedly_open(const MeshRun& run) {
+  const std::int64_t edges = quality_of(run.mesh).open_edges;
+  if (edges == 0 || count(run.faces, CARREAU_FACE_FAILED) > 0) return "";
+  const Gluing gluing = gluing_of(run.input, interfaces_of(run.session));
+  if (!run.input.closed() && gluing.glued == 0) return "";
+  const std::string why = run.input.closed() ? "The faces of the file close, the mesh does not: "
+                                             : "The faces of the file were glued, and the mesh stays open: ";
+  return why + std::to_string(edges) + (edges == 1 ? " free edge" : " free edges") +
+         (gluing.open > 0 ? ", on curves " + gluing.list : "") + ".";
 }
 
 std::vector<std::string> summary_lines(const MeshRun& run) {

@@ -32,6 +32,11 @@ std::string failed_faces(const std::vector<FaceResult>& faces);
 /// "2 entities of the file could not be read: #12 ADVANCED_FACE, ..."; "" when all could.
 std::string lost_entities(const CadInput& input);
 
+/// Where the faces of the file close, or were glued, and the mesh has free edges all the same: how many, and on which
+/// curves;
+/// "" when it has none, or faces failed.
+std::string unexpectedly_open(const MeshRun& run);
+
 /// A table: faces, lengths, times, files; the library's own messages tell counts, shape and the times of its phases.
 std::vector<std::string> summary_lines(const MeshRun& run);
 

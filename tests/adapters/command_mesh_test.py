@@ -160,6 +160,13 @@ class Mesh(unittest.TestCase):
         values = figures(self.mesh("open.igs", "--size", "0.4"))
         self.assertEqual((values["faces"], values["defects"]), ("5", "none"))
         self.assertAlmostEqual(float(values["area"]), 20, delta=1e-6)
+        # The sixth side of the box is missing: its four edges are 2 long.
+        done = run("mesh", os.path.join(SHAPES, "open.igs"), "-o", self.out("a.mesh"), "--size", "0.4", "-q", "--json")
+        summary = json.loads(done.stdout)
+        self.assertEqual(summary["mesh"]["open_edges"], 20)
+        told = [each for each in summary["warnings"] if "glued" in each]
+        self.assertEqual(len(told), 1)
+        self.assertRegex(told[0], r"the mesh stays open: 20 free edges, on curves (\d+ \(face \d\)(, |\.)){4}$")
 
     def test_a_face_can_have_a_size_of_its_own(self):
         for face in ("top", "6"):
@@ -280,6 +287,22 @@ class Mesh(unittest.TestCase):
             self.assertTrue(any("one layer" in why for why in reasons(*asked)), asked)
         self.assertTrue(any("vanished" in why for why in reasons("--set", "narrow_faces=collapse")))
         self.assertEqual(reasons("--env", env, "--set", "narrow_ratio=1e-4"), [])
+
+    def test_sizes_beyond_bounds_are_told(self):
+        sphere = os.path.join(SHAPES, "sphere.step")
+
+        def told(*options):
+            done = run("mesh", sphere, "-o", self.out("a.mesh"), "-q", "--json", *options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads(done.stdout)["warnings"]
+
+        self.assertEqual(told("--size", "0.3", "--min", "0.4"), ["--size 0.3 is below --min 0.4, which counts."])
+        self.assertEqual(told("--size", "0.4", "--max", "0.3"), ["--size 0.4 is above --max 0.3, which counts."])
+        self.assertEqual(told("--size", "0.4", "--face-size", "1=0.2", "--min", "0.3"),
+                         ["--face-size 1=0.2 is below --min 0.3, which counts."])
+        self.assertEqual(told("--size", "0.4", "--min", "0.3", "--max", "0.5"), [])
+        # A tenth of the diagonal of a ball is more than 0.2, whatever it is of 1.
+        self.assertEqual(told("--angle", "20", "--min", "0.2", "--max", "10%"), [])
 
     def test_edges_below_the_smallest_size_are_told(self):
         sliver = os.path.join(SHAPES, "sliver.step")
