@@ -640,8 +640,9 @@ CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t ca
 CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
 CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
 
-/* Status of a face. `mended`: meshed, after something was repaired; `failed`: without triangles; `collapsed`: a narrow
- * face (parameter narrow_faces) that has vanished between its neighbours, which share one curve in its place. */
+/* Status of a face. `mended`: meshed, after something was repaired, or with triangles that are turned over (`why` says
+ * which); `failed`: without triangles; `collapsed`: a narrow face (parameter narrow_faces) that has vanished between its
+ * neighbours, which share one curve in its place. */
 enum {
   CARREAU_FACE_NOT_MESHED = 0,
   CARREAU_FACE_MESHED = 1,

@@ -69,9 +69,12 @@ struct SizeLimits {
   double factor = 1;
   double largest = std::numeric_limits<double>::infinity();
   const EdgeSizes* edges = nullptr;  ///< of one face; isotropic sizes alone; null: no bound
+  /// Sizes by direction alone: largest tangent of the angle between triangles and the surface (bound_tilt).
+  double tilt = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] bool idle() const noexcept {
-    return field == nullptr && edges == nullptr && factor == 1 && largest == std::numeric_limits<double>::infinity();
+    return field == nullptr && edges == nullptr && factor == 1 && largest == std::numeric_limits<double>::infinity() &&
+           tilt == std::numeric_limits<double>::infinity();
   }
   [[nodiscard]] bool want_places() const noexcept { return field != nullptr || edges != nullptr; }
   /// The isotropic size at (u, v) in a face, whose image is xyz, where h is prescribed: bounded by field and edges.

@@ -162,6 +162,26 @@ Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept {
   return {a * a + c * c, a * b + c * d, b * b + d * d};
 }
 
+void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexcept {
+  if (!(sizes.h2 > sizes.h1)) return;
+  // In (u, v): the tangent d is x Su + y Sv.
+  const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv), area2 = e * g - f * f;
+  if (!(area2 > 0)) return;
+  const auto in_parameters = [&](Vec3 d) {
+    const double p = dot(d, jet.su), q = dot(d, jet.sv);
+    return Vec2{(g * p - f * q) / area2, (e * q - f * p) / area2};
+  };
+  const Vec2 x = in_parameters(sizes.d1), y = in_parameters(sizes.d2);
+  // Second derivative along both, without its part along the edge.
+  const auto aside = [&](Vec2 a, Vec2 b) {
+    const Vec3 s = (a.x * b.x) * jet.suu + (a.x * b.y + a.y * b.x) * jet.suv + (a.y * b.y) * jet.svv;
+    return norm(s - dot(s, sizes.d2) * sizes.d2);
+  };
+  const double bend = aside(y, y), turn = aside(x, y);
+  if (bend > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, std::sqrt(8 * tilt * sizes.h1 / bend)));
+  if (turn > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, 2 * tilt / turn));
+}
+
 std::vector<TangentMetric> grade_metrics(const GradationGraph& graph, std::vector<TangentMetric> sizes,
                                          const std::vector<MetricSource>& sources, double slope, Monitor& monitor) {
   if (!(slope > 0) || !std::isfinite(slope))

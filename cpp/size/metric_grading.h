@@ -45,6 +45,12 @@ std::optional<TangentMetric> tangent_metric(const SurfaceJet& jet, Metric2 metri
 /// The inverse. The parametrisation must not be degenerate.
 Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept;
 
+/// Shrinks h2, down to h1 at most, until triangles of these sizes lean against the surface by at most `tilt` (a
+/// tangent), and their normals turn by at most as much on half an edge. An edge of length L along d2 leaves its image
+/// by L^2 / 8 times the second derivative along it, in the normal plane and aside (where images of segments of (u, v)
+/// bend), and the vertices beside it are h1 away. The jet holds first and second derivatives.
+void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexcept;
+
 /// A metric known beside a place, `way` from it in its tangent plane.
 struct MetricSource {
   int place = 0;

@@ -384,9 +384,9 @@ class Pipeline {
   void say_what_is_remarkable() {
     for (const auto& [f, what] : remarks_) {
       FaceMesh& mesh = result_.mesh.faces[f];
-      if (mesh.status != FaceStatus::meshed) continue;
+      if (mesh.status != FaceStatus::meshed && mesh.status != FaceStatus::mended) continue;
       mesh.status = FaceStatus::mended;
-      mesh.why = what;
+      mesh.why += (mesh.why.empty() ? "" : "; ") + what;
       monitor_.message(Level::warning, what);
     }
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "plane/domain_check.h"
+#include "size/gradation.h"
 #include "support/format.h"
 #include "surface/even_parameters.h"
 #include "surface/space_refinement.h"
@@ -43,6 +44,13 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
 
 // Edges that are looked at for jumps before a patch is corrected; after that, all are.
 constexpr std::size_t most_looked_at_first = 30;
+
+// Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
+constexpr double most_tilt = 0.5;
+// Ratio by which sizes then grow from one edge to the next: where the curvature vanishes along a line they would jump.
+constexpr double gentle = 1.5;
+// A mesh that follows the surface may have so many times more triangles.
+constexpr double most_growth_upright = 64;
 
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
 constexpr double no_area = 1e-14;
@@ -89,7 +97,10 @@ void FaceJob::step(Monitor& monitor) {
       case Step::none:
         break;
     }
+  } catch (const LimitError&) {
+    if (!take_best(monitor)) throw;
   } catch (const DomainError& error) {  // other faces go on
+    if (take_best(monitor)) return;
     const std::string what = error.what();
     failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
     next_ = Step::none;
@@ -156,9 +167,56 @@ void FaceJob::lift(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_lift);
   shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
   const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
-  refine_in_space(input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
-  if (even_) return_to_host(monitor);
+  const std::vector<int> suspects = refine_in_space(
+      input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
+  settle_tilts(suspects, monitor);
+}
+
+// Where triangles lean, the patch is meshed again in bounded rounds, and the best mesh stays.
+void FaceJob::settle_tilts(const std::vector<int>& suspects, Monitor& monitor) {
+  const Tilts tilts = measure_tilts(input_, *cad_, suspects, *mesh_, monitor);
+  if (upright_rounds_ == 0) prescribed_ = tilts;
+  if (!best_ || tilts.better_than(best_->tilts))
+    best_.emplace(Upright{std::move(*mesh_), std::move(*space_), tilts, upright_rounds_ > 0});
+  const bool again = best_->tilts.wrong() && rules_->uses_metrics() && !input_.one_size && sample_upright(monitor);
+  if (again)
+    next_ = Step::mesh;
+  else
+    take_best(monitor);
+}
+
+// First long sizes are bounded by the curvature along them; then they also grow gently: where it vanishes along a line
+// they would jump. False: there is nothing more to try.
+bool FaceJob::sample_upright(Monitor& monitor) {
+  if (++upright_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
+  input_.limits.tilt = most_tilt;
+  if (upright_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
+  const Stopwatch watch(report_.seconds_sampling);
+  space_ = sample_face(input_, *cad_, *rules_, suspects_, monitor);
+  const double most = most_growth_upright * static_cast<double>(best_->mesh.plane.triangles.size());
+  return space_->measure() <= std::min(most, static_cast<double>(most_triangles_));
+}
+
+// False: there is none.
+bool FaceJob::take_best(Monitor& monitor) {
+  if (!best_) return false;
+  const Tilts tilts = best_->tilts;
+  const bool bounded = best_->bounded;
+  mesh_ = std::move(best_->mesh);
+  space_ = std::move(best_->space);
+  best_.reset();
   next_ = Step::none;
+  if (bounded)
+    add_remark("with the sizes prescribed: " + prescribed_.text() + "; long sizes are bounded by the curvature" +
+               (tilts.wrong() ? ", and still " + tilts.text() : ""));
+  else if (tilts.wrong())
+    add_remark(tilts.text());
+  if (even_) return_to_host(monitor);
+  return true;
+}
+
+void FaceJob::add_remark(const std::string& what) {
+  remark_ += (remark_.empty() ? Where{.face = input_.ref}.prefix() : "; ") + what;
 }
 
 // Sources know the host's parameters only.
@@ -202,10 +260,9 @@ void FaceJob::return_to_host(Monitor& monitor) {
   else
     space_ = returned_to_host(host, even_->map, *space_, monitor);
   if (turned > 0)
-    remark_ = Where{.face = input_.ref}.prefix() +
-              "the parametrisation changes its speed a thousand times and more within next to nothing: " +
-              std::to_string(turned) + (turned == 1 ? " triangle is" : " triangles are") +
-              " turned over in (u, v), not in space";
+    add_remark("the parametrisation changes its speed a thousand times and more within next to nothing: " +
+               std::to_string(turned) + (turned == 1 ? " triangle is" : " triangles are") +
+               " turned over in (u, v), not in space");
 }
 
 // Whether the mesh has missed places that the control space rightly knows. Others are added to `places`.

@@ -10,6 +10,7 @@
 #include "size/control_space.h"
 #include "support/stepped_tasks.h"
 #include "surface/face_mesher.h"
+#include "surface/tilts.h"
 
 namespace carreau {
 
@@ -22,7 +23,12 @@ class FaceJob final : public SteppedTask {
   /// Keeps references to `cad` and `options`.
   /// `max_triangles` may change until the job starts.
   FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
-      : input_(std::move(input)), cad_(&cad), rules_(&rules), options_(options), reentrant_(reentrant) {}
+      : input_(std::move(input)),
+        cad_(&cad),
+        rules_(&rules),
+        options_(options),
+        reentrant_(reentrant),
+        given_slope_(input_.slope) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
@@ -48,6 +54,10 @@ class FaceJob final : public SteppedTask {
   void lift(Monitor& monitor);
   void refuse_unsound(Monitor& monitor) const;
   void refuse_jumps(std::size_t most, Monitor& monitor) const;
+  void settle_tilts(const std::vector<int>& suspects, Monitor& monitor);
+  [[nodiscard]] bool sample_upright(Monitor& monitor);
+  bool take_best(Monitor& monitor);
+  void add_remark(const std::string& what);
   bool settle_deserts(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
@@ -73,6 +83,7 @@ class FaceJob final : public SteppedTask {
   const SizeRules* rules_;
   const CompositeOptions& options_;
   bool reentrant_;
+  double given_slope_;
   std::int64_t most_triangles_ = 0;
   Step next_ = Step::sample;
   int corrections_ = 0, resettlements_ = 0;
@@ -83,6 +94,16 @@ class FaceJob final : public SteppedTask {
   bool evened_out_ = false;     // once is enough
   std::optional<ControlSpace> space_;
   SampledNormals normals_;
+  /// The best mesh so far, while another one is tried.
+  struct Upright {
+    PatchMesh mesh;
+    ControlSpace space;
+    Tilts tilts;
+    bool bounded = false;  // by SizeLimits::tilt
+  };
+  std::optional<Upright> best_;
+  Tilts prescribed_;        // of the mesh of the sizes prescribed
+  int upright_rounds_ = 0;  // that had them bounded
   std::optional<PatchMesh> mesh_;
   std::string failure_, remark_;
   CompositeReport report_;

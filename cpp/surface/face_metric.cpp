@@ -116,6 +116,7 @@ void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec
     }
     const TangentMetric before = *sizes;
     if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv[i], jets[i].s, *sizes);
+    if (std::isfinite(limits.tilt)) bound_tilt(jets[i], limits.tilt, *sizes);
     sizes->h1 = std::min(limits.factor * sizes->h1, limits.largest);
     sizes->h2 = std::min(limits.factor * sizes->h2, limits.largest);
     if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric[i] = metric_of(jets[i], *sizes);

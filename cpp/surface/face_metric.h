@@ -1,6 +1,7 @@
 // The metric that is prescribed inside a face.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,7 +30,8 @@ class FaceMetric {
 
   /// The Want bits that the jets of at() must hold.
   [[nodiscard]] unsigned wants() const noexcept {
-    return want_first | rules_.surface_wants() | (limits_.want_places() ? want_position : 0U);
+    return want_first | rules_.surface_wants() | (limits_.want_places() ? want_position : 0U) |
+           (std::isfinite(limits_.tilt) ? want_second : 0U);
   }
 
   /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks

@@ -46,12 +46,12 @@ class SpaceRefinement {
         kept_(kept),
         sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180) : infinity) {}
 
-  void run() {
+  std::vector<int> run() {
     std::vector<int> wrong = find_wrong();
-    if (wrong.empty()) return;
+    if (wrong.empty()) return {};
     connect();
     std::erase_if(wrong, [this](int t) { return is_sound(t); });
-    if (wrong.empty()) return;
+    if (wrong.empty()) return {};
     const PatchMesh untouched = mesh_;
     depth_.assign(mesh_.plane.triangles.size(), 0);
     std::size_t left = most_divisions * wrong.size();
@@ -65,11 +65,13 @@ class SpaceRefinement {
     }
     std::sort(queue_.begin(), queue_.end());
     queue_.erase(std::unique(queue_.begin(), queue_.end()), queue_.end());
-    const auto still = std::count_if(queue_.begin(), queue_.end(), [this](int t) { return !is_sound(t); });
-    if (static_cast<std::size_t>(still) >= wrong.size())
+    std::erase_if(queue_, [this](int t) { return is_sound(t); });
+    if (queue_.size() >= wrong.size()) {
       mesh_ = untouched;
-    else
-      ask_sizes(untouched.xyz.size());
+      return wrong;
+    }
+    ask_sizes(untouched.xyz.size());
+    return queue_;
   }
 
  private:
@@ -383,9 +385,9 @@ class SpaceRefinement {
 
 }  // namespace
 
-void refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
-                     PatchMesh& mesh, Monitor& monitor) {
-  SpaceRefinement(input, cad, rules, kept, mesh, monitor).run();
+std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
+                                 PatchMesh& mesh, Monitor& monitor) {
+  return SpaceRefinement(input, cad, rules, kept, mesh, monitor).run();
 }
 
 }  // namespace carreau

@@ -1,6 +1,8 @@
 // After the lift: triangles that turn their backs on the surface, or leave it by more than was promised.
 #pragma once
 
+#include <vector>
+
 #include "size/size_rules.h"
 #include "surface/face_mesher.h"
 
@@ -14,8 +16,9 @@ namespace carreau {
 /// that no division makes better: cusps, creases, surfaces that jump. Keeps mesh.size and mesh.normal up to date.
 ///
 /// Bends within one edge make such triangles: where a principal curvature vanishes, the size along it jumps from one
-/// vertex to the next, and a long edge leaves the surface between them.
-void refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
-                     PatchMesh& mesh, Monitor& monitor);
+/// vertex to the next, and a long edge leaves the surface between them. Returns the triangles that are still wrong,
+/// ascending.
+std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
+                                 PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau
