@@ -33,6 +33,7 @@
 
 #include "entity_check.h"
 #include "faults.h"
+#include "natural_bounds.h"
 
 namespace carreau_occ {
 
@@ -221,6 +222,8 @@ void read_brep(const std::string& path, const Handle(Indicator) & indicator, Sha
   } catch (const std::ios_base::failure&) {
     refuse(path, "is not a readable BREP file: it is cut off, or a number in it is none");
   }
+  // Here only: other formats say the bounds of each face, and one whose bounds could not be read is not the whole.
+  if (!file.shape.IsNull()) add_natural_bounds(file.shape);
 }
 
 void read_as(Format format, const std::string& path, const Handle(Indicator) & indicator, ShapeFile& file) {

@@ -12,12 +12,15 @@
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Line.hxx>
 #include <Geom_Plane.hxx>
+#include <Geom_SphericalSurface.hxx>
 #include <Geom_Surface.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
@@ -28,7 +31,9 @@
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 #include <cmath>
+#include <gp_Ax3.hxx>
 #include <gp_Pln.hxx>
+#include <gp_Trsf.hxx>
 #include <numbers>
 
 #include "measured_mesh.h"
@@ -276,6 +281,34 @@ TEST(TornLoops, CloseWhereTheirEndsAreOnePlace) {
   EXPECT_EQ(mesh.trouble(false), "");
   EXPECT_NEAR(mesh.quality.area, 1 - 0.16, 1e-12);
   EXPECT_EQ(mesh.quality.vertices - mesh.quality.edges + mesh.quality.triangles, 0);  // a ring
+}
+
+// BREP files may say a whole sphere or torus by its surface alone, placed and turned or not.
+TEST(NaturalBounds, AreThoseOfClosedSurfaces) {
+  const double pi = std::numbers::pi;
+  const BRep_Builder builder;
+  TopoDS_Compound shape;
+  builder.MakeCompound(shape);
+  gp_Trsf away;
+  away.SetTranslation(gp_Vec(10, 0, 0));
+  TopoDS_Face sphere, torus, plane;
+  builder.MakeFace(sphere, new Geom_SphericalSurface(gp_Ax3(), 1), 1e-7);
+  builder.MakeFace(torus, new Geom_ToroidalSurface(gp_Ax3(), 2, 0.5), 1e-7);
+  builder.MakeFace(plane, new Geom_Plane(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), 1e-7);
+  builder.Add(shape, sphere.Reversed());
+  builder.Add(shape, torus.Moved(away));
+  const std::string path = ::testing::TempDir() + "natural_bounds.brep";
+  ASSERT_TRUE(BRepTools::Write(shape, path.c_str()));
+  carreau_occ::BrepHost host(carreau_occ::read_shape(path));
+  const adapters::MeasuredMesh mesh = adapters::mesh_and_measure(host, 0.1);
+  EXPECT_EQ(mesh.trouble(true), "");
+  EXPECT_NEAR(mesh.quality.area, 4 * pi + 4 * pi * pi, 0.01 * 4 * pi * pi);
+  // The sphere's normals point inwards.
+  EXPECT_NEAR(mesh.volume, 2 * pi * pi * 2 * 0.25 - 4 * pi / 3, 0.05);
+  builder.Add(shape, plane);  // has no end
+  ASSERT_TRUE(BRepTools::Write(shape, path.c_str()));
+  carreau_occ::BrepHost endless(carreau_occ::read_shape(path));
+  EXPECT_EQ(endless.excluded(), (std::vector<std::pair<int, std::string>>{{3, "no edge bounds it"}}));
 }
 
 }  // namespace
