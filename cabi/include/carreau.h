@@ -537,9 +537,9 @@ typedef struct carreau_estimator {
 
 /* Sizes or metrics at the n vertices of the session's mesh, from the values of a field there; give them back to
  * carreau_set_vertex_sizes or carreau_set_vertex_metrics. ISOTROPIC: out_sizes (n) or out_metrics (n x 6) may be NULL;
- * otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long, set the
- * parameter gradation (2, say): sizes that jump between neighbours hide the bends of a front from the fit of its values.
- * Errors: ARGUMENT, SEQUENCE. */
+ * otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long, set
+ * the parameter gradation (2, say): sizes that jump between neighbours hide the bends of a front from the fit of its
+ * values. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
                                             const double* values, double* out_sizes, double* out_metrics);
 
@@ -641,8 +641,8 @@ CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capaci
 CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
 
 /* Status of a face. `mended`: meshed, after something was repaired, or with triangles that are turned over (`why` says
- * which); `failed`: without triangles; `collapsed`: a narrow face (parameter narrow_faces) that has vanished between its
- * neighbours, which share one curve in its place. */
+ * which); `failed`: without triangles; `collapsed`: a narrow face (parameter narrow_faces) that has vanished between
+ * its neighbours, which share one curve in its place. */
 enum {
   CARREAU_FACE_NOT_MESHED = 0,
   CARREAU_FACE_MESHED = 1,

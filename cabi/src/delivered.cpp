@@ -1,4 +1,4 @@
-#include "surface/delivered.h"
+#include "measure/delivered.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "session/fields.h"
+#include "fields/fields.h"
 
 #include "arguments.h"
 #include "guard.h"

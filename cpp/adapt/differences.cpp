@@ -86,8 +86,7 @@ std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> point
   std::vector<LocalDerivatives> derivatives(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double* g = f.data() + 9 * i;
-    for (std::size_t k = 0; k < 9; ++k)
-      check_value(g[k], "at a point");
+    for (std::size_t k = 0; k < 9; ++k) check_value(g[k], "at a point");
     const double h = steps[i], h2 = h * h;
     derivatives[i].gradient = {(g[5] - g[3]) / (2 * h), (g[7] - g[1]) / (2 * h)};
     derivatives[i].hessian = {(g[5] - 2 * g[4] + g[3]) / h2, (g[8] - g[6] - g[2] + g[0]) / (4 * h2),

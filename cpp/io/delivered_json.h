@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "surface/composite.h"
-#include "surface/delivered.h"
+#include "measure/delivered.h"
+#include "surface/result.h"
 
 namespace carreau {
 

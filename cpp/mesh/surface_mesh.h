@@ -20,9 +20,9 @@ struct FaceMesh {
   std::string name = {};  ///< given by the host; empty: none
   std::int32_t rgb = -1;  ///< given by the host, 0xRRGGBB (sRGB); -1: none
   FaceStatus status = FaceStatus::not_meshed;
-  std::string why;                                     ///< sentence for `mended`, `failed` and `collapsed`
-  std::vector<Vec2> uv;                                ///< of local vertices
-  std::vector<std::int32_t> vertex;                    ///< local -> index in SurfaceMesh::vertices
+  std::string why;                   ///< sentence for `mended`, `failed` and `collapsed`
+  std::vector<Vec2> uv;              ///< of local vertices
+  std::vector<std::int32_t> vertex;  ///< local -> index in SurfaceMesh::vertices
   /// Local indices; counterclockwise in (u, v), but for those that `why` of a mended face tells of.
   std::vector<std::array<std::int32_t, 3>> triangles;
   /// Triangles of (u, v) that a degenerate side flattens in space: part of the plane mesh, not of the mesh in space.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "plane/boundary.h"
-#include "plane/filler.h"
-#include "plane/optimiser.h"
+#include "plane/kernel/boundary.h"
+#include "plane/optimise/optimiser.h"
+#include "plane/placement/filler.h"
 
 namespace carreau {
 

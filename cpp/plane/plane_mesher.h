@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "plane/plane_mesh.h"
-#include "plane/sampled_normals.h"
-#include "size/control_space.h"
+#include "control_space/control_space.h"
+#include "control_space/sampled_normals.h"
+#include "mesh/plane_mesh.h"
 #include "support/monitor.h"
 
 namespace carreau {

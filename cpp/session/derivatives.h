@@ -3,7 +3,8 @@
 
 #include "cad/cad.h"
 #include "model/model.h"
-#include "surface/composite.h"
+#include "surface/options.h"
+#include "surface/supports.h"
 
 namespace carreau {
 

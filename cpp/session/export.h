@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "measure/delivered.h"
 #include "mesh/flat_mesh.h"
 #include "model/model.h"
-#include "surface/composite.h"
-#include "surface/delivered.h"
+#include "surface/result.h"
+#include "surface/supports.h"
 
 namespace carreau {
 

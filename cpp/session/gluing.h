@@ -7,7 +7,8 @@
 #include "cad/part_cad.h"
 #include "model/model.h"
 #include "support/monitor.h"
-#include "surface/composite.h"
+#include "surface/result.h"
+#include "surface/supports.h"
 
 namespace carreau {
 

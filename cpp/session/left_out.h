@@ -8,7 +8,7 @@
 #include "session/parameters.h"
 #include "support/error.h"
 #include "support/monitor.h"
-#include "surface/composite.h"
+#include "surface/supports.h"
 
 namespace carreau {
 

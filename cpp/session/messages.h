@@ -1,10 +1,11 @@
 // What a session says before and after a run. Private to session/.
 #pragma once
 
+#include "measure/delivered.h"
 #include "model/model.h"
 #include "support/monitor.h"
-#include "surface/composite.h"
-#include "surface/delivered.h"
+#include "surface/result.h"
+#include "surface/supports.h"
 
 namespace carreau {
 

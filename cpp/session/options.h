@@ -2,7 +2,7 @@
 #pragma once
 
 #include "session/parameters.h"
-#include "surface/composite.h"
+#include "surface/options.h"
 
 namespace carreau {
 

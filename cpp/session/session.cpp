@@ -6,20 +6,21 @@
 #include <optional>
 
 #include "cad/checked_cad.h"
+#include "fields/field_files.h"
 #include "io/delivered_json.h"
 #include "io/files.h"
 #include "io/mesh_files.h"
 #include "io/pardom.h"
+#include "measure/delivered_composite.h"
 #include "session/adaptation.h"
 #include "session/derivatives.h"
 #include "session/export.h"
-#include "session/field_files.h"
+#include "session/field_attributes.h"
 #include "session/gluing.h"
 #include "session/left_out.h"
 #include "session/messages.h"
 #include "session/options.h"
 #include "support/format.h"
-#include "surface/delivered_composite.h"
 
 namespace carreau {
 
@@ -318,9 +319,14 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
     if (!measured) measured = measure(meshed, s.result, s.monitor);
     return *measured;
   };
-  const FieldRun run{meshed.model, meshed.topology,     &meshed.supports,
-                     &s.result,    meshed.options.size, s.meshed_parameters,
-                     diag,         delivered_here};
+  const FieldRun run{.model = meshed.model,
+                     .topology = meshed.topology,
+                     .supports = &meshed.supports,
+                     .result = &s.result,
+                     .size = meshed.options.size,
+                     .parameters = field_attributes(s.meshed_parameters, diag),
+                     .diag = diag,
+                     .delivered = delivered_here};
   if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
@@ -345,8 +351,14 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
     s.monitor.message(Level::warning, error.what());
   }
   const Topology none;
-  FieldRun run{s.model, none, supports ? &*supports : nullptr, nullptr, {}, parameters};
+  FieldRun run{.model = s.model,
+               .topology = none,
+               .supports = supports ? &*supports : nullptr,
+               .result = nullptr,
+               .size = {},
+               .parameters = {}};
   run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
+  run.parameters = field_attributes(parameters, run.diag);
   run.size = composite_options(parameters, run.diag).size;
   run.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : run.size.sources)

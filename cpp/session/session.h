@@ -7,17 +7,17 @@
 #include <vector>
 
 #include "cad/cad.h"
+#include "fields/fields.h"
+#include "measure/delivered.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 #include "metric/prescription.h"
 #include "model/model.h"
-#include "session/fields.h"
 #include "session/gluing.h"
 #include "session/parameters.h"
 #include "size/background.h"
 #include "support/monitor.h"
 #include "surface/composite.h"
-#include "surface/delivered.h"
 
 namespace carreau {
 

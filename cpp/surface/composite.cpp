@@ -9,17 +9,17 @@
 #include <utility>
 
 #include "support/format.h"
-#include "surface/adjacent_lengths.h"
-#include "surface/adjacent_sizes.h"
-#include "surface/assembly.h"
-#include "surface/boundary_refinement.h"
+#include "surface/assembly/assembly.h"
+#include "surface/assembly/narrow_collapse.h"
+#include "surface/assembly/shared_chords.h"
 #include "surface/face_job.h"
-#include "surface/narrow_collapse.h"
-#include "surface/narrow_faces.h"
-#include "surface/shared_chords.h"
-#include "surface/size_grading.h"
-#include "surface/thin_bodies.h"
-#include "surface/verification.h"
+#include "surface/grade/size_grading.h"
+#include "surface/improve/adjacent_lengths.h"
+#include "surface/improve/adjacent_sizes.h"
+#include "surface/lift/verification.h"
+#include "surface/narrow/narrow_faces.h"
+#include "surface/narrow/thin_bodies.h"
+#include "surface/refine/boundary_refinement.h"
 
 #if defined(__unix__)
 #include <unistd.h>

@@ -5,13 +5,16 @@
 #include <iterator>
 #include <limits>
 
-#include "plane/domain_check.h"
-#include "size/gradation.h"
+#include "gradation/gradation.h"
+#include "plane/plane_mesher.h"
 #include "support/format.h"
-#include "surface/even_parameters.h"
-#include "surface/space_refinement.h"
-#include "surface/steep_places.h"
-#include "surface/verification.h"
+#include "surface/domain/domain_check.h"
+#include "surface/improve/refinement.h"
+#include "surface/improve/shape_in_space.h"
+#include "surface/lift/lift.h"
+#include "surface/lift/steep_places.h"
+#include "surface/lift/verification.h"
+#include "surface/reparametrise/even_parameters.h"
 
 namespace carreau {
 namespace {
@@ -68,19 +71,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-std::string format_count(double n) { return std::to_string(static_cast<std::int64_t>(n < 9e18 ? n : 9e18)); }
-
 }  // namespace
-
-bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept {
-  return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
-}
-
-void refuse_triangles(const Where& where, double expected, std::int64_t most) {
-  throw LimitError(where, "the mesh would have about " + format_count(expected) +
-                              " triangles or more, beyond the limit of " + format_count(static_cast<double>(most)) +
-                              " (parameter max_triangles)");
-}
 
 void FaceJob::step(Monitor& monitor) {
   try {
@@ -135,13 +126,14 @@ void FaceJob::sample(Monitor& monitor) {
 
 void FaceJob::mesh(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_plane);
-  mesh_ = mesh_patch(input_, *space_,
-                     {.frontal = options_.frontal,
-                      .shape_trials = options_.shape_trials,
-                      .normals = normals_.differ() ? &normals_ : nullptr,
-                      .max_triangles = most_triangles_,
-                      .deserts = deserts_},
-                     monitor);
+  mesh_.emplace();
+  mesh_->plane = mesh_plane(input_.domain->plane, *space_,
+                            {.frontal = options_.frontal,
+                             .shape_trials = options_.shape_trials,
+                             .normals = normals_.differ() ? &normals_ : nullptr,
+                             .max_triangles = most_triangles_,
+                             .deserts = deserts_},
+                            monitor);
   next_ = Step::lift;
 }
 
@@ -150,6 +142,7 @@ void FaceJob::lift(Monitor& monitor) {
   {
     const Stopwatch watch(report_.seconds_lift);
     lift_patch(input_, *cad_, *mesh_, monitor);
+    swap_poor_edges(input_, *mesh_, monitor);
     places = verify_lift(input_, *space_, *cad_, *rules_, *mesh_, monitor);
     if (corrections_ < most_corrections) {
       const std::vector<Vec2> steep = missed_steep_places(input_, *space_, *cad_, *rules_, *mesh_, monitor);

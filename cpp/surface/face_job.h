@@ -7,15 +7,14 @@
 #include <vector>
 
 #include "cad/reparametrisation.h"
-#include "size/control_space.h"
+#include "control_space/control_space.h"
 #include "support/stepped_tasks.h"
-#include "surface/face_mesher.h"
-#include "surface/tilts.h"
+#include "surface/lift/surface_agreement.h"
+#include "surface/options.h"
+#include "surface/result.h"
+#include "surface/sample/face_sampling.h"
 
 namespace carreau {
-
-/// Whether several threads may ask the host: it allows that, and no source of prescriptions is asked.
-bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept;
 
 /// Sample, mesh, lift; the last two again while the lift finds what the sampling has missed. Only mesh asks no host.
 class FaceJob final : public SteppedTask {
@@ -108,8 +107,5 @@ class FaceJob final : public SteppedTask {
   std::string failure_, remark_;
   CompositeReport report_;
 };
-
-/// The sentence of a mesh beyond CompositeOptions::max_triangles.
-[[noreturn]] void refuse_triangles(const Where& where, double expected, std::int64_t most);
 
 }  // namespace carreau

@@ -1,8 +1,9 @@
+#include "surface/supports.h"
+
 #include <algorithm>
 #include <limits>
 
 #include "support/stepped_tasks.h"
-#include "surface/composite.h"
 
 namespace carreau {
 

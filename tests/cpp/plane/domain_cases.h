@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "plane/plane_mesh.h"
+#include "mesh/plane_mesh.h"
 
 namespace carreau::test {
 

@@ -1,4 +1,4 @@
-#include "plane/domain_check.h"
+#include "surface/domain/domain_check.h"
 
 #include <gtest/gtest.h>
 

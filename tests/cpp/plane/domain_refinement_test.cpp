@@ -6,8 +6,8 @@
 #include <map>
 
 #include "domain_cases.h"
-#include "plane/domain_check.h"
 #include "support/error.h"
+#include "surface/domain/domain_check.h"
 
 namespace carreau {
 namespace {

@@ -1,11 +1,11 @@
 // Edges made to exist in a triangulation of random points.
-#include "plane/edge_recovery.h"
+#include "plane/kernel/edge_recovery.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "plane/boundary.h"
+#include "plane/kernel/boundary.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {

@@ -1,11 +1,11 @@
 // Keys by which the optimiser knows triangles, edges and stars again.
-#include "plane/findings.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <set>
 #include <vector>
+
+#include "plane/optimise/memo.h"
 
 namespace carreau::plane {
 namespace {

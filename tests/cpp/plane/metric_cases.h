@@ -4,8 +4,8 @@
 #include <functional>
 #include <string>
 
-#include "plane/plane_mesh.h"
-#include "size/control_space.h"
+#include "control_space/control_space.h"
+#include "mesh/plane_mesh.h"
 
 namespace carreau::testing {
 

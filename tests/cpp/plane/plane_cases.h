@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "plane/plane_mesh.h"
-#include "size/control_space.h"
+#include "control_space/control_space.h"
+#include "mesh/plane_mesh.h"
 
 namespace carreau::testing {
 

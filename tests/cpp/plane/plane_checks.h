@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "plane/plane_mesh.h"
+#include "mesh/plane_mesh.h"
 #include "plane_cases.h"
 
 namespace carreau::testing {

@@ -1,4 +1,4 @@
-#include "plane/sampled_normals.h"
+#include "control_space/sampled_normals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Sampling of hosts that fail.
-#include "session/field_samples.h"
+#include "fields/field_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Fields written by a session, read back with OpenEXR, against closed forms.
-#include "session/fields.h"
+#include "fields/fields.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 
 #include "common/analytic_cad.h"
 #include "common/exr_image.h"
+#include "fields/field_samples.h"
 #include "metric/metric2_algebra.h"
-#include "session/field_samples.h"
 #include "session/session.h"
 
 namespace carreau {

@@ -1,4 +1,4 @@
-#include "session/pixel_raster.h"
+#include "fields/pixel_raster.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "session/false_colours.h"
+#include "fields/false_colours.h"
 
 namespace carreau {
 namespace {

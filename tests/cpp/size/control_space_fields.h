@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "size/control_space.h"
+#include "control_space/control_space.h"
 
 namespace carreau::fields {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "control_space/control_space.h"
 #include "control_space_fields.h"
 #include "metric/metric2_algebra.h"
 #include "predicates/polygon_locator.h"
-#include "size/control_space.h"
 #include "support/error.h"
 
 namespace carreau {

@@ -1,4 +1,4 @@
-#include "size/control_space.h"
+#include "control_space/control_space.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Sizes that grow from edges of space.
-#include "size/edge_sizes.h"
+#include "gradation/edge_sizes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Cones of the gradation: plane, sphere, seam, crease, joined patches; bounds, order, bad input.
-#include "size/gradation.h"
+#include "gradation/gradation.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <numbers>
 #include <tuple>
 
+#include "control_space/sample_gradation.h"
+#include "gradation/graded_field.h"
+#include "gradation/metric_grading.h"
+#include "gradation/place_fans.h"
 #include "plane/plane_mesher.h"
-#include "size/graded_field.h"
-#include "size/metric_grading.h"
-#include "size/place_fans.h"
-#include "size/space_gradation.h"
 #include "support/error.h"
 
 namespace carreau {

@@ -1,5 +1,5 @@
 // Places in plane triangulations, against all triangles one by one.
-#include "size/triangle_tree.h"
+#include "gradation/triangle_tree.h"
 
 #include <gtest/gtest.h>
 

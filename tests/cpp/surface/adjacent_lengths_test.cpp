@@ -1,10 +1,10 @@
 // Adjacent edges whose lengths differ too much, and the parts of a mesh that change for their sake.
-#include "surface/adjacent_lengths.h"
+#include "surface/improve/adjacent_lengths.h"
 
 #include <gtest/gtest.h>
 
 #include "geometric_run.h"
-#include "surface/local_mesh.h"
+#include "surface/improve/local_mesh.h"
 
 namespace carreau {
 namespace {

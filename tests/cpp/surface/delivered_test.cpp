@@ -1,5 +1,5 @@
 // Measures against closed forms, on meshes whose vertices are known.
-#include "surface/delivered.h"
+#include "measure/delivered.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "grid_mesh.h"
+#include "measure/gauss.h"
 #include "mesh/quality.h"
-#include "surface/gauss.h"
-#include "surface/triangle_distance.h"
+#include "mesh/triangle_distance.h"
 
 namespace carreau {
 namespace {

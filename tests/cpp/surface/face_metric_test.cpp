@@ -1,5 +1,5 @@
 // What is prescribed inside a face, where its parametrisation is degenerate.
-#include "surface/face_metric.h"
+#include "surface/sample/face_metric.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include "common/analytic_cad.h"
 #include "metric/field_length.h"
 #include "session/session.h"
-#include "surface/face_mesher.h"
+#include "surface/sample/face_sampling.h"
 
 namespace carreau {
 namespace {

@@ -1,4 +1,4 @@
-#include "surface/interface_sizes.h"
+#include "surface/sample/interface_sizes.h"
 
 #include <gtest/gtest.h>
 

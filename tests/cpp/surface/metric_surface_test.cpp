@@ -10,10 +10,10 @@
 
 #include "common/analytic_cad.h"
 #include "common/field_source.h"
+#include "measure/delivered.h"
+#include "measure/mesh_edges.h"
 #include "session/session.h"
 #include "size/geometric_metric.h"
-#include "surface/delivered.h"
-#include "surface/mesh_edges.h"
 
 namespace carreau {
 namespace {

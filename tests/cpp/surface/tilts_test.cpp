@@ -12,10 +12,10 @@
 
 #include "common/analytic_cad.h"
 #include "common/field_source.h"
+#include "gradation/metric_grading.h"
+#include "measure/delivered.h"
 #include "metric/metric3_algebra.h"
 #include "session/session.h"
-#include "size/metric_grading.h"
-#include "surface/delivered.h"
 
 namespace carreau {
 namespace {

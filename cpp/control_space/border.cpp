@@ -1,0 +1,193 @@
+#include "control_space/border.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "metric/metric2_algebra.h"
+
+namespace carreau::detail {
+
+namespace {
+
+constexpr int terms = 6;  // 1, x, y, x^2, x y, y^2
+// Neighbours wanted before a quadratic is fitted.
+constexpr std::size_t enough = 10;
+// As many as there usually are.
+constexpr std::size_t usual_neighbours = 48;
+// So many sampled nodes are gone through faster than the places of a grid are looked up.
+constexpr std::size_t few_nodes = 400;
+// Reach of the neighbourhood in units of the size asked for, and how much the weights prefer near samples.
+constexpr double reach_in_sizes = 2.2, near_share = 0.5, softness = 0.04;
+// Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
+// pulls slopes and curvatures that they do not determine to zero.
+constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
+// Eigenvalues of the fit against those of the samples that it was made from.
+constexpr double most_extrapolation = 2;
+
+/// Normal equations of a weighted fit, three right-hand sides.
+struct NormalEquations {
+  std::array<std::array<double, terms>, terms> matrix{};
+  std::array<std::array<double, 3>, terms> rhs{};
+
+  void add(double x, double y, double weight, Metric2 value) noexcept {
+    const std::array<double, terms> basis{1, x, y, x * x, x * y, y * y};
+    for (int r = 0; r < terms; ++r) {
+      const double w = weight * basis[r];
+      for (int c = 0; c <= r; ++c) matrix[r][c] += w * basis[c];
+      rhs[r][0] += w * value.a;
+      rhs[r][1] += w * value.b;
+      rhs[r][2] += w * value.c;
+    }
+  }
+
+  // The constant term: the polynomial's value at the origin. Cholesky; the constant comes last so that the
+  // back substitution ends as soon as it is known.
+  Metric2 value_at_origin() noexcept {
+    const double total = matrix[0][0];
+    for (int r = 1; r < terms; ++r) matrix[r][r] += (r < 3 ? ridge_slope : ridge_curvature) * total;
+    // Eliminates the rows from the highest term down to the constant (U^T U of the reversed order).
+    for (int r = terms - 1; r > 0; --r) {
+      const double pivot = 1 / matrix[r][r];
+      for (int i = 0; i < r; ++i) {
+        const double factor = matrix[r][i] * pivot;
+        for (int c = 0; c <= i; ++c) matrix[i][c] -= factor * matrix[r][c];
+        for (int k = 0; k < 3; ++k) rhs[i][k] -= factor * rhs[r][k];
+      }
+    }
+    const double inverse = 1 / matrix[0][0];
+    return {inverse * rhs[0][0], inverse * rhs[0][1], inverse * rhs[0][2]};
+  }
+};
+
+// A root between these bounds of the eigenvalues of others, where it usually is: they are found only where it may not
+// be.
+template <class Samples>
+Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
+  // Of each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant over
+  // trace.
+  double above = 0, below = std::numeric_limits<double>::infinity();
+  for (const auto& s : near) {
+    const double trace = s.root.a + s.root.c;
+    above = std::max(above, 0.5 * trace);
+    below = std::min(below, 2 * determinant(s.root) / trace);
+  }
+  const auto spread = [](Metric2 m) {
+    const double across = m.a - m.c;
+    return std::sqrt(across * across + 4 * m.b * m.b);
+  };
+  constexpr double rounding = 1e-6;
+  const double trace = root.a + root.c, s = spread(root);
+  if (0.5 * (trace + s) < (1 - rounding) * most_extrapolation * above &&
+      0.5 * (trace - s) > rounding * trace + below / most_extrapolation)
+    return root;
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const auto& sample : near) {
+    const double major = 0.5 * (sample.root.a + sample.root.c + spread(sample.root));
+    low = std::min(low, accurate_determinant(sample.root) / major);
+    high = std::max(high, major);
+  }
+  return clamp_eigenvalues(root, low / most_extrapolation, most_extrapolation * high);
+}
+
+}  // namespace
+
+BorderSamples::BorderSamples(const Lattice& lattice)
+    : lattice_(lattice),
+      columns_(lattice.end().i / lattice.step()),
+      rows_(lattice.end().j / lattice.step()),
+      in_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+
+void BorderSamples::add(Vec2 position, Metric2 root) {
+  const int i = std::clamp(static_cast<int>(position.x / lattice_.step()), 0, columns_ - 1);
+  const int j = std::clamp(static_cast<int>(position.y / lattice_.step()), 0, rows_ - 1);
+  in_cell_[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(samples_.size()));
+  samples_.push_back({position, root});
+}
+
+void BorderSamples::sort_nodes() {
+  const std::span<const std::int32_t> sampled = lattice_.samples();
+  const std::size_t known = nodes_.size();
+  for (std::size_t k = known; k < sampled.size(); ++k) nodes_.push_back({lattice_.point(sampled[k]), sampled[k]});
+  const auto before = [](const NodeAt& p, const NodeAt& q) { return p.p.j != q.p.j ? p.p.j < q.p.j : p.p.i < q.p.i; };
+  const auto fresh = nodes_.begin() + static_cast<std::ptrdiff_t>(known);
+  std::sort(fresh, nodes_.end(), before);
+  std::inplace_merge(nodes_.begin(), fresh, nodes_.end(), before);
+}
+
+void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std::vector<Sample>& found) {
+  found.clear();
+  const auto cells = [&](double x, int count) {
+    return std::clamp(static_cast<int>(std::floor(x / lattice_.step())), 0, count - 1);
+  };
+  const int i0 = cells(centre.x - reach, columns_), i1 = cells(centre.x + reach, columns_);
+  const int j0 = cells(centre.y - reach, rows_), j1 = cells(centre.y + reach, rows_);
+  for (int j = j0; j <= j1; ++j)
+    for (int i = i0; i <= i1; ++i)
+      for (const std::int32_t k : in_cell_[static_cast<std::size_t>(j * columns_ + i)]) {
+        const Vec2 d = samples_[k].position - centre;
+        if (std::max(std::abs(d.x), std::abs(d.y)) <= reach) found.push_back(samples_[k]);
+      }
+  // Far nodes of the finer of both grids would add little but time.
+  const double near = near_share * reach;
+  const auto is_left_out = [&](std::int32_t i, std::int32_t j) {
+    const bool fine = ((i | j) & spacing) != 0;
+    return fine && (std::abs(i - centre.x) > near || std::abs(j - centre.y) > near);
+  };
+  const auto lowest = [&](double x) { return static_cast<std::int32_t>(std::ceil(std::max(x - reach, 0.))); };
+  const auto highest = [&](double x, std::int32_t end) {
+    return static_cast<std::int32_t>(std::floor(std::min<double>(x + reach, end)));
+  };
+  if (lattice_.samples().size() <= few_nodes) {
+    if (nodes_.size() < lattice_.samples().size()) sort_nodes();
+    const std::int32_t left = lowest(centre.x), right = highest(centre.x, lattice_.end().i);
+    const std::int32_t bottom = lowest(centre.y), top = highest(centre.y, lattice_.end().j);
+    auto n = std::lower_bound(nodes_.begin(), nodes_.end(), bottom,
+                              [](const NodeAt& at, std::int32_t j) { return at.p.j < j; });
+    for (; n != nodes_.end() && n->p.j <= top; ++n) {
+      const auto [i, j] = n->p;
+      if (i < left || i > right || ((i | j) & (spacing - 1)) != 0 || is_left_out(i, j)) continue;
+      found.push_back({{static_cast<double>(i), static_cast<double>(j)}, lattice_.value(n->node)});
+    }
+    return;
+  }
+  const auto first = [&](double x) {
+    return std::max(0, static_cast<std::int32_t>(std::ceil((x - reach) / spacing)) * spacing);
+  };
+  const double right = std::min<double>(centre.x + reach, lattice_.end().i);
+  const double top = std::min<double>(centre.y + reach, lattice_.end().j);
+  for (std::int32_t j = first(centre.y); j <= top; j += spacing)
+    for (std::int32_t i = first(centre.x); i <= right; i += spacing) {
+      if (is_left_out(i, j)) continue;
+      if (const Metric2* root = lattice_.sample({i, j}))
+        found.push_back({{static_cast<double>(i), static_cast<double>(j)}, *root});
+    }
+}
+
+Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
+  std::vector<Sample> near;
+  near.reserve(usual_neighbours);
+  double scale = size;
+  const double widest = 2.0 * std::max(lattice_.end().i, lattice_.end().j);
+  // At widened reaches the grid is looked at with the spacing of wider cells.
+  std::int32_t spacing = std::max(size / 2, 1);
+  collect(position, reach_in_sizes * scale, spacing, near);
+  while (near.size() < enough && scale < widest) {
+    scale *= 2;
+    if (spacing < lattice_.step()) spacing *= 2;
+    std::vector<Sample> more;
+    collect(position, reach_in_sizes * scale, spacing, more);
+    // A wider but sparser look may miss what is near.
+    if (more.size() > near.size()) near.swap(more);
+  }
+  NormalEquations equations;
+  for (const Sample& s : near) {
+    const Vec2 d = (1 / scale) * (s.position - position);
+    const double q = softness + dot(d, d);
+    equations.add(d.x, d.y, 1 / (q * q), s.root);
+  }
+  return clamped_to(near, equations.value_at_origin());
+}
+
+}  // namespace carreau::detail

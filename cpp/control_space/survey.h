@@ -1,0 +1,32 @@
+// A first look at a domain and at the field over it, before there is a grid. Private to size/.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "control_space/control_space.h"
+#include "predicates/polygon_locator.h"
+
+namespace carreau::detail {
+
+/// What a few dozen samples say.
+struct Survey {
+  Vec2 low, high;                ///< the domain's box
+  double share = 1;              ///< of the box that belongs to the domain, about; never 0
+  double vertices_in_box = 1;    ///< that a mesh of the whole box would have
+  double aspect = 1;             ///< wanted number of columns of cells over that of rows
+  double floor = 0;              ///< smallest eigenvalue that a metric in units of the box may have
+  std::vector<int> vertices;     ///< boundary vertices that were sampled
+  std::vector<Metric2> metrics;  ///< there, in units of the box, as the sampler gave them
+};
+
+/// Area of the part of a unit mesh that belongs to a vertex, two equilateral triangles: sqrt(3) / 2.
+extern const double area_per_vertex;
+
+/// `ask` calls the sampler. `square`: cells are to be as square in the metric as they can. Throws DomainError when the
+/// domain has no boundary or its box has no area.
+Survey survey(const SampledDomain& domain, const PolygonLocator& locator,
+              const std::function<std::vector<Metric2>(std::span<const Vec2>)>& ask, bool square);
+
+}  // namespace carreau::detail

@@ -1,0 +1,50 @@
+// From samples to the piecewise polynomial of a control space. Private to size/.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "control_space/control_space.h"
+#include "control_space/sampling.h"
+
+namespace carreau {
+
+/// Balances the tree, gives a value to the nine nodes of every leaf (corners, middles of sides, centre), and writes
+/// biquadratic polynomials that are continuous and positive definite.
+class ControlSpaceWriter {
+ public:
+  ControlSpaceWriter(detail::ControlSpaceSampling& sampling, Monitor& monitor);
+  /// Call once.
+  ControlSpace run();
+
+ private:
+  using Nine = std::array<Metric2, 9>;  // row by row
+
+  void balance();
+  void sort_leaves();
+  void predict_values();
+  void set_values();
+  void fill_outside();
+  void straighten_sides();
+  [[nodiscard]] Nine values_in(const detail::TreeCell& cell) const;
+  [[nodiscard]] std::int32_t coarser_beside(const detail::TreeCell& cell, int side) const;
+
+  void write();
+  std::int32_t write_cell(std::int32_t cell);
+  std::int32_t write_leaf(const detail::TreeCell& cell);
+  /// Triangles of unit edges in the part of a cell that belongs to the domain.
+  [[nodiscard]] double measure_of(const detail::TreeCell& cell, const Nine& nodes) const;
+
+  detail::ControlSpaceSampling& sampling_;
+  detail::Tree& tree_;
+  detail::Lattice& lattice_;
+  Monitor& monitor_;
+  std::vector<std::int32_t> leaves_;                // from coarse to fine
+  std::vector<std::pair<std::int32_t, int>> late_;  // leaf, rank of a node that gets its value after predictions
+  std::int32_t table_step_ = 1;                     // units of the finest grid
+  ControlSpace space_;
+};
+
+}  // namespace carreau

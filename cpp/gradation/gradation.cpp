@@ -1,0 +1,277 @@
+#include "gradation/gradation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <queue>
+#include <utility>
+
+#include "gradation/place_fans.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+using detail::roll;
+
+// The line from a source to a vertex passes near the vertex before it when they see it within this angle (cosine): the
+// six neighbours of a vertex of a good mesh leave at most 30 degrees.
+constexpr double seen_from_beside = 0.7;
+// Two fronts are one when their directions agree that well (cosine).
+constexpr double same_front = 0.7;
+constexpr std::size_t vertices_between_checks = 1 << 14;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Vec3 resized(Vec3 v, double length) noexcept {
+  const double l = norm(v);
+  return l > 0 ? (length / l) * v : Vec3{};
+}
+
+/// Dijkstra's order over the vertices. Each holds the line from its source, as a tangent vector: an edge away, the line
+/// is that vector plus the edge (Danielsson's transform, rolled over the surface). A front from many sources passes
+/// through the inside of triangles as a plane wave.
+class Grading {
+ public:
+  Grading(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor)
+      : graph_(graph), slope_(slope), monitor_(monitor), fans_(graph), front_(graph.xyz.size()) {
+    for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
+    collect_segments();
+  }
+
+  void add(const GradationSource& s, int id) {
+    Front& f = front_[graph_.places[s.place].vertex];
+    const double h = s.front.source_h + slope_ * norm(s.front.line);
+    if (h < f.h) f = {h, s.front.source_h, s.front.line, s.place, id, false};
+  }
+
+  void run() {
+    for (std::size_t v = 0; v < front_.size(); ++v) {
+      if (dot(front_[v].line, front_[v].line) == 0) {
+        front_[v].source = static_cast<int>(v);
+        front_[v].place = fans_.first(static_cast<int>(v));
+      }
+      if (std::isfinite(front_[v].h)) queue_.emplace(front_[v].h, static_cast<int>(v));
+    }
+    std::size_t done = 0;
+    while (!queue_.empty()) {
+      const auto [h, v] = queue_.top();
+      queue_.pop();
+      if (front_[v].settled || h != front_[v].h) continue;
+      front_[v].settled = true;
+      leave(v);
+      if (++done % vertices_between_checks == 0) monitor_.checkpoint();
+    }
+  }
+
+  [[nodiscard]] std::vector<GradedSize> sizes() const {
+    std::vector<GradedSize> sizes(front_.size());
+    for (std::size_t v = 0; v < front_.size(); ++v) {
+      sizes[v].h = front_[v].h;
+      Vec3 line;
+      if (fans_.first(static_cast<int>(v)) >= 0 && carry(static_cast<int>(v), fans_.first(static_cast<int>(v)), line))
+        sizes[v].slope = resized(line, slope_);
+    }
+    return sizes;
+  }
+
+  [[nodiscard]] GradationFronts fronts() const {
+    GradationFronts result;
+    result.h.reserve(front_.size());
+    for (const Front& f : front_) {
+      result.h.push_back(f.h);
+      const bool is_vertex = std::isfinite(f.h) && f.source < static_cast<int>(front_.size());
+      result.source.push_back(is_vertex ? f.source : -1);
+    }
+    result.front.resize(graph_.places.size());
+    for (std::size_t p = 0; p < graph_.places.size(); ++p) {
+      const int v = graph_.places[p].vertex;
+      Vec3 line;
+      if (carry(v, static_cast<int>(p), line))
+        result.front[p] = {front_[v].source_h, line};
+      else
+        result.front[p] = {front_[v].h, {}};
+    }
+    return result;
+  }
+
+ private:
+  /// What is known at a vertex: h = source_h + slope |line|.
+  struct Front {
+    double h = infinity, source_h = infinity;
+    Vec3 line;      // from the source, in the tangent plane of `place`
+    int place = 0;  // in GradationGraph::places; -1: a vertex without place
+    int source = 0;
+    bool settled = false;
+  };
+
+  void collect_segments() {
+    segment_start_.assign(graph_.xyz.size() + 1, 0);
+    for (const auto& s : graph_.segments) ++segment_start_[s[0] + 1], ++segment_start_[s[1] + 1];
+    for (std::size_t v = 0; v < graph_.xyz.size(); ++v) segment_start_[v + 1] += segment_start_[v];
+    segment_end_.resize(2 * graph_.segments.size());
+    std::vector<int> fill(segment_start_.begin(), segment_start_.end() - 1);
+    for (const auto& s : graph_.segments) segment_end_[fill[s[0]]++] = s[1], segment_end_[fill[s[1]]++] = s[0];
+  }
+
+  [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
+  [[nodiscard]] Vec3 normal(int place) const noexcept { return graph_.places[place].normal; }
+  [[nodiscard]] Front& front_at(int place) noexcept { return front_[graph_.places[place].vertex]; }
+
+  /// The line of a vertex as another of its places sees it; false when the surface cannot be unfolded there.
+  bool carry(int v, int to, Vec3& line) const noexcept {
+    line = front_[v].line;
+    return fans_.carry(front_[v].place, to, line);
+  }
+
+  void leave(int v) {
+    for (int p = fans_.first(static_cast<int>(v)); p >= 0; p = fans_.next(p)) {
+      Front from = front_[v];
+      from.place = p;
+      if (!carry(v, p, from.line)) from = restarted(v, p);
+      for (const auto& [a, b] : fans_.triangles(p)) {
+        along_edge(from, v, a);
+        along_edge(from, v, b);
+        through_triangle(from, b, a);
+        through_triangle(from, a, b);
+      }
+    }
+    for (int k = segment_start_[v]; k < segment_start_[v + 1]; ++k) {
+      const int to = segment_end_[k];
+      const double length = norm(graph_.xyz[to] - graph_.xyz[v]);
+      improve(to, {front_[v].h + slope_ * length, front_[v].h + slope_ * length, {}, fans_.first(to), v, false});
+    }
+  }
+
+  [[nodiscard]] Front restarted(int v, int place) const noexcept {
+    return {front_[v].h, front_[v].h, {}, place, v, false};
+  }
+
+  void improve(int v, const Front& candidate) {
+    if (front_[v].settled || !(candidate.h < front_[v].h)) return;
+    front_[v] = candidate;
+    queue_.emplace(candidate.h, v);
+  }
+
+  /// The edge from `from` to place `to` in the tangent plane of `from`, as long as the arc above it.
+  [[nodiscard]] Vec3 unrolled_edge(int from, int to) const noexcept {
+    const Vec3 n = normal(from), e = position(to) - position(from);
+    const double length = norm(e);
+    if (!(length > 0)) return {};
+    // A circle that turns by t has the chord sin(t / 2) / (t / 2) times the arc.
+    const Vec3 m = dot(n, normal(to)) < 0 ? -1 * normal(to) : normal(to);
+    const double turn = std::min(1., std::abs(dot(m - n, e)) / length);
+    return resized(e - dot(n, e) * n, length * (1 + turn * turn / 24));
+  }
+
+  void along_edge(const Front& from, int v, int to) {
+    if (front_at(to).settled) return;
+    const Vec3 e = unrolled_edge(from.place, to);
+    const Vec3 line = from.line + e;
+    const double length = norm(line), edge = norm(e);
+    const bool seen = dot(line, e) >= seen_from_beside * length * edge;
+    Front candidate = seen ? Front{from.source_h + slope_ * length, from.source_h, line, to, from.source, false}
+                           : Front{front_[v].h + slope_ * edge, front_[v].h, e, to, v, false};
+    const Vec3 n = normal(from.place), m = dot(n, normal(to)) < 0 ? -1 * normal(to) : normal(to);
+    candidate.line = resized(roll(candidate.line, n, m), norm(candidate.line));
+    improve(graph_.places[to].vertex, candidate);
+  }
+
+  /// Plane wave through the edge between two settled vertices of a triangle (as in fast marching).
+  void through_triangle(const Front& from, int beside, int to) {
+    const Front& other = front_at(beside);
+    if (!other.settled || front_at(to).settled || other.source == from.source) return;
+    Vec3 line;
+    if (!carry(graph_.places[beside].vertex, beside, line)) return;
+    if (dot(from.line, line) < same_front * norm(from.line) * norm(line)) return;
+    const Vec3 a = position(from.place), ab = position(beside) - a, ac = position(to) - a;
+    const double width = norm(ab);
+    if (!(width > 0)) return;
+    const Vec3 x = (1 / width) * ab;
+    const double along = dot(ac, x);
+    const Vec3 up = ac - along * x;
+    const double height = norm(up);
+    const double climb = (other.h - front_at(from.place).h) / (slope_ * width);
+    if (!(height > 0) || std::abs(climb) >= 1) return;
+    const double steep = std::sqrt(1 - climb * climb);
+    const double crossing = along - climb * height / steep;
+    if (!(crossing > 0 && crossing < width)) return;
+    const double h = front_at(from.place).h + slope_ * (climb * along + steep * height);
+    const double length = std::lerp(norm(from.line), norm(line), crossing / width) + height / steep;
+    const Vec3 n = normal(to), direction = climb * x + (steep / height) * up;
+    improve(graph_.places[to].vertex, {h, h - slope_ * length, resized(direction - dot(n, direction) * n, length), to,
+                                       2 * crossing < width ? from.source : other.source, false});
+  }
+
+  const GradationGraph& graph_;
+  double slope_;
+  Monitor& monitor_;
+  detail::PlaceFans fans_;
+  std::vector<Front> front_;
+  std::vector<int> segment_start_, segment_end_;
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+void check(const GradationGraph& graph, const std::vector<double>& h, double slope) {
+  if (!(slope > 0) || !std::isfinite(slope))
+    throw InvalidArgument("the slope of a gradation must be positive; it is " + format_number(slope));
+  if (h.size() != graph.xyz.size())
+    throw InvalidArgument("a gradation has " + std::to_string(h.size()) + " sizes for " +
+                          std::to_string(graph.xyz.size()) + " vertices");
+  const auto outside = [](int i, std::size_t n) { return i < 0 || static_cast<std::size_t>(i) >= n; };
+  bool fits = true;
+  for (const auto& p : graph.places) fits = fits && !outside(p.vertex, graph.xyz.size());
+  for (const auto& t : graph.triangles)
+    for (const int p : t) fits = fits && !outside(p, graph.places.size());
+  for (const auto& s : graph.segments)
+    for (const int v : s) fits = fits && !outside(v, graph.xyz.size());
+  if (!fits) throw InvalidArgument("an index of a gradation's graph is out of range");
+  for (const double size : h)
+    if (!(size > 0)) throw InvalidArgument("a size of a gradation must be positive; it is " + format_number(size));
+}
+
+}  // namespace
+
+double slope_of_gradation(double beta) {
+  if (!(beta > 1) || !std::isfinite(beta))
+    throw InvalidArgument("a gradation must be greater than 1; it is " + format_number(beta));
+  return std::log(beta);
+}
+
+double size_from_segment(double h_a, double h_b, Vec3 edge, Vec3 d, double slope) noexcept {
+  const double length = norm(edge);
+  if (!(length > 0)) return infinity;
+  const double climb = (h_b - h_a) / (slope * length);
+  const double along = dot(d, edge) / length;
+  const double up = std::sqrt(std::max(0., dot(d, d) - along * along));
+  double foot = climb >= 1 ? 0. : climb <= -1 ? length : along - climb * up / std::sqrt(1 - climb * climb);
+  foot = std::clamp(foot, 0., length);
+  return h_a + (h_b - h_a) * (foot / length) + slope * std::hypot(along - foot, up);
+}
+
+std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
+                                    Monitor& monitor) {
+  check(graph, h, slope);
+  Grading grading(graph, h, slope, monitor);
+  grading.run();
+  return grading.sizes();
+}
+
+GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h,
+                             const std::vector<GradationSource>& sources, double slope, Monitor& monitor) {
+  check(graph, h, slope);
+  Grading grading(graph, h, slope, monitor);
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    if (sources[i].place < 0 || static_cast<std::size_t>(sources[i].place) >= graph.places.size())
+      throw InvalidArgument("an index of a gradation's source is out of range");
+    // Numbers beyond those of vertices.
+    grading.add(sources[i], static_cast<int>(graph.xyz.size() + i));
+  }
+  grading.run();
+  return grading.fronts();
+}
+
+}  // namespace carreau

@@ -1,0 +1,197 @@
+#include "gradation/metric_grading.h"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+#include "gradation/graded_field.h"
+#include "gradation/place_fans.h"
+#include "metric/metric3_algebra.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+using detail::roll;
+
+// Paths run along edges and from the middles of edges: every 30 degrees, so that they are up to 1 / cos(15 degrees)
+// = 1.035 times too long. Half of that is taken from the slope.
+constexpr double detour = 1.0175;
+// Changes below this share are not followed.
+constexpr double negligible = 1e-3;
+constexpr std::size_t steps_between_checks = 1 << 12;
+
+class MetricGrading {
+ public:
+  MetricGrading(const GradationGraph& graph, std::vector<TangentMetric> sizes, double slope, Monitor& monitor)
+      : graph_(graph), sizes_(std::move(sizes)), slope_(slope / detour), monitor_(monitor), fans_(graph) {
+    waits_.assign(sizes_.size(), 0);
+  }
+
+  void add(const MetricSource& s) {
+    bound(s.place, graph_.places[s.place].normal, s.way, [&](Vec3 w) { return s.sizes.along(w); });
+  }
+
+  std::vector<TangentMetric> run() {
+    for (std::size_t p = 0; p < sizes_.size(); ++p) enqueue(static_cast<int>(p));
+    std::size_t steps = 0;
+    while (!queue_.empty()) {
+      const int p = queue_.top().second;
+      queue_.pop();
+      // Not by the sizes that it was put there with: changes that are negligible come in between.
+      if (waits_[p] == 0) continue;
+      waits_[p] = 0;
+      if (++steps % steps_between_checks == 0) monitor_.checkpoint();
+      leave(p);
+    }
+    return std::move(sizes_);
+  }
+
+ private:
+  [[nodiscard]] double smaller(int p) const noexcept { return sizes_[p].h1 * sizes_[p].h2; }
+  void enqueue(int p) {
+    if (!std::isfinite(smaller(p))) return;
+    queue_.emplace(smaller(p), p);
+    waits_[p] = 1;
+  }
+  [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
+
+  /// Bounds the sizes at `to` by those at the other end of `way` (a tangent vector there, where the normal is n),
+  /// `along` being the sizes there.
+  template <typename Along>
+  bool bound(int to, Vec3 n, Vec3 way, const Along& along) {
+    TangentMetric& q = sizes_[to];
+    const TangentMetric before = q;
+    const double length = norm(way);
+    const double growth = length > 0 ? 1 + slope_ * length / along((1 / length) * way) : 1;
+    const Vec3 m = graph_.places[to].normal, near = dot(n, m) < 0 ? -1 * n : n;
+    q.h1 = std::min(q.h1, growth * along(roll(q.d1, m, near)));
+    q.h2 = std::min(q.h2, growth * along(roll(q.d2, m, near)));
+    if (length > 0) {
+      const Vec3 e = (1 / length) * way;
+      q.bound_along(roll(e, near, m), growth * along(e));
+    }
+    return q.h1 < (1 - negligible) * before.h1 || q.h2 < (1 - negligible) * before.h2;
+  }
+
+  void leave(int p) {
+    const Vec3 n = graph_.places[p].normal;
+    for (const auto& [a, b] : fans_.triangles(p)) {
+      if (graph_.places[a].vertex == graph_.places[p].vertex || graph_.places[b].vertex == graph_.places[p].vertex)
+        continue;
+      for (const auto& [q, r] : {std::pair{a, b}, std::pair{b, a}}) {
+        const auto here = [&, s = sizes_[p]](Vec3 w) { return s.along(w); };
+        if (bound(q, n, step_on_surface(n, position(q) - position(p)), here)) enqueue(q);
+        from_middle(p, r, q);
+      }
+    }
+    carry_to_other_places(p);
+  }
+
+  // From the middle of the edge (p, r), where sizes are the means.
+  void from_middle(int p, int r, int q) {
+    const Vec3 n = graph_.places[p].normal, m = graph_.places[r].normal, near = dot(n, m) < 0 ? -1 * m : m;
+    const auto mean = [&, s = sizes_[p], t = sizes_[r]](Vec3 w) {
+      return 0.5 * (s.along(w) + t.along(roll(w, n, near)));
+    };
+    const Vec3 way = position(q) - lerp(position(p), position(r), 0.5);
+    if (bound(q, n, step_on_surface(n, way), mean)) enqueue(q);
+  }
+
+  // The other sides of a crease, a seam: the same metric, unfolded.
+  void carry_to_other_places(int p) {
+    for (int q = fans_.first(graph_.places[p].vertex); q >= 0; q = fans_.next(q)) {
+      if (q == p) continue;
+      Vec3 d1 = sizes_[q].d1, d2 = sizes_[q].d2;
+      if (!fans_.carry(q, p, d1) || !fans_.carry(q, p, d2)) continue;
+      const double h1 = sizes_[p].along(d1), h2 = sizes_[p].along(d2);
+      if (!(h1 < (1 - negligible) * sizes_[q].h1) && !(h2 < (1 - negligible) * sizes_[q].h2)) continue;
+      sizes_[q].h1 = std::min(sizes_[q].h1, h1);
+      sizes_[q].h2 = std::min(sizes_[q].h2, h2);
+      enqueue(q);
+    }
+  }
+
+  const GradationGraph& graph_;
+  std::vector<TangentMetric> sizes_;
+  double slope_;
+  Monitor& monitor_;
+  detail::PlaceFans fans_;
+  std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+}  // namespace
+
+// The least change of the logarithms of both, to first order; then both by what is left.
+void TangentMetric::bound_along(Vec3 w, double h) noexcept {
+  const double size = along(w);
+  if (!(size > h) || !(dot(w, w) > 0)) return;
+  const double a = dot(w, d1) / h1, b = dot(w, d2) / h2;
+  const double share = std::isfinite(size) ? a * a / (a * a + b * b) : 0.5;
+  const double power = 1 / (share * share + (1 - share) * (1 - share));
+  if (std::isfinite(size)) {
+    h1 *= std::pow(h / size, share * power);
+    h2 *= std::pow(h / size, (1 - share) * power);
+  } else {
+    h1 = std::min(h1, h);
+    h2 = std::min(h2, h);
+  }
+  const double now = along(w);
+  if (!(now > h)) return;
+  h1 *= h / now;
+  h2 *= h / now;
+}
+
+std::optional<TangentMetric> tangent_metric(const SurfaceJet& jet, Metric2 metric) noexcept {
+  const auto frame = TangentFrame::of(jet.su, jet.sv);
+  if (!frame) return {};
+  const Eigen2 e = eigen(frame->of_parameters(metric));
+  if (!(e.minor > 0) || !std::isfinite(e.major)) return {};
+  return TangentMetric{e.direction.x * frame->e1 + e.direction.y * frame->e2,
+                       e.direction.x * frame->e2 - e.direction.y * frame->e1, 1 / std::sqrt(e.major),
+                       1 / std::sqrt(e.minor)};
+}
+
+Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept {
+  const double a = dot(sizes.d1, jet.su) / sizes.h1, b = dot(sizes.d1, jet.sv) / sizes.h1;
+  const double c = dot(sizes.d2, jet.su) / sizes.h2, d = dot(sizes.d2, jet.sv) / sizes.h2;
+  return {a * a + c * c, a * b + c * d, b * b + d * d};
+}
+
+void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexcept {
+  if (!(sizes.h2 > sizes.h1)) return;
+  // In (u, v): the tangent d is x Su + y Sv.
+  const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv), area2 = e * g - f * f;
+  if (!(area2 > 0)) return;
+  const auto in_parameters = [&](Vec3 d) {
+    const double p = dot(d, jet.su), q = dot(d, jet.sv);
+    return Vec2{(g * p - f * q) / area2, (e * q - f * p) / area2};
+  };
+  const Vec2 x = in_parameters(sizes.d1), y = in_parameters(sizes.d2);
+  // Second derivative along both, without its part along the edge.
+  const auto aside = [&](Vec2 a, Vec2 b) {
+    const Vec3 s = (a.x * b.x) * jet.suu + (a.x * b.y + a.y * b.x) * jet.suv + (a.y * b.y) * jet.svv;
+    return norm(s - dot(s, sizes.d2) * sizes.d2);
+  };
+  const double bend = aside(y, y), turn = aside(x, y);
+  if (bend > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, std::sqrt(8 * tilt * sizes.h1 / bend)));
+  if (turn > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, 2 * tilt / turn));
+}
+
+std::vector<TangentMetric> grade_metrics(const GradationGraph& graph, std::vector<TangentMetric> sizes,
+                                         const std::vector<MetricSource>& sources, double slope, Monitor& monitor) {
+  if (!(slope > 0) || !std::isfinite(slope))
+    throw InvalidArgument("the slope of a gradation must be positive; it is " + format_number(slope));
+  if (sizes.size() != graph.places.size())
+    throw InvalidArgument("a gradation has " + std::to_string(sizes.size()) + " metrics for " +
+                          std::to_string(graph.places.size()) + " places");
+  MetricGrading grading(graph, std::move(sizes), slope, monitor);
+  for (const MetricSource& s : sources) grading.add(s);
+  return grading.run();
+}
+
+}  // namespace carreau

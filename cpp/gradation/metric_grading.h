@@ -1,0 +1,70 @@
+// Gradation of metrics over a composite surface, directions kept (Borouchaki, Hecht and Frey; HDR sec. 1.1.2).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "cad/cad.h"
+#include "gradation/gradation.h"
+#include "metric/metric2.h"
+#include "support/monitor.h"
+
+namespace carreau {
+
+/// A metric of a tangent plane by its sizes along two orthogonal unit tangents.
+struct TangentMetric {
+  Vec3 d1, d2;
+  double h1 = std::numeric_limits<double>::infinity(), h2 = h1;
+
+  /// Size along a unit tangent.
+  [[nodiscard]] double along(Vec3 w) const noexcept {
+    const double a = dot(w, d1) / h1, b = dot(w, d2) / h2;
+    return 1 / std::sqrt(a * a + b * b);
+  }
+  /// The size that belongs to the unit tangent `w`, a principal direction of another metric nearby: h1 where w is d1,
+  /// h2 where it is d2, and between them geometrically by the squares of the cosines, so that nothing jumps where
+  /// directions turn (at umbilics by any angle). Not the size along w: of sizes 1 and 100 that is hardly ever the
+  /// larger one.
+  [[nodiscard]] double matched(Vec3 w) const noexcept {
+    if (h1 == h2 || !std::isfinite(h1) || !std::isfinite(h2)) return std::max(h1, h2);
+    const double a = dot(w, d1), b = dot(w, d2), sum = a * a + b * b;
+    return sum > 0 ? h1 * std::pow(h2 / h1, b * b / sum) : std::min(h1, h2);
+  }
+  /// Shrinks both, each as far as it matters along the unit tangent w, until the size along w is at most h; a null
+  /// vector, the tangent of a curve that is normal to the plane, bounds nothing.
+  void bound_along(Vec3 w, double h) noexcept;
+};
+
+/// What a metric of the parameter plane is in the tangent plane; empty where the parametrisation is degenerate. h1 is
+/// the smaller size; of equal sizes the first is along su.
+std::optional<TangentMetric> tangent_metric(const SurfaceJet& jet, Metric2 metric) noexcept;
+/// The inverse. The parametrisation must not be degenerate.
+Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept;
+
+/// Shrinks h2, down to h1 at most, until triangles of these sizes lean against the surface by at most `tilt` (a
+/// tangent), and their normals turn by at most as much on half an edge. An edge of length L along d2 leaves its image
+/// by L^2 / 8 times the second derivative along it, in the normal plane and aside (where images of segments of (u, v)
+/// bend), and the vertices beside it are h1 away. The jet holds first and second derivatives.
+void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexcept;
+
+/// A metric known beside a place, `way` from it in its tangent plane.
+struct MetricSource {
+  int place = 0;
+  TangentMetric sizes;
+  Vec3 way;
+};
+
+/// Sizes no larger than `sizes` (one a place), along the same directions, that obey the gradation: along the directions
+/// of Q, and along PQ, no size exceeds (1 + slope length_P(PQ)) times that of P (Hc-correction), P being any place or
+/// middle of an edge in a triangle of Q, in the tangent plane rolled along the edge, across creases by the curve.
+/// Growth along straight lines is that of the source's metric as a whole, whatever the number of edges on the way.
+/// `slope` is kept within 2 % in all directions on graphs whose triangles are nearly equilateral in the metric. Throws
+/// InvalidArgument unless slope > 0 and the arrays fit.
+std::vector<TangentMetric> grade_metrics(const GradationGraph& graph, std::vector<TangentMetric> sizes,
+                                         const std::vector<MetricSource>& sources, double slope, Monitor& monitor);
+
+}  // namespace carreau

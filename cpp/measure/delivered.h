@@ -1,0 +1,158 @@
+// What was delivered: lengths, shapes and deviations of a mesh, measured on the real surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cad/cad.h"
+#include "control_space/control_space.h"
+#include "measure/mesh_edges.h"
+#include "mesh/surface_mesh.h"
+#include "metric/metric2.h"
+#include "size/size_law.h"
+#include "support/monitor.h"
+
+namespace carreau {
+
+/// What is prescribed inside faces: not what a control space holds of it.
+struct PrescribedMetric {
+  /// Want bits that the jets must hold; first derivatives are always there.
+  unsigned wants = want_first;
+  /// Metric of the parameter plane of a face (index in SurfaceMesh::faces) at each uv, whose jets are given.
+  std::function<void(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric)>
+      at;
+};
+
+/// What is measured. Values are part of the C ABI.
+enum class DeliveredKind : int {
+  /// Of an edge: length in the prescribed metric of the image of its segment of (u, v), by Gauss quadrature; 1 is as
+  /// prescribed.
+  length = 1,
+  /// Of an edge: the largest angle with the tangent planes at its ends, over all faces beside; degrees. NaN where both
+  /// ends are singular.
+  edge_angle = 2,
+  /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
+  /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in DeliveredOptions::spaces
+  /// where there are any. Edges shorter than a tenth of a unit are judged by the ratio of sizes alone, as if they were
+  /// that long. NaN where an end is singular.
+  gradation = 3,
+  /// Of a vertex: longest over shortest of its edges, lengths in space; where the metric has directions, each divided
+  /// by the size along it over the mean size, so that they compare. NaN without triangles.
+  length_ratio = 4,
+  /// Of a triangle: shapes in space (HDR eq. 1.5, 1.6).
+  q1 = 5,
+  q2 = 6,
+  /// Of a triangle: Q2 in the prescribed metric, 4 sqrt(3) area / sum of squared lengths, all in the metric; at most 1.
+  metric_quality = 7,
+  /// Of a triangle: A0 (HDR eq. 4.1), largest distance from sample points of the surface that its triangle of (u, v)
+  /// covers to it, or to the triangles of the same face around when they are nearer; model length.
+  deviation = 8,
+  /// Of a triangle: A1 (HDR sec. 4.3.4), largest angle between its normal and that of the surface at sample points and
+  /// at its vertices; degrees, 0 to 180.
+  angle = 9,
+};
+inline constexpr std::size_t delivered_kinds = 9;
+
+/// Of what one value is measured. Values are part of the C ABI.
+enum class DeliveredEntity : int { edge = 1, vertex = 2, triangle = 3 };
+
+/// A row of the table of kinds.
+struct DeliveredMeasure {
+  DeliveredKind kind;
+  DeliveredEntity entity;
+  const char* name;   ///< as in files: "metric_length"
+  const char* title;  ///< for a person, with the unit
+};
+/// All kinds, in the order of their values.
+std::span<const DeliveredMeasure> delivered_measures();
+
+struct DeliveredOptions {
+  /// Points on each edge at which its length is integrated: exact up to degree 2 n - 1 in the speed.
+  int gauss_points = 3;
+  /// Prescriptions to be checked; infinity: none.
+  double edge_angle_limit = std::numeric_limits<double>::infinity();    ///< degrees
+  double gradation_limit = std::numeric_limits<double>::infinity();     ///< ratio
+  double length_ratio_limit = std::numeric_limits<double>::infinity();  ///< ratio
+  double deviation_limit = std::numeric_limits<double>::infinity();     ///< model length
+  /// Edges of this length in space and shorter ones are as short as the smallest size lets them be, whatever angle they
+  /// exceed: at an apex, where there is no tangent plane, all do.
+  double shortest_for_angle = 0;
+  /// [curve of SurfaceMesh::curves][its vertex]: prescribed sizes along curves, which are another rule than those of
+  /// the faces beside them; between two vertices they are interpolated by `law`. A curve without entries, and all when
+  /// there are none: what the first face with the edge prescribes.
+  std::span<const std::vector<double>> curve_size = {};
+  SizeLaw law = SizeLaw::linear;
+  /// [face]: the fields that governed the mesh, on which a gradation is to hold; may be empty.
+  std::span<const std::optional<ControlSpace>> spaces = {};
+};
+
+/// Values counted in classes: class i holds bound[i] <= x < bound[i + 1]; the first bound is -infinity, the last one
+/// +infinity.
+struct Histogram {
+  std::vector<double> bound;
+  std::vector<std::int64_t> count;
+};
+
+/// Values of one kind; all zero when there are none.
+struct Spread {
+  std::int64_t count = 0;
+  double mean = 0, min = 0, p1 = 0, p99 = 0, max = 0;  ///< p1, p99: percentiles
+  Histogram histogram;
+};
+
+/// Spread of the values that are not NaN. `inner`: the bounds of the histogram between its infinite ones, ascending.
+Spread spread_of(std::span<const double> values, std::span<const double> inner);
+
+/// One kind. Edges are in the order of MeshEdges; triangles in that of SurfaceMesh::faces and their triangles.
+struct Delivery {
+  std::vector<double> values;
+  Spread spread;
+  double limit = std::numeric_limits<double>::infinity();  ///< asked; infinity: nothing was
+  /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
+  std::int64_t beyond = 0;
+  double tolerance = 0;  ///< share of the limit that may be exceeded
+  /// Of those: angles of edges no longer than `shortest`, gradations of inner edges between vertices of curves.
+  std::int64_t forced = 0;
+  double shortest = 0;  ///< edges so long are as short as the smallest size lets them be; model length
+
+  [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }
+};
+
+/// All measures; prescriptions that are not met are counted.
+struct Delivered {
+  MeshEdges edges;
+  std::array<Delivery, delivered_kinds> of_kind;
+  std::int64_t short_edges = 0, long_edges = 0;  ///< length below 1 / sqrt(2), above sqrt(2)
+  std::int64_t folded_triangles = 0;             ///< angle above 90 degrees
+  CallCounts calls;                              ///< that the measure took
+  double seconds = 0;
+
+  [[nodiscard]] const Delivery& operator[](DeliveredKind kind) const { return of_kind[static_cast<int>(kind) - 1]; }
+  [[nodiscard]] Delivery& operator[](DeliveredKind kind) { return of_kind[static_cast<int>(kind) - 1]; }
+
+  /// Share of the edges with a length in [1 / sqrt(2), sqrt(2)].
+  [[nodiscard]] double share_in_range() const noexcept;
+};
+
+/// Fills the spreads and counts from the values and limits.
+void summarise(Delivered& delivered);
+
+/// Measures a mesh on the surface that `cad` gives. About 24 evaluations a vertex: 1 of surf1 there, 9 of surf0 and
+/// surf1 on edges, 14 inside triangles. Throws what callbacks throw, and Cancelled.
+Delivered measure_delivered(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
+                            const DeliveredOptions& options, Monitor& monitor);
+
+/// For a person.
+struct DeliveredText {
+  /// One line a kind: its spread and its histogram; one sentence for each prescription that is not met.
+  std::vector<std::string> summary, not_met;
+};
+DeliveredText describe(const Delivered& delivered);
+
+}  // namespace carreau

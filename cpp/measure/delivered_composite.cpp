@@ -1,0 +1,42 @@
+#include "measure/delivered_composite.h"
+
+#include <memory>
+
+#include "surface/improve/adjacent_lengths.h"
+
+namespace carreau {
+
+Delivered measure_composite(const Model& model, const Topology& topology, Cad& cad, const CompositeOptions& options,
+                            const CompositeResult& result, Monitor& monitor) {
+  SizeRules rules(model, topology, cad, options.size);
+  // One face after the other is asked.
+  std::unique_ptr<FaceMetric> prescribed;
+  int prescribed_face = -1;
+  const SizeLimits limits{.field = result.graded.get()};
+  const PrescribedMetric metric{
+      want_first | rules.surface_wants() | (limits.field != nullptr ? want_position : 0U),
+      [&](int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
+        if (face != prescribed_face) {
+          const FaceInterfaces& interfaces = result.interfaces[face];
+          prescribed =
+              std::make_unique<FaceMetric>(face, rules, interfaces.plane, interfaces.physical, monitor, limits);
+          prescribed_face = face;
+        }
+        prescribed->at(uv, jets, out);
+      }};
+  DeliveredOptions measure;
+  measure.curve_size = result.curve_size;
+  measure.law = rules.law();
+  const GeometricLimits geometric = geometric_limits(options.size);
+  measure.edge_angle_limit = geometric.edge_angle_deg;
+  measure.shortest_for_angle = geometric.shortest_divided;
+  measure.deviation_limit = geometric.deviation;
+  if (options.gradation > 0) {
+    measure.gradation_limit = options.gradation;
+    measure.spaces = result.spaces;
+    measure.length_ratio_limit = adjacent_lengths * options.gradation;
+  }
+  return measure_delivered(result.mesh, cad, metric, measure, monitor);
+}
+
+}  // namespace carreau

@@ -1,0 +1,18 @@
+// What a run delivered, against what it was asked.
+#pragma once
+
+#include "measure/delivered.h"
+#include "surface/options.h"
+#include "surface/result.h"
+#include "surface/sample/face_metric.h"
+
+namespace carreau {
+
+/// Measures the mesh of mesh_composite(), called with the same arguments, against the sizes and metrics that its rules
+/// prescribe: asked again, from the host and from sources. With a gradation
+/// "prescribed" is what it left. Where the geometry governs, its angle or distance is the limit of edges or triangles;
+/// the gradation is that of edges, 1.6 times it that of the lengths at a vertex.
+Delivered measure_composite(const Model& model, const Topology& topology, Cad& cad, const CompositeOptions& options,
+                            const CompositeResult& result, Monitor& monitor);
+
+}  // namespace carreau

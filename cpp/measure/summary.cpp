@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "measure/delivered.h"
+#include "support/format.h"
+#include "support/short_number.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// What exceeds a limit by less than this share of it meets it.
+constexpr double rounding = 1e-9;
+constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;
+
+// Powers of ten from below the smallest positive value, at most six of them, to above the largest.
+std::vector<double> decades(std::span<const double> values) {
+  double low = infinity, high = 0;
+  for (const double x : values) {
+    if (!(x > 0) || x == infinity) continue;
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  std::vector<double> bounds;
+  if (high == 0) return bounds;
+  const int last = static_cast<int>(std::ceil(std::log10(high)));
+  const int first = std::max(last - 6, static_cast<int>(std::floor(std::log10(low))));
+  for (int k = first; k <= last; ++k) bounds.push_back(std::pow(10.0, k));
+  return bounds;
+}
+
+std::string percent(std::int64_t part, std::int64_t all) {
+  return format_number(all == 0 ? 0 : std::round(1e4 * static_cast<double>(part) / static_cast<double>(all)) / 100) +
+         " %";
+}
+
+std::string line_of(const char* name, const Spread& spread) {
+  std::string text = std::string(name) + ": mean " + short_number(spread.mean) + ", " + short_number(spread.min) +
+                     " to " + short_number(spread.max) + " (1 % below " + short_number(spread.p1) + ", 1 % above " +
+                     short_number(spread.p99) + ")";
+  std::string classes;
+  const Histogram& h = spread.histogram;
+  for (std::size_t i = 0; i < h.count.size(); ++i) {
+    if (h.count[i] == 0 || h.count.size() == 1) continue;  // one class has no bounds
+    classes += classes.empty() ? ";" : ",";
+    if (i == 0)
+      classes += " below " + short_number(h.bound[1]);
+    else if (i + 1 == h.count.size())
+      classes += " from " + short_number(h.bound[i]);
+    else
+      classes += " " + short_number(h.bound[i]) + " to " + short_number(h.bound[i + 1]);
+    classes += ": " + std::to_string(h.count[i]);
+  }
+  return text + classes;
+}
+
+/// "3 of 100 edges (3 %) have"
+std::string part_of(std::int64_t part, std::int64_t all, const char* entities) {
+  return std::to_string(part) + " of " + std::to_string(all) + " " + entities + " (" + percent(part, all) + ") have";
+}
+
+std::int64_t count_above(const std::vector<double>& values, double limit) {
+  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + rounding); });
+}
+
+}  // namespace
+
+Spread spread_of(std::span<const double> values, std::span<const double> inner) {
+  Spread spread;
+  std::vector<double> known;
+  known.reserve(values.size());
+  for (const double x : values)
+    if (!std::isnan(x)) known.push_back(x);
+  std::vector<double>& bound = spread.histogram.bound;
+  bound.push_back(-infinity);
+  bound.insert(bound.end(), inner.begin(), inner.end());
+  bound.push_back(infinity);
+  spread.histogram.count.assign(bound.size() - 1, 0);
+  spread.count = static_cast<std::int64_t>(known.size());
+  if (known.empty()) return spread;
+  double sum = 0;
+  for (const double x : known) {
+    sum += x;
+    const auto above = std::upper_bound(inner.begin(), inner.end(), x);
+    ++spread.histogram.count[static_cast<std::size_t>(above - inner.begin())];
+  }
+  spread.mean = sum / static_cast<double>(known.size());
+  const auto rank = [&](std::size_t k) {
+    const auto place = known.begin() + static_cast<std::ptrdiff_t>(k);
+    std::nth_element(known.begin(), place, known.end());
+    return *place;
+  };
+  const std::size_t last = known.size() - 1;
+  spread.p1 = rank(known.size() / 100);
+  spread.p99 = rank(last - known.size() / 100);
+  const auto [low, high] = std::minmax_element(known.begin(), known.end());
+  spread.min = *low;
+  spread.max = *high;
+  return spread;
+}
+
+std::span<const DeliveredMeasure> delivered_measures() {
+  using Kind = DeliveredKind;
+  using Entity = DeliveredEntity;
+  static constexpr std::array<DeliveredMeasure, delivered_kinds> table{{
+      {Kind::length, Entity::edge, "metric_length", "metric length of edges"},
+      {Kind::edge_angle, Entity::edge, "edge_angle", "angle of edges with tangent planes, degrees"},
+      {Kind::gradation, Entity::edge, "gradation", "gradation of sizes along edges"},
+      {Kind::length_ratio, Entity::vertex, "length_ratio", "longest over shortest edge of a vertex"},
+      {Kind::q1, Entity::triangle, "Q1", "shape Q1"},
+      {Kind::q2, Entity::triangle, "Q2", "shape Q2"},
+      {Kind::metric_quality, Entity::triangle, "metric_quality", "shape Q2 in the metric"},
+      {Kind::deviation, Entity::triangle, "A0", "deviation A0, model length"},
+      {Kind::angle, Entity::triangle, "A1", "deviation A1, degrees"},
+  }};
+  return table;
+}
+
+void summarise(Delivered& d) {
+  static constexpr std::array lengths{0.25, 0.5, short_limit, 0.9, 1.1, long_limit, 2.0, 4.0};
+  static constexpr std::array shares{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
+  static constexpr std::array angles{1.0, 2.0, 4.0, 8.0, 10.0, 16.0, 30.0, 60.0, 90.0};
+  static constexpr std::array ratios{1.1, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0};
+  for (const DeliveredMeasure& measure : delivered_measures()) {
+    Delivery& one = d[measure.kind];
+    std::span<const double> bounds = shares;
+    std::vector<double> powers;
+    switch (measure.kind) {
+      case DeliveredKind::length:
+        bounds = lengths;
+        break;
+      case DeliveredKind::edge_angle:
+      case DeliveredKind::angle:
+        bounds = angles;
+        break;
+      case DeliveredKind::gradation:
+      case DeliveredKind::length_ratio:
+        bounds = ratios;
+        break;
+      case DeliveredKind::deviation:
+        powers = decades(one.values);
+        bounds = powers;
+        break;
+      default:
+        break;
+    }
+    one.spread = spread_of(one.values, bounds);
+    one.tolerance = measure.kind == DeliveredKind::gradation ? 0.02 : rounding;
+    one.beyond = std::count_if(one.values.begin(), one.values.end(), [&one](double x) { return one.exceeds(x); });
+  }
+  const std::vector<double>& length = d[DeliveredKind::length].values;
+  d.long_edges = count_above(length, long_limit);
+  d.short_edges =
+      std::count_if(length.begin(), length.end(), [](double l) { return l < short_limit / (1 + rounding); });
+  d.folded_triangles = count_above(d[DeliveredKind::angle].values, 90);
+}
+
+double Delivered::share_in_range() const noexcept {
+  const Delivery& length = (*this)[DeliveredKind::length];
+  if (length.values.empty()) return 0;
+  return 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(length.values.size());
+}
+
+DeliveredText describe(const Delivered& d) {
+  DeliveredText text;
+  for (const DeliveredMeasure& measure : delivered_measures())
+    text.summary.push_back(line_of(measure.title, d[measure.kind].spread));
+  const auto edges = static_cast<std::int64_t>(d.edges.vertices.size());
+  if (const std::int64_t n = d.short_edges + d.long_edges; n > 0)
+    text.not_met.push_back(part_of(n, edges, "edges") + " metric lengths outside [0.7071, 1.414]: " +
+                           std::to_string(d.short_edges) + " are shorter, " + std::to_string(d.long_edges) + " longer");
+  const auto check = [&](DeliveredKind kind, const char* entities, const char* rule) {
+    const Delivery& one = d[kind];
+    if (one.beyond == 0) return;
+    std::string said = part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
+                       " more than the " + short_number(one.limit) + " asked; the worst has " +
+                       short_number(one.spread.max);
+    if (one.forced > 0)
+      said += "; " + std::to_string(one.forced) +
+              (kind == DeliveredKind::edge_angle
+                   ? " of them are as short as hgeomin lets edges be (" + short_number(one.shortest) + ")"
+                   : std::string(" of them cross a face from curve to curve"));
+    text.not_met.push_back(std::move(said));
+  };
+  check(DeliveredKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
+  check(DeliveredKind::gradation, "edges", "a gradation of sizes of");
+  check(DeliveredKind::length_ratio, "vertices", "a ratio of the lengths of their edges of");
+  check(DeliveredKind::deviation, "triangles", "a distance from the surface of");
+  if (d.folded_triangles > 0)
+    text.not_met.push_back(
+        part_of(d.folded_triangles, static_cast<std::int64_t>(d.edges.of_triangle.size()), "triangles") +
+        " a normal turned by more than 90 degrees against that of the surface");
+  return text;
+}
+
+}  // namespace carreau

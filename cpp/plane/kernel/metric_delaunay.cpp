@@ -1,0 +1,53 @@
+#include "plane/kernel/metric_delaunay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace carreau::plane {
+
+namespace {
+
+constexpr int swaps_between_checks = 4096;
+// A swap must gain this much, so that rounding cannot make it worth while in both directions.
+constexpr double least_gain = 1 + 1e-9;
+
+// The largest cotangent of an angle, that of the smallest one, which lies between the two longest sides.
+double sharpness(const Triangulation& mesh, int p, int q, int r) noexcept {
+  const Vertex &P = mesh.vertices[p], &Q = mesh.vertices[q], &R = mesh.vertices[r];
+  const Metric2 m = P.metric() + Q.metric() + R.metric();
+  const Vec2 pq = Q.point() - P.point(), qr = R.point() - Q.point(), rp = P.point() - R.point();
+  const double at_p = -dot(m, pq, rp), at_q = -dot(m, qr, pq), at_r = -dot(m, rp, qr);
+  return std::max({at_p, at_q, at_r}) / (std::sqrt(std::max(determinant(m), 1e-300)) * cross(pq, -1.0 * rp));
+}
+
+bool wants_swap(const Triangulation& mesh, int t, int i) noexcept {
+  const Triangle& A = mesh.triangles[t];
+  if (A.n[i] == no_edge || mesh.is_imposed(t, i)) return false;
+  const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh.triangles[A.n[i] >> 2].v[A.n[i] & 3];
+  if (!mesh.can_swap(t, i)) return false;
+  const double now = std::max(sharpness(mesh, c, a, b), sharpness(mesh, d, b, a));
+  const double then = std::max(sharpness(mesh, c, a, d), sharpness(mesh, c, d, b));
+  return then * least_gain < now;
+}
+
+}  // namespace
+
+void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> seeds, Monitor& monitor) {
+  std::vector<HalfEdge> open;
+  for (const std::int32_t t : seeds)
+    for (int i = 0; i < 3; ++i) open.push_back(4 * t + i);
+  long swaps = 0;
+  while (!open.empty()) {
+    const HalfEdge he = open.back();
+    open.pop_back();
+    const int t = he >> 2, i = he & 3;
+    if (!wants_swap(mesh, t, i)) continue;
+    if (++swaps % swaps_between_checks == 0) monitor.checkpoint();
+    const int u = mesh.triangles[t].n[i] >> 2;
+    mesh.swap_edge(t, i);
+    for (const HalfEdge outer : {4 * t, 4 * t + 2, 4 * u, 4 * u + 1}) open.push_back(outer);
+  }
+}
+
+}  // namespace carreau::plane

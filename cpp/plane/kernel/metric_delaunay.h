@@ -1,0 +1,18 @@
+// Delaunay in the metric of the vertices, however many swaps it takes.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "plane/kernel/triangulation.h"
+#include "support/monitor.h"
+
+namespace carreau::plane {
+
+/// Swaps until no swap makes the flatter of two triangles less flat, flatness being judged by the smallest angle in the
+/// mean metric of a triangle's own corners: where the metric is constant that is Delaunay's criterion, and where it
+/// varies swaps cannot run in circles. Starts with the edges of the triangles `seeds`. Needs the metrics at the
+/// vertices; imposed edges stay.
+void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> seeds, Monitor& monitor);
+
+}  // namespace carreau::plane

@@ -1,0 +1,72 @@
+#include "plane/kernel/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "predicates/predicates.h"
+
+namespace carreau::plane {
+
+// Kinks of the field, or bends too strong for second order, make charts that lie: what one tells of distances in six
+// directions must be what the tensors halfway do.
+Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept {
+  const double by_shapes = bend_of_shapes(slopes);
+  if (!(by_shapes > least_bend) || by_shapes > most_bend) return Bend::none;
+  constexpr double tolerance = 0.1;
+  for (const Vec2 d : six_directions) {
+    Vec2 e = chart.offset(d);
+    // Along a strong bend only so far that the curve is about a unit long.
+    const double aside = norm(chart.at_offset(e) - d);
+    if (aside > 1) e = (1 / std::sqrt(aside)) * e;
+    const double told = norm(chart.at_offset(e)), halfway = length(at(chart.origin() + 0.5 * e), e);
+    if (!(std::abs(told - halfway) <= tolerance * halfway)) return Bend::kinked;
+  }
+  return Bend::smooth;
+}
+
+double Lengths::quality() const noexcept { return std::sqrt(3 * area2()) / (a + b + c); }
+
+void Shapes::set_metric(int v) const noexcept {
+  Vertex& V = mesh_.vertices[v];
+  V.set_metric(field_.at(V.point()));
+  if (mesh_.bends.empty()) return;
+  const MetricSlopes slopes = field_.slopes(V.point());
+  mesh_.bends[v] = field_.bend(slopes, {V.point(), slopes});
+}
+
+double Shapes::squared_radius(int t) const noexcept {
+  const Triangle& T = mesh_.triangles[t];
+  return is_bent(T) ? lengths(T.v[0], T.v[1], T.v[2]).radius2() : mesh_.squared_radius(t);
+}
+
+double Shapes::change(int t) const noexcept {
+  double low = 0, high = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double det = determinant(mesh_.vertices[mesh_.triangles[t].v[i]].metric());
+    low = i == 0 ? det : std::min(low, det), high = std::max(high, det);
+  }
+  return high / std::max(low, 1e-300);
+}
+
+Sizes Shapes::classify() const noexcept {
+  constexpr std::size_t sample = 1000, fewest = 4000;  // triangles; the border decides on less
+  // A few triangles of a field with slope 0.26 change as much before they are relaxed; one that jumps has more of them.
+  constexpr double rough_change = 4, rough_share = 0.02, graded_share = 0.15;
+  const std::size_t n = mesh_.triangles.size(), step = std::max<std::size_t>(1, n / sample);
+  std::size_t looked = 0, graded = 0, rough = 0;
+  for (std::size_t t = 0; t < n; t += step, ++looked) {
+    const double by = change(static_cast<int>(t));
+    graded += by > graded_change ? 1 : 0;
+    rough += by > rough_change ? 1 : 0;
+  }
+  const auto all = static_cast<double>(looked);
+  if (n < fewest || static_cast<double>(rough) > rough_share * all) return Sizes::rough;
+  return static_cast<double>(graded) > graded_share * all ? Sizes::graded : Sizes::even;
+}
+
+double Shapes::quality(int p, int q, int r) const noexcept {
+  if (!mesh_.is_bent(p, q, r)) return mesh_.quality(p, q, r);
+  return orientation(mesh_.at(p), mesh_.at(q), mesh_.at(r)) > 0 ? lengths(p, q, r).quality() : 0;
+}
+
+}  // namespace carreau::plane

@@ -1,0 +1,166 @@
+#include "plane/kernel/triangulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "predicates/predicates.h"
+
+namespace carreau::plane {
+
+int Triangulation::locate(Vec2 p, int hint) const noexcept {
+  constexpr std::size_t fixed_order_steps = 40;
+  const Triangle* const T = triangles.data();
+  const Vertex* const V = vertices.data();
+  int t = hint, from = -1;
+  std::uint32_t turn = 1;
+  const std::size_t limit = 2 * triangles.size() + 100;
+  for (std::size_t step = 0; step < limit; ++step) {
+    const Triangle& now = T[t];
+    // In a triangulation that is not Delaunay a fixed order could go round in circles.
+    int first = 0;
+    if (step > fixed_order_steps) {
+      turn = turn * 1664525U + 1013904223U;
+      first = static_cast<int>((turn >> 16) % 3);
+    }
+    bool moved = false, blocked = false;
+    for (int k = 0; k < 3; ++k) {
+      const int i = first + k < 3 ? first + k : first + k - 3;
+      if (i == from) continue;
+      if (orientation(V[now.v[next3[i]]].point(), V[now.v[prev3[i]]].point(), p) >= 0) continue;
+      if (now.n[i] == no_edge || (now.imposed >> i & 1) != 0) {
+        blocked = true;
+        continue;
+      }
+      from = now.n[i] & 3;
+      t = now.n[i] >> 2;
+      moved = true;
+      break;
+    }
+    if (!moved) return blocked ? -1 : t;
+  }
+  // Only a walk of unheard-of bad luck comes here.
+  for (std::size_t s = 0; s < triangles.size(); ++s) {
+    const Triangle& now = T[s];
+    if (orientation(at(now.v[0]), at(now.v[1]), p) >= 0 && orientation(at(now.v[1]), at(now.v[2]), p) >= 0 &&
+        orientation(at(now.v[2]), at(now.v[0]), p) >= 0)
+      return static_cast<int>(s);
+  }
+  return -1;
+}
+
+void Triangulation::renumber_if_large() {
+  constexpr std::size_t fits_in_cache = 200'000;  // triangles
+  if (triangles.size() < fits_in_cache) return;
+  // By counting on the largest vertex of each.
+  const auto key = [](const Triangle& T) { return std::max({T.v[0], T.v[1], T.v[2]}); };
+  std::vector<std::int32_t> next(vertices.size() + 1, 0), rank(triangles.size());
+  for (const Triangle& T : triangles) ++next[key(T) + 1];
+  for (std::size_t v = 0; v + 1 < next.size(); ++v) next[v + 1] += next[v];
+  for (std::size_t t = 0; t < triangles.size(); ++t) rank[t] = next[key(triangles[t])]++;
+  std::vector<Triangle> sorted(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    Triangle& T = sorted[rank[t]];
+    T = triangles[t];
+    for (HalfEdge& n : T.n)
+      if (n != no_edge) n = 4 * rank[n >> 2] + (n & 3);
+  }
+  triangles.swap(sorted);
+  for (Vertex& v : vertices) v.triangle = rank[v.triangle];
+}
+
+bool Triangulation::can_swap(int t, int i) const noexcept {
+  const Triangle& A = triangles[t];
+  if (A.n[i] == no_edge || (A.imposed >> i & 1) != 0) return false;
+  const Triangle& B = triangles[A.n[i] >> 2];
+  const Vec2 c = at(A.v[i]), a = at(A.v[next3[i]]), b = at(A.v[prev3[i]]), d = at(B.v[A.n[i] & 3]);
+  return orientation(c, a, d) > 0 && orientation(c, d, b) > 0;
+}
+
+void Triangulation::swap_edge(int t, int i) noexcept {
+  Triangle& A = triangles[t];
+  const int u = A.n[i] >> 2, j = A.n[i] & 3;
+  Triangle& B = triangles[u];
+  const auto bit = [](std::uint8_t bits, int k) { return static_cast<unsigned>(bits >> k & 1); };
+  const auto pack = [](unsigned e0, unsigned e1, unsigned e2) {
+    return static_cast<std::uint8_t>(e0 | e1 << 1 | e2 << 2);
+  };
+  const int c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = B.v[j];
+  // Outer edges: bc and ca of A; ad and db of B (B is d, b, a from corner j).
+  const HalfEdge bc = A.n[next3[i]], ca = A.n[prev3[i]], ad = B.n[next3[j]], db = B.n[prev3[j]];
+  if ((A.imposed | B.imposed) != 0) {
+    const auto rotate = [&](std::uint8_t& of_a, std::uint8_t& of_b) {
+      const std::uint8_t a_bits = pack(bit(of_b, next3[j]), 0, bit(of_a, prev3[i]));
+      of_b = pack(bit(of_b, prev3[j]), bit(of_a, next3[i]), 0);
+      of_a = a_bits;
+    };
+    rotate(A.imposed, B.imposed);
+    rotate(A.degenerate, B.degenerate);
+  }
+  A.v[0] = c, A.v[1] = a, A.v[2] = d;
+  A.n[0] = ad, A.n[1] = 4 * u + 2, A.n[2] = ca;
+  B.v[0] = c, B.v[1] = d, B.v[2] = b;
+  B.n[0] = db, B.n[1] = bc, B.n[2] = 4 * t + 1;
+  if (ad != no_edge) triangles[ad >> 2].n[ad & 3] = 4 * t;
+  if (ca != no_edge) triangles[ca >> 2].n[ca & 3] = 4 * t + 2;
+  if (db != no_edge) triangles[db >> 2].n[db & 3] = 4 * u;
+  if (bc != no_edge) triangles[bc >> 2].n[bc & 3] = 4 * u + 1;
+  vertices[c].triangle = vertices[a].triangle = vertices[d].triangle = t;
+  vertices[b].triangle = u;
+}
+
+HalfEdge Triangulation::find_edge(int u, int v) const noexcept {
+  const int start = vertices[u].triangle;
+  int t = start;
+  do {  // counterclockwise, until round or at the border
+    const Triangle& T = triangles[t];
+    const int k = corner_of(t, u);
+    if (T.v[next3[k]] == v) return 4 * t + prev3[k];
+    if (T.v[prev3[k]] == v) return 4 * t + next3[k];
+    const HalfEdge after = T.n[next3[k]];
+    if (after == no_edge) break;
+    t = after >> 2;
+    if (t == start) return no_edge;
+  } while (true);
+  for (t = start;;) {  // the other way
+    const Triangle& T = triangles[t];
+    const int k = corner_of(t, u);
+    if (T.v[next3[k]] == v) return 4 * t + prev3[k];
+    if (T.v[prev3[k]] == v) return 4 * t + next3[k];
+    const HalfEdge before = T.n[prev3[k]];
+    if (before == no_edge) return no_edge;
+    t = before >> 2;
+  }
+}
+
+void Triangulation::impose(HalfEdge he, bool degenerate) noexcept {
+  const auto set = [&](HalfEdge h) {
+    Triangle& T = triangles[h >> 2];
+    T.imposed = static_cast<std::uint8_t>(T.imposed | 1U << (h & 3));
+    if (degenerate) T.degenerate = static_cast<std::uint8_t>(T.degenerate | 1U << (h & 3));
+  };
+  const HalfEdge other = triangles[he >> 2].n[he & 3];
+  set(he);
+  if (other != no_edge) set(other);
+}
+
+double Triangulation::squared_radius(int t) const noexcept {
+  const Triangle& T = triangles[t];
+  const Vertex &A = vertices[T.v[0]], &B = vertices[T.v[1]], &C = vertices[T.v[2]];
+  const Metric2 m = (1.0 / 3) * (A.metric() + B.metric() + C.metric());
+  const Vec2 u = B.point() - A.point(), v = C.point() - A.point();
+  const double area = cross(u, v);
+  return carreau::squared_length(m, u) * carreau::squared_length(m, v) * carreau::squared_length(m, u - v) /
+         (4 * area * area * std::max(determinant(m), 1e-300));
+}
+
+double Triangulation::quality(int p, int q, int r) const noexcept {
+  const Vertex &P = vertices[p], &Q = vertices[q], &R = vertices[r];
+  if (orientation(P.point(), Q.point(), R.point()) <= 0) return 0;
+  const Metric2 m = P.metric() + Q.metric() + R.metric();
+  const Vec2 u = Q.point() - P.point(), v = R.point() - P.point();
+  const double sum = carreau::squared_length(m, u) + carreau::squared_length(m, v) + carreau::squared_length(m, u - v);
+  return 2 * std::numbers::sqrt3 * cross(u, v) * std::sqrt(std::max(determinant(m), 0.0)) / sum;
+}
+
+}  // namespace carreau::plane

@@ -1,0 +1,121 @@
+#include "surface/assembly/assembly.h"
+
+#include <algorithm>
+
+namespace carreau {
+
+namespace {
+
+constexpr std::int32_t unknown = -1;
+
+class Assembler {
+ public:
+  Assembler(const Model& model, const Topology& topology, const RefinedDomains& domains,
+            const std::vector<DiscreteCurve>& curves, CompositeResult& result)
+      : model_(model),
+        topology_(topology),
+        domains_(domains),
+        curves_(curves),
+        mesh_(result.mesh),
+        sizes_(result.vertex_size) {}
+
+  void run(std::vector<std::optional<PatchMesh>>& patches) {
+    corner_vertex_.assign(topology_.points.size(), unknown);
+    add_curves(patches);
+    for (std::size_t f = 0; f < patches.size(); ++f) {
+      add_face(f, patches[f]);
+      patches[f].reset();
+    }
+  }
+
+ private:
+  std::int32_t add_vertex(Vec3 position, int ref, double size) {
+    mesh_.vertices.push_back(position);
+    mesh_.vertex_ref.push_back(ref);
+    sizes_.push_back(size);
+    return static_cast<std::int32_t>(mesh_.vertices.size()) - 1;
+  }
+
+  std::int32_t corner(int point, double size) {
+    std::int32_t& vertex = corner_vertex_[point];
+    if (vertex == unknown) vertex = add_vertex(topology_.points[point].position, topology_.points[point].ref, size);
+    sizes_[vertex] = std::min(sizes_[vertex], size);
+    return vertex;
+  }
+
+  // Corners come first, in the order of the model; only what a meshed face holds becomes a vertex.
+  void add_curves(const std::vector<std::optional<PatchMesh>>& patches) {
+    const auto is_used = [&](const Curve& curve) {
+      return std::any_of(curve.uses.begin(), curve.uses.end(),
+                         [&](const CurveUse& use) { return patches[use.face].has_value(); });
+    };
+    for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
+      const Curve& shape = topology_.curves[c];
+      if (!is_used(shape)) continue;
+      corner(shape.end1, curves_[c].size.front());
+      corner(shape.end2, curves_[c].size.back());
+    }
+    for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
+      const Curve& shape = topology_.curves[c];
+      CurveMesh curve{.ref = shape.ref, .vertices = {}, .uses = {}};
+      if (!shape.uses.empty())
+        curve.part_of = model_.faces[shape.uses.front().face].curves[shape.uses.front().curve].shown_as;
+      for (const CurveUse& use : shape.uses)
+        curve.uses.push_back({use.face, model_.faces[use.face].curves[use.curve].type == CurveType::internal});
+      if (is_used(shape)) {
+        curve.vertices.push_back(corner_vertex_[shape.end1]);
+        if (!shape.degenerate) {
+          for (std::size_t i = 1; i + 1 < curves_[c].xyz.size(); ++i)
+            curve.vertices.push_back(add_vertex(curves_[c].xyz[i], 0, curves_[c].size[i]));
+          curve.vertices.push_back(corner_vertex_[shape.end2]);
+        }
+      }
+      mesh_.curves.push_back(std::move(curve));
+    }
+  }
+
+  std::int32_t imposed_vertex(std::size_t f, const FaceDomain& domain, const PatchMesh& patch, std::size_t local) {
+    const DomainVertexOrigin& origin = domain.origin[local];
+    if (origin.corner >= 0) return corner_vertex_[origin.corner];
+    if (origin.curve >= 0) return mesh_.curves[origin.curve].vertices[origin.node];
+    return add_vertex(patch.xyz[local], model_.faces[f].points[origin.point].ref, patch.size[local]);
+  }
+
+  void add_face(std::size_t f, std::optional<PatchMesh>& patch) {
+    FaceMesh& face = mesh_.faces[f];
+    if (!patch) return;
+    const FaceDomain& domain = *domains_.domain[f];
+    face.uv = std::move(patch->plane.vertices);
+    face.vertex.reserve(face.uv.size());
+    for (std::size_t v = 0; v < face.uv.size(); ++v)
+      face.vertex.push_back(v < domain.origin.size() ? imposed_vertex(f, domain, *patch, v)
+                                                     : add_vertex(patch->xyz[v], 0, patch->size[v]));
+    face.triangles = std::move(patch->plane.triangles);
+    std::erase_if(face.triangles, [&](const std::array<std::int32_t, 3>& t) {
+      const std::int32_t a = face.vertex[t[0]], b = face.vertex[t[1]], c = face.vertex[t[2]];
+      const bool flat = a == b || b == c || c == a;
+      if (flat) face.flattened.push_back(t);
+      return flat;
+    });
+    face.status = domains_.mended[f] != 0 ? FaceStatus::mended : FaceStatus::meshed;
+    if (face.status == FaceStatus::mended) face.why = "curves were refined so that the domain could be meshed";
+  }
+
+  const Model& model_;
+  const Topology& topology_;
+  const RefinedDomains& domains_;
+  const std::vector<DiscreteCurve>& curves_;
+  SurfaceMesh& mesh_;
+  std::vector<double>& sizes_;
+  std::vector<std::int32_t> corner_vertex_;
+};
+
+}  // namespace
+
+void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
+              const std::vector<DiscreteCurve>& curves, std::vector<std::optional<PatchMesh>>& patches,
+              CompositeResult& result) {
+  Assembler(model, topology, domains, curves, result).run(patches);
+}
+
+}  // namespace carreau

@@ -1,0 +1,20 @@
+// From patches to one conforming mesh.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "surface/patch.h"
+#include "surface/refine/boundary_refinement.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// Joins patches along their curves: a vertex of a curve or a corner is one vertex of the mesh, whatever the number of
+/// faces and of places in (u, v) that it has. Triangles that a degenerate side flattens are left out. patches[f] is
+/// empty for a face that failed, and is emptied here.
+void assemble(const Model& model, const Topology& topology, const RefinedDomains& domains,
+              const std::vector<DiscreteCurve>& curves, std::vector<std::optional<PatchMesh>>& patches,
+              CompositeResult& result);
+
+}  // namespace carreau

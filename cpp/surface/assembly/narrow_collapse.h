@@ -1,0 +1,34 @@
+// Narrow faces that vanish from a mesh.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "support/monitor.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// A face that is to vanish: what becomes one vertex each.
+struct FaceCollapse {
+  int face = 0;                                ///< index in SurfaceMesh::faces
+  double width = 0;                            ///< model length
+  double size = 0;                             ///< prescribed there
+  std::vector<std::vector<std::int32_t>> one;  ///< local vertices of that face
+  std::vector<int> curves;                     ///< indices of curves all of whose vertices become one
+};
+
+/// Lets faces vanish from a mesh. A set of vertices becomes its first one, so that corners stay where they are; curves
+/// that coincide become one, of the reference of the first, with the uses of all. Statuses and sentences of faces are
+/// set.
+
+/// All faces, where neighbours were meshed without their tips. False, and nothing done, when the mesh would have a
+/// defect, or a triangle would be turned over.
+bool collapse_together(std::span<const FaceCollapse> faces, CompositeResult& result);
+
+/// Each face, the narrowest first, whose collapse leaves the mesh as sound as it was, of the same Euler characteristic,
+/// and no triangle of other faces turned over. The others keep their triangles.
+void collapse_one_by_one(std::span<const FaceCollapse> faces, CompositeResult& result, Monitor& monitor);
+
+}  // namespace carreau

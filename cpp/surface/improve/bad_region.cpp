@@ -1,0 +1,57 @@
+#include "surface/improve/bad_region.h"
+
+#include <algorithm>
+
+#include "mesh/quality.h"
+
+namespace carreau {
+
+double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept {
+  const Vec3 a = xyz[triangle[0]], b = xyz[triangle[1]], c = xyz[triangle[2]];
+  if (a == b || b == c || c == a) return 1;
+  return quality_q2(a, b, c);
+}
+
+BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound)
+    : mesh_(mesh), xyz_(xyz) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (is_below(bound, mesh.triangles[t])) triangles_.push_back(static_cast<std::int32_t>(t));
+  if (triangles_.empty()) return;
+  movable_.assign(mesh.vertices.size(), 0);
+  for (int ring = 0; ring < 2; ++ring) {
+    mark_corners(triangles_, movable_);
+    triangles_.clear();
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const Triangle& c = mesh.triangles[t];
+      if ((movable_[c[0]] | movable_[c[1]] | movable_[c[2]]) != 0) triangles_.push_back(static_cast<std::int32_t>(t));
+    }
+  }
+  std::fill_n(movable_.begin(), domain.vertices.size(), 0);
+  for (const PlaneEdge& e : domain.edges) imposed_.push_back({std::min(e.a, e.b), std::max(e.a, e.b)});
+  std::sort(imposed_.begin(), imposed_.end());
+}
+
+void BadRegion::mark_corners(const std::vector<std::int32_t>& triangles, std::vector<char>& marked) const {
+  for (const std::int32_t t : triangles)
+    for (const std::int32_t v : mesh_.triangles[t]) marked[v] = 1;
+}
+
+// Without roots for those that are good, which nearly all are.
+bool BadRegion::is_below(double bound, const Triangle& t) const {
+  const Vec3 ab = xyz_[t[1]] - xyz_[t[0]], ac = xyz_[t[2]] - xyz_[t[0]], bc = ac - ab, n = cross(ab, ac);
+  const double squares = dot(ab, ab) + dot(bc, bc) + dot(ac, ac), good = 1.001 * bound;
+  return !(12 * dot(n, n) > good * good * squares * squares) && quality_in_space(t, xyz_) < bound;
+}
+
+std::vector<std::int32_t> BadRegion::below(double bound) const {
+  std::vector<std::int32_t> found;
+  for (const std::int32_t t : triangles_)
+    if (is_below(bound, mesh_.triangles[t])) found.push_back(t);
+  return found;
+}
+
+bool BadRegion::is_imposed(std::int32_t a, std::int32_t b) const {
+  return std::binary_search(imposed_.begin(), imposed_.end(), std::array{std::min(a, b), std::max(a, b)});
+}
+
+}  // namespace carreau

@@ -1,0 +1,49 @@
+// Where the shapes of triangles in space are to be improved, after the lift.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/plane_mesh.h"
+
+namespace carreau {
+
+/// Triangles of a better shape (Q2, HDR eq. 1.6, in space) are left as the metric made them.
+inline constexpr double good_quality = 0.8;
+/// Below, the worst shape counts whatever it costs the others.
+inline constexpr double poor_quality = 0.6;
+
+/// Q2 in space; 1 for triangles with two corners at one place: an apex of space is a side of the parameter plane, and
+/// what it makes flat will be removed.
+double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
+
+/// The triangles of a patch near those that are bad. Only these may be changed by what improves shapes.
+class BadRegion {
+ public:
+  /// Two rings of triangles around those below `bound`. Keeps references to the mesh and its positions, whose numbers
+  /// of vertices and triangles stay.
+  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound);
+
+  /// Indices, increasing.
+  [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }
+  /// Those below `bound` now, increasing.
+  [[nodiscard]] std::vector<std::int32_t> below(double bound) const;
+  /// Not imposed, and all triangles around are in the region.
+  [[nodiscard]] bool may_move(std::int32_t vertex) const { return movable_[vertex] != 0; }
+  [[nodiscard]] bool is_imposed(std::int32_t a, std::int32_t b) const;
+
+ private:
+  using Triangle = std::array<std::int32_t, 3>;
+
+  [[nodiscard]] bool is_below(double bound, const Triangle& t) const;
+  void mark_corners(const std::vector<std::int32_t>& triangles, std::vector<char>& marked) const;
+
+  const PlaneMesh& mesh_;
+  const std::vector<Vec3>& xyz_;
+  std::vector<std::int32_t> triangles_;
+  std::vector<char> movable_;                         // by vertex
+  std::vector<std::array<std::int32_t, 2>> imposed_;  // the smaller vertex first; sorted
+};
+
+}  // namespace carreau

@@ -1,0 +1,16 @@
+// After the lift: shapes of triangles in space, by swaps and moves in turn.
+#pragma once
+
+#include "size/size_rules.h"
+#include "surface/patch.h"
+
+namespace carreau {
+
+/// Where sizes are isotropic: edges of the worst triangles (poor_quality) are swapped. Asks no host.
+void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor);
+
+/// Where sizes are isotropic: vertices and edges of bad triangles (BadRegion) are moved and swapped for their shapes in
+/// space. Of a lifted mesh whose sizes are known; keeps them up to date. Asks nothing where no triangle is bad.
+void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,14 @@
+// Edge swaps judged in space, after the lift.
+#pragma once
+
+#include "support/monitor.h"
+#include "surface/improve/bad_region.h"
+
+namespace carreau {
+
+/// Swaps edges of the region that are not imposed while that raises the worse shape quality of the two triangles, where
+/// one of them is poor. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Whether an
+/// edge was swapped.
+bool swap_in_space(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz, Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,150 @@
+#include "surface/lift/steep_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/triangle_search.h"
+#include "predicates/polygon_locator.h"
+#include "surface/lift/verification.h"
+#include "surface/sample/face_metric.h"
+
+namespace carreau {
+namespace {
+
+constexpr std::size_t most_places = 500;
+constexpr std::size_t batch = 512;
+constexpr int most_steps = 8;
+// Steps shorter than this share of a place's reach are the last.
+constexpr double settled = 1e-3;
+
+/// A place on its way to the surface.
+struct Foot {
+  Vec3 at;
+  double reach;
+  Vec2 uv;
+  bool moving = true;
+};
+
+/// Gauss and Newton's step towards the nearest point of the tangent plane; none where that is degenerate.
+Vec2 step_towards(const SurfaceJet& jet, Vec3 at) noexcept {
+  const Vec3 away = at - jet.s;
+  const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
+  const double p = dot(jet.su, away), q = dot(jet.sv, away), det = e * g - f * f;
+  if (!(det > 1e-12 * e * g)) return {};
+  return {(g * p - f * q) / det, (e * q - f * p) / det};
+}
+
+class SteepPlaces {
+ public:
+  SteepPlaces(const PatchInput& input, Cad& cad, const PatchMesh& mesh, Monitor& monitor)
+      : input_(input), cad_(cad), mesh_(mesh), monitor_(monitor) {}
+
+  // Places whose nearest point of the mesh may be that of the surface.
+  std::vector<Foot> begin(const std::vector<SteepPlace>& places) {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+    double longest = 0;
+    for (const Vec3 p : mesh_.xyz) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    for (const auto& t : mesh_.plane.triangles)
+      for (int i = 0; i < 3; ++i) longest = std::max(longest, norm(mesh_.xyz[t[i]] - mesh_.xyz[t[(i + 1) % 3]]));
+    const auto near_box = [&](const SteepPlace& s) {
+      const double d = s.reach + longest;
+      return s.at.x > low.x - d && s.at.x < high.x + d && s.at.y > low.y - d && s.at.y < high.y + d &&
+             s.at.z > low.z - d && s.at.z < high.z + d;
+    };
+    std::vector<SteepPlace> around;
+    std::copy_if(places.begin(), places.end(), std::back_inserter(around), near_box);
+    if (around.empty()) return {};
+    const TriangleSearch tree(mesh_.xyz, mesh_.plane.triangles, &monitor_);
+    std::vector<Foot> feet;
+    std::int32_t last = 0;
+    for (const SteepPlace& s : around) {
+      const NearestOnMesh n = tree.nearest(s.at, last);
+      last = n.triangle;
+      // A surface leaves its triangles by less than their edges.
+      if (n.distance > s.reach + tree.longest_edge(n.triangle)) continue;
+      const auto& t = mesh_.plane.triangles[static_cast<std::size_t>(n.triangle)];
+      const std::vector<Vec2>& uv = mesh_.plane.vertices;
+      feet.push_back({s.at, s.reach, n.weight[0] * uv[t[0]] + n.weight[1] * uv[t[1]] + n.weight[2] * uv[t[2]]});
+    }
+    return feet;
+  }
+
+  // The mesh lies within the domain but for chords of its curves: places beside them are left where they leave it.
+  void settle(std::vector<Foot>& feet) {
+    const SampledDomain domain = sampled_domain(input_.domain->plane);
+    const PolygonLocator locator(domain.vertices, domain.edges);
+    std::erase_if(feet, [&](const Foot& f) { return !locator.contains(f.uv); });
+    std::vector<double> distance(feet.size(), std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> moving;
+    std::vector<Vec2> uv;
+    std::vector<SurfaceJet> jets;
+    for (int step = 0; step < most_steps; ++step) {
+      moving.clear();
+      for (std::size_t k = 0; k < feet.size(); ++k)
+        if (feet[k].moving) moving.push_back(k);
+      for (std::size_t first = 0; first < moving.size(); first += batch) {
+        monitor_.checkpoint();
+        const std::size_t n = std::min(batch, moving.size() - first);
+        uv.clear();
+        for (std::size_t i = 0; i < n; ++i) uv.push_back(feet[moving[first + i]].uv);
+        jets.resize(n);
+        cad_.surface(input_.ref, want_position | want_first, uv, jets);
+        for (std::size_t i = 0; i < n; ++i) {
+          Foot& f = feet[moving[first + i]];
+          distance[moving[first + i]] = norm(f.at - jets[i].s);
+          const Vec2 d = step_towards(jets[i], f.at);
+          f.moving = norm(d.x * jets[i].su + d.y * jets[i].sv) > settled * f.reach && locator.contains(f.uv + d);
+          if (f.moving) f.uv = f.uv + d;
+        }
+      }
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < feet.size(); ++k)
+      if (distance[k] <= feet[k].reach) feet[kept++] = feet[k];
+    feet.resize(kept);
+  }
+
+ private:
+  const PatchInput& input_;
+  Cad& cad_;
+  const PatchMesh& mesh_;
+  Monitor& monitor_;
+};
+
+}  // namespace
+
+std::vector<Vec2> missed_steep_places(const PatchInput& input, const ControlSpace& space, Cad& cad,
+                                      const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor) {
+  const std::vector<SteepPlace> places = rules.steep_in_space();
+  if (places.empty() || mesh.plane.triangles.empty()) return {};
+  SteepPlaces search(input, cad, mesh, monitor);
+  std::vector<Foot> feet = search.begin(places);
+  if (feet.empty()) return {};
+  search.settle(feet);
+  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
+  std::vector<Vec2> missed, uv;
+  std::vector<SurfaceJet> jets;
+  std::vector<Metric2> metric;
+  for (std::size_t first = 0; first < feet.size(); first += batch) {
+    monitor.checkpoint();
+    const std::size_t n = std::min(batch, feet.size() - first);
+    uv.clear();
+    for (std::size_t i = 0; i < n; ++i) uv.push_back(feet[first + i].uv);
+    jets.resize(n), metric.resize(n);
+    cad.surface(input.ref, prescribed.wants(), uv, jets);
+    prescribed.at(uv, jets, metric);
+    for (std::size_t i = 0; i < n; ++i)
+      if (!agree(length_ratios(metric[i], space.at(uv[i])), input)) missed.push_back(uv[i]);
+  }
+  if (missed.size() <= most_places) return missed;
+  std::vector<Vec2> some;
+  for (std::size_t k = 0; k < most_places; ++k) some.push_back(missed[k * missed.size() / most_places]);
+  return some;
+}
+
+}  // namespace carreau

@@ -1,0 +1,252 @@
+#include "surface/lift/verification.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "cad/fundamental_forms.h"
+#include "predicates/polygon_locator.h"
+#include "support/format.h"
+#include "surface/sample/face_metric.h"
+
+namespace carreau {
+
+namespace {
+
+// True length over promised length. An arc of 150 degrees is 1.36 times its chord.
+constexpr double too_long = 1.3, too_short = 0.65;
+// Edges so many times longer than promised are looked at: where the surface is continuous between their ends, nothing
+// becomes of it.
+constexpr double excess = 8;
+constexpr std::size_t most_places = 500;
+constexpr std::size_t triangles_between_checks = 1 << 16;
+// A change of the control space, in relative length, that is worth another mesh.
+constexpr double notable_change = 0.1;
+// An edge that is so much shorter than another of its triangle is a point of space: triangles of prescribed metrics are
+// some ten thousand times longer than wide at most.
+constexpr double one_point = 1e-6;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+class LiftCheck {
+ public:
+  LiftCheck(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules, PatchMesh& mesh,
+            Monitor& monitor)
+      : input_(input), space_(space), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor) {}
+
+  std::vector<Vec2> run() {
+    if (rules_.uses_metrics()) {
+      compare_lengths();
+      compare_metrics();
+      find_places(false);  // a mean size says nothing of an edge that is short by its direction
+      thin_out();
+      return std::move(places_);
+    }
+    if (input_.constant_size) {
+      mesh_.size.assign(mesh_.xyz.size(), *input_.constant_size);
+    } else {
+      compare_lengths();
+      ask_host();
+    }
+    find_places(true);
+    thin_out();
+    return std::move(places_);
+  }
+
+ private:
+  void thin_out() {
+    if (places_.size() <= most_places) return;
+    std::vector<Vec2> some;
+    for (std::size_t k = 0; k < most_places; ++k) some.push_back(places_[k * places_.size() / most_places]);
+    places_.swap(some);
+  }
+
+  void compare_metrics() {
+    constexpr std::size_t batch = 512;
+    FaceMetric prescribed(input_.face, rules_, input_.domain->plane, input_.domain->physical, monitor_, input_.limits);
+    std::vector<SurfaceJet> jets(batch);
+    std::vector<Metric2> metric(batch);
+    const std::span<const Vec2> uv = mesh_.plane.vertices;
+    mesh_.normal.assign(uv.size(), {});
+    for (std::size_t first = input_.domain->size.size(); first < uv.size(); first += batch) {
+      monitor_.checkpoint();
+      const std::size_t n = std::min(batch, uv.size() - first);
+      cad_.surface(input_.ref, prescribed.wants(), uv.subspan(first, n), std::span(jets).first(n));
+      prescribed.at(uv.subspan(first, n), std::span(jets).first(n), std::span(metric).first(n));
+      for (std::size_t k = 0; k < n; ++k) compare_at(first + k, jets[k], metric[k]);
+    }
+  }
+  void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
+    mesh_.normal[v] = unit_normal(jet).value_or(Vec3{});
+    const double h = mean_size(jet, metric);
+    if (!(h > 0)) return;
+    mesh_.size[v] = h;
+    const Vec2 p = mesh_.plane.vertices[v];
+    const LengthRatios ratios = length_ratios(metric, space_.at(p));
+    if (!agree(ratios, input_)) places_.push_back(p);
+  }
+
+  /// Calls `use(a, b)` for each edge that is not on the border, once. Both sides of an internal edge count as one.
+  template <typename Use>
+  void for_inner_edges(const Use& use) {
+    std::size_t done = 0;
+    for (const auto& t : mesh_.plane.triangles) {
+      if (++done % triangles_between_checks == 0) monitor_.checkpoint();
+      for (int i = 0; i < 3; ++i)
+        if (t[i] < t[i == 2 ? 0 : i + 1]) use(t[i], t[i == 2 ? 0 : i + 1]);
+    }
+  }
+  [[nodiscard]] double squared_promise(int a, int b) const {
+    const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
+    return squared_length(space_.at(0.5 * (p + q)), q - p);
+  }
+  [[nodiscard]] double in_space(int a, int b) const { return norm(mesh_.xyz[b] - mesh_.xyz[a]); }
+
+  // The size that the control space prescribes at a vertex: length in space over metric length, averaged over its
+  // edges. Spends no callback; exact where the sampled first fundamental form is.
+  void compare_lengths() {
+    std::vector<double> of_space(mesh_.xyz.size(), 0), of_metric(mesh_.xyz.size(), 0);
+    for_inner_edges([&](int a, int b) {
+      const double l = in_space(a, b), m = std::sqrt(squared_promise(a, b));
+      of_space[a] += l, of_space[b] += l;
+      of_metric[a] += m, of_metric[b] += m;
+      promised_.push_back(static_cast<float>(m));
+    });
+    mesh_.size.resize(mesh_.xyz.size());
+    for (std::size_t v = 0; v < mesh_.size.size(); ++v) {
+      const bool known = v < input_.domain->size.size() && input_.domain->size[v] > 0;
+      mesh_.size[v] = known ? at_edges(v, input_.domain->size[v]) : of_metric[v] > 0 ? of_space[v] / of_metric[v] : 0;
+    }
+  }
+
+  // What is prescribed on a curve, and may be more than its edges say.
+  [[nodiscard]] double at_edges(std::size_t v, double h) const {
+    return input_.limits.edges != nullptr ? input_.limits.edges->at(mesh_.xyz[v], h) : h;
+  }
+
+  // Where sizes do not depend on curvature the host's answer is the size: one call a vertex inside.
+  void ask_host() {
+    if (rules_.uses_curvature()) return;
+    for (std::size_t v = input_.domain->size.size(); v < mesh_.xyz.size(); ++v) {
+      bool answered = true;
+      const auto no_answer = [&](Vec2) {
+        answered = false;
+        return mesh_.size[v];
+      };
+      double h = unknown;
+      rules_.on_surface(input_.face, {&mesh_.plane.vertices[v], 1}, {}, no_answer, {&h, 1});
+      if (answered) mesh_.size[v] = input_.limits.bounded(input_.face, mesh_.plane.vertices[v], mesh_.xyz[v], h);
+      if (v % 512 == 0) monitor_.checkpoint();
+    }
+  }
+
+  // All is compared by squares: an edge has three square roots else.
+  void find_places(bool report) {
+    constexpr double too_long2 = too_long * too_long, too_short2 = too_short * too_short, excess2 = excess * excess;
+    mesh_.excesses.clear();
+    const PlaneDomain& domain = input_.domain->plane;
+    std::vector<char> at_apex;  // by imposed vertex; empty: there is no apex
+    for (const PlaneEdge& e : domain.edges) {
+      if (e.kind != PlaneEdgeKind::degenerate) continue;
+      at_apex.resize(domain.vertices.size(), 0);
+      at_apex[e.a] = at_apex[e.b] = 1;
+    }
+    std::size_t rank = 0;
+    for_inner_edges([&](int a, int b) {
+      const double promised = promised_.empty() ? 0 : promised_[rank++];
+      // Between two imposed vertices the domain decides; at a degenerate side the metric is clamped.
+      if (static_cast<std::size_t>(b) < domain.vertices.size()) return;
+      if (static_cast<std::size_t>(a) < at_apex.size() && at_apex[a] != 0) return;
+      const double m2 = promised_.empty() ? squared_promise(a, b) : promised * promised;
+      const Vec3 e = mesh_.xyz[b] - mesh_.xyz[a];
+      const double l2 = dot(e, e), expected2 = mesh_.size[a] * mesh_.size[b] * m2;
+      if (!(expected2 > 0) || !(l2 > 0)) return;
+      const bool fits = l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2;
+      if (fits) return;
+      const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
+      if (l2 > excess2 * expected2) mesh_.excesses.push_back({std::sqrt(l2 / expected2), p, q});
+      if (report) places_.push_back(0.5 * (p + q));
+    });
+  }
+
+  const PatchInput& input_;
+  const ControlSpace& space_;
+  Cad& cad_;
+  const SizeRules& rules_;
+  PatchMesh& mesh_;
+  Monitor& monitor_;
+  std::vector<float> promised_;  // by edge, where sizes vary
+  std::vector<Vec2> places_;
+};
+
+}  // namespace
+
+bool agree(const LengthRatios& ratios, const PatchInput& input) noexcept {
+  const bool graded = input.slope > 0 && !input.isotropic;
+  return ratios.largest <= too_long && (graded || ratios.smallest >= too_short);
+}
+
+std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
+                              PatchMesh& mesh, Monitor& monitor) {
+  return LiftCheck(input, space, cad, rules, mesh, monitor).run();
+}
+
+bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
+}
+
+Deserts find_deserts(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
+                     const PatchMesh& mesh, Monitor& monitor) {
+  const std::vector<Vec2>& vertices = mesh.plane.vertices;
+  auto missed = space.deserts(vertices.size(), [&](std::size_t v) { return vertices[v]; });
+  Deserts result;
+  if (missed.empty()) return result;
+  const SampledDomain domain = sampled_domain(input.domain->plane);
+  const PolygonLocator locator(domain.vertices, domain.edges);
+  for (std::vector<Vec2>& places : missed) std::erase_if(places, [&](Vec2 p) { return !locator.contains(p); });
+  std::erase_if(missed, [](const std::vector<Vec2>& places) { return places.empty(); });
+  if (missed.size() > most_places) missed.resize(most_places);
+  std::vector<Vec2> uv;
+  for (const std::vector<Vec2>& places : missed) uv.push_back(places.front());
+  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
+  std::vector<SurfaceJet> jets(uv.size());
+  std::vector<Metric2> metric(uv.size());
+  cad.surface(input.ref, prescribed.wants(), uv, jets);
+  prescribed.at(uv, jets, metric);
+  for (std::size_t k = 0; k < uv.size(); ++k) {
+    const LengthRatios ratios = length_ratios(metric[k], space.at(uv[k]));
+    if (agree(ratios, input))
+      result.confirmed.push_back(std::move(missed[k]));
+    else
+      result.mistaken.push_back(uv[k]);
+  }
+  return result;
+}
+
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh) {
+  const auto imposed = static_cast<std::int32_t>(domain.origin.size());
+  for (const auto& t : mesh.plane.triangles) {
+    std::array<double, 3> in_space, in_domain;  // squared
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = t[i], b = t[(i + 1) % 3];
+      const Vec3 edge = mesh.xyz[b] - mesh.xyz[a];
+      const Vec2 uv = mesh.plane.vertices[b] - mesh.plane.vertices[a];
+      in_space[i] = dot(edge, edge), in_domain[i] = dot(uv, uv);
+    }
+    const double far = one_point * one_point * *std::max_element(in_space.begin(), in_space.end());
+    const double apart = one_point * one_point * *std::max_element(in_domain.begin(), in_domain.end());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = t[i], b = t[(i + 1) % 3];
+      if ((a < imposed && b < imposed) || in_space[i] > far || !(in_domain[i] > apart)) continue;
+      const Vec2 to = mesh.plane.vertices[b];
+      return Where{.face = ref, .uv = mesh.plane.vertices[a]}.prefix() +
+             "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x) + ", " +
+             format_number(to.y) + ") is the same point of space";
+    }
+  }
+  return {};
+}
+
+}  // namespace carreau

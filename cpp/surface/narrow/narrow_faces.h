@@ -1,0 +1,82 @@
+// Faces that are narrower than the triangles that are wanted: matched sides, one layer of triangles, or none.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "curve/discrete_curve.h"
+#include "surface/domain/domain_builder.h"
+#include "surface/patch.h"
+
+namespace carreau {
+
+/// A curve of a face as a part of one of its sides.
+struct SidePart {
+  int curve = 0;      ///< index in Face::curves
+  bool back = false;  ///< the side runs against the face's own direction of the curve
+};
+using Side = std::vector<SidePart>;
+
+/// A face between two sides that are near each other.
+struct NarrowFace {
+  int face = 0;                   ///< index in Model::faces
+  double width = 0;               ///< two-sided Hausdorff distance of the sides (HDR sec. 4.5.1), model length
+  double size = 0;                ///< smallest size prescribed on its curves
+  bool ring = false;              ///< both sides are closed
+  bool point = false;             ///< no longer than wide: all of it is near a point; it has no sides
+  std::array<Side, 2> side = {};  ///< both run the same way
+  /// What joins their starts and their ends, from side[0] to side[1]; empty where they meet.
+  std::array<Side, 2> tip = {};
+};
+
+/// Faces narrower than `ratio` times the smallest size on their curves: one loop that two of its corners or short
+/// curves cut into two near sides, two near loops, or a loop that is all near a point. Faces with internal curves or
+/// imposed points, and those whose sides are one curve, are not taken for narrow. In the order of the model.
+std::vector<NarrowFace> find_narrow_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves,
+                                          double ratio);
+
+/// What is known of the narrow faces of a model in one run.
+struct NarrowModel {
+  std::vector<NarrowFace> strips;  ///< with two sides
+  std::vector<NarrowFace> points;  ///< near a point
+  /// The tips of strips and all curves of points, when their faces are to collapse.
+  VanishingCurves vanishing;
+  std::vector<int> folded;  ///< faces without width (find_folded_faces()): nothing is meshed there, whatever is asked
+
+  [[nodiscard]] bool empty() const noexcept { return strips.empty() && points.empty(); }
+};
+
+/// Faces whose whole boundary is there and back along the same curves, with no more between them than the gap of those:
+/// slivers below the tolerance of their file. A closed surface along its seam is none. Indices in Model::faces,
+/// ascending.
+std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<DiscreteCurve>& curves);
+
+/// Fills `vanishing`. A face whose curves are a whole loop of another one, a small hole, is left out of the lists: the
+/// hole would vanish with it.
+void let_tips_vanish(const CurveModel& model, NarrowModel& narrow);
+
+/// Gives the two sides of each face vertices at the same places: those of one side are carried to the other one, ends
+/// of curves to both.
+void match_sides(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves);
+
+/// Completes that after segments were split: what one side has and the other has not is inserted. Indices of the curves
+/// that have changed, ascending. Spends a callback only where something is missing.
+std::vector<int> complete_sides(const CurveModel& model, std::span<const NarrowFace> faces,
+                                std::vector<DiscreteCurve>& curves);
+
+/// A narrow face meshed between its sides.
+struct NarrowPatch {
+  FaceDomain domain;
+  PatchMesh mesh;
+  /// Local vertices that become one when the face collapses.
+  std::vector<std::vector<std::int32_t>> one;
+  bool sound = false;  ///< all triangles have a positive area in (u, v), and an area in space
+};
+
+/// One layer of triangles between the vertices of both sides, without a new vertex.
+NarrowPatch mesh_between_sides(const CurveModel& model, const NarrowFace& narrow,
+                               const std::vector<DiscreteCurve>& curves);
+
+}  // namespace carreau

@@ -1,0 +1,58 @@
+// What a mesh of a composite surface is to be like.
+#pragma once
+
+#include <cstdint>
+
+#include "size/size_rules.h"
+
+namespace carreau {
+
+/// What becomes of faces whose two long sides are nearer to each other than a share of the prescribed size.
+enum class NarrowFaces : int {
+  keep,       ///< nothing special
+  one_layer,  ///< vertices face to face on both sides, one layer of triangles between
+  collapse    ///< the face vanishes: its two sides become one curve for all neighbours
+};
+
+struct CompositeOptions {
+  SizeParameters size;
+  double angle_smo = 1;  ///< degrees
+  double lss = 0.5;
+  double eps_ends = 0;  ///< model length; shorter curves are reported
+  int check_close_edges = 0, check_adjacent_edges = 0, check_well_defined = 0;  ///< iterations
+  double coef_rectangle = 0.25;
+  /// What becomes of faces narrower than narrow_ratio times the size prescribed on their curves.
+  NarrowFaces narrow_faces = NarrowFaces::keep;
+  double narrow_ratio = 0.1;
+  /// Largest ratio of sizes one unit edge apart (Borouchaki, Hecht, Frey): > 1; 0: none.
+  double gradation = 0;
+  /// Ratio by which sizes inside a face grow at most from one edge to the next, away from boundary edges that are
+  /// shorter than prescribed: > 1; 0: they do not depend on them. Isotropic sizes alone.
+  double edge_gradation = 0;
+  /// Vertices of one side of a strip of one layer go where they face the middles of the other side's edges
+  /// (staggering.h).
+  bool stagger_strips = false;
+  /// At the worst triangles of each patch changes of the mesh are tried, and the best is kept.
+  bool shape_trials = false;
+  /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap
+  /// over this number on faces that face each other and share no corner (> 0 needs a gradation); 0: they are not looked
+  /// for.
+  int proximity = 0;
+  /// A face that the host fails on while its patch is meshed fails alone; false: its CallbackError comes out.
+  bool failing_faces_alone = false;
+  bool frontal = true;
+  std::int64_t max_triangles = 0;  ///< 0: by memory
+  /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
+  /// from the caller's thread only.
+  int threads = 1;
+};
+
+/// Whether several threads may ask the host: it allows that, and no source of prescriptions is asked.
+inline bool asks_from_threads(const CompositeOptions& options, const Cad& cad) noexcept {
+  return options.threads > 1 && cad.reentrant() && options.size.sources.empty();
+}
+
+/// The sentence of a mesh beyond CompositeOptions::max_triangles.
+[[noreturn]] void refuse_triangles(const Where& where, double expected, std::int64_t most);
+
+}  // namespace carreau

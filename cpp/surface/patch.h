@@ -1,0 +1,62 @@
+// One patch: what is asked for, and its mesh.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "control_space/control_space.h"
+#include "gradation/graded_field.h"
+#include "mesh/plane_mesh.h"
+#include "size/size_rules.h"
+#include "surface/domain/domain_builder.h"
+
+namespace carreau {
+
+/// What a face's sizes are interpolated from where the host does not answer.
+struct FaceInterfaces {
+  PlaneDomain plane;
+  std::vector<double> physical;  ///< physical size at each vertex of the domain; 0 at imposed points
+};
+
+/// An edge inside a patch: its length in space over what the control space promises, and its ends in (u, v).
+struct EdgeExcess {
+  double ratio = 0;
+  Vec2 from, to;
+};
+
+/// A meshed patch. Vertices are those of the domain first, unmoved, then new ones.
+struct PatchMesh {
+  PlaneMesh plane;
+  std::vector<Vec3> xyz;     ///< position in space of every vertex of `plane`
+  std::vector<double> size;  ///< prescribed size at every vertex
+  /// Edges that exceed their promise a thousand times: where derivatives vanish, or the surface jumps.
+  std::vector<EdgeExcess> excesses;
+  /// Where metrics govern: unit normal of the surface at every vertex that is not imposed, zero at singular ones.
+  std::vector<Vec3> normal;
+};
+
+/// What meshing a patch needs to know.
+struct PatchInput {
+  int face = 0;  ///< index in Model::faces
+  int ref = 0;   ///< its reference
+  const FaceDomain* domain = nullptr;
+  /// Position in space of each vertex of the domain that lies on a curve; imposed points are evaluated.
+  std::vector<Vec3> curve_xyz;
+  /// Set when one size is prescribed everywhere (SizeRules::constant).
+  std::optional<double> constant_size = {};
+  /// Sizes do not differ by direction: triangles may be judged by their shape in space.
+  bool isotropic = true;
+  /// Metrics that govern may turn out to be sizes: as far as samples have shown (SampledFacts).
+  bool one_size = true;
+  /// What becomes of the prescribed sizes.
+  SizeLimits limits = {};
+  /// Largest derivative of sizes along the surface, kept in the control space too; 0: any.
+  double slope = 0;
+  /// Largest relative error of lengths in the control space.
+  double tolerance = ControlSpaceOptions{}.tolerance;
+};
+
+/// The boundary of a domain.
+SampledDomain sampled_domain(const PlaneDomain& domain);
+
+}  // namespace carreau

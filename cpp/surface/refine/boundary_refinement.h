@@ -1,0 +1,34 @@
+// Refinement of discretised curves until every parameter domain can be meshed (HDR sec. 3.3.1-3.3.3).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "surface/domain/domain_builder.h"
+#include "surface/narrow/narrow_faces.h"
+#include "surface/options.h"
+#include "surface/sample/face_sampling.h"
+
+namespace carreau {
+
+/// The domains of all faces after refinement. A face that cannot be mended keeps no domain and says why.
+struct RefinedDomains {
+  std::vector<std::optional<FaceDomain>> domain;  ///< by face index
+  std::vector<std::string> failure;               ///< by face index; empty when there is a domain
+  std::vector<char> mended;                       ///< by face index: a curve was refined for it
+};
+
+/// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
+/// many times as the options ask, where boundaries come close or lengths of neighbours differ (CheckCloseEdges,
+/// CheckAdjacentEdges, CheckWellDefined). `limits`: of the sizes that lengths are compared in. Strips in `narrow`, and
+/// points whose curves vanish, are not looked at and get no domain; the two sides of strips keep vertices at the same
+/// places.
+RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, const CompositeOptions& options,
+                              const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
+                              Monitor& monitor);
+
+/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.
+void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);
+
+}  // namespace carreau

@@ -1,0 +1,294 @@
+#include "surface/reparametrise/even_parameters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "predicates/polygon_locator.h"
+#include "predicates/predicates.h"
+#include "surface/improve/bad_region.h"
+
+namespace carreau {
+
+namespace {
+
+// Along each parameter: first places, as many at boundary vertices, and lines across at such places.
+constexpr std::size_t first_places = 16;
+// No piece of a parameter has a longer chord than this share of all, unless it is as narrow as that of the domain.
+constexpr double finest = 1.0 / 128, narrowest = 1e-13;
+constexpr std::size_t most_places = 3000;
+// A chord that is this share of all although its piece is of the narrowest kind is a jump.
+constexpr double jump_share = finest;
+// Where all lines of a family together are so many times as long as the longest one, what is fast in one is not in the
+// others.
+constexpr double most_detours = 8;
+// A parameter is left as it is where speeds along it differ by less.
+constexpr double even = 30;
+// Where lines stand still they are taken to be as fast as this share of the mean.
+constexpr double least_speed = 0.02;
+// Shorter pieces, in shares of the whole, are joined to the next ones.
+constexpr double shortest = 1e-7;
+
+/// One parameter: 0 is u, 1 is v.
+double of(Vec2 p, int axis) noexcept { return axis == 0 ? p.x : p.y; }
+Vec2 point(int axis, double along, double across) noexcept {
+  return axis == 0 ? Vec2{along, across} : Vec2{across, along};
+}
+
+class Evener {
+ public:
+  Evener(int ref, Cad& cad, const SampledDomain& domain, Vec2 at, Monitor& monitor)
+      : ref_(ref), cad_(cad), locator_(domain.vertices, domain.edges), at_(at), monitor_(monitor) {
+    for (int axis = 0; axis < 2; ++axis) {
+      for (const auto& [a, b] : domain.edges) boundary_[axis].push_back(of(domain.vertices[a], axis));
+      std::sort(boundary_[axis].begin(), boundary_[axis].end());
+    }
+  }
+
+  std::optional<Reparametrisation> run() {
+    std::array<Found, 2> found{find(0, places(1, nullptr)), {}};
+    found[1] = find(1, places(0, found[0].uneven ? &found[0].map : nullptr));
+    if (found[1].uneven) found[0] = find(0, places(1, &found[1].map));
+    if (!found[0].uneven && !found[1].uneven) return {};
+    return Reparametrisation{std::move(found[0].map), std::move(found[1].map)};
+  }
+
+ private:
+  [[nodiscard]] double low(int axis) const noexcept { return boundary_[axis].front(); }
+  [[nodiscard]] double high(int axis) const noexcept { return boundary_[axis].back(); }
+  struct Found {
+    MonotoneMap map;
+    bool uneven = false;  // else it is linear
+  };
+  [[nodiscard]] Found as_it_is(int axis, double length) const {
+    return {{{0, length > 0 ? length : 1}, {low(axis), high(axis)}}, false};
+  }
+
+  // At equal distances, by the map where there is one, and at boundary vertices, which stand where curves are long.
+  [[nodiscard]] std::vector<double> places(int axis, const MonotoneMap* map) const {
+    const std::vector<double>& sorted = boundary_[axis];
+    std::vector<double> p = {low(axis), high(axis), of(at_, axis)};
+    for (std::size_t k = 1; k < first_places; ++k) {
+      const double share = static_cast<double>(k) / first_places;
+      p.push_back(map != nullptr ? (*map)(std::lerp(map->first(), map->last(), share))
+                                 : std::lerp(low(axis), high(axis), share));
+      if (map == nullptr) p.push_back(sorted[k * (sorted.size() - 1) / first_places]);
+    }
+    std::sort(p.begin(), p.end());
+    p.erase(std::unique(p.begin(), p.end()), p.end());
+    return p;
+  }
+
+  /// Where the lines are at one place along them; NaN outside of the domain.
+  struct Row {
+    double at = 0;
+    std::vector<Vec3> xyz;
+  };
+  [[nodiscard]] Row row(int axis, double at, const std::vector<double>& lines) {
+    monitor_.checkpoint();
+    Row row{at, std::vector<Vec3>(lines.size(), Vec3{std::nan(""), 0, 0})};
+    std::vector<Vec2> uv;
+    std::vector<std::size_t> line;
+    for (std::size_t j = 0; j < lines.size(); ++j)
+      if (const Vec2 p = point(axis, at, lines[j]); locator_.contains(p)) uv.push_back(p), line.push_back(j);
+    std::vector<SurfaceJet> jets(uv.size());
+    if (!uv.empty()) cad_.surface(ref_, want_position, uv, jets);
+    for (std::size_t k = 0; k < uv.size(); ++k) row.xyz[line[k]] = jets[k].s;
+    return row;
+  }
+  // The longest one between two rows. Adds them to the lengths of the lines.
+  static double chord(const Row& p, const Row& q, std::vector<double>* lengths) {
+    double longest = 0;
+    for (std::size_t j = 0; j < p.xyz.size(); ++j) {
+      const double c = norm(q.xyz[j] - p.xyz[j]);
+      if (std::isnan(c)) continue;
+      longest = std::max(longest, c);
+      if (lengths != nullptr) (*lengths)[j] += c;
+    }
+    return longest;
+  }
+
+  Found find(int axis, const std::vector<double>& lines) {
+    std::vector<Row> rows;
+    for (const double p : places(axis, nullptr)) rows.push_back(row(axis, p, lines));
+    std::vector<double> chords, lengths;
+    double total = 0;
+    for (;;) {
+      chords.clear();
+      lengths.assign(lines.size(), 0);
+      total = 0;
+      for (std::size_t k = 0; k + 1 < rows.size(); ++k)
+        total += chords.emplace_back(chord(rows[k], rows[k + 1], &lengths));
+      std::vector<Row> finer;
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        finer.push_back(std::move(rows[k]));
+        if (k + 1 == rows.size() || chords[k] <= finest * total) continue;
+        const double a = finer.back().at, b = rows[k + 1].at, middle = 0.5 * (a + b);
+        if (b - a > narrowest * std::max(std::abs(a), std::abs(b)) && middle > a && middle < b)
+          finer.push_back(row(axis, middle, lines));
+        else if (chords[k] > jump_share * total)
+          refuse_jump(axis, 0.5 * (a + b), finer.back(), rows[k + 1], lines);
+      }
+      const bool done = finer.size() == rows.size() || finer.size() > most_places;
+      rows.swap(finer);
+      if (done) break;
+    }
+    const double length = *std::max_element(lengths.begin(), lengths.end());
+    if (chords.size() + 1 != rows.size() || total > most_detours * length || !(total > 0))
+      return as_it_is(axis, length);
+    return map_of(axis, rows, chords, total);
+  }
+
+  [[nodiscard]] Found map_of(int axis, const std::vector<Row>& rows, const std::vector<double>& chords,
+                             double total) const {
+    const double width = high(axis) - low(axis);
+    std::vector<double> x = {0}, u = {rows.front().at};
+    double reached = 0, fastest = 0, slowest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < chords.size(); ++k) {
+      const double step = (rows[k + 1].at - rows[k].at) / width,
+                   length = std::max(chords[k], least_speed * total * step);
+      fastest = std::max(fastest, length / step), slowest = std::min(slowest, length / step);
+      reached += length;
+      const bool last = k + 1 == chords.size();
+      if (!last && reached - x.back() < shortest * total) continue;  // it counts with the next one
+      if (last && x.size() > 1 && reached - x.back() < shortest * total) x.pop_back(), u.pop_back();
+      x.push_back(reached);
+      u.push_back(rows[k + 1].at);
+    }
+    if (fastest < even * slowest) return as_it_is(axis, total);
+    return {MonotoneMap(std::move(x), std::move(u)), true};
+  }
+
+  [[noreturn]] void refuse_jump(int axis, double at, const Row& p, const Row& q,
+                                const std::vector<double>& lines) const {
+    std::size_t worst = 0;
+    double longest = 0;
+    for (std::size_t j = 0; j < lines.size(); ++j)
+      if (const double c = norm(q.xyz[j] - p.xyz[j]); c > longest) longest = c, worst = j;
+    throw DomainError(Where{.face = ref_, .uv = point(axis, at, lines[worst])},
+                      "the surface jumps: it is not continuous there");
+  }
+
+  int ref_;
+  Cad& cad_;
+  PolygonLocator locator_;
+  Vec2 at_;
+  Monitor& monitor_;
+  std::array<std::vector<double>, 2> boundary_;  // sorted coordinates of its vertices
+};
+
+// Of the quality in space of two triangles, what a swap must leave.
+constexpr double least_kept = 0.5;
+
+/// Swaps edges of triangles that are turned over.
+class Righter {
+ public:
+  Righter(const PlaneDomain& host, PatchMesh& mesh) : mesh_(mesh) {
+    for (const PlaneEdge& e : host.edges) imposed_[std::minmax(e.a, e.b)] = true;
+  }
+
+  /// How many stay turned over.
+  std::size_t run() {
+    constexpr int most_passes = 20;
+    std::vector<int> turned = all_turned();
+    if (!turned.empty()) join();
+    for (int pass = 0; pass < most_passes && !turned.empty(); ++pass) {
+      bool changed = false;
+      for (const int t : turned) changed = mend(t) || changed;
+      if (!changed) break;
+      turned = all_turned();
+    }
+    return turned.size();
+  }
+
+ private:
+  using Triangle = std::array<std::int32_t, 3>;
+  [[nodiscard]] bool upright(const Triangle& t) const {
+    const std::vector<Vec2>& p = mesh_.plane.vertices;
+    return orientation(p[t[0]], p[t[1]], p[t[2]]) > 0;
+  }
+  [[nodiscard]] std::vector<int> all_turned() const {
+    std::vector<int> turned;
+    for (std::size_t t = 0; t < mesh_.plane.triangles.size(); ++t)
+      if (!upright(mesh_.plane.triangles[t])) turned.push_back(static_cast<int>(t));
+    return turned;
+  }
+  void join() {
+    for (std::size_t t = 0; t < mesh_.plane.triangles.size(); ++t) join(static_cast<int>(t));
+  }
+  void join(int t) {
+    const Triangle& v = mesh_.plane.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) sides_[{v[i], v[(i + 1) % 3]}] = t;
+  }
+  bool mend(int t) {
+    Triangle& T = mesh_.plane.triangles[t];
+    if (upright(T)) return false;
+    double best = 0;
+    int across = -1;
+    const double own = quality_in_space(T, mesh_.xyz);
+    std::array<Triangle, 2> parts{};
+    std::pair<std::int32_t, std::int32_t> gone;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = T[i], b = T[(i + 1) % 3], c = T[(i + 2) % 3];
+      const auto beyond = sides_.find({b, a});
+      if (beyond == sides_.end() || imposed_.contains(std::minmax(a, b))) continue;
+      const Triangle& U = mesh_.plane.triangles[beyond->second];
+      const std::int32_t d = U[0] + U[1] + U[2] - a - b;
+      const Triangle p{a, d, c}, q{d, b, c};
+      if (sides_.contains({c, d}) || sides_.contains({d, c}) || !upright(p) || !upright(q)) continue;
+      const double worse = std::min(quality_in_space(p, mesh_.xyz), quality_in_space(q, mesh_.xyz));
+      if (worse < least_kept * std::min(own, quality_in_space(U, mesh_.xyz))) continue;
+      if (worse > best) best = worse, across = beyond->second, parts = {p, q}, gone = {a, b};
+    }
+    if (across < 0) return false;
+    T = parts[0];
+    mesh_.plane.triangles[across] = parts[1];
+    sides_.erase(gone);
+    sides_.erase({gone.second, gone.first});
+    join(t);
+    join(across);
+    return true;
+  }
+
+  PatchMesh& mesh_;
+  std::map<std::pair<int, int>, bool> imposed_;
+  std::map<std::pair<std::int32_t, std::int32_t>, int> sides_;
+};
+
+Metric2 scaled(Metric2 m, double x, double y) noexcept { return {m.a * x * x, m.b * x * y, m.c * y * y}; }
+
+}  // namespace
+
+std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, Vec2 at,
+                                                 Monitor& monitor) {
+  return Evener(ref, cad, domain, at, monitor).run();
+}
+
+FaceDomain reparametrised(const FaceDomain& domain, const Reparametrisation& map) {
+  FaceDomain result = domain;
+  for (Vec2& p : result.plane.vertices) p = map.from_host(p);
+  return result;
+}
+
+std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map, PatchMesh& mesh) {
+  std::vector<Vec2>& uv = mesh.plane.vertices;
+  std::copy(host.vertices.begin(), host.vertices.end(), uv.begin());
+  for (std::size_t v = host.vertices.size(); v < uv.size(); ++v) uv[v] = map.to_host(uv[v]);
+  return Righter(host, mesh).run();
+}
+
+ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& map, const ControlSpace& space,
+                              Monitor& monitor) {
+  constexpr std::size_t most_samples = 20'000;
+  const auto sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+      const Vec2 p = map.from_host(uv[k]);
+      metric[k] = scaled(space.at(p), 1 / map.u.jet(p.x).first, 1 / map.v.jet(p.y).first);
+    }
+  };
+  return ControlSpace::build(sampled_domain(host), sampler, {.max_samples = most_samples}, monitor);
+}
+
+}  // namespace carreau

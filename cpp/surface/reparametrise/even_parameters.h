@@ -1,0 +1,33 @@
+// Parameters in which an extreme parametrisation is an ordinary one.
+#pragma once
+
+#include <optional>
+
+#include "cad/reparametrisation.h"
+#include "control_space/control_space.h"
+#include "surface/sample/face_sampling.h"
+
+namespace carreau {
+
+/// Finds x(u) and y(v) along which a surface runs evenly: x grows by the longest chord that an iso-line of the domain
+/// has there, so that derivatives along it are about 1 or shorter. Squares of a control space, and straight edges,
+/// cannot follow speeds that change a thousand times within next to nothing (knots 1e-6 apart, weights of 1e4); between
+/// such places x and y are to u and v as before. Asks for positions only, some thousand, in the domain. `at`: a place
+/// where the speed is extreme. Empty where speeds do not differ by parameter lines, so that no x and y help. Throws
+/// DomainError with the place where the surface jumps.
+std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, Vec2 at,
+                                                 Monitor& monitor);
+
+/// The domain in (x, y).
+FaceDomain reparametrised(const FaceDomain& domain, const Reparametrisation& map);
+
+/// Brings a mesh back to (u, v); imposed vertices get those of `host` again. Where speeds change much within a triangle
+/// it can be turned over in (u, v), though neither in (x, y) nor in space: edges are swapped where shapes in space stay
+/// good. Returns how many triangles remain turned.
+std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map, PatchMesh& mesh);
+
+/// What a control space in (x, y) holds, in (u, v). Asks nobody.
+ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& map, const ControlSpace& space,
+                              Monitor& monitor);
+
+}  // namespace carreau

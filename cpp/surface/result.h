@@ -1,0 +1,46 @@
+// What a run over a composite surface gives.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "control_space/control_space.h"
+#include "gradation/graded_field.h"
+#include "mesh/surface_mesh.h"
+#include "surface/patch.h"
+
+namespace carreau {
+
+/// What a run did, besides the mesh.
+struct CompositeReport {
+  CallCounts calls;
+  double diag = 0;
+  /// Patches meshed again because their lengths in space were not those that the sampling promised.
+  int corrections = 0;
+  int gradation_rounds = 0;             ///< graphs that the gradation has made
+  std::size_t gradation_triangles = 0;  ///< of the last one
+  double seconds_gradation = 0, seconds_curves = 0;
+  double seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;  ///< sums over all threads
+  double seconds_total = 0;
+};
+
+/// How far the faces of a curve leave its vertices (DiscreteCurve::gap), and which use is farthest.
+struct CurveGap {
+  double gap = 0;
+  int use = 0;
+};
+
+struct CompositeResult {
+  SurfaceMesh mesh;
+  std::vector<double> vertex_size;                  ///< prescribed size at each vertex
+  std::vector<FaceInterfaces> interfaces;           ///< by face; empty where the domain could not be made
+  std::vector<std::optional<ControlSpace>> spaces;  ///< by face: what the mesher used; empty: it was not sampled
+  std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
+  /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
+  std::vector<std::vector<double>> curve_size;
+  std::vector<CurveGap> gaps;  ///< by curve of the topology
+  CompositeReport report;
+};
+
+}  // namespace carreau

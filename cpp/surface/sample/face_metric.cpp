@@ -1,0 +1,126 @@
+#include "surface/sample/face_metric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "metric/metric2_algebra.h"
+#include "metric/metric3_algebra.h"
+#include "surface/sample/face_sampling.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+// How far from a degenerate point limits are taken, in shares of the domain's box, and of that the part aside, towards
+// its middle: meridians may run along sides of the domain, which are straight but for rounding.
+constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
+
+/// Along the meridian of a degenerate point: the parameter along which the surface does not stand still, if it does
+/// along the other; else towards the middle.
+Vec2 along_meridian(const SurfaceJet& jet, Vec2 to_middle, Vec2 half) noexcept {
+  constexpr double still = 1e-12;
+  const double u = norm(jet.su), v = norm(jet.sv);
+  if (u <= still * v) return {0, std::copysign(half.y, to_middle.y)};
+  if (v <= still * u) return {std::copysign(half.x, to_middle.x), 0};
+  return to_middle;
+}
+
+}  // namespace
+
+double FaceMetric::interpolated(Vec2 uv) {
+  if (!interfaces_) interfaces_.emplace(plane_, physical_, rules_.law(), monitor_);
+  return (*interfaces_)(uv);
+}
+
+void FaceMetric::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric) {
+  const auto fallback = [this](Vec2 p) { return interpolated(p); };
+  if (rules_.uses_metrics()) {
+    rules_.metrics_on_surface(face_, uv, jets, fallback, metric);
+    if (!limits_.idle()) apply_metric_limits(limits_, face_, uv, jets, metric);
+    if (!rules_.uses_curvature() && limits_.field == nullptr) return;
+    for (std::size_t i = 0; i < uv.size(); ++i)
+      if (!TangentFrame::of(jets[i].su, jets[i].sv))
+        if (const auto sizes = limit(uv[i], jets[i])) metric[i] = metric_of(jets[i], *sizes);
+    return;
+  }
+  h_.resize(uv.size());
+  rules_.on_surface(face_, uv, jets, fallback, h_);
+  for (std::size_t i = 0; i < uv.size(); ++i) metric[i] = induced_metric(jets[i].su, jets[i].sv, h_[i]);
+  if (!limits_.idle()) apply_limits(limits_, face_, uv, jets, metric);
+}
+
+// A place inside the domain, a little way from a degenerate one along its meridian.
+std::optional<Vec2> FaceMetric::beside(Vec2 uv, const SurfaceJet& jet) {
+  if (!inside_) {
+    const SampledDomain domain = sampled_domain(plane_);
+    Vec2 low{infinity, infinity}, high{-infinity, -infinity};
+    for (const Vec2 p : domain.vertices) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    inside_.emplace(Inside{{domain.vertices, domain.edges}, 0.5 * (low + high), 0.5 * (high - low)});
+  }
+  const Vec2 to_middle = inside_->middle - uv, way = along_meridian(jet, to_middle, inside_->half);
+  for (const double share : ways_inside)
+    for (const double sign : {1., -1.}) {
+      const Vec2 p = uv + share * (sign * way + aside * to_middle);
+      if (inside_->locator.contains(p)) return p;
+    }
+  return {};
+}
+
+std::optional<TangentMetric> FaceMetric::limit(Vec2 uv, const SurfaceJet& at_uv) {
+  const auto inside = beside(uv, at_uv);
+  if (!inside) return {};
+  const SurfaceJet jet = rules_.surface_jet(face_, wants(), *inside);
+  if (!TangentFrame::of(jet.su, jet.sv)) return {};
+  Metric2 there;
+  const auto fallback = [this](Vec2 p) { return interpolated(p); };
+  rules_.metrics_on_surface(face_, {&*inside, 1}, {&jet, 1}, fallback, {&there, 1});
+  if (!limits_.idle()) apply_metric_limits(limits_, face_, {&*inside, 1}, {&jet, 1}, {&there, 1});
+  return tangent_metric(jet, there);
+}
+
+double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept {
+  const double first = dot(jet.su, jet.su) + dot(jet.sv, jet.sv), second = metric.a + metric.c;
+  return first > 0 && second > 0 ? std::sqrt(first / second) : 0;
+}
+
+double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
+  const double density = accurate_determinant(metric), area = norm(cross(jet.su, jet.sv));
+  return density > 0 && area > 0 ? std::sqrt(area / std::sqrt(density)) : 0;
+}
+
+void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                  std::span<Metric2> metric) noexcept {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const double h = isotropic_size(jets[i], metric[i]);
+    if (!(h > 0)) continue;
+    const double k = h / std::min(limits.factor * limits.bounded(face, uv[i], jets[i].s, h), limits.largest);
+    if (k != 1) metric[i] = (k * k) * metric[i];
+  }
+}
+
+void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                         std::span<Metric2> metric) noexcept {
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    auto sizes = tangent_metric(jets[i], metric[i]);
+    if (!sizes) {
+      const double h = isotropic_size(jets[i], metric[i]);
+      const double graded = limits.field != nullptr ? std::min(h, limits.field->smaller_size(face, uv[i])) : h;
+      const double k = h > 0 ? h / (limits.factor * graded) : 1 / limits.factor;
+      metric[i] = (k * k) * metric[i];
+      continue;
+    }
+    const TangentMetric before = *sizes;
+    if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv[i], jets[i].s, *sizes);
+    if (std::isfinite(limits.tilt)) bound_tilt(jets[i], limits.tilt, *sizes);
+    sizes->h1 = std::min(limits.factor * sizes->h1, limits.largest);
+    sizes->h2 = std::min(limits.factor * sizes->h2, limits.largest);
+    if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric[i] = metric_of(jets[i], *sizes);
+  }
+}
+
+}  // namespace carreau

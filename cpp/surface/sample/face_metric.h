@@ -1,0 +1,75 @@
+// The metric that is prescribed inside a face.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gradation/graded_field.h"
+#include "predicates/polygon_locator.h"
+#include "size/size_rules.h"
+#include "surface/patch.h"
+#include "surface/sample/interface_sizes.h"
+
+namespace carreau {
+
+/// Keeps references to `rules`, `interfaces` and `monitor`. Used by one thread.
+class FaceMetric {
+ public:
+  /// `face` is an index in Model::faces.
+  FaceMetric(int face, const SizeRules& rules, const PlaneDomain& plane, const std::vector<double>& physical,
+             Monitor& monitor, const SizeLimits& limits = {})
+      : face_(face), rules_(rules), plane_(plane), physical_(physical), monitor_(monitor), limits_(limits) {}
+
+  /// The Want bits that the jets of at() must hold.
+  [[nodiscard]] unsigned wants() const noexcept {
+    return want_first | rules_.surface_wants() | (limits_.want_places() ? want_position : 0U) |
+           (std::isfinite(limits_.tilt) ? want_second : 0U);
+  }
+
+  /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks
+  /// the host. Where the parametrisation is degenerate metrics that depend on the geometry are limits of those inside
+  /// the domain: around a pole they differ from one meridian to the next. What a point gets does not depend on the
+  /// others.
+  void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
+
+  /// The limit at a point where the parametrisation is degenerate. Empty where it is also degenerate beside, or no
+  /// place beside is inside the domain.
+  [[nodiscard]] std::optional<TangentMetric> limit(Vec2 uv, const SurfaceJet& jet);
+
+ private:
+  [[nodiscard]] double interpolated(Vec2 uv);
+  [[nodiscard]] std::optional<Vec2> beside(Vec2 uv, const SurfaceJet& jet);
+
+  int face_;
+  const SizeRules& rules_;
+  const PlaneDomain& plane_;
+  const std::vector<double>& physical_;
+  Monitor& monitor_;
+  SizeLimits limits_;
+  std::optional<InterfaceSizes> interfaces_;  // built only when the host leaves a question open
+  struct Inside {
+    PolygonLocator locator;
+    Vec2 middle, half;  // of the domain's box
+  };
+  std::optional<Inside> inside_;  // built only where the parametrisation is degenerate
+  std::vector<double> h_;
+};
+
+/// The size h of an isotropic metric J^T J / h^2; 0 where both derivatives vanish.
+double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;
+
+/// sqrt(h1 h2) of a metric of any kind; 0 where the parametrisation is degenerate.
+double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept;
+
+/// Bounds isotropic metrics of a face in place. The jets hold first derivatives, and positions where there is a field.
+void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                  std::span<Metric2> metric) noexcept;
+
+/// The same for metrics of any kind; where the parametrisation is degenerate the smaller graded
+/// size counts.
+void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
+                         std::span<Metric2> metric) noexcept;
+
+}  // namespace carreau

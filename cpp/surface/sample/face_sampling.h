@@ -1,0 +1,55 @@
+// The metric of a face, sampled over its domain.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "control_space/sampled_normals.h"
+#include "surface/patch.h"
+
+namespace carreau {
+
+/// What samples of a face tell beside its metric.
+struct SampledFacts {
+  SampledNormals* normals = nullptr;  ///< gets those at the samples, where given
+  bool isotropic = true;              ///< sizes do not differ by direction at any of them
+  /// Stops with UnevenSpeed where a derivative is so many times as long as it is usual: as `usual_speed`; 0: as it is
+  /// along that parameter at the first samples.
+  double usual_speed = 0;
+  double most_uneven = std::numeric_limits<double>::infinity();
+};
+
+/// A place where the parametrisation is far faster than elsewhere. Not an error: sampling starts again in others.
+struct UnevenSpeed {
+  Vec2 uv;
+  double times;  ///< as fast
+};
+
+/// How many times faster than usual a parametrisation may be somewhere: else other parameters are looked for; and where
+/// there are none.
+inline constexpr double uneven_speed = 1000, hopeless_speed = 30'000;
+
+/// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
+class SpeedWatch {
+ public:
+  /// As SampledFacts::most_uneven and usual_speed.
+  SpeedWatch(double most, double usual) : most2_(most * most), usual_u2_(usual * usual), usual_v2_(usual_u2_) {}
+  /// Throws UnevenSpeed.
+  void look(std::span<const Vec2> uv, std::span<const SurfaceJet> jets);
+
+ private:
+  void find_usual(std::span<const SurfaceJet> jets);
+
+  double most2_, usual_u2_, usual_v2_;
+};
+
+/// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
+ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
+                         Monitor& monitor, SampledFacts* facts = nullptr);
+
+/// Sizes in the mean, sqrt(h1 h2), that FaceMetric prescribes within input.limits.
+std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,
+                                     std::span<const Vec2> uv, Monitor& monitor);
+
+}  // namespace carreau
