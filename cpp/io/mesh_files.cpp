@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "io/files.h"
-#include "io/gmf_sections.h"
+#include "io/medit/gmf_sections.h"
 #include "io/mesh_writers.h"
 #include "support/error.h"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
-#include "io/sol_files.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"
 

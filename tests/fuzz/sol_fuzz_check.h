@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "fuzz_check.h"
-#include "io/sol_files.h"
+#include "io/medit/sol_files.h"
 #include "support/error.h"
 
 namespace carreau {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "io/files.h"
-#include "io/sol_files.h"
+#include "io/medit/sol_files.h"
 #include "io_test_support.h"
 
 namespace carreau {

@@ -6,7 +6,7 @@
 
 #include "io/mesh_files.h"
 #include "io/text.h"
-#include "io/vtu_arrays.h"
+#include "io/vtk/vtu_arrays.h"
 #include "support/format.h"
 
 namespace carreau {

@@ -1,9 +1,9 @@
 #include <cmath>
 
 #include "io/files.h"
-#include "io/gmf_sections.h"
-#include "io/medit_words.h"
-#include "io/sol_files.h"
+#include "io/medit/gmf_sections.h"
+#include "io/medit/medit_words.h"
+#include "io/medit/sol_files.h"
 #include "io/text.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"

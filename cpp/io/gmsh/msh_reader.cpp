@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 
+#include "io/gmsh/msh_numbers.h"
 #include "io/mesh_files.h"
-#include "io/msh_numbers.h"
 #include "io/text.h"
 #include "support/format.h"
 

@@ -1,4 +1,4 @@
-#include "io/xml_tags.h"
+#include "io/vtk/xml_tags.h"
 
 #include <algorithm>
 #include <utility>

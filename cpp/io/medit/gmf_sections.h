@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/gmf.h"
+#include "io/medit/gmf.h"
 
 namespace carreau {
 

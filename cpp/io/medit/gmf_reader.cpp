@@ -1,4 +1,4 @@
-#include "io/gmf_sections.h"
+#include "io/medit/gmf_sections.h"
 #include "io/mesh_files.h"
 
 namespace carreau {

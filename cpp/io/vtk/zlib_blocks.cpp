@@ -1,4 +1,4 @@
-#include "io/zlib_blocks.h"
+#include "io/vtk/zlib_blocks.h"
 
 #include <zlib.h>
 

@@ -1,4 +1,4 @@
-#include "io/medit_words.h"
+#include "io/medit/medit_words.h"
 
 #include <algorithm>
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/xml_tags.h"
+#include "io/vtk/xml_tags.h"
 
 namespace carreau {
 

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "io/files.h"
-#include "io/gmf.h"
-#include "io/sol_files.h"
+#include "io/medit/gmf.h"
+#include "io/medit/sol_files.h"
 #include "support/error.h"
 #include "support/format.h"
 

@@ -1,4 +1,4 @@
-#include "io/msh_numbers.h"
+#include "io/gmsh/msh_numbers.h"
 
 #include <cmath>
 #include <limits>

@@ -1,7 +1,7 @@
 #include <cstring>
 #include <limits>
 
-#include "io/gmf.h"
+#include "io/medit/gmf.h"
 #include "io/mesh_writers.h"
 
 namespace carreau {

@@ -1,4 +1,4 @@
-#include "io/vtu_arrays.h"
+#include "io/vtk/vtu_arrays.h"
 
 #include <bit>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "io/raw_numbers.h"
 #include "io/text.h"
-#include "io/zlib_blocks.h"
+#include "io/vtk/zlib_blocks.h"
 #include "support/format.h"
 
 namespace carreau {
