@@ -1,0 +1,101 @@
+// The steps before the patches: gradation, curves, narrow faces, boundaries.
+#include <algorithm>
+#include <chrono>
+
+#include "support/stepped_tasks.h"
+#include "surface/narrow/thin_bodies.h"
+#include "surface/run.h"
+
+namespace carreau {
+
+namespace {
+
+// Curves that are cut between two reports of progress where several threads cut them.
+constexpr std::size_t curves_at_once = 64;
+// Share of the whole that the gradation takes before the curves, when there is one.
+constexpr double gradation_share = 0.3;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void cut_curve(CompositeRun& run, std::size_t c) {
+  const SizeSamples* known = run.graded.curves.empty() ? nullptr : &run.graded.curves[c];
+  run.curves[c] =
+      discretise_curve(run.curve_model, static_cast<int>(c), run.rules, {.lss = run.options.lss, .known = known});
+}
+
+}  // namespace
+
+void grade_sizes(CompositeRun& run) {
+  if (run.options.gradation == 0 || (run.rules.constant() && run.options.proximity == 0)) return;
+  const auto start = std::chrono::steady_clock::now();
+  run.monitor.progress(Phase::gradation, 0, 0);
+  run.graded = grade_model(run.curve_model, run.rules, run.options, run.supports.diag, run.monitor);
+  run.begin = gradation_share;
+  run.result.graded = run.graded.field;
+  run.result.report.gradation_rounds = run.graded.rounds;
+  run.result.report.gradation_triangles = run.graded.triangles;
+  run.result.report.seconds_gradation = seconds_since(start);
+}
+
+void discretise_curves(CompositeRun& run) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::size_t n = run.topology.curves.size();
+  run.curves.resize(n);
+  // Rules remember what they were told at points, unless there is nothing to ask.
+  const bool alone = !run.rules.constant() || !asks_from_threads(run.options, run.cad);
+  const std::size_t at_once = alone ? 1 : curves_at_once;
+  const std::int64_t most = run.options.max_triangles;
+  std::int64_t edges = 0;
+  for (std::size_t begin = 0; begin < n; begin += at_once) {
+    const std::size_t end = std::min(begin + at_once, n);
+    run.monitor.checkpoint();
+    run.tell(Phase::curves, run.topology.curves[begin].ref,
+             curves_share * static_cast<double>(begin) / static_cast<double>(n));
+    run_each(
+        end - begin, alone, run.options.threads, [&](std::size_t i, Monitor&) { cut_curve(run, begin + i); },
+        run.monitor);
+    for (std::size_t c = begin; c < end; ++c) {
+      edges += run.curves[c].segments();
+      if (edges > most) refuse_triangles(Where{.curve = run.topology.curves[c].ref}, static_cast<double>(edges), most);
+    }
+  }
+  separate_coincident_curves(run.curve_model, run.curves);
+  run.result.report.seconds_curves = seconds_since(start);
+}
+
+void find_narrow(CompositeRun& run) {
+  NarrowModel& narrow = run.narrow;
+  narrow.folded = find_folded_faces(run.curve_model, run.curves);
+  if (run.options.narrow_faces == NarrowFaces::keep) return;
+  const auto start = std::chrono::steady_clock::now();
+  const bool collapse = run.options.narrow_faces == NarrowFaces::collapse;
+  for (NarrowFace& face : find_narrow_faces(run.curve_model, run.curves, run.options.narrow_ratio))
+    if (!face.point || collapse) (face.point ? narrow.points : narrow.strips).push_back(std::move(face));
+  if (collapse) keep_thin_bodies(run.curve_model, run.curves, narrow);
+  if (!narrow.empty()) {
+    if (collapse) let_tips_vanish(run.curve_model, narrow);
+    match_sides(run.curve_model, narrow.strips, run.curves);
+  }
+  run.result.report.seconds_curves += seconds_since(start);
+}
+
+void refine_boundaries(CompositeRun& run) {
+  const auto start = std::chrono::steady_clock::now();
+  for (;;) {
+    run.domains =
+        refine_domains(run.curve_model, run.rules, run.options, run.limits(), run.narrow, run.curves, run.monitor);
+    run.between.clear();
+    for (const NarrowFace& face : run.narrow.strips)
+      run.between.push_back(mesh_between_sides(run.curve_model, face, run.curves));
+    std::vector<NarrowFace> sound;
+    for (std::size_t i = 0; i < run.between.size(); ++i)
+      if (run.between[i].sound) sound.push_back(run.narrow.strips[i]);
+    if (sound.size() == run.between.size() || !run.narrow.vanishing.curve.empty()) break;
+    run.narrow.strips.swap(sound);
+  }
+  run.result.report.seconds_curves += seconds_since(start);
+}
+
+}  // namespace carreau

@@ -1,0 +1,164 @@
+// The patches: sample, mesh, lift of every face, on several threads.
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include "surface/face_job.h"
+#include "surface/run.h"
+
+namespace carreau {
+
+namespace {
+
+// Edges that are shorter than this share of the size prescribed at both ends let sizes grow from them. Those of a curve
+// that is one edge or several are at least 0.7 and 0.8 of it.
+constexpr double short_share = 0.7;
+
+std::vector<EdgeSizes::Source> short_edges(const FaceDomain& domain, const std::vector<Vec3>& xyz) {
+  std::vector<EdgeSizes::Source> edges;
+  for (const PlaneEdge& e : domain.plane.edges) {
+    if (e.kind == PlaneEdgeKind::degenerate || static_cast<std::size_t>(std::max(e.a, e.b)) >= xyz.size()) continue;
+    const double length = norm(xyz[e.b] - xyz[e.a]);
+    if (length > 0 && length < short_share * std::min(domain.size[e.a], domain.size[e.b]))
+      edges.push_back({xyz[e.a], xyz[e.b], length});
+  }
+  return edges;
+}
+
+/// The faces at work, and the triangles that they may still have.
+struct PatchJobs {
+  CompositeRun& run;
+  std::vector<std::unique_ptr<SteppedTask>> jobs = {};
+  std::vector<std::size_t> face_of = {};
+  std::vector<EdgeSizes> short_edges = {};  // by face
+  std::int64_t left = 0;                    // triangles still allowed
+
+  FaceJob& job(std::size_t i) { return static_cast<FaceJob&>(*jobs[i]); }
+};
+
+PatchInput input_of(PatchJobs& work, std::size_t f) {
+  const CompositeRun& run = work.run;
+  const FaceDomain& domain = *run.domains.domain[f];
+  std::vector<Vec3> on_curves = positions_on_curves(domain, run.curves, run.topology);
+  SizeLimits bound = run.limits();
+  if (run.options.edge_gradation > 0 && !run.rules.uses_metrics()) {
+    work.short_edges[f] = {short_edges(domain, on_curves), slope_of_gradation(run.options.edge_gradation)};
+    if (!work.short_edges[f].empty()) bound.edges = &work.short_edges[f];
+  }
+  return {.face = static_cast<int>(f),
+          .ref = run.model.faces[f].ref,
+          .domain = &domain,
+          .curve_xyz = std::move(on_curves),
+          .constant_size = bound.want_places() ? std::nullopt : run.rules.constant(),
+          .isotropic = !run.rules.uses_metrics(),
+          .limits = bound,
+          .slope = run.slope()};
+}
+
+// Of the faces whose domains could be made and that have no mesh yet.
+void make_jobs(PatchJobs& work) {
+  CompositeRun& run = work.run;
+  const bool reentrant = asks_from_threads(run.options, run.cad);
+  work.short_edges.assign(run.model.faces.size(), {});
+  for (std::size_t f = 0; f < run.model.faces.size(); ++f) {
+    if (!run.domains.domain[f] || run.patches[f]) continue;
+    work.jobs.push_back(std::make_unique<FaceJob>(input_of(work, f), run.cad, run.rules, run.options, reentrant));
+    work.job(work.jobs.size() - 1).limit_triangles(run.options.max_triangles);
+    work.face_of.push_back(f);
+  }
+}
+
+// Longest first, judged by boundaries: the triangles of a square are as the square of its edges.
+std::vector<std::size_t> order_of_jobs(const PatchJobs& work) {
+  const auto edges = [&](std::size_t i) { return work.run.domains.domain[work.face_of[i]]->plane.edges.size(); };
+  std::vector<std::size_t> order(work.jobs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return edges(a) > edges(b); });
+  return order;
+}
+
+void tell_progress(PatchJobs& work, std::size_t next) {
+  if (next == work.jobs.size()) return;
+  work.run.tell(Phase::patches, work.run.model.faces[work.face_of[next]].ref,
+                curves_share + patches_share * static_cast<double>(next) / static_cast<double>(work.jobs.size()));
+}
+
+void keep_patch(PatchJobs& work, std::size_t i) {
+  CompositeRun& run = work.run;
+  const std::size_t f = work.face_of[i];
+  run.patches[f] = work.job(i).take();
+  if (!work.job(i).remark().empty()) run.remarks[f] = work.job(i).remark();
+  work.left -= static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
+  const std::int64_t most = run.options.max_triangles;
+  if (work.left < 0)
+    refuse_triangles(Where{.face = run.model.faces[f].ref}, static_cast<double>(most - work.left), most);
+}
+
+void finish(PatchJobs& work, std::size_t i) {
+  CompositeRun& run = work.run;
+  const std::size_t f = work.face_of[i];
+  const CompositeReport& did = work.job(i).report();
+  CompositeReport& all = run.result.report;
+  all.seconds_sampling += did.seconds_sampling;
+  all.seconds_plane += did.seconds_plane;
+  all.seconds_lift += did.seconds_lift;
+  all.corrections += did.corrections;
+  run.result.spaces[f] = work.job(i).take_space();
+  if (work.job(i).failure().empty())
+    keep_patch(work, i);
+  else
+    run.fail(f, work.job(i).failure());
+  // One after the other, what is left is known before the next one starts.
+  if (run.options.threads == 1 && i + 1 < work.jobs.size()) work.job(i + 1).limit_triangles(work.left);
+  work.jobs[i].reset();
+  tell_progress(work, i + 1);
+}
+
+void start_result(CompositeRun& run) {
+  CompositeResult& result = run.result;
+  const std::size_t n = run.model.faces.size();
+  result.mesh = {};
+  result.mesh.faces.resize(n);
+  result.spaces.assign(n, std::nullopt);
+  result.vertex_size.clear();
+  result.curve_size.clear();
+  result.gaps.clear();
+  for (std::size_t f = 0; f < n; ++f) {
+    const Face& face = run.model.faces[f];
+    FaceMesh& mesh = result.mesh.faces[f];
+    mesh.ref = face.ref;
+    mesh.part_of = face.part_of;
+    mesh.name = face.name;
+    mesh.rgb = face.rgb;
+  }
+}
+
+void place_narrow_patches(CompositeRun& run) {
+  for (std::size_t i = 0; i < run.between.size(); ++i) {
+    const int f = run.narrow.strips[i].face;
+    run.domains.domain[f] = std::move(run.between[i].domain);
+    run.patches[f] = std::move(run.between[i].mesh);
+  }
+}
+
+}  // namespace
+
+void mesh_patches(CompositeRun& run) {
+  start_result(run);
+  run.remarks.clear();
+  run.patches.assign(run.model.faces.size(), std::nullopt);
+  place_narrow_patches(run);
+  for (std::size_t f = 0; f < run.model.faces.size(); ++f)
+    if (!run.domains.domain[f] && !run.domains.failure[f].empty()) run.fail(f, run.domains.failure[f]);
+  PatchJobs work{.run = run};
+  work.left = run.options.max_triangles;
+  make_jobs(work);
+  tell_progress(work, 0);
+  run_stepped(work.jobs,
+              {.threads = run.options.threads,
+               .order = order_of_jobs(work),
+               .on_finished = [&](std::size_t i) { finish(work, i); }},
+              run.monitor);
+}
+
+}  // namespace carreau

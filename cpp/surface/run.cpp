@@ -1,0 +1,48 @@
+#include "surface/run.h"
+
+#include <algorithm>
+
+#if defined(__unix__)
+#include <unistd.h>
+#endif
+
+namespace carreau {
+
+namespace {
+
+// What a triangle may cost while a patch is meshed, the mesh itself and copies included.
+constexpr double bytes_per_triangle = 300;
+
+std::int64_t triangles_by_memory() {
+#if defined(__unix__)
+  const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+  if (pages > 0 && page > 0)
+    return static_cast<std::int64_t>(0.8 * static_cast<double>(pages) * static_cast<double>(page) / bytes_per_triangle);
+#endif
+  return INT64_C(50'000'000);
+}
+
+}  // namespace
+
+CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topology,
+                           const ModelSupports& given_supports, Cad& given_cad, const CompositeOptions& given_options,
+                           Monitor& given_monitor)
+    : model(given_model),
+      topology(given_topology),
+      supports(given_supports),
+      cad(given_cad),
+      options(given_options),
+      monitor(given_monitor),
+      rules(model, topology, cad, options.size),
+      curve_model{model, topology, supports.of_face, cad} {
+  if (options.max_triangles <= 0) options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4);
+  result.report.diag = supports.diag;
+}
+
+void CompositeRun::fail(std::size_t face, const std::string& why) {
+  result.mesh.faces[face].status = FaceStatus::failed;
+  result.mesh.faces[face].why = why;
+  monitor.message(Level::error, why);
+}
+
+}  // namespace carreau

@@ -1,0 +1,76 @@
+// A run over a composite surface: what its steps hand to one another. Private to surface/.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "curve/discrete_curve.h"
+#include "gradation/edge_sizes.h"
+#include "surface/grade/size_grading.h"
+#include "surface/narrow/narrow_faces.h"
+#include "surface/options.h"
+#include "surface/refine/boundary_refinement.h"
+#include "surface/result.h"
+#include "surface/supports.h"
+
+namespace carreau {
+
+/// What is given, what steps have made so far, and the result. Keeps references to all that is given.
+struct CompositeRun {
+  CompositeRun(const Model& given_model, const Topology& given_topology, const ModelSupports& given_supports,
+               Cad& given_cad, const CompositeOptions& given_options, Monitor& given_monitor);
+
+  [[nodiscard]] double slope() const noexcept { return graded.field ? graded.field->slope() : 0; }
+  [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
+  /// Progress; `share` of what comes after the gradation.
+  void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
+  /// The face has no mesh; others go on.
+  void fail(std::size_t face, const std::string& why);
+
+  const Model& model;
+  const Topology& topology;
+  const ModelSupports& supports;
+  Cad& cad;
+  CompositeOptions options;
+  Monitor& monitor;
+  SizeRules rules;
+  CurveModel curve_model;
+
+  GradedModel graded;                             ///< grade_sizes()
+  double begin = 0;                               ///< share of the run that was over before the curves
+  std::vector<DiscreteCurve> curves;              ///< discretise_curves(); by curve of the topology
+  NarrowModel narrow;                             ///< find_narrow()
+  RefinedDomains domains;                         ///< refine_boundaries()
+  std::vector<NarrowPatch> between;               ///< the same; of narrow.strips
+  std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
+  std::map<std::size_t, std::string> remarks;     ///< the same; what is to be known of a face that was meshed
+  CompositeResult result;                         ///< assemble_patches()
+};
+
+/// Shares of the progress of what comes after the gradation.
+inline constexpr double curves_share = 0.1, patches_share = 0.85;
+
+/// The steps, in their order; composite.cpp calls them. Each throws what the host throws, LimitError and Cancelled.
+
+/// Grades the prescribed sizes of the whole model, where a gradation is asked for. One size everywhere obeys any.
+void grade_sizes(CompositeRun& run);
+/// Unit discretisation of every curve, once for all faces.
+void discretise_curves(CompositeRun& run);
+/// Faces narrower than their triangles, and vertices at the same places on both of their sides.
+void find_narrow(CompositeRun& run);
+/// Curves are cut until every domain can be meshed. A narrow face that is to stay and cannot be meshed between its
+/// sides is one like others, and all is refined again.
+void refine_boundaries(CompositeRun& run);
+/// Sample, mesh, lift of every face, on several threads.
+void mesh_patches(CompositeRun& run);
+/// One mesh of all patches; statuses and sentences of its faces.
+void assemble_patches(CompositeRun& run);
+/// Narrow faces vanish all together. False, and nothing done, where some cannot.
+[[nodiscard]] bool collapse_narrow_together(CompositeRun& run);
+/// As many as can vanish, where all were meshed, end caps too.
+void collapse_narrow_one_by_one(CompositeRun& run);
+
+}  // namespace carreau
