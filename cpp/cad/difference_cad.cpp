@@ -5,6 +5,7 @@
 
 #include "support/error.h"
 #include "support/format.h"
+#include "support/pieces.h"
 
 namespace carreau {
 
@@ -97,10 +98,9 @@ void DifferenceCad::surface(int face, unsigned want, std::span<const Vec2> uv, s
     if ((missing & bit) == 0) continue;
     Task task{bit, want_position, bit == want_first ? first_step : second_step};
     if (bit == want_second && (surface_gives_ & want_first) != 0) task.from = want_first, task.relative = first_step;
-    for (std::size_t i = 0; i < uv.size(); i += chunk) {
-      const std::size_t n = std::min(chunk, uv.size() - i);
-      add_differences(face, task, uv.subspan(i, n), out.subspan(i, n));
-    }
+    for_pieces(uv.size(), chunk, [&](std::size_t first, std::size_t n) {
+      add_differences(face, task, uv.subspan(first, n), out.subspan(first, n));
+    });
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "cad/call_counter.h"
 #include "support/error.h"
+#include "support/pieces.h"
 
 namespace carreau {
 
@@ -109,10 +110,9 @@ class CHost : public Cad {
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
     counter_.add_surface(want, uv.size());
     if (table_.surface_batch != nullptr) {
-      for (std::size_t i = 0; i < uv.size(); i += batch_size) {
-        const std::size_t n = std::min(batch_size, uv.size() - i);
-        batch(face, want, uv.subspan(i, n), out.subspan(i, n));
-      }
+      for_pieces(uv.size(), batch_size, [&](std::size_t first, std::size_t n) {
+        batch(face, want, uv.subspan(first, n), out.subspan(first, n));
+      });
       return;
     }
     for (std::size_t i = 0; i < uv.size(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "cad/difference_cad.h"
 #include "support/error.h"
+#include "support/pieces.h"
 
 namespace carreau {
 
@@ -30,13 +31,12 @@ class ReparametrisedCad final : public Cad {
     // Second derivatives along x need the first ones.
     const unsigned asked = (want & want_second) != 0 ? want | want_first : want;
     std::array<Vec2, batch> uv;
-    for (std::size_t begin = 0; begin < xy.size(); begin += batch) {
-      const std::size_t n = std::min(batch, xy.size() - begin);
+    for_pieces(xy.size(), batch, [&](std::size_t begin, std::size_t n) {
       for (std::size_t k = 0; k < n; ++k) uv[k] = map_.to_host(xy[begin + k]);
       host_.surface(face, asked, std::span(uv).first(n), out.subspan(begin, n));
-      if ((asked & want_first) == 0) continue;
+      if ((asked & want_first) == 0) return;
       for (std::size_t k = 0; k < n; ++k) differentiate(xy[begin + k], out[begin + k]);
-    }
+    });
   }
   Interval curve_interval(int face, int ic) override { return host_.curve_interval(face, ic); }
   CurveJet curve(int face, int ic, unsigned want, double t) override { return host_.curve(face, ic, want, t); }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "metric/metric2_algebra.h"
+#include "support/pieces.h"
 
 namespace carreau::detail {
 
@@ -157,13 +158,12 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
 std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   std::vector<Metric2> metric(uv.size());
   if (on_surface_) last_tangents_.resize(uv.size());
-  for (std::size_t start = 0; start < uv.size(); start += batch) {
+  for_pieces(uv.size(), batch, [&](std::size_t start, std::size_t n) {
     monitor_.checkpoint();
-    const std::size_t n = std::min(batch, uv.size() - start);
     sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n),
              on_surface_ ? std::span(last_tangents_).subspan(start, n) : std::span<SurfaceTangents>{});
     samples_ += n;
-  }
+  });
   return metric;
 }
 

@@ -85,9 +85,7 @@ class FieldWriter {
     for (const std::size_t f : faces) {
       sources.push_back(source_of(f));
       if (rules_) {
-        const FaceInterfaces& interfaces = interfaces_of(f);
-        prescribed.emplace_back(static_cast<int>(f), *rules_, interfaces.plane, interfaces.physical, monitor_,
-                                limits());
+        prescribed.emplace_back(static_cast<int>(f), *rules_, interfaces_of(f), monitor_, limits());
         sources.back().prescribed = &prescribed.back();
       }
       images.emplace_back(

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
+#include "support/pieces.h"
 
 namespace carreau {
 
@@ -114,22 +115,21 @@ bool FieldSampler::sample_some(std::span<const Vec2> uv, std::span<SurfaceJet> j
 void FieldSampler::sample(std::span<const Vec2> uv, std::span<SurfaceJet> jets, std::span<Metric2> metric) {
   if (prescribed_ == nullptr) std::fill(metric.begin(), metric.end(), Metric2{nan, nan, nan});
   if (want_ == 0) return;
-  for (std::size_t i = 0; i < uv.size(); i += batch) {
+  for_pieces(uv.size(), batch, [&](std::size_t i, std::size_t n) {
     monitor_.checkpoint();
-    const std::size_t n = std::min(batch, uv.size() - i);
     const auto points = uv.subspan(i, n);
     const auto there = jets.subspan(i, n);
     const auto here = metric.subspan(i, n);
     const bool told = evaluate(want_, points, there);
     answered_ = answered_ || told;
-    if (told && (prescribed_ == nullptr || prescribe(points, there, here))) continue;
-    if (!answered_ && in_vain_ >= most_in_vain && sample_some(points, there, here)) continue;
+    if (told && (prescribed_ == nullptr || prescribe(points, there, here))) return;
+    if (!answered_ && in_vain_ >= most_in_vain && sample_some(points, there, here)) return;
     for (std::size_t k = 0; k < n; ++k)
       if (sample_one(points[k], there[k], here[k]))
         answered_ = true;
       else
         ++in_vain_;
-  }
+  });
 }
 
 }  // namespace carreau

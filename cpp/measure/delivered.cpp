@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "cad/batches.h"
 #include "cad/fundamental_forms.h"
 #include "measure/degenerate_sides.h"
 #include "measure/gauss.h"
@@ -18,8 +19,6 @@ namespace carreau {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// Points to evaluate at a time.
-constexpr std::size_t batch = 2048;
 
 struct Barycentric {
   double a, b, c, weight;
@@ -60,24 +59,18 @@ class Sampler {
   /// use(rank, jet, metric) for each point.
   template <typename Use>
   void run(int face, int ref, unsigned want, std::span<const Vec2> uv, const Use& use) {
-    jets_.resize(batch);
-    metrics_.resize(batch);
-    want |= prescribed_.wants | want_first;
-    for (std::size_t i = 0; i < uv.size(); i += batch) {
-      monitor_.checkpoint();
-      const std::size_t n = std::min(batch, uv.size() - i);
-      const std::span<SurfaceJet> jets = std::span(jets_).first(n);
-      cad_.surface(ref, want, uv.subspan(i, n), jets);
-      prescribed_.at(face, uv.subspan(i, n), jets, std::span(metrics_).first(n));
-      for (std::size_t k = 0; k < n; ++k) use(i + k, jets_[k], metrics_[k]);
-    }
+    const auto prescribe = [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
+      metrics_.resize(here.size());
+      prescribed_.at(face, here, jets, metrics_);
+      for (std::size_t k = 0; k < here.size(); ++k) use(first + k, jets[k], metrics_[k]);
+    };
+    for_batches(cad_, ref, want | prescribed_.wants | want_first, uv, monitor_, prescribe);
   }
 
  private:
   Cad& cad_;
   const PrescribedMetric& prescribed_;
   Monitor& monitor_;
-  std::vector<SurfaceJet> jets_;
   std::vector<Metric2> metrics_;
 };
 

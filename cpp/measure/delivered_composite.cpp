@@ -17,9 +17,7 @@ Delivered measure_composite(const Model& model, const Topology& topology, Cad& c
       want_first | rules.surface_wants() | (limits.field != nullptr ? want_position : 0U),
       [&](int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
         if (face != prescribed_face) {
-          const FaceInterfaces& interfaces = result.interfaces[face];
-          prescribed =
-              std::make_unique<FaceMetric>(face, rules, interfaces.plane, interfaces.physical, monitor, limits);
+          prescribed = std::make_unique<FaceMetric>(face, rules, result.interfaces[face], monitor, limits);
           prescribed_face = face;
         }
         prescribed->at(uv, jets, out);

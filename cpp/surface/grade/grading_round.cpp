@@ -21,7 +21,6 @@ namespace {
 constexpr double graph_factor = 2, graph_share = 1. / 20;
 // Of its control spaces: sizes and positions are asked at its vertices again.
 constexpr double graph_tolerance = 0.1;
-constexpr std::size_t batch = 512;
 // Least cosine of normals that differ by rounding.
 constexpr double parallel = 1 - 1e-9;
 
@@ -199,7 +198,7 @@ PlaneMesh GradingRound::mesh_face(const PatchInput& input) {
 
 // The graph's own control space; what the host says meanwhile is kept.
 ControlSpace GradingRound::sample(const PatchInput& input, std::span<const Vec2> suspects) {
-  FaceMetric prescribed(input.face, rules_, input.domain->plane, input.domain->physical, monitor_);
+  FaceMetric prescribed = unlimited_prescription_of(input, rules_, monitor_);
   std::vector<Sample>& samples = samples_[input.face];
   std::vector<SurfaceJet> jets;
   SpeedWatch speeds(rules_.asks_sources() ? infinity : uneven_speed, 0);
@@ -232,31 +231,21 @@ void GradingRound::keep_sample(Vec2 uv, const SurfaceJet& jet, Metric2 metric, s
 // Positions, normals and prescribed sizes; on curves those of the face count beside those of the curve, so that
 // nothing jumps at its border.
 void GradingRound::evaluate(const PatchInput& input, GradedFace& face, std::size_t first) {
-  FaceMetric metric(input.face, rules_, input.domain->plane, input.domain->physical, monitor_);
-  std::vector<SurfaceJet> jets(batch);
-  std::vector<Metric2> metrics(batch);
-  const std::span<const Vec2> all = face.uv;
-  for (std::size_t i = 0; i < all.size(); i += batch) {
-    monitor_.checkpoint();
-    const std::size_t n = std::min(batch, all.size() - i);
-    const std::span<SurfaceJet> jet(jets.data(), n);
-    model_.cad.surface(input.ref, want_position | metric.wants(), all.subspan(i, n), jet);
-    metric.at(all.subspan(i, n), jet, {metrics.data(), n});
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t v = i + k;
-      const int vertex = graph_.places[first + v].vertex;
-      const bool on_curve = v < input.domain->origin.size() && input.domain->origin[v].curve >= 0;
-      if (!on_curve) graph_.xyz[vertex] = face.xyz[v] = jet[k].s;
-      face.normal[v] = unit(cross(jet[k].su, jet[k].sv));
-      if (metrics_) {
-        auto sizes = tangent_metric(jet[k], metrics[k]);
-        if (!sizes) sizes = metric.limit(all[v], jet[k]);
-        metric_.push_back(sizes ? *sizes : TangentMetric{});
-      } else if (const double h = isotropic_size(jet[k], metrics[k]); h > 0) {
-        h_[vertex] = std::min(h_[vertex], h);
-      }
+  FaceMetric prescribed = unlimited_prescription_of(input, rules_, monitor_);
+  const auto keep = [&](std::size_t v, const SurfaceJet& jet, Metric2 metric) {
+    const int vertex = graph_.places[first + v].vertex;
+    const bool on_curve = v < input.domain->origin.size() && input.domain->origin[v].curve >= 0;
+    if (!on_curve) graph_.xyz[vertex] = face.xyz[v] = jet.s;
+    face.normal[v] = unit(cross(jet.su, jet.sv));
+    if (metrics_) {
+      auto sizes = tangent_metric(jet, metric);
+      if (!sizes) sizes = prescribed.limit(face.uv[v], jet);
+      metric_.push_back(sizes ? *sizes : TangentMetric{});
+    } else if (const double h = isotropic_size(jet, metric); h > 0) {
+      h_[vertex] = std::min(h_[vertex], h);
     }
-  }
+  };
+  prescribed.sample(model_.cad, input.ref, want_position, face.uv, keep);
 }
 
 // Where the parametrisation is degenerate, the mean of the triangles around.

@@ -1,32 +1,19 @@
 #include "surface/lift/lift.h"
 
-#include <algorithm>
 #include <span>
 
+#include "cad/batches.h"
+
 namespace carreau {
-
-namespace {
-
-// Points to evaluate at a time: large enough for hosts that like batches, small enough to stop soon.
-constexpr std::size_t batch = 512;
-
-// Of the vertices from `xyz.size()` on.
-void lift(int face, std::span<const Vec2> uv, Cad& cad, std::vector<Vec3>& xyz, Monitor& monitor) {
-  std::vector<SurfaceJet> jets(batch);
-  for (std::size_t i = xyz.size(); i < uv.size(); i += batch) {
-    monitor.checkpoint();
-    const std::size_t n = std::min(batch, uv.size() - i);
-    cad.surface(face, want_position, uv.subspan(i, n), std::span(jets).first(n));
-    for (std::size_t k = 0; k < n; ++k) xyz.push_back(jets[k].s);
-  }
-}
-
-}  // namespace
 
 void lift_patch(const PatchInput& input, Cad& cad, PatchMesh& mesh, Monitor& monitor) {
   mesh.xyz.reserve(mesh.plane.vertices.size());
   mesh.xyz = input.curve_xyz;
-  lift(input.ref, mesh.plane.vertices, cad, mesh.xyz, monitor);
+  const std::span<const Vec2> inside = std::span(mesh.plane.vertices).subspan(mesh.xyz.size());
+  for_batches(cad, input.ref, want_position, inside, monitor,
+              [&](std::size_t, std::span<const Vec2>, std::span<const SurfaceJet> jets) {
+                for (const SurfaceJet& jet : jets) mesh.xyz.push_back(jet.s);
+              });
 }
 
 }  // namespace carreau

@@ -13,7 +13,6 @@ namespace carreau {
 namespace {
 
 constexpr std::size_t most_places = 500;
-constexpr std::size_t batch = 512;
 constexpr int most_steps = 8;
 // Steps shorter than this share of a place's reach are the last.
 constexpr double settled = 1e-3;
@@ -82,26 +81,20 @@ class SteepPlaces {
     std::vector<double> distance(feet.size(), std::numeric_limits<double>::infinity());
     std::vector<std::size_t> moving;
     std::vector<Vec2> uv;
-    std::vector<SurfaceJet> jets;
-    for (int step = 0; step < most_steps; ++step) {
-      moving.clear();
-      for (std::size_t k = 0; k < feet.size(); ++k)
-        if (feet[k].moving) moving.push_back(k);
-      for (std::size_t first = 0; first < moving.size(); first += batch) {
-        monitor_.checkpoint();
-        const std::size_t n = std::min(batch, moving.size() - first);
-        uv.clear();
-        for (std::size_t i = 0; i < n; ++i) uv.push_back(feet[moving[first + i]].uv);
-        jets.resize(n);
-        cad_.surface(input_.ref, want_position | want_first, uv, jets);
-        for (std::size_t i = 0; i < n; ++i) {
-          Foot& f = feet[moving[first + i]];
-          distance[moving[first + i]] = norm(f.at - jets[i].s);
-          const Vec2 d = step_towards(jets[i], f.at);
-          f.moving = norm(d.x * jets[i].su + d.y * jets[i].sv) > settled * f.reach && locator.contains(f.uv + d);
-          if (f.moving) f.uv = f.uv + d;
-        }
+    const auto move = [&](std::size_t first, std::span<const Vec2>, std::span<const SurfaceJet> jets) {
+      for (std::size_t i = 0; i < jets.size(); ++i) {
+        Foot& f = feet[moving[first + i]];
+        distance[moving[first + i]] = norm(f.at - jets[i].s);
+        const Vec2 d = step_towards(jets[i], f.at);
+        f.moving = norm(d.x * jets[i].su + d.y * jets[i].sv) > settled * f.reach && locator.contains(f.uv + d);
+        if (f.moving) f.uv = f.uv + d;
       }
+    };
+    for (int step = 0; step < most_steps; ++step) {
+      moving.clear(), uv.clear();
+      for (std::size_t k = 0; k < feet.size(); ++k)
+        if (feet[k].moving) moving.push_back(k), uv.push_back(feet[k].uv);
+      for_batches(cad_, input_.ref, want_position | want_first, uv, monitor_, move);
     }
     std::size_t kept = 0;
     for (std::size_t k = 0; k < feet.size(); ++k)
@@ -126,21 +119,12 @@ std::vector<Vec2> missed_steep_places(const PatchInput& input, const ControlSpac
   std::vector<Foot> feet = search.begin(places);
   if (feet.empty()) return {};
   search.settle(feet);
-  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
+  FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<Vec2> missed, uv;
-  std::vector<SurfaceJet> jets;
-  std::vector<Metric2> metric;
-  for (std::size_t first = 0; first < feet.size(); first += batch) {
-    monitor.checkpoint();
-    const std::size_t n = std::min(batch, feet.size() - first);
-    uv.clear();
-    for (std::size_t i = 0; i < n; ++i) uv.push_back(feet[first + i].uv);
-    jets.resize(n), metric.resize(n);
-    cad.surface(input.ref, prescribed.wants(), uv, jets);
-    prescribed.at(uv, jets, metric);
-    for (std::size_t i = 0; i < n; ++i)
-      if (!agree(length_ratios(metric[i], space.at(uv[i])), input)) missed.push_back(uv[i]);
-  }
+  for (const Foot& foot : feet) uv.push_back(foot.uv);
+  prescribed.sample(cad, input.ref, 0, uv, [&](std::size_t k, const SurfaceJet&, Metric2 metric) {
+    if (!agree(length_ratios(metric, space.at(uv[k])), input)) missed.push_back(uv[k]);
+  });
   if (missed.size() <= most_places) return missed;
   std::vector<Vec2> some;
   for (std::size_t k = 0; k < most_places; ++k) some.push_back(missed[k * missed.size() / most_places]);

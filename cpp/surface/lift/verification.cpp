@@ -63,19 +63,11 @@ class LiftCheck {
   }
 
   void compare_metrics() {
-    constexpr std::size_t batch = 512;
-    FaceMetric prescribed(input_.face, rules_, input_.domain->plane, input_.domain->physical, monitor_, input_.limits);
-    std::vector<SurfaceJet> jets(batch);
-    std::vector<Metric2> metric(batch);
-    const std::span<const Vec2> uv = mesh_.plane.vertices;
-    mesh_.normal.assign(uv.size(), {});
-    for (std::size_t first = input_.domain->size.size(); first < uv.size(); first += batch) {
-      monitor_.checkpoint();
-      const std::size_t n = std::min(batch, uv.size() - first);
-      cad_.surface(input_.ref, prescribed.wants(), uv.subspan(first, n), std::span(jets).first(n));
-      prescribed.at(uv.subspan(first, n), std::span(jets).first(n), std::span(metric).first(n));
-      for (std::size_t k = 0; k < n; ++k) compare_at(first + k, jets[k], metric[k]);
-    }
+    FaceMetric prescribed = prescription_of(input_, rules_, monitor_);
+    const std::size_t imposed = input_.domain->size.size();
+    mesh_.normal.assign(mesh_.plane.vertices.size(), {});
+    prescribed.sample(cad_, input_.ref, 0, std::span<const Vec2>(mesh_.plane.vertices).subspan(imposed),
+                      [&](std::size_t k, const SurfaceJet& jet, Metric2 m) { compare_at(imposed + k, jet, m); });
   }
   void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
     mesh_.normal[v] = unit_normal(jet).value_or(Vec3{});
@@ -210,18 +202,13 @@ Deserts find_deserts(const PatchInput& input, const ControlSpace& space, Cad& ca
   if (missed.size() > most_places) missed.resize(most_places);
   std::vector<Vec2> uv;
   for (const std::vector<Vec2>& places : missed) uv.push_back(places.front());
-  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
-  std::vector<SurfaceJet> jets(uv.size());
-  std::vector<Metric2> metric(uv.size());
-  cad.surface(input.ref, prescribed.wants(), uv, jets);
-  prescribed.at(uv, jets, metric);
-  for (std::size_t k = 0; k < uv.size(); ++k) {
-    const LengthRatios ratios = length_ratios(metric[k], space.at(uv[k]));
-    if (agree(ratios, input))
+  FaceMetric prescribed = prescription_of(input, rules, monitor);
+  prescribed.sample(cad, input.ref, 0, uv, [&](std::size_t k, const SurfaceJet&, Metric2 metric) {
+    if (agree(length_ratios(metric, space.at(uv[k])), input))
       result.confirmed.push_back(std::move(missed[k]));
     else
       result.mistaken.push_back(uv[k]);
-  }
+  });
   return result;
 }
 

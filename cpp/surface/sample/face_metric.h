@@ -1,11 +1,13 @@
 // The metric that is prescribed inside a face.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "cad/batches.h"
 #include "gradation/graded_field.h"
 #include "predicates/polygon_locator.h"
 #include "size/size_rules.h"
@@ -22,6 +24,10 @@ class FaceMetric {
              Monitor& monitor, const SizeLimits& limits = {})
       : face_(face), rules_(rules), plane_(plane), physical_(physical), monitor_(monitor), limits_(limits) {}
 
+  FaceMetric(int face, const SizeRules& rules, const FaceInterfaces& interfaces, Monitor& monitor,
+             const SizeLimits& limits = {})
+      : FaceMetric(face, rules, interfaces.plane, interfaces.physical, monitor, limits) {}
+
   /// The Want bits that the jets of at() must hold.
   [[nodiscard]] unsigned wants() const noexcept {
     return want_first | rules_.surface_wants() | (limits_.want_places() ? want_position : 0U) |
@@ -33,6 +39,18 @@ class FaceMetric {
   /// the domain: around a pole they differ from one meridian to the next. What a point gets does not depend on the
   /// others.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> metric);
+
+  /// The same at points of the face of reference `ref`, whose jets hold `want` besides: use(rank, jet, metric) for
+  /// each, in order, evaluated a batch at a time.
+  template <typename Use>
+  void sample(Cad& cad, int ref, unsigned want, std::span<const Vec2> uv, const Use& use) {
+    std::vector<Metric2> metric(std::min(points_at_once, uv.size()));
+    const auto prescribe = [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
+      at(here, jets, std::span(metric).first(here.size()));
+      for (std::size_t k = 0; k < here.size(); ++k) use(first + k, jets[k], metric[k]);
+    };
+    for_batches(cad, ref, want | wants(), uv, monitor_, prescribe);
+  }
 
   /// The limit at a point where the parametrisation is degenerate. Empty where it is also degenerate beside, or no
   /// place beside is inside the domain.
@@ -56,6 +74,14 @@ class FaceMetric {
   std::optional<Inside> inside_;  // built only where the parametrisation is degenerate
   std::vector<double> h_;
 };
+
+/// What is prescribed inside a patch that is being meshed, within input.limits, or without any.
+inline FaceMetric prescription_of(const PatchInput& input, const SizeRules& rules, Monitor& monitor) {
+  return {input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits};
+}
+inline FaceMetric unlimited_prescription_of(const PatchInput& input, const SizeRules& rules, Monitor& monitor) {
+  return {input.face, rules, input.domain->plane, input.domain->physical, monitor};
+}
 
 /// The size h of an isotropic metric J^T J / h^2; 0 where both derivatives vanish.
 double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;

@@ -49,7 +49,7 @@ void SpeedWatch::find_usual(std::span<const SurfaceJet> jets) {
 
 ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
                          Monitor& monitor, SampledFacts* facts) {
-  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
+  FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<SurfaceJet> jets;
   const SampledFacts asked = facts != nullptr ? *facts : SampledFacts{};
   SpeedWatch speeds(asked.most_uneven, asked.usual_speed);
@@ -80,15 +80,10 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
 std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const SizeRules& rules,
                                      std::span<const Vec2> uv, Monitor& monitor) {
   if (input.constant_size) return std::vector<double>(uv.size(), *input.constant_size);
-  FaceMetric prescribed(input.face, rules, input.domain->plane, input.domain->physical, monitor, input.limits);
-  std::vector<SurfaceJet> jets(uv.size());
-  std::vector<Metric2> metric(uv.size());
-  if (!uv.empty()) {
-    cad.surface(input.ref, prescribed.wants(), uv, jets);
-    prescribed.at(uv, jets, metric);
-  }
+  FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<double> sizes(uv.size());
-  for (std::size_t k = 0; k < uv.size(); ++k) sizes[k] = mean_size(jets[k], metric[k]);
+  prescribed.sample(cad, input.ref, 0, uv,
+                    [&](std::size_t k, const SurfaceJet& jet, Metric2 metric) { sizes[k] = mean_size(jet, metric); });
   return sizes;
 }
 
