@@ -44,7 +44,7 @@ std::vector<Vec2> sample_points(const std::vector<CurveSupport>& supports) {
 
 void check_derivatives(const Model& model, const ModelSupports& supports, Cad& cad, const CompositeOptions& options,
                        Model* known, Monitor& monitor) {
-  const bool second = options.size.hgeo_flag == 1;
+  const bool second = options.size.geometric == GeometricSizes::curvature;
   std::vector<std::vector<WrongDerivative>> of_face(model.faces.size());
   const auto look = [&](std::size_t f, Monitor&) {
     const auto take = [&](std::vector<WrongDerivative>&& more) {

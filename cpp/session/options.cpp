@@ -10,6 +10,20 @@ namespace carreau {
 
 namespace {
 
+// The integer codes of RT-0232 sec. 3.3; the table of parameters has refused others.
+PhysicalSizes physical_sizes_of(int hphy_flag) {
+  return hphy_flag == 0 ? PhysicalSizes::ignored : hphy_flag == 1 ? PhysicalSizes::uniform : PhysicalSizes::asked;
+}
+GeometricSizes geometric_sizes_of(int hgeo_flag) {
+  return hgeo_flag == 0 ? GeometricSizes::ignored : hgeo_flag == 1 ? GeometricSizes::curvature : GeometricSizes::radii;
+}
+SizeMean mean_of(int hmean_flag) {
+  return hmean_flag == -1 ? SizeMean::minimum : hmean_flag == 1 ? SizeMean::geometric : SizeMean::arithmetic;
+}
+SizeLaw law_of(int hinterpol_flag) {
+  return hinterpol_flag == 0 ? SizeLaw::linear : hinterpol_flag == 1 ? SizeLaw::geometric : SizeLaw::sinusoidal;
+}
+
 GeometricCriterion criterion_of(const std::string& rule) {
   if (rule == "chord") return GeometricCriterion::chord;
   if (rule == "both") return GeometricCriterion::both;
@@ -32,22 +46,23 @@ int threads_of(const Parameters& parameters) {
 CompositeOptions composite_options(const Parameters& parameters, double diag) {
   CompositeOptions options;
   SizeParameters& size = options.size;
-  size.hphy_flag = parameters.integer("hphy_flag");
-  size.hgeo_flag = parameters.integer("hgeo_flag");
+  size.physical = physical_sizes_of(parameters.integer("hphy_flag"));
+  size.geometric = geometric_sizes_of(parameters.integer("hgeo_flag"));
   size.hphydef = parameters.real("hphydef", diag);
   size.hphymin = parameters.real("hphymin", diag);
   size.hphymax = parameters.real("hphymax", diag);
   size.hgeomin = parameters.real("hgeomin", diag);
   size.hgeomax = parameters.real("hgeomax", diag);
-  size.hmean_flag = parameters.integer("hmean_flag");
-  size.hinterpol_flag = parameters.integer("hinterpol_flag");
+  size.mean = mean_of(parameters.integer("hmean_flag"));
+  size.law = law_of(parameters.integer("hinterpol_flag"));
   size.angle_mesh = parameters.real("angle_mesh");
   size.geo_rule = criterion_of(parameters.text("geo_rule"));
   size.eps_chord = parameters.real("eps_chord", diag);
   size.geo_guarantee = parameters.integer("geo_guarantee") != 0;
   size.geo_anisotropic = parameters.integer("geo_metric") != 0;
   size.anisotropy_max = parameters.real("anisotropy_max");
-  size.metric_combination = static_cast<MetricCombination>(parameters.integer("metric_combination"));
+  size.metric_combination =
+      parameters.integer("metric_combination") == 0 ? MetricCombination::scale : MetricCombination::intersection;
   options.angle_smo = std::min(parameters.real("angle_smo"), size.angle_mesh);  // RT-0232 sec. 3.3
   options.lss = parameters.real("LSS");
   options.gradation = parameters.real("gradation");

@@ -257,7 +257,7 @@ void Session::make_mesh_of(Model& known) {
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, s.background);
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources)
-    source->begin_run(static_cast<MetricLaw>(options.size.hinterpol_flag));
+    source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, leaves_out(s.parameters) ? &known : nullptr, s.monitor);
   Topology topology =
@@ -362,7 +362,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   run.size = composite_options(parameters, run.diag).size;
   run.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : run.size.sources)
-    source->begin_run(static_cast<MetricLaw>(run.size.hinterpol_flag));
+    source->begin_run(run.size.law);
   if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }

@@ -126,7 +126,7 @@ SizeRules::Answers SizeRules::answers_on_surface(int face, Vec2 uv, Vec3 xyz) co
       if (p.kind != Prescription::Kind::none) answers.push_back(p);
     }
   }
-  if (parameters_.hphy_flag == 2) {
+  if (parameters_.physical == PhysicalSizes::asked) {
     if (const auto size = ask_surface(face, uv)) answers.push_back(Prescription::of_size(*size));
   }
   return answers;
@@ -158,7 +158,7 @@ SizeRules::Answers SizeRules::answers_on_curve(int curve, std::span<const double
       }
     }
   }
-  if (parameters_.hphy_flag == 2) {
+  if (parameters_.physical == PhysicalSizes::asked) {
     if (const auto size = ask_curve(curve, t)) answers.push_back(Prescription::of_size(*size));
   }
   return answers;
@@ -177,7 +177,7 @@ SizeRules::Answers SizeRules::answers_at_point(int point) {
       if (usable) answers.push_back(answer);
     }
   }
-  if (parameters_.hphy_flag == 2) {
+  if (parameters_.physical == PhysicalSizes::asked) {
     if (const auto size = cad_.point_size(p.ref)) {
       if (!std::isfinite(*size)) {
         throw CallbackError(where,
@@ -261,13 +261,13 @@ SurfaceJet SizeRules::surface_jet(int face, unsigned want, Vec2 uv) const {
 
 void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                                    const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
-  const bool geometric = uses_curvature(), physical = parameters_.hphy_flag != 0;
+  const bool geometric = uses_curvature(), physical = parameters_.physical != PhysicalSizes::ignored;
   const auto answers_at = [&](std::size_t i) {
     Answers answers;
     if (!physical) return answers;
     answers = answers_on_surface(face, uv[i], jets[i].s);
     if (answers.empty()) {
-      const double usual = parameters_.hphy_flag == 1 ? parameters_.hphydef : fallback(uv[i]);
+      const double usual = parameters_.physical == PhysicalSizes::uniform ? parameters_.hphydef : fallback(uv[i]);
       answers.push_back(Prescription::of_size(usual));
     }
     return answers;
@@ -339,7 +339,7 @@ SizeRules::CurvePlace SizeRules::place_on(const CurveUse& use, double t) {
 SizeRules::AlongCurve SizeRules::along_curve(int curve, std::span<const double> t, const Answers* given,
                                              double silent) {
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
-  const bool physical = parameters_.hphy_flag != 0;
+  const bool physical = parameters_.physical != PhysicalSizes::ignored;
   AlongCurve result;
   Answers of_curve;
   if (given != nullptr) {
@@ -368,8 +368,8 @@ SizeRules::AlongCurve SizeRules::along_curve(int curve, std::span<const double> 
   }
   result.answered = !answered.empty();
   if (result.answered) {
-    result.physical = mean_size(parameters_.hmean_flag, answered);
-    result.h = std::min(bound, mean_size(parameters_.hmean_flag, combined));
+    result.physical = mean_size(parameters_.mean, answered);
+    result.h = std::min(bound, mean_size(parameters_.mean, combined));
   } else {
     result.physical = physical ? silent : infinity;
     result.h = std::min(result.physical, bound);
@@ -388,10 +388,12 @@ SizeRules::AlongCurve SizeRules::along_curve(int curve, std::span<const double> 
 
 CurveSizes SizeRules::metric_sizes_on_curve(int curve, std::span<const double> t, double r) {
   double silent = infinity;
-  if (parameters_.hphy_flag == 1) silent = clamped_physical(parameters_.hphydef);
-  if (parameters_.hphy_flag == 2) silent = interpolated_on_curve(curve, r);
+  if (parameters_.physical == PhysicalSizes::uniform) silent = clamped_physical(parameters_.hphydef);
+  if (parameters_.physical == PhysicalSizes::asked) silent = interpolated_on_curve(curve, r);
   const AlongCurve along = along_curve(curve, t, nullptr, silent);
-  return {.answered = along.answered || parameters_.hphy_flag != 2, .physical = along.physical, .h = along.h};
+  return {.answered = along.answered || parameters_.physical != PhysicalSizes::asked,
+          .physical = along.physical,
+          .h = along.h};
 }
 
 // ---- at points ----
@@ -417,7 +419,7 @@ double SizeRules::metric_physical_at_point(int point) {
 double SizeRules::metric_size_at_point(int point) {
   Answers given;
   double h = infinity;
-  if (parameters_.hphy_flag != 0) {
+  if (parameters_.physical != PhysicalSizes::ignored) {
     h = physical_at_point(point);
     given = answers_at_point(point);
     if (given.empty()) given.push_back(Prescription::of_size(h));

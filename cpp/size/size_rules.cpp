@@ -26,12 +26,6 @@ void check_bounds(const char* name, double least, double most) {
                         format_number(least) + " and " + format_number(most));
 }
 
-void check_flag(const char* name, int value, int least, int most) {
-  if (value >= least && value <= most) return;
-  throw InvalidArgument(std::string(name) + " must lie between " + std::to_string(least) + " and " +
-                        std::to_string(most) + "; it is " + std::to_string(value));
-}
-
 /// A size that the host gave (RT-0232 sec. 3.1.3 a): any number can be clamped, NaN and infinity cannot be meant.
 std::optional<double> checked_size(std::optional<double> answer, const char* routine, const Where& where) {
   if (answer && !std::isfinite(*answer)) {
@@ -52,7 +46,7 @@ std::optional<double> checked_radius(std::optional<double> answer, const char* r
 // Edges keep the angle, triangles the distance.
 GeometricLimits geometric_limits(const SizeParameters& size) noexcept {
   GeometricLimits limits;
-  if (size.hgeo_flag == 0) return limits;
+  if (size.geometric == GeometricSizes::ignored) return limits;
   const GeometricCriterion rule = size.geo_rule;
   const bool by_radius = rule == GeometricCriterion::radii && !size.geo_anisotropic;  // the angle's equation
   if (rule == GeometricCriterion::angle || rule == GeometricCriterion::both || by_radius)
@@ -93,15 +87,15 @@ void check_geometric(const SizeParameters& p) {
 
 }  // namespace
 
-double mean_size(int hmean_flag, std::span<const double> values) {
+double mean_size(SizeMean kind, std::span<const double> values) {
   if (values.empty()) throw InvalidArgument("the mean of no sizes was asked for");
   const double smallest = *std::min_element(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
   double sum = 0;
-  switch (hmean_flag) {
-    case -1:
+  switch (kind) {
+    case SizeMean::minimum:
       return smallest;
-    case 1:  // exp of the mean logarithm: the product of many sizes would underflow
+    case SizeMean::geometric:  // exp of the mean logarithm: the product of many sizes would underflow
       for (const double h : values) sum += std::log(h / smallest);
       return smallest * std::exp(sum / n);
     default:
@@ -118,21 +112,18 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
       rule_(rule_of(parameters)),
       physical_at_point_(topology.points.size()),
       geometric_at_point_(topology.points.size()) {
-  check_flag("hphy_flag", parameters.hphy_flag, 0, 2);
-  check_flag("hgeo_flag", parameters.hgeo_flag, 0, 2);
-  check_flag("hmean_flag", parameters.hmean_flag, -1, 2);
-  check_flag("hinterpol_flag", parameters.hinterpol_flag, 0, 2);
-  if (parameters.hphy_flag == 0 && parameters.hgeo_flag == 0) {
+  if (parameters.physical == PhysicalSizes::ignored && parameters.geometric == GeometricSizes::ignored) {
     throw InvalidArgument("hphy_flag and hgeo_flag are both 0: nothing says how large the elements are to be");
   }
-  if (parameters.hphy_flag != 0) {
+  if (parameters.physical != PhysicalSizes::ignored) {
     check_bounds("hphy", parameters.hphymin, parameters.hphymax);
     if (!std::isfinite(parameters.hphydef)) {
       throw InvalidArgument("hphydef must be a finite number; it is " + format_number(parameters.hphydef));
     }
   }
-  if (parameters.hgeo_flag != 0) check_geometric(parameters);
-  if (parameters.hgeo_flag == 0 && (parameters.geo_anisotropic || parameters.geo_rule != GeometricCriterion::angle)) {
+  if (parameters.geometric != GeometricSizes::ignored) check_geometric(parameters);
+  if (parameters.geometric == GeometricSizes::ignored &&
+      (parameters.geo_anisotropic || parameters.geo_rule != GeometricCriterion::angle)) {
     throw InvalidArgument(
         "hgeo_flag is 0, so that geometric sizes are ignored, but geo_metric or geo_rule asks for some: set hgeo_flag "
         "to 1");
@@ -140,7 +131,7 @@ SizeRules::SizeRules(const Model& model, const Topology& topology, Cad& cad, con
 }
 
 unsigned SizeRules::surface_wants() const noexcept {
-  unsigned wants = parameters_.hgeo_flag == 1 ? both_derivatives : 0;
+  unsigned wants = parameters_.geometric == GeometricSizes::curvature ? both_derivatives : 0;
   if (!uses_metrics()) return wants;
   wants |= want_first;
   if (uses_curvature()) wants |= want_second;  // where the host does not give its radius
@@ -149,7 +140,9 @@ unsigned SizeRules::surface_wants() const noexcept {
 }
 
 std::optional<double> SizeRules::constant() const noexcept {
-  if (parameters_.hphy_flag != 1 || parameters_.hgeo_flag != 0 || uses_metrics()) return {};
+  if (parameters_.physical != PhysicalSizes::uniform || parameters_.geometric != GeometricSizes::ignored ||
+      uses_metrics())
+    return {};
   return clamped_physical(parameters_.hphydef);
 }
 
@@ -203,7 +196,7 @@ std::optional<double> SizeRules::ask_surfaces_beside(int curve, std::span<const 
 
 std::optional<double> SizeRules::mean_of(const std::vector<double>& answers) const {
   if (answers.empty()) return {};
-  return mean_size(parameters_.hmean_flag, answers);
+  return mean_size(parameters_.mean, answers);
 }
 
 std::vector<SizeRules::CurveEnd> SizeRules::ends_at(int point) {
@@ -250,10 +243,10 @@ std::vector<SizeRules::Corner> SizeRules::corners_of(const std::vector<CurveEnd>
 }
 
 double SizeRules::compute_physical_at_point(int point) {
-  if (parameters_.hphy_flag == 0) return infinity;
+  if (parameters_.physical == PhysicalSizes::ignored) return infinity;
   if (uses_metrics()) return metric_physical_at_point(point);
   const double usual = clamped_physical(parameters_.hphydef);
-  if (parameters_.hphy_flag == 1) return usual;
+  if (parameters_.physical == PhysicalSizes::uniform) return usual;
   const int ref = topology_.points[static_cast<std::size_t>(point)].ref;
   if (const auto answer = checked_size(cad_.point_size(ref), "cad_hphyp", Where{.point = ref})) {
     return clamped_physical(*answer);
@@ -288,9 +281,9 @@ double SizeRules::interpolated_on_curve(int curve, double r) {
 }
 
 double SizeRules::physical_on_curve(int curve, std::span<const double> t, double r) {
-  if (parameters_.hphy_flag == 0) return infinity;
+  if (parameters_.physical == PhysicalSizes::ignored) return infinity;
   if (uses_metrics()) return ask_on_curve(curve, t, r).physical;
-  if (parameters_.hphy_flag == 1) return clamped_physical(parameters_.hphydef);
+  if (parameters_.physical == PhysicalSizes::uniform) return clamped_physical(parameters_.hphydef);
   if (const auto answer = ask_curve(curve, t)) return *answer;
   if (const auto answer = ask_surfaces_beside(curve, t)) return *answer;
   return interpolated_on_curve(curve, r);
@@ -299,13 +292,13 @@ double SizeRules::physical_on_curve(int curve, std::span<const double> t, double
 // ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
 
 std::optional<double> SizeRules::host_radius_of_surface(int face, Vec2 uv) const {
-  if (parameters_.hgeo_flag != 2) return {};
+  if (parameters_.geometric != GeometricSizes::radii) return {};
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   return checked_radius(cad_.surface_radius(ref, uv), "cad_rads", Where{.face = ref, .uv = uv});
 }
 
 std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const double> t) {
-  if (parameters_.hgeo_flag != 2) return {};
+  if (parameters_.geometric != GeometricSizes::radii) return {};
   const auto& uses = topology_.curves[static_cast<std::size_t>(curve)].uses;
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const Where where = where_of(uses[u], t[u]);
@@ -347,7 +340,7 @@ double SizeRules::radius_of_curve(int curve, std::span<const double> t, std::opt
 }
 
 double SizeRules::geometric_on_curve(int curve, std::span<const double> t) {
-  if (parameters_.hgeo_flag == 0) return infinity;
+  if (parameters_.geometric == GeometricSizes::ignored) return infinity;
   const Curve& c = topology_.curves[static_cast<std::size_t>(curve)];
   std::optional<SurfaceJet> jet;
   double smallest = radius_of_curve(curve, t, jet);
@@ -360,7 +353,7 @@ double SizeRules::geometric_on_curve(int curve, std::span<const double> t) {
 
 double SizeRules::compute_geometric_at_point(int point) {
   double h = infinity;
-  if (parameters_.hgeo_flag == 0) return h;
+  if (parameters_.geometric == GeometricSizes::ignored) return h;
   for (const CurveEnd& end : ends_at(point)) h = std::min(h, geometric_on_curve(end.curve, end.t));
   return std::min(h, parameters_.hgeomax);
 }
@@ -376,12 +369,12 @@ double SizeRules::at_point(int point) {
 CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t, double r) {
   if (uses_metrics()) return metric_sizes_on_curve(curve, t, r);
   CurveSizes sizes{.answered = true, .physical = infinity};
-  if (parameters_.hphy_flag == 2) {
+  if (parameters_.physical == PhysicalSizes::asked) {
     auto answer = ask_curve(curve, t);
     if (!answer) answer = ask_surfaces_beside(curve, t);
     sizes.answered = answer.has_value();
     sizes.physical = answer ? *answer : interpolated_on_curve(curve, r);
-  } else if (parameters_.hphy_flag == 1) {
+  } else if (parameters_.physical == PhysicalSizes::uniform) {
     sizes.physical = clamped_physical(parameters_.hphydef);
   }
   sizes.h = std::min(sizes.physical, geometric_on_curve(curve, t));
@@ -395,7 +388,8 @@ void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::sp
   std::vector<std::size_t> sound, degenerate;
   std::vector<double> radius(uv.size(), infinity);
   for (std::size_t i = 0; i < uv.size(); ++i) {
-    const auto known = radius_in_face(face, uv[i], parameters_.hgeo_flag == 1 ? &jets[i] : nullptr);
+    const auto known =
+        radius_in_face(face, uv[i], parameters_.geometric == GeometricSizes::curvature ? &jets[i] : nullptr);
     if (known) radius[i] = *known;
     (known ? sound : degenerate).push_back(i);
   }
@@ -414,14 +408,14 @@ void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::sp
 void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                            const std::function<double(Vec2)>& fallback, std::span<double> h) const {
   for (std::size_t i = 0; i < uv.size(); ++i) {
-    switch (parameters_.hphy_flag) {
-      case 0:
+    switch (parameters_.physical) {
+      case PhysicalSizes::ignored:
         h[i] = infinity;
         break;
-      case 1:
+      case PhysicalSizes::uniform:
         h[i] = clamped_physical(parameters_.hphydef);
         break;
-      default:
+      case PhysicalSizes::asked:
         if (const auto answer = ask_surface(face, uv[i])) {
           h[i] = *answer;
         } else {
@@ -429,7 +423,7 @@ void SizeRules::on_surface(int face, std::span<const Vec2> uv, std::span<const S
         }
     }
   }
-  if (parameters_.hgeo_flag != 0) geometric_on_surface(face, uv, jets, h);
+  if (parameters_.geometric != GeometricSizes::ignored) geometric_on_surface(face, uv, jets, h);
 }
 
 }  // namespace carreau

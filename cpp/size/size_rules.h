@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -18,22 +19,37 @@
 
 namespace carreau {
 
-/// Variables of blsurf.env that govern sizes; defaults that depend on diag are filled in by the session.
+/// Where physical sizes come from (hphy_flag).
+enum class PhysicalSizes : std::uint8_t {
+  ignored,
+  uniform,  ///< hphydef
+  asked     ///< from the host
+};
+/// Where geometric sizes come from (hgeo_flag).
+enum class GeometricSizes : std::uint8_t {
+  ignored,
+  curvature,
+  radii  ///< of the host
+};
+/// Mean of several sizes (hmean_flag).
+enum class SizeMean : std::uint8_t { minimum, arithmetic, geometric };
+
+/// What governs sizes; defaults that depend on diag are filled in by the session.
 struct SizeParameters {
-  int hphy_flag = 1;  ///< 0 ignored, 1 hphydef, 2 asked from the host
-  int hgeo_flag = 0;  ///< 0 ignored, 1 from curvature, 2 radii asked from the host
+  PhysicalSizes physical = PhysicalSizes::uniform;
+  GeometricSizes geometric = GeometricSizes::ignored;
   double hphydef = 0, hphymin = 0, hphymax = 0;
   double hgeomin = 0, hgeomax = 0;
-  int hmean_flag = 0;      ///< -1 minimum, 0 and 2 arithmetic, 1 geometric
-  int hinterpol_flag = 0;  ///< 0 linear, 1 geometric, 2 sinusoidal
-  double angle_mesh = 8;   ///< degrees
+  SizeMean mean = SizeMean::arithmetic;
+  SizeLaw law = SizeLaw::linear;
+  double angle_mesh = 8;  ///< degrees
   GeometricCriterion geo_rule = GeometricCriterion::angle;
   double eps_chord = 0;          ///< A0, model length; > 0 where geo_rule is chord or both
   bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor, guaranteed_chord_factor
   bool geo_anisotropic = false;  ///< sizes by both principal radii
   double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
   MetricCombination metric_combination = MetricCombination::intersection;
-  /// Asked in this order unless hphy_flag = 0; their answers all count. Not owned.
+  /// Asked in this order unless physical sizes are ignored; their answers all count. Not owned.
   std::vector<PrescriptionSource*> sources = {};
 };
 
@@ -50,8 +66,8 @@ GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
 /// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
 double size_per_radius(double angle_deg) noexcept;
 
-/// Mean of several sizes according to hmean_flag. values not empty.
-double mean_size(int hmean_flag, std::span<const double> values);
+/// Mean of several sizes. values not empty.
+double mean_size(SizeMean kind, std::span<const double> values);
 
 /// Smallest principal radius of curvature (absolute value) at a jet with first and second derivatives (RR-2928
 /// sec. 5.2.1, HDR sec. 4.4.2); +infinity on a plane point; empty where the parametrisation is degenerate.
@@ -64,7 +80,7 @@ double curve_radius(const SurfaceJet& surface, const CurveJet& curve) noexcept;
 /// What is asked for at one point inside a curve, along its tangent.
 struct CurveSizes {
   bool answered = false;  ///< the curve or a surface beside it answers; else `physical` is interpolated from the ends
-  double physical = 0;    ///< clamped; +infinity when hphy_flag = 0
+  double physical = 0;    ///< clamped; +infinity when it is ignored
   double h = 0;           ///< with the geometric size
 };
 
@@ -76,11 +92,11 @@ struct CurveSizes {
 /// Where metrics govern (uses_metrics()), sizes at points and on curves are those along the tangents of the curves, and
 /// faces ask metrics_on_surface() in place of on_surface(). What sources and size routines answer at one place is
 /// intersected, then combined with the geometric metric as metric_combination says. Where nobody answers the size is
-/// hphydef (hphy_flag = 1) or interpolated as the manual has it (hphy_flag = 2).
+/// hphydef (PhysicalSizes::uniform) or interpolated as the manual has it (PhysicalSizes::asked).
 /// Where the host is re-entrant and no source is asked, several threads may call what is const at a time.
 class SizeRules {
  public:
-  /// Throws InvalidArgument when a flag is unknown, both sizes are ignored, bounds are not positive and ascending,
+  /// Throws InvalidArgument when both sizes are ignored, bounds are not positive and ascending,
   /// angle_mesh lies outside ]0, 90], eps_chord is needed and not positive, or anisotropy_max is below 1.
   SizeRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
@@ -90,13 +106,13 @@ class SizeRules {
   /// The Want bits that on_surface or metrics_on_surface needs in its jets.
   [[nodiscard]] unsigned surface_wants() const noexcept;
 
-  /// The size, when it is the same everywhere and no host is ever asked (hphy_flag = 1, hgeo_flag = 0).
+  /// The size, when it is the same everywhere and no host is ever asked.
   [[nodiscard]] std::optional<double> constant() const noexcept;
 
-  [[nodiscard]] bool uses_curvature() const noexcept { return parameters_.hgeo_flag != 0; }
+  [[nodiscard]] bool uses_curvature() const noexcept { return parameters_.geometric != GeometricSizes::ignored; }
   /// Whether sources of prescriptions are asked.
   [[nodiscard]] bool asks_sources() const noexcept {
-    return parameters_.hphy_flag != 0 && !parameters_.sources.empty();
+    return parameters_.physical != PhysicalSizes::ignored && !parameters_.sources.empty();
   }
   /// Whether sizes may differ by direction or come from sources.
   [[nodiscard]] bool uses_metrics() const noexcept {
@@ -107,8 +123,8 @@ class SizeRules {
   [[nodiscard]] double source_accuracy() const noexcept;
   [[nodiscard]] std::vector<Vec2> steep_places(int face) const;
   [[nodiscard]] std::vector<SteepPlace> steep_in_space() const;
-  /// How sizes vary between two points where they are known (hinterpol_flag).
-  [[nodiscard]] SizeLaw law() const noexcept { return static_cast<SizeLaw>(parameters_.hinterpol_flag); }
+  /// How sizes vary between two points where they are known.
+  [[nodiscard]] SizeLaw law() const noexcept { return parameters_.law; }
 
   /// h = min of the clamped physical and geometric sizes at a corner point (index in Topology::points).
   double at_point(int point);
@@ -141,7 +157,7 @@ class SizeRules {
 
   /// All of on_curve() and physical_on_curve(): for those who sample a whole curve.
   CurveSizes ask_on_curve(int curve, std::span<const double> t, double r);
-  /// The physical size between the ends of a curve when nobody answers (hinterpol_flag).
+  /// The physical size between the ends of a curve when nobody answers.
   double interpolated_on_curve(int curve, double r);
 
  private:

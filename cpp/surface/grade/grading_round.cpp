@@ -358,8 +358,8 @@ void GradingRound::bound_facing_faces() {
 
 double GradingRound::smallest_size() const {
   const SizeParameters& size = options_.size;
-  if (size.hphy_flag == 0) return size.hgeomin;
-  return size.hgeo_flag == 0 ? size.hphymin : std::min(size.hphymin, size.hgeomin);
+  if (size.physical == PhysicalSizes::ignored) return size.hgeomin;
+  return size.geometric == GeometricSizes::ignored ? size.hphymin : std::min(size.hphymin, size.hgeomin);
 }
 
 // Places of a face are numbered together; a face without any has the first of the next one.

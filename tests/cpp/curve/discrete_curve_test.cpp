@@ -288,8 +288,8 @@ TEST(SampleSizes, InterpolationBetweenEndsIsExactWhenNobodyAnswers) {
     const int face = s.add_face(1, flat());
     s.add_curve({s.add_use(face, segment({0, 0}, {4, 0}))});
     s.build();
-    s.sizes.hphy_flag = 2;
-    s.sizes.hinterpol_flag = law;
+    s.sizes.physical = PhysicalSizes::asked;
+    s.sizes.law = static_cast<SizeLaw>(law);
     s.cad.hphyp = [](int p) { return std::optional<double>(p == 1 ? 0.01 : 0.5); };
     SizeRules rules(s.model, s.topology, s.cad, s.sizes);
     const SizeSamples samples = sample_sizes(s.curve_model(), 0, rules);
@@ -307,7 +307,7 @@ TEST(SampleSizes, FollowsASizeThatVariesAlongTheCurve) {
   const int face = s.add_face(1, flat());
   s.add_curve({s.add_use(face, segment({0, 0}, {4, 0}))});
   s.build();
-  s.sizes.hphy_flag = 2;
+  s.sizes.physical = PhysicalSizes::asked;
   const auto h = [](double x) { return 0.3 - 0.28 * std::exp(-40 * (x - 2.6) * (x - 2.6)); };
   s.cad.hphyc = [&](int, int, double t) { return std::optional<double>(h(4 * t)); };
   SizeRules rules(s.model, s.topology, s.cad, s.sizes);
@@ -326,7 +326,7 @@ TEST(SampleSizes, SmallerSubSegmentsFollowMoreClosely) {
   const int face = s.add_face(1, flat());
   s.add_curve({s.add_use(face, segment({0, 0}, {4, 0}))});
   s.build();
-  s.sizes.hphy_flag = 2;
+  s.sizes.physical = PhysicalSizes::asked;
   const auto h = [](double x) { return 0.2 + 0.1 * std::sin(3 * x); };
   s.cad.hphyc = [&](int, int, double t) { return std::optional<double>(h(4 * t)); };
   SizeRules rules(s.model, s.topology, s.cad, s.sizes);
@@ -347,7 +347,7 @@ TEST(SampleSizes, AJumpOfSizesEndsTheRefinement) {
   const int face = s.add_face(1, flat());
   s.add_curve({s.add_use(face, segment({0, 0}, {4, 0}))});
   s.build();
-  s.sizes.hphy_flag = 2;
+  s.sizes.physical = PhysicalSizes::asked;
   s.cad.hphyc = [&](int, int, double t) { return std::optional<double>(t < 0.37 ? 0.01 : 1); };
   SizeRules rules(s.model, s.topology, s.cad, s.sizes);
   const DiscreteCurve d = discretise_curve(s.curve_model(), 0, rules);
@@ -360,7 +360,7 @@ TEST(SampleSizes, EndsTakeTheCurvesOrThePointsSize) {
   const int face = s.add_face(1, flat());
   s.add_curve({s.add_use(face, segment({0, 0}, {4, 0}))});
   s.build();
-  s.sizes.hphy_flag = 2;
+  s.sizes.physical = PhysicalSizes::asked;
   s.cad.hphyc = [&](int, int, double) { return std::optional<double>(0.1); };
   s.cad.hphyp = [](int) { return std::optional<double>(1); };
   SizeRules rules(s.model, s.topology, s.cad, s.sizes);
@@ -383,8 +383,8 @@ TEST(SampleSizes, CircleAskedByCurvatureHasTheAnglesEdges) {
                                           }})},
               true);
   s.build();
-  s.sizes.hphy_flag = 0;
-  s.sizes.hgeo_flag = 1;
+  s.sizes.physical = PhysicalSizes::ignored;
+  s.sizes.geometric = GeometricSizes::curvature;
   SizeRules rules(s.model, s.topology, s.cad, s.sizes);
   const DiscreteCurve d = discretise_curve(s.curve_model(), 0, rules);
   EXPECT_EQ(d.segments(), 23);  // 2 pi / (2 sin 8 deg) = 22.57
@@ -401,8 +401,8 @@ TEST(SampleSizes, ACurveWhoseSamplesAreInflectionsIsStillAskedWhereItBends) {
                                               return CurveJet{{t, a * z}, {1, 2 * a * c}, {0, -4 * a * z}};
                                             }})});
     s.build();
-    s.sizes.hphy_flag = 0;
-    s.sizes.hgeo_flag = 1;
+    s.sizes.physical = PhysicalSizes::ignored;
+    s.sizes.geometric = GeometricSizes::curvature;
     s.sizes.hgeomax = 1e3;
     s.sizes.angle_mesh = 2;
     SizeRules rules(s.model, s.topology, s.cad, s.sizes);

@@ -11,8 +11,8 @@ namespace carreau::testing_cad {
 
 inline SizeParameters parameters(int hphy, int hgeo) {
   SizeParameters p;
-  p.hphy_flag = hphy;
-  p.hgeo_flag = hgeo;
+  p.physical = static_cast<PhysicalSizes>(hphy);
+  p.geometric = static_cast<GeometricSizes>(hgeo);
   p.hphydef = 0.094;
   p.hphymin = 0.0094;
   p.hphymax = 0.94;

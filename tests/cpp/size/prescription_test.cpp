@@ -243,7 +243,7 @@ TEST(Sources, CurvesAndPointsWithoutAnAnswerTakeTheMeanOfTheSurfacesBeside) {
   EXPECT_NEAR(rules.on_curve(1, middle, 0.4), 0.1, 1e-12);    // faces 4 and 1, along u
   EXPECT_NEAR(rules.on_curve(3, middle, 0.4), 0.15, 1e-12);   // faces 5 and 8, along u
   EXPECT_NEAR(rules.at_point(1), 0.075, 1e-12);
-  p.hmean_flag = -1;
+  p.mean = SizeMean::minimum;
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.05, 1e-12);
 }
 
@@ -258,7 +258,7 @@ TEST(Sources, WhereNobodyAnswersTheSizeIsTheDefaultOrInterpolated) {
   expect_near(metric_at(rules, s.cad, 0, {0.6, 0.1}), {slanted.xx, slanted.xy, slanted.yy}, 1e-12);
   const double k = 1 / (p.hphydef * p.hphydef);
   expect_near(metric_at(rules, s.cad, 0, {0.4, 0.1}), {k, 0, k}, 1e-12);
-  p.hphy_flag = 2;
+  p.physical = PhysicalSizes::asked;
   SizeRules interpolating = s.rules(p);
   expect_near(metric_at(interpolating, s.cad, 0, {0.4, 0.1}), {25, 0, 25}, 1e-12);  // what metric_at says is around
   EXPECT_NEAR(interpolating.on_curve(0, middle, 0.4), p.hphydef, 1e-12);            // nobody answers at its ends either
@@ -274,11 +274,11 @@ TEST(Sources, AllAnswersCount) {
   p.sources = {&first, &second};
   SizeRules rules = s.rules(p);
   expect_near(metric_at(rules, s.cad, 0, {0.6, 0.1}), {100, 0, 4}, 1e-12);
-  p.hphy_flag = 2;  // and the size routine
+  p.physical = PhysicalSizes::asked;  // and the size routine
   SizeRules three = s.rules(p);
   expect_near(metric_at(three, s.cad, 0, {0.6, 0.1}), {100, 0, 1 / (0.15 * 0.15)}, 1e-12);
-  p.hphy_flag = 0;
-  p.hgeo_flag = 1;
+  p.physical = PhysicalSizes::ignored;
+  p.geometric = GeometricSizes::curvature;
   EXPECT_FALSE(s.rules(p).uses_metrics());
 }
 

@@ -32,17 +32,17 @@ TEST(SizeRules, MeansOfTheManualsFourPatches) {
 TEST(SizeRules, MinimumAndGeometricMeansOfTheFourPatches) {
   FourPatches s;
   SizeParameters p = parameters(2, 0);
-  p.hmean_flag = -1;
+  p.mean = SizeMean::minimum;
   SizeRules least = s.rules(p);
   const double smallest[] = {0.1, 0.05, 0.05, 0.2};
   for (int c = 0; c < 4; ++c) EXPECT_EQ(least.on_curve(c, middle, 0.4), smallest[c]);
   EXPECT_EQ(least.at_point(0), 0.05);
-  p.hmean_flag = 1;
+  p.mean = SizeMean::geometric;
   SizeRules geometric = s.rules(p);
   const double roots[] = {std::sqrt(0.08), std::sqrt(0.005), std::sqrt(0.01), std::sqrt(0.16)};
   for (int c = 0; c < 4; ++c) EXPECT_NEAR(geometric.on_curve(c, middle, 0.4), roots[c], 1e-15);
   EXPECT_NEAR(geometric.at_point(0), std::pow(0.05 * 0.1 * 0.2 * 0.8, 0.25), 1e-15);
-  p.hmean_flag = 2;
+  p.mean = SizeMean::arithmetic;
   EXPECT_DOUBLE_EQ(s.rules(p).on_curve(0, middle, 0.4), 0.45);
 }
 
@@ -69,9 +69,9 @@ TEST(SizeRules, InterpolatesBetweenTheEndsWhenNobodyAnswers) {
   s.cad.hphyp = [](int ref) { return ref == 6 ? std::optional<double>(0.01) : std::optional<double>(0.5); };
   SizeParameters p = parameters(2, 0);
   EXPECT_DOUBLE_EQ(s.rules(p).on_curve(0, middle, 0.4), 0.01 + 0.4 * 0.49);
-  p.hinterpol_flag = 1;
+  p.law = SizeLaw::geometric;
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.01 * std::pow(50, 0.4), 1e-15);
-  p.hinterpol_flag = 2;
+  p.law = SizeLaw::sinusoidal;
   EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 0.255 - 0.245 * std::cos(0.4 * pi), 1e-15);
 }
 
@@ -277,15 +277,11 @@ TEST(SizeRules, ASeamCountsOncePerUseAndItsEndOncePerCorner) {
 TEST(SizeRules, RefusesParametersThatContradictThemselves) {
   FourPatches s;
   EXPECT_THROW(s.rules(parameters(0, 0)), InvalidArgument);
-  EXPECT_THROW(s.rules(parameters(3, 0)), InvalidArgument);
-  EXPECT_THROW(s.rules(parameters(1, -1)), InvalidArgument);
   const auto with = [](auto change) {
     SizeParameters p = parameters(1, 1);
     change(p);
     return p;
   };
-  EXPECT_THROW(s.rules(with([](auto& p) { p.hmean_flag = -2; })), InvalidArgument);
-  EXPECT_THROW(s.rules(with([](auto& p) { p.hinterpol_flag = 3; })), InvalidArgument);
   EXPECT_THROW(s.rules(with([](auto& p) { p.hphymin = 0; })), InvalidArgument);
   EXPECT_THROW(s.rules(with([](auto& p) { p.hphymax = 1e-3; })), InvalidArgument);
   EXPECT_THROW(s.rules(with([](auto& p) { p.hgeomax = std::nan(""); })), InvalidArgument);
@@ -296,14 +292,14 @@ TEST(SizeRules, RefusesParametersThatContradictThemselves) {
 
 TEST(MeanSize, IsBoundedAndOrdered) {
   const double values[] = {0.05, 0.1, 0.2, 0.8};
-  const double least = mean_size(-1, values), geometric = mean_size(1, values), arithmetic = mean_size(0, values);
+  const double least = mean_size(SizeMean::minimum, values), geometric = mean_size(SizeMean::geometric, values),
+               arithmetic = mean_size(SizeMean::arithmetic, values);
   EXPECT_EQ(least, 0.05);
   EXPECT_LT(least, geometric);
   EXPECT_LT(geometric, arithmetic);
-  EXPECT_DOUBLE_EQ(mean_size(2, values), arithmetic);
   const std::vector<double> many(1000, 1e-9);  // a product would underflow
-  EXPECT_NEAR(mean_size(1, many), 1e-9, 1e-22);
-  EXPECT_THROW(mean_size(0, {}), InvalidArgument);
+  EXPECT_NEAR(mean_size(SizeMean::geometric, many), 1e-9, 1e-22);
+  EXPECT_THROW(mean_size(SizeMean::arithmetic, {}), InvalidArgument);
 }
 
 TEST(SmallestRadius, AgreesWithClosedForms) {

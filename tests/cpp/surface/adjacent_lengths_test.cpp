@@ -120,7 +120,7 @@ class PulledVertex : public ::testing::Test {
   Topology topology_ = build_topology(model_, traces_of(supports_), supports_.diag / 100);
   CompositeOptions options_ = [] {
     CompositeOptions options;
-    options.size = {.hphy_flag = 1, .hphydef = size, .hphymin = 1e-3, .hphymax = 10};
+    options.size = {.physical = PhysicalSizes::uniform, .hphydef = size, .hphymin = 1e-3, .hphymax = 10};
     return options;
   }();
   CompositeResult result_ = mesh_composite(model_, topology_, supports_, cad_, options_, monitor_);

@@ -35,7 +35,7 @@ struct Ellipsoid {
   }
   SizeRules rules() {
     SizeParameters p;
-    p.hphy_flag = 0, p.hgeo_flag = 1, p.geo_anisotropic = true;
+    p.physical = PhysicalSizes::ignored, p.geometric = GeometricSizes::curvature, p.geo_anisotropic = true;
     p.hgeomin = 1e-3, p.hgeomax = 10;
     return {model, topology, cad, p};
   }

@@ -246,14 +246,14 @@ double steepest_in_control_spaces(AnalyticCad& cad, CompositeOptions options, do
 CompositeOptions host_sizes(double beta) {
   CompositeOptions options;
   options.gradation = beta;
-  options.size = {.hphy_flag = 2, .hphydef = 1, .hphymin = 1e-3, .hphymax = 10};
+  options.size = {.physical = PhysicalSizes::asked, .hphydef = 1, .hphymin = 1e-3, .hphymax = 10};
   return options;
 }
 
 CompositeOptions curvature(double beta) {
   CompositeOptions options;
   options.gradation = beta;
-  options.size = {.hphy_flag = 0, .hgeo_flag = 1, .hphydef = 1, .hphymin = 1e-3, .hphymax = 10};
+  options.size = {.physical = PhysicalSizes::ignored, .geometric = GeometricSizes::curvature, .hphydef = 1, .hphymin = 1e-3, .hphymax = 10};
   return options;
 }
 
