@@ -322,14 +322,14 @@ CARREAU_API carreau_status carreau_model_count(carreau_session* session, int64_t
 /* Read the model back, with the references found by gluing once a mesh has been made. Faces in the order they were
  * added, curves and points face by face. `capacity`: number of rows the arrays have room for. An array may be NULL.
  * Errors: ARGUMENT (capacity too small). */
-CARREAU_API carreau_status carreau_model_faces(carreau_session* session, int64_t capacity, int32_t* out_refs,
-                                               int32_t* out_orientations);
+CARREAU_API carreau_status carreau_model_faces(carreau_session* session, int64_t capacity, int32_t out_refs[],
+                                               int32_t out_orientations[]);
 /* out_ends: n x 2. */
-CARREAU_API carreau_status carreau_model_curves(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
-                                                int32_t* out_types, int32_t* out_refs, int32_t* out_ends);
+CARREAU_API carreau_status carreau_model_curves(carreau_session* session, int64_t capacity, int32_t out_face_refs[],
+                                                int32_t out_types[], int32_t out_refs[], int32_t out_ends[]);
 /* out_uv: n x 2. */
-CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
-                                                int32_t* out_refs, double* out_uv);
+CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_t capacity, int32_t out_face_refs[],
+                                                int32_t out_refs[], double out_uv[]);
 
 /* ---- Parameters (RT-0232 sec. 3.3) ---- */
 
@@ -499,8 +499,8 @@ CARREAU_API carreau_status carreau_set_background(carreau_session* session, cons
 
 /* On the session's own mesh: n sizes, or n metrics (n x 6), at its n vertices. Each face is looked up in its own
  * parameter plane. */
-CARREAU_API carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double* sizes);
-CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double* metrics);
+CARREAU_API carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double sizes[]);
+CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double metrics[]);
 
 /* None, as in a new session. */
 CARREAU_API carreau_status carreau_clear_background(carreau_session* session);
@@ -541,14 +541,14 @@ typedef struct carreau_estimator {
  * the parameter gradation (2, say): sizes that jump between neighbours hide the bends of a front from the fit of its
  * values. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
-                                            const double* values, double* out_sizes, double* out_metrics);
+                                            const double values[], double out_sizes[], double out_metrics[]);
 
 /* Interpolates a field with `components` values a vertex (n x components) from the n vertices of the mesh that the
  * session had before to those of its mesh now (out_values: rows of components, room for `capacity` rows). *out_outside,
  * which may be NULL: vertices beside the old mesh, which have the nearest value. Errors: ARGUMENT, SEQUENCE (fewer than
  * two meshes made). */
 CARREAU_API carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n,
-                                            const double* values, int64_t capacity, double* out_values,
+                                            const double values[], int64_t capacity, double out_values[],
                                             int64_t* out_outside);
 
 /* The field at n points of space: xyz is n x 3. Returns 0, or any other value to report a failure. */
@@ -631,14 +631,14 @@ CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* o
  *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session only
  *   edges           k x 2      vertices, along each curve from its first end to its second
  *   edge_refs       k          reference of the curve */
-CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double* out_xyz);
-CARREAU_API carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
-CARREAU_API carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, double* out_sizes);
-CARREAU_API carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
-CARREAU_API carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
-CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double* out_uv);
-CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
-CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
+CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double out_xyz[]);
+CARREAU_API carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
+CARREAU_API carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, double out_sizes[]);
+CARREAU_API carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
+CARREAU_API carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
+CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double out_uv[]);
+CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
+CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 
 /* Status of a face. `mended`: meshed, after something was repaired, or with triangles that are turned over (`why` says
  * which); `failed`: without triangles; `collapsed`: a narrow face (parameter narrow_faces) that has vanished between
@@ -782,7 +782,7 @@ typedef struct carreau_curve {
  * NULL. The session only keeps the sentence of an error; its geometry and mesh are not touched.
  * Errors: ARGUMENT (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
 CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
-                                               double* out_abscissae, int64_t* out_edges, double* out_length);
+                                               double out_abscissae[], int64_t* out_edges, double* out_length);
 
 /* ---- What was delivered ---- */
 
@@ -854,17 +854,17 @@ CARREAU_API carreau_status carreau_delivered_measure(carreau_session* session, i
 
 /* Histogram: counts[i] values from bounds[i] up to bounds[i + 1]; bounds[0] is -infinity. `capacity`: rows of both. */
 CARREAU_API carreau_status carreau_delivered_histogram(carreau_session* session, int32_t kind, int64_t capacity,
-                                                       double* out_bounds, int64_t* out_counts);
+                                                       double out_bounds[], int64_t out_counts[]);
 /* One value an edge, vertex or triangle; triangles and vertices as in carreau_mesh_triangles and _vertices. */
 CARREAU_API carreau_status carreau_delivered_values(carreau_session* session, int32_t kind, int64_t capacity,
-                                                    double* out_values);
+                                                    double out_values[]);
 /* The edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0 inside a
  * face. Either array may be NULL. */
-CARREAU_API carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacity, int32_t* out_vertices,
-                                                   int32_t* out_curves);
+CARREAU_API carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacity, int32_t out_vertices[],
+                                                   int32_t out_curves[]);
 /* m x 3: the edge that leaves each corner of a triangle. */
 CARREAU_API carreau_status carreau_delivered_triangle_edges(carreau_session* session, int64_t capacity,
-                                                            int32_t* out_edges);
+                                                            int32_t out_edges[]);
 
 /* Writes the spreads, histograms, counts and sentences as JSON; numbers that are not finite are null. Errors: FILE. */
 CARREAU_API carreau_status carreau_delivered_write(carreau_session* session, const char* path);
