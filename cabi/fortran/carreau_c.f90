@@ -14,8 +14,7 @@ module carreau_c
     real(c_double) :: uv(2) = 0, t = 0
   end type c_error_place
 
-  !> The routines of RT-0232 sec. 3.1 under their names and with their arguments, every one by reference: a bind(C)
-  !! procedure or an external Fortran 77 subroutine fits as it is.
+  !> The routines of RT-0232 sec. 3.1, under their names and with their arguments, each by reference.
   type, bind(c) :: c_cad_m
     integer(c_size_t) :: struct_size = 0
     type(c_funptr) :: cad_init = c_null_funptr, surf0 = c_null_funptr, surf1 = c_null_funptr, surf2 = c_null_funptr, &
@@ -55,7 +54,7 @@ module carreau_c
     real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
   end type c_report
 
-  !> A curve has one discretisation.
+  !> A curve of space and its places, the curves of faces that it is.
   type, bind(c) :: c_interface
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0, boundary = 0, &
@@ -71,7 +70,7 @@ module carreau_c
       metrics = c_null_ptr
   end type c_background
 
-  !> How the last mesh has used its background mesh; all zero when there was none.
+  !> How the last mesh has used its background mesh.
   type, bind(c) :: c_background_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: asked = 0, outside = 0
@@ -111,8 +110,8 @@ module carreau_c
     integer(c_int32_t) :: rgb = 0
   end type c_face
 
-  !> Shape and size of the triangles. q1 = 2 sqrt(3) inradius / longest edge, q2 = 4 sqrt(3) area / sum of squared
-  !! edges; both 1 for an equilateral triangle. p1: first percentile.
+  !> The shapes and sizes of the triangles. q1 = 2 sqrt(3) inradius / longest edge and q2 = 4 sqrt(3) area / sum of
+  !! squared edges (HDR eq. 1.5, 1.6) are 1 for an equilateral triangle. p1 is the first percentile.
   type, bind(c) :: c_quality
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
@@ -126,7 +125,7 @@ module carreau_c
       compression = 0, threads = 0, reserved = 0
   end type c_exr_options
 
-  !> A polyline of the plane or of space, and metrics that are known at places of it.
+  !> A polyline of the plane or of space, with metrics that are known at places of it.
   type, bind(c) :: c_curve
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: dimension = 0, law = 0
@@ -156,7 +155,7 @@ module carreau_c
   end type c_measure
 
   interface
-    !> "CARREAU_ERR_FILE" and the meaning above; "CARREAU_UNKNOWN_STATUS" and "unknown status" for other values.
+    !> Return "CARREAU_ERR_FILE" and the meaning above, or "CARREAU_UNKNOWN_STATUS" and "unknown status".
     function c_status_name(status) result(name) bind(c, name="carreau_status_name")
       import :: c_int32_t, c_ptr
       implicit none
@@ -171,7 +170,7 @@ module carreau_c
       type(c_ptr) :: meaning
     end function c_status_meaning
 
-    !> Version of the library that runs: "0.1.0" (static), and major * 10000 + minor * 100 + patch.
+    !> Return the version of the library that runs: "0.1.0" (static), and major * 10000 + minor * 100 + patch.
     function c_version() result(version) bind(c, name="carreau_version")
       import :: c_ptr
       implicit none
@@ -184,7 +183,7 @@ module carreau_c
       integer(c_int32_t) :: number
     end function c_version_number
 
-    !> Creates a session with default parameters, without geometry or model.
+    !> Creates a session with default parameters, and without geometry or model.
     function c_session_create(session) result(status) bind(c, name="carreau_session_create")
       import :: c_int32_t, c_ptr
       implicit none
@@ -199,8 +198,8 @@ module carreau_c
       type(c_ptr), value :: session
     end subroutine c_session_free
 
-    !> The sentence of the last call on the session: which routine, which face, curve, (u, v) or t, which file and line.
-    !! "" after success, for a NULL session and from inside a callback.
+    !> Returns the sentence of the last call on the session: which routine, which face, curve, (u, v) or t, which file
+    !! and line.
     function c_last_error(session) result(error) bind(c, name="carreau_last_error")
       import :: c_ptr
       implicit none
@@ -235,7 +234,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_cad
 
-    !> Registers callbacks beside the geometry, of either kind; all NULL: none, as in a new session.
+    !> Registers metric callbacks beside a geometry of either kind.
     function c_set_metric_callbacks(session, callbacks) result(status) bind(c, name="carreau_set_metric_callbacks")
       import :: c_int32_t, c_metric_callbacks, c_ptr
       implicit none
@@ -252,8 +251,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_clear
 
-    !> Appends a face. ref: the number that callbacks get, different for each face. orientation: +k or -k, the domain
-    !! lies on the left (right) of its k-th curve, which must be a boundary.
+    !> Appends a face.
     function c_model_add_face(session, ref, orientation) result(status) bind(c, name="carreau_model_add_face")
       import :: c_int32_t, c_ptr
       implicit none
@@ -262,7 +260,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_add_face
 
-    !> Leaves a face out of what is meshed, for a reason that is not "" (NULL or "": it is meshed, as at first).
+    !> Leaves a face out of what is meshed, for the reason `why`; NULL or "" takes it in again.
     function c_model_leave_out_face(session, face_ref, why) result(status) bind(c, name="carreau_model_leave_out_face")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -272,8 +270,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_leave_out_face
 
-    !> Appends a curve to face `face_ref`; it is number ic = 1, 2, ... of that face. ref: the same for curves that are
-    !! one in space (twice in one face: a seam). end1, end2: references of the points at t = a and t = b.
+    !> Appends a curve to face `face_ref`, as number ic = 1, 2, ... of that face.
     function c_model_add_curve(session, face_ref, type, ref, end1, end2) result(status) &
         bind(c, name="carreau_model_add_curve")
       import :: c_int32_t, c_ptr
@@ -293,8 +290,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_add_point
 
-    !> Names a face, for files that hold names (.vtu, .msh, .stl) and for people; several faces may have one name; ""
-    !! takes it away.
+    !> Names a face, for people and for files that hold names (.vtu, .msh, .stl).
     function c_model_name_face(session, face_ref, name) result(status) bind(c, name="carreau_model_name_face")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -304,7 +300,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_name_face
 
-    !> Colours a face, for files that hold colours (.vtu): rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour
+    !> Colours a face, for files that hold colours (.vtu). rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour
     !! away.
     function c_model_color_face(session, face_ref, rgb) result(status) bind(c, name="carreau_model_color_face")
       import :: c_int32_t, c_ptr
@@ -314,8 +310,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_color_face
 
-    !> Says that a face is a part of another one, the first part, which it follows in the model, maybe behind other
-    !! parts: a face that was cut where its surface bends.
+    !> Makes a face a part of another one.
     function c_model_part_of_face(session, face_ref, whole_ref) result(status) &
         bind(c, name="carreau_model_part_of_face")
       import :: c_int32_t, c_ptr
@@ -325,8 +320,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_part_of_face
 
-    !> The same for the curves of a reference that the model has: edges on them have the reference `whole_ref`, as those
-    !! of the other parts of that curve.
+    !> Makes the curves of a reference that the model has parts of another one.
     function c_model_part_of_curve(session, ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_curve")
       import :: c_int32_t, c_ptr
       implicit none
@@ -353,7 +347,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_write_pardom
 
-    !> Checks the model against the rules that need no geometry; carreau_mesh_generate does so too.
+    !> Checks the model against the rules that need no geometry, as carreau_mesh_generate does.
     function c_model_check(session) result(status) bind(c, name="carreau_model_check")
       import :: c_int32_t, c_ptr
       implicit none
@@ -361,7 +355,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_check
 
-    !> Numbers of faces, of curves (all faces together) and of imposed points.
+    !> Counts faces, curves (of all faces together) and imposed points.
     function c_model_count(session, faces, curves, points) result(status) bind(c, name="carreau_model_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -370,7 +364,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_count
 
-    !> Read the model back, with the references found by gluing once a mesh has been made.
+    !> Read the model back.
     function c_model_faces(session, capacity, refs, orientations) result(status) bind(c, name="carreau_model_faces")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -380,7 +374,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_faces
 
-    !> out_ends: n x 2.
+    !> out_ends is n x 2.
     function c_model_curves(session, capacity, face_refs, types, refs, ends) result(status) &
         bind(c, name="carreau_model_curves")
       import :: c_int32_t, c_int64_t, c_ptr
@@ -391,7 +385,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_curves
 
-    !> out_uv: n x 2.
+    !> out_uv is n x 2.
     function c_model_points(session, capacity, face_refs, refs, uv) result(status) bind(c, name="carreau_model_points")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -402,7 +396,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_points
 
-    !> Number of parameters; and parameter `index` (from 0) in alphabetical order.
+    !> Tell the number of parameters, and parameter `index` (from 0) in alphabetical order.
     function c_parameter_count() result(count) bind(c, name="carreau_parameter_count")
       import :: c_int32_t
       implicit none
@@ -444,7 +438,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_text
 
-    !> From a word, as blsurf.env would ("hphydef", "1.5d-1").
+    !> Sets a parameter from a word, as blsurf.env would ("hphydef", "1.5d-1").
     function c_set_word(session, name, word) result(status) bind(c, name="carreau_set_word")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -453,7 +447,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_word
 
-    !> Those that a blsurf.env has before its first action; no action is run.
+    !> Sets the parameters that a blsurf.env has before its first action.
     function c_read_env(session, path) result(status) bind(c, name="carreau_read_env")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -462,7 +456,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_read_env
 
-    !> Value that is set, or the default.
+    !> Get the value that is set, or the default.
     function c_get_integer(session, name, value) result(status) bind(c, name="carreau_get_integer")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -481,7 +475,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_get_real
 
-    !> out_value lives until the next call on the session.
+    !> Gets a text, which lives until the next call on the session.
     function c_get_text(session, name, value) result(status) bind(c, name="carreau_get_text")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -491,7 +485,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_get_text
 
-    !> Back to the default: one parameter, or all.
+    !> Set one parameter, or all, back to the default.
     function c_reset_parameter(session, name) result(status) bind(c, name="carreau_reset_parameter")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -507,7 +501,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_reset_parameters
 
-    !> Register a callback, NULL: none (the state of a new session).
+    !> Register a callback.
     function c_set_message_callback(session, callback, user) result(status) bind(c, name="carreau_set_message_callback")
       import :: c_funptr, c_int32_t, c_ptr
       implicit none
@@ -527,8 +521,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_progress_callback
 
-    !> Asks the run under way to stop: it ends within 100 ms (plus the time of the callback it is in) with
-    !! CARREAU_ERR_CANCELLED.
+    !> Asks the run under way to stop.
     subroutine c_stop(session) bind(c, name="carreau_stop")
       import :: c_ptr
       implicit none
@@ -544,8 +537,8 @@ module carreau_c
     end function c_mesh_generate
 
     !> Runs all actions of a blsurf.env up to `call exit` (RT-0232 sec. 3.3). `call inimesh` reads <pref>.pardom beside
-    !! the env file, unless the session has a model already, from carreau_model_add_face and so on or from
-    !! carreau_model_read_pardom; `call export` writes beside it.
+    !! the env file, unless the session has a model already, from carreau_model_add_face and its like or from
+    !! carreau_model_read_pardom. `call export` writes beside it.
     function c_run_env(session, path) result(status) bind(c, name="carreau_run_env")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -562,7 +555,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_report
 
-    !> Number of interfaces; and number `index`, from 0, by first appearance.
+    !> Tell the number of interfaces, and interface `index`, from 0, by first appearance.
     function c_session_interface_count(session, count) result(status) bind(c, name="carreau_session_interface_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -580,7 +573,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_interface
 
-    !> From files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each
+    !> Reads files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each
     !! vertex.
     function c_set_background_mesh(session, mesh_path, sol_path) result(status) &
         bind(c, name="carreau_set_background_mesh")
@@ -599,7 +592,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_background
 
-    !> On the session's own mesh: n sizes, or n metrics (n x 6), at its n vertices.
+    !> Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh.
     function c_set_vertex_sizes(session, n, sizes) result(status) bind(c, name="carreau_set_vertex_sizes")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -618,7 +611,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_vertex_metrics
 
-    !> None, as in a new session.
+    !> Removes the background mesh.
     function c_clear_background(session) result(status) bind(c, name="carreau_clear_background")
       import :: c_int32_t, c_ptr
       implicit none
@@ -634,8 +627,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_background
 
-    !> Sizes or metrics at the n vertices of the session's mesh, from the values of a field there; give them back to
-    !! carreau_set_vertex_sizes or carreau_set_vertex_metrics.
+    !> Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there.
     function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
       import :: c_double, c_estimator, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -647,8 +639,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_estimate
 
-    !> Interpolates a field with `components` values a vertex (n x components) from the n vertices of the mesh that the
-    !! session had before to those of its mesh now (out_values: rows of components, room for `capacity` rows).
+    !> Interpolates a field from the n vertices of the mesh that the session had before to those of its mesh now.
+    !! `values` has `components` values a vertex (n x components), and out_values has room for `capacity` such rows.
     function c_transfer(session, components, n, values, capacity, out_values, outside) result(status) &
         bind(c, name="carreau_transfer")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
@@ -663,7 +655,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_transfer
 
-    !> Mesh, estimate, a new field of sizes on the mesh, mesh again.
+    !> Adapts the mesh in a loop: it estimates, sets new sizes on the mesh, and meshes again.
     function c_adapt(session, adaptation, report) result(status) bind(c, name="carreau_adapt")
       import :: c_adaptation, c_adaptation_report, c_int32_t, c_ptr
       implicit none
@@ -673,7 +665,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_adapt
 
-    !> The mesh of a session.
+    !> Gives the mesh of a session.
     function c_session_mesh(session, mesh) result(status) bind(c, name="carreau_session_mesh")
       import :: c_int32_t, c_ptr
       implicit none
@@ -682,7 +674,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_mesh
 
-    !> An empty mesh, to be filled by carreau_mesh_read and freed by carreau_mesh_free.
+    !> Creates an empty mesh.
     function c_mesh_create(mesh) result(status) bind(c, name="carreau_mesh_create")
       import :: c_int32_t, c_ptr
       implicit none
@@ -696,7 +688,7 @@ module carreau_c
       type(c_ptr), value :: mesh
     end subroutine c_mesh_free
 
-    !> Sentence of the last call on the mesh, "" after success.
+    !> Returns the sentence of the last call on the mesh, "" after success.
     function c_mesh_last_error(mesh) result(error) bind(c, name="carreau_mesh_last_error")
       import :: c_ptr
       implicit none
@@ -704,9 +696,7 @@ module carreau_c
       type(c_ptr) :: error
     end function c_mesh_last_error
 
-    !> Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
-    !! compressed by zlib), .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII
-    !! and binary).
+    !> Replaces the content by that of a file.
     function c_mesh_read(mesh, path) result(status) bind(c, name="carreau_mesh_read")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -715,8 +705,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_read
 
-    !> Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face), .msh
-    !! and .msh2 (Gmsh 4.1 and 2.2, with physical names).
+    !> Writes the mesh to a file.
     function c_mesh_write(mesh, path) result(status) bind(c, name="carreau_mesh_write")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -725,7 +714,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_write
 
-    !> Numbers of vertices (n), triangles (m), edges of curves (k), and faces (f).
+    !> Counts vertices (n), triangles (m), edges of curves (k), and faces (f).
     function c_mesh_count(mesh, vertices, triangles, edges, faces) result(status) bind(c, name="carreau_mesh_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -734,7 +723,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_count
 
-    !> 3, or 2 when the mesh was read from a plane one.
+    !> Tells the dimension: 3, or 2 when the mesh was read from a plane one.
     function c_mesh_dimension(mesh, dimension) result(status) bind(c, name="carreau_mesh_dimension")
       import :: c_int32_t, c_ptr
       implicit none
@@ -743,7 +732,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_dimension
 
-    !> Copy results into arrays of the caller; `capacity` is the number of rows (n, m or k) they have room for.
+    !> Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
     function c_mesh_vertices(mesh, capacity, xyz) result(status) bind(c, name="carreau_mesh_vertices")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -816,7 +805,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_edge_refs
 
-    !> Face `index`, from 0.
+    !> Tells of face `index`, from 0.
     function c_mesh_face(mesh, index, face) result(status) bind(c, name="carreau_mesh_face")
       import :: c_face, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -835,8 +824,8 @@ module carreau_c
     end function c_mesh_quality
 
     !> Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area
-    !! or twice there, vertices without triangle, edges of more than two triangles away from curves, curves that are not
-    !! in their faces. closed = 1: an edge with one triangle is a defect too.
+    !! or twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that
+    !! are not in their faces.
     function c_mesh_defects(mesh, closed, limit, count, text) result(status) bind(c, name="carreau_mesh_defects")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -848,8 +837,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_defects
 
-    !> Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images:
-    !! from "a/x.exr" the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`.
+    !> Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images.
     function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")
       import :: c_char, c_exr_options, c_int32_t, c_ptr
       implicit none
@@ -891,7 +879,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_measure
 
-    !> Histogram: counts[i] values from bounds[i] up to bounds[i + 1]; bounds[0] is -infinity. `capacity`: rows of both.
+    !> Gives a histogram: counts[i] values from bounds[i] up to bounds[i + 1], where bounds[0] is -infinity.
     function c_delivered_histogram(session, kind, capacity, bounds, counts) result(status) &
         bind(c, name="carreau_delivered_histogram")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
@@ -904,7 +892,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_histogram
 
-    !> One value an edge, vertex or triangle; triangles and vertices as in carreau_mesh_triangles and _vertices.
+    !> Gives one value for each edge, vertex or triangle.
     function c_delivered_values(session, kind, capacity, values) result(status) bind(c, name="carreau_delivered_values")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -915,7 +903,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_values
 
-    !> The edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0
+    !> Gives the edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0
     !! inside a face.
     function c_delivered_edges(session, capacity, vertices, curves) result(status) &
         bind(c, name="carreau_delivered_edges")
@@ -927,7 +915,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_edges
 
-    !> m x 3: the edge that leaves each corner of a triangle.
+    !> Gives the edge that leaves each corner of a triangle, m x 3.
     function c_delivered_triangle_edges(session, capacity, edges) result(status) &
         bind(c, name="carreau_delivered_triangle_edges")
       import :: c_int32_t, c_int64_t, c_ptr
@@ -938,7 +926,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_triangle_edges
 
-    !> Writes the spreads, histograms, counts and sentences as JSON; numbers that are not finite are null.
+    !> Writes the spreads, histograms, counts and sentences as JSON.
     function c_delivered_write(session, path) result(status) bind(c, name="carreau_delivered_write")
       import :: c_char, c_int32_t, c_ptr
       implicit none
