@@ -1,35 +1,35 @@
-!> The functions of cabi/include/carreau.h as Fortran sees them: names, types, nothing else. Private to module carreau.
+!> The functions and structs of carreau.h as Fortran sees them. Private to module carreau.
+!! Written by generate.py from carreau.h: do not edit. After a change of the header:
+!!   python3 cabi/fortran/generate.py cabi/include/carreau.h cabi/fortran/carreau_c.f90
 module carreau_c
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, &
     c_ptr, c_size_t
   implicit none
   public
 
+  !> What the last error is about.
   type, bind(c) :: c_error_place
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: face = 0, ic = 0, curve = 0, point = 0, line = 0, reserved = 0
     real(c_double) :: uv(2) = 0, t = 0
   end type c_error_place
 
+  !> The routines of RT-0232 sec. 3.1, under their names and with their arguments, each by reference.
   type, bind(c) :: c_cad_m
     integer(c_size_t) :: struct_size = 0
-    type(c_funptr) :: cad_init = c_null_funptr
-    type(c_funptr) :: surf0 = c_null_funptr, surf1 = c_null_funptr, surf2 = c_null_funptr
-    type(c_funptr) :: curv_int = c_null_funptr
-    type(c_funptr) :: curv0 = c_null_funptr, curv1 = c_null_funptr, curv2 = c_null_funptr
-    type(c_funptr) :: cad_hphys = c_null_funptr, cad_hphyc = c_null_funptr, cad_hphyp = c_null_funptr
-    type(c_funptr) :: cad_rads = c_null_funptr, cad_radc = c_null_funptr
+    type(c_funptr) :: cad_init = c_null_funptr, surf0 = c_null_funptr, surf1 = c_null_funptr, surf2 = c_null_funptr, &
+      curv_int = c_null_funptr, curv0 = c_null_funptr, curv1 = c_null_funptr, curv2 = c_null_funptr, &
+      cad_hphys = c_null_funptr, cad_hphyc = c_null_funptr, cad_hphyp = c_null_funptr, cad_rads = c_null_funptr, &
+      cad_radc = c_null_funptr
   end type c_cad_m
 
   type, bind(c) :: c_cad
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: user = c_null_ptr
     integer(c_int32_t) :: surface_order = 0, curve_order = 0, reentrant = 0, reserved = 0
-    type(c_funptr) :: surface = c_null_funptr, surface_batch = c_null_funptr
-    type(c_funptr) :: curve_interval = c_null_funptr, curve = c_null_funptr
-    type(c_funptr) :: surface_size = c_null_funptr, curve_size = c_null_funptr, point_size = c_null_funptr
-    type(c_funptr) :: surface_radius = c_null_funptr, curve_radius = c_null_funptr
-    type(c_funptr) :: failure = c_null_funptr
+    type(c_funptr) :: surface = c_null_funptr, surface_batch = c_null_funptr, curve_interval = c_null_funptr, &
+      curve = c_null_funptr, surface_size = c_null_funptr, curve_size = c_null_funptr, point_size = c_null_funptr, &
+      surface_radius = c_null_funptr, curve_radius = c_null_funptr, failure = c_null_funptr
   end type c_cad
 
   type, bind(c) :: c_metric_callbacks
@@ -45,22 +45,32 @@ module carreau_c
     integer(c_int32_t) :: type = 0, diag_relative = 0
   end type c_parameter
 
-  type, bind(c) :: c_curve
+  !> What the last successful run did.
+  type, bind(c) :: c_report
     integer(c_size_t) :: struct_size = 0
-    integer(c_int32_t) :: dimension = 0, law = 0
-    integer(c_int64_t) :: point_count = 0, metric_count = 0
-    type(c_ptr) :: points = c_null_ptr, abscissae = c_null_ptr, metrics = c_null_ptr
-    real(c_double) :: lss = 0
-  end type c_curve
+    real(c_double) :: diag = 0
+    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, curv0_calls = 0, curv1_calls = 0, &
+      curv2_calls = 0, size_calls = 0
+    real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
+  end type c_report
+
+  !> A curve of space and its places, the curves of faces that it is.
+  type, bind(c) :: c_interface
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0, boundary = 0, &
+      glued = 0, degenerate = 0, reserved = 0
+    real(c_double) :: gap = 0
+  end type c_interface
 
   type, bind(c) :: c_background
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: dimension = 0, reserved = 0
     integer(c_int64_t) :: vertex_count = 0, triangle_count = 0
-    type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, faces = c_null_ptr
-    type(c_ptr) :: sizes = c_null_ptr, metrics = c_null_ptr
+    type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, faces = c_null_ptr, sizes = c_null_ptr, &
+      metrics = c_null_ptr
   end type c_background
 
+  !> How the last mesh has used its background mesh.
   type, bind(c) :: c_background_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: asked = 0, outside = 0
@@ -82,41 +92,52 @@ module carreau_c
     real(c_double) :: convergence = 0
   end type c_adaptation
 
+  !> What a loop did.
   type, bind(c) :: c_adaptation_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: iterations = 0, converged = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, triangles_before = 0
-    real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0
-    real(c_double) :: size_min = 0, stretch_max = 0
+    real(c_double) :: error_max = 0, error_rms = 0, error_max_before = 0, error_rms_before = 0, size_min = 0, &
+      stretch_max = 0
     integer(c_int64_t) :: outside = 0
   end type c_adaptation_report
 
+  type, bind(c) :: c_face
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: ref = 0, status = 0
+    integer(c_int64_t) :: triangles = 0
+    type(c_ptr) :: why = c_null_ptr, name = c_null_ptr
+    integer(c_int32_t) :: rgb = 0
+  end type c_face
+
+  !> The shapes and sizes of the triangles. q1 = 2 sqrt(3) inradius / longest edge and q2 = 4 sqrt(3) area / sum of
+  !! squared edges (HDR eq. 1.5, 1.6) are 1 for an equilateral triangle. p1 is the first percentile.
+  type, bind(c) :: c_quality
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
+    real(c_double) :: q1_mean = 0, q1_min = 0, q1_p1 = 0, q1_max = 0, q2_mean = 0, q2_min = 0, q2_p1 = 0, q2_max = 0, &
+      angle_min = 0, angle_max = 0, area = 0, edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
+  end type c_quality
+
   type, bind(c) :: c_exr_options
     integer(c_size_t) :: struct_size = 0
-    integer(c_int32_t) :: longest = 0, width = 0, height = 0, channels = 0, face = 0, multi_part = 0, raw = 0
-    integer(c_int32_t) :: compression = 0, threads = 0, reserved = 0
+    integer(c_int32_t) :: longest = 0, width = 0, height = 0, channels = 0, face = 0, multi_part = 0, raw = 0, &
+      compression = 0, threads = 0, reserved = 0
   end type c_exr_options
 
-  type, bind(c) :: c_report
+  !> A polyline of the plane or of space, with metrics that are known at places of it.
+  type, bind(c) :: c_curve
     integer(c_size_t) :: struct_size = 0
-    real(c_double) :: diag = 0
-    integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0
-    integer(c_int64_t) :: curv0_calls = 0, curv1_calls = 0, curv2_calls = 0
-    integer(c_int64_t) :: size_calls = 0
-    real(c_double) :: seconds_curves = 0, seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0, seconds_total = 0
-  end type c_report
-
-  type, bind(c) :: c_interface
-    integer(c_size_t) :: struct_size = 0
-    integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
-    integer(c_int32_t) :: boundary = 0, glued = 0, degenerate = 0, reserved = 0
-    real(c_double) :: gap = 0
-  end type c_interface
+    integer(c_int32_t) :: dimension = 0, law = 0
+    integer(c_int64_t) :: point_count = 0, metric_count = 0
+    type(c_ptr) :: points = c_null_ptr, abscissae = c_null_ptr, metrics = c_null_ptr
+    real(c_double) :: lss = 0
+  end type c_curve
 
   type, bind(c) :: c_delivered
     integer(c_size_t) :: struct_size = 0
-    integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0
-    integer(c_int64_t) :: short_edges = 0, long_edges = 0, folded_triangles = 0
+    integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0, short_edges = 0, long_edges = 0, &
+      folded_triangles = 0
     real(c_double) :: in_range = 0
     integer(c_int64_t) :: not_met = 0
     type(c_ptr) :: text = c_null_ptr
@@ -133,24 +154,8 @@ module carreau_c
     integer(c_int64_t) :: beyond = 0, forced = 0
   end type c_measure
 
-  type, bind(c) :: c_face
-    integer(c_size_t) :: struct_size = 0
-    integer(c_int32_t) :: ref = 0, status = 0
-    integer(c_int64_t) :: triangles = 0
-    type(c_ptr) :: why = c_null_ptr, name = c_null_ptr
-    integer(c_int32_t) :: rgb = -1
-  end type c_face
-
-  type, bind(c) :: c_quality
-    integer(c_size_t) :: struct_size = 0
-    integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, open_edges = 0
-    real(c_double) :: q1_mean = 0, q1_min = 0, q1_p1 = 0, q1_max = 0
-    real(c_double) :: q2_mean = 0, q2_min = 0, q2_p1 = 0, q2_max = 0
-    real(c_double) :: angle_min = 0, angle_max = 0, area = 0
-    real(c_double) :: edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
-  end type c_quality
-
   interface
+    !> Return "CARREAU_ERR_FILE" and the meaning above, or "CARREAU_UNKNOWN_STATUS" and "unknown status".
     function c_status_name(status) result(name) bind(c, name="carreau_status_name")
       import :: c_int32_t, c_ptr
       implicit none
@@ -165,6 +170,7 @@ module carreau_c
       type(c_ptr) :: meaning
     end function c_status_meaning
 
+    !> Return the version of the library that runs: "0.1.0" (static), and major * 10000 + minor * 100 + patch.
     function c_version() result(version) bind(c, name="carreau_version")
       import :: c_ptr
       implicit none
@@ -177,6 +183,7 @@ module carreau_c
       integer(c_int32_t) :: number
     end function c_version_number
 
+    !> Creates a session with default parameters, and without geometry or model.
     function c_session_create(session) result(status) bind(c, name="carreau_session_create")
       import :: c_int32_t, c_ptr
       implicit none
@@ -184,19 +191,23 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_create
 
+    !> Frees a session and its mesh.
     subroutine c_session_free(session) bind(c, name="carreau_session_free")
       import :: c_ptr
       implicit none
       type(c_ptr), value :: session
     end subroutine c_session_free
 
-    function c_last_error(session) result(sentence) bind(c, name="carreau_last_error")
+    !> Returns the sentence of the last call on the session: which routine, which face, curve, (u, v) or t, which file
+    !! and line.
+    function c_last_error(session) result(error) bind(c, name="carreau_last_error")
       import :: c_ptr
       implicit none
       type(c_ptr), value :: session
-      type(c_ptr) :: sentence
+      type(c_ptr) :: error
     end function c_last_error
 
+    !> Fills *out_place.
     function c_last_error_place(session, place) result(status) bind(c, name="carreau_last_error_place")
       import :: c_error_place, c_int32_t, c_ptr
       implicit none
@@ -205,6 +216,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_last_error_place
 
+    !> Registers the routines in place of any earlier geometry, and calls cad_init.
     function c_set_cad_m(session, routines) result(status) bind(c, name="carreau_set_cad_m")
       import :: c_cad_m, c_int32_t, c_ptr
       implicit none
@@ -213,6 +225,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_cad_m
 
+    !> Registers the callbacks in place of any earlier geometry.
     function c_set_cad(session, callbacks) result(status) bind(c, name="carreau_set_cad")
       import :: c_cad, c_int32_t, c_ptr
       implicit none
@@ -221,6 +234,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_cad
 
+    !> Registers metric callbacks beside a geometry of either kind.
     function c_set_metric_callbacks(session, callbacks) result(status) bind(c, name="carreau_set_metric_callbacks")
       import :: c_int32_t, c_metric_callbacks, c_ptr
       implicit none
@@ -229,6 +243,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_metric_callbacks
 
+    !> Drops all faces.
     function c_model_clear(session) result(status) bind(c, name="carreau_model_clear")
       import :: c_int32_t, c_ptr
       implicit none
@@ -236,6 +251,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_clear
 
+    !> Appends a face.
     function c_model_add_face(session, ref, orientation) result(status) bind(c, name="carreau_model_add_face")
       import :: c_int32_t, c_ptr
       implicit none
@@ -244,57 +260,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_add_face
 
-    function c_model_add_curve(session, face_ref, type, ref, end1, end2) result(status) &
-        bind(c, name="carreau_model_add_curve")
-      import :: c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: face_ref, type, ref, end1, end2
-      integer(c_int32_t) :: status
-    end function c_model_add_curve
-
-    function c_model_add_point(session, face_ref, ref, u, v) result(status) bind(c, name="carreau_model_add_point")
-      import :: c_double, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: face_ref, ref
-      real(c_double), value :: u, v
-      integer(c_int32_t) :: status
-    end function c_model_add_point
-
-    function c_model_name_face(session, face_ref, name) result(status) bind(c, name="carreau_model_name_face")
-      import :: c_char, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: face_ref
-      character(kind=c_char), intent(in) :: name(*)
-      integer(c_int32_t) :: status
-    end function c_model_name_face
-
-    function c_model_color_face(session, face_ref, rgb) result(status) bind(c, name="carreau_model_color_face")
-      import :: c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: face_ref, rgb
-      integer(c_int32_t) :: status
-    end function c_model_color_face
-
-    function c_model_part_of_face(session, face_ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_face")
-      import :: c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: face_ref, whole_ref
-      integer(c_int32_t) :: status
-    end function c_model_part_of_face
-
-    function c_model_part_of_curve(session, ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_curve")
-      import :: c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: ref, whole_ref
-      integer(c_int32_t) :: status
-    end function c_model_part_of_curve
-
+    !> Leaves a face out of what is meshed, for the reason `why`; NULL or "" takes it in again.
     function c_model_leave_out_face(session, face_ref, why) result(status) bind(c, name="carreau_model_leave_out_face")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -304,6 +270,66 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_leave_out_face
 
+    !> Appends a curve to face `face_ref`, as number ic = 1, 2, ... of that face.
+    function c_model_add_curve(session, face_ref, type, ref, end1, end2) result(status) &
+        bind(c, name="carreau_model_add_curve")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, type, ref, end1, end2
+      integer(c_int32_t) :: status
+    end function c_model_add_curve
+
+    !> Imposes a vertex with reference `ref` at (u, v) inside face `face_ref`.
+    function c_model_add_point(session, face_ref, ref, u, v) result(status) bind(c, name="carreau_model_add_point")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, ref
+      real(c_double), value :: u, v
+      integer(c_int32_t) :: status
+    end function c_model_add_point
+
+    !> Names a face, for people and for files that hold names (.vtu, .msh, .stl).
+    function c_model_name_face(session, face_ref, name) result(status) bind(c, name="carreau_model_name_face")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref
+      character(kind=c_char), intent(in) :: name(*)
+      integer(c_int32_t) :: status
+    end function c_model_name_face
+
+    !> Colours a face, for files that hold colours (.vtu). rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour
+    !! away.
+    function c_model_color_face(session, face_ref, rgb) result(status) bind(c, name="carreau_model_color_face")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, rgb
+      integer(c_int32_t) :: status
+    end function c_model_color_face
+
+    !> Makes a face a part of another one.
+    function c_model_part_of_face(session, face_ref, whole_ref) result(status) &
+        bind(c, name="carreau_model_part_of_face")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, whole_ref
+      integer(c_int32_t) :: status
+    end function c_model_part_of_face
+
+    !> Makes the curves of a reference that the model has parts of another one.
+    function c_model_part_of_curve(session, ref, whole_ref) result(status) bind(c, name="carreau_model_part_of_curve")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: ref, whole_ref
+      integer(c_int32_t) :: status
+    end function c_model_part_of_curve
+
+    !> Replaces the model by the content of a file x.pardom.
     function c_model_read_pardom(session, path) result(status) bind(c, name="carreau_model_read_pardom")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -312,6 +338,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_read_pardom
 
+    !> Writes the model in the layout of x.pardom.
     function c_model_write_pardom(session, path) result(status) bind(c, name="carreau_model_write_pardom")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -320,6 +347,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_write_pardom
 
+    !> Checks the model against the rules that need no geometry, as carreau_mesh_generate does.
     function c_model_check(session) result(status) bind(c, name="carreau_model_check")
       import :: c_int32_t, c_ptr
       implicit none
@@ -327,6 +355,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_check
 
+    !> Counts faces, curves (of all faces together) and imposed points.
     function c_model_count(session, faces, curves, points) result(status) bind(c, name="carreau_model_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -335,6 +364,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_count
 
+    !> Read the model back.
     function c_model_faces(session, capacity, refs, orientations) result(status) bind(c, name="carreau_model_faces")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -344,6 +374,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_faces
 
+    !> out_ends is n x 2.
     function c_model_curves(session, capacity, face_refs, types, refs, ends) result(status) &
         bind(c, name="carreau_model_curves")
       import :: c_int32_t, c_int64_t, c_ptr
@@ -354,6 +385,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_curves
 
+    !> out_uv is n x 2.
     function c_model_points(session, capacity, face_refs, refs, uv) result(status) bind(c, name="carreau_model_points")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -364,6 +396,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_model_points
 
+    !> Tell the number of parameters, and parameter `index` (from 0) in alphabetical order.
     function c_parameter_count() result(count) bind(c, name="carreau_parameter_count")
       import :: c_int32_t
       implicit none
@@ -378,6 +411,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_parameter_info
 
+    !> Set a parameter for the runs to come.
     function c_set_integer(session, name, value) result(status) bind(c, name="carreau_set_integer")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -404,6 +438,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_text
 
+    !> Sets a parameter from a word, as blsurf.env would ("hphydef", "1.5d-1").
     function c_set_word(session, name, word) result(status) bind(c, name="carreau_set_word")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -412,6 +447,16 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_word
 
+    !> Sets the parameters that a blsurf.env has before its first action.
+    function c_read_env(session, path) result(status) bind(c, name="carreau_read_env")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_read_env
+
+    !> Get the value that is set, or the default.
     function c_get_integer(session, name, value) result(status) bind(c, name="carreau_get_integer")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -430,6 +475,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_get_real
 
+    !> Gets a text, which lives until the next call on the session.
     function c_get_text(session, name, value) result(status) bind(c, name="carreau_get_text")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -439,6 +485,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_get_text
 
+    !> Set one parameter, or all, back to the default.
     function c_reset_parameter(session, name) result(status) bind(c, name="carreau_reset_parameter")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -454,12 +501,13 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_reset_parameters
 
-    function c_set_message_callback(session, callback, user) result(status) &
-        bind(c, name="carreau_set_message_callback")
+    !> Register a callback.
+    function c_set_message_callback(session, callback, user) result(status) bind(c, name="carreau_set_message_callback")
       import :: c_funptr, c_int32_t, c_ptr
       implicit none
-      type(c_ptr), value :: session, user
+      type(c_ptr), value :: session
       type(c_funptr), value :: callback
+      type(c_ptr), value :: user
       integer(c_int32_t) :: status
     end function c_set_message_callback
 
@@ -467,17 +515,20 @@ module carreau_c
         bind(c, name="carreau_set_progress_callback")
       import :: c_funptr, c_int32_t, c_ptr
       implicit none
-      type(c_ptr), value :: session, user
+      type(c_ptr), value :: session
       type(c_funptr), value :: callback
+      type(c_ptr), value :: user
       integer(c_int32_t) :: status
     end function c_set_progress_callback
 
+    !> Asks the run under way to stop.
     subroutine c_stop(session) bind(c, name="carreau_stop")
       import :: c_ptr
       implicit none
       type(c_ptr), value :: session
     end subroutine c_stop
 
+    !> Makes the mesh of the model ("call inimesh").
     function c_mesh_generate(session) result(status) bind(c, name="carreau_mesh_generate")
       import :: c_int32_t, c_ptr
       implicit none
@@ -485,14 +536,9 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_generate
 
-    function c_read_env(session, path) result(status) bind(c, name="carreau_read_env")
-      import :: c_char, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      character(kind=c_char), intent(in) :: path(*)
-      integer(c_int32_t) :: status
-    end function c_read_env
-
+    !> Runs all actions of a blsurf.env up to `call exit` (RT-0232 sec. 3.3). `call inimesh` reads <pref>.pardom beside
+    !! the env file, unless the session has a model already, from carreau_model_add_face and its like or from
+    !! carreau_model_read_pardom. `call export` writes beside it.
     function c_run_env(session, path) result(status) bind(c, name="carreau_run_env")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -509,8 +555,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_report
 
-    function c_session_interface_count(session, count) result(status) &
-      bind(c, name="carreau_session_interface_count")
+    !> Tell the number of interfaces, and interface `index`, from 0, by first appearance.
+    function c_session_interface_count(session, count) result(status) bind(c, name="carreau_session_interface_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
       type(c_ptr), value :: session
@@ -519,7 +565,7 @@ module carreau_c
     end function c_session_interface_count
 
     function c_session_interface(session, index, interface) result(status) bind(c, name="carreau_session_interface")
-      import :: c_int32_t, c_int64_t, c_ptr, c_interface
+      import :: c_int32_t, c_int64_t, c_interface, c_ptr
       implicit none
       type(c_ptr), value :: session
       integer(c_int64_t), value :: index
@@ -527,6 +573,99 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_interface
 
+    !> Reads files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each
+    !! vertex.
+    function c_set_background_mesh(session, mesh_path, sol_path) result(status) &
+        bind(c, name="carreau_set_background_mesh")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: mesh_path(*), sol_path(*)
+      integer(c_int32_t) :: status
+    end function c_set_background_mesh
+
+    function c_set_background(session, background) result(status) bind(c, name="carreau_set_background")
+      import :: c_background, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_background), intent(in) :: background
+      integer(c_int32_t) :: status
+    end function c_set_background
+
+    !> Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh.
+    function c_set_vertex_sizes(session, n, sizes) result(status) bind(c, name="carreau_set_vertex_sizes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: sizes(*)
+      integer(c_int32_t) :: status
+    end function c_set_vertex_sizes
+
+    function c_set_vertex_metrics(session, n, metrics) result(status) bind(c, name="carreau_set_vertex_metrics")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: metrics(*)
+      integer(c_int32_t) :: status
+    end function c_set_vertex_metrics
+
+    !> Removes the background mesh.
+    function c_clear_background(session) result(status) bind(c, name="carreau_clear_background")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_clear_background
+
+    function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
+      import :: c_background_report, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_background_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_session_background
+
+    !> Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there.
+    function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
+      import :: c_double, c_estimator, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_estimator), intent(in) :: estimator
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: values(*)
+      real(c_double), intent(inout) :: sizes(*), metrics(*)
+      integer(c_int32_t) :: status
+    end function c_estimate
+
+    !> Interpolates a field from the n vertices of the mesh that the session had before to those of its mesh now.
+    !! `values` has `components` values a vertex (n x components), and out_values has room for `capacity` such rows.
+    function c_transfer(session, components, n, values, capacity, out_values, outside) result(status) &
+        bind(c, name="carreau_transfer")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: components
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: values(*)
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: out_values(*)
+      integer(c_int64_t), intent(inout) :: outside
+      integer(c_int32_t) :: status
+    end function c_transfer
+
+    !> Adapts the mesh in a loop: it estimates, sets new sizes on the mesh, and meshes again.
+    function c_adapt(session, adaptation, report) result(status) bind(c, name="carreau_adapt")
+      import :: c_adaptation, c_adaptation_report, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_adaptation), intent(in) :: adaptation
+      type(c_adaptation_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_adapt
+
+    !> Gives the mesh of a session.
     function c_session_mesh(session, mesh) result(status) bind(c, name="carreau_session_mesh")
       import :: c_int32_t, c_ptr
       implicit none
@@ -535,6 +674,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_mesh
 
+    !> Creates an empty mesh.
     function c_mesh_create(mesh) result(status) bind(c, name="carreau_mesh_create")
       import :: c_int32_t, c_ptr
       implicit none
@@ -548,13 +688,15 @@ module carreau_c
       type(c_ptr), value :: mesh
     end subroutine c_mesh_free
 
-    function c_mesh_last_error(mesh) result(sentence) bind(c, name="carreau_mesh_last_error")
+    !> Returns the sentence of the last call on the mesh, "" after success.
+    function c_mesh_last_error(mesh) result(error) bind(c, name="carreau_mesh_last_error")
       import :: c_ptr
       implicit none
       type(c_ptr), value :: mesh
-      type(c_ptr) :: sentence
+      type(c_ptr) :: error
     end function c_mesh_last_error
 
+    !> Replaces the content by that of a file.
     function c_mesh_read(mesh, path) result(status) bind(c, name="carreau_mesh_read")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -563,6 +705,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_read
 
+    !> Writes the mesh to a file.
     function c_mesh_write(mesh, path) result(status) bind(c, name="carreau_mesh_write")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -571,6 +714,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_write
 
+    !> Counts vertices (n), triangles (m), edges of curves (k), and faces (f).
     function c_mesh_count(mesh, vertices, triangles, edges, faces) result(status) bind(c, name="carreau_mesh_count")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -579,6 +723,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_count
 
+    !> Tells the dimension: 3, or 2 when the mesh was read from a plane one.
     function c_mesh_dimension(mesh, dimension) result(status) bind(c, name="carreau_mesh_dimension")
       import :: c_int32_t, c_ptr
       implicit none
@@ -587,6 +732,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_dimension
 
+    !> Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
     function c_mesh_vertices(mesh, capacity, xyz) result(status) bind(c, name="carreau_mesh_vertices")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -659,6 +805,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_edge_refs
 
+    !> Tells of face `index`, from 0.
     function c_mesh_face(mesh, index, face) result(status) bind(c, name="carreau_mesh_face")
       import :: c_face, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -676,6 +823,9 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_quality
 
+    !> Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area
+    !! or twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that
+    !! are not in their faces.
     function c_mesh_defects(mesh, closed, limit, count, text) result(status) bind(c, name="carreau_mesh_defects")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -687,6 +837,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_defects
 
+    !> Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images.
     function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")
       import :: c_char, c_exr_options, c_int32_t, c_ptr
       implicit none
@@ -696,6 +847,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_write_exr
 
+    !> Cuts a curve into edges of equal length in the metric, as near to 1 as a whole number of edges allows (RR-2818
+    !! sec. 4).
     function c_curve_split(session, curve, capacity, abscissae, edges, length) result(status) &
         bind(c, name="carreau_curve_split")
       import :: c_curve, c_double, c_int32_t, c_int64_t, c_ptr
@@ -708,89 +861,6 @@ module carreau_c
       real(c_double), intent(inout) :: length
       integer(c_int32_t) :: status
     end function c_curve_split
-
-    function c_set_background_mesh(session, mesh_path, sol_path) result(status) &
-        bind(c, name="carreau_set_background_mesh")
-      import :: c_char, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      character(kind=c_char), intent(in) :: mesh_path(*), sol_path(*)
-      integer(c_int32_t) :: status
-    end function c_set_background_mesh
-
-    function c_set_background(session, background) result(status) bind(c, name="carreau_set_background")
-      import :: c_background, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      type(c_background), intent(in) :: background
-      integer(c_int32_t) :: status
-    end function c_set_background
-
-    function c_set_vertex_sizes(session, n, sizes) result(status) bind(c, name="carreau_set_vertex_sizes")
-      import :: c_double, c_int32_t, c_int64_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: sizes(*)
-      integer(c_int32_t) :: status
-    end function c_set_vertex_sizes
-
-    function c_set_vertex_metrics(session, n, metrics) result(status) bind(c, name="carreau_set_vertex_metrics")
-      import :: c_double, c_int32_t, c_int64_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: metrics(*)
-      integer(c_int32_t) :: status
-    end function c_set_vertex_metrics
-
-    function c_clear_background(session) result(status) bind(c, name="carreau_clear_background")
-      import :: c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t) :: status
-    end function c_clear_background
-
-    function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
-      import :: c_background_report, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      type(c_background_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function c_session_background
-
-    function c_estimate(session, estimator, n, values, sizes, metrics) result(status) bind(c, name="carreau_estimate")
-      import :: c_double, c_estimator, c_int32_t, c_int64_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      type(c_estimator), intent(in) :: estimator
-      integer(c_int64_t), value :: n
-      real(c_double), intent(in) :: values(*)
-      real(c_double), intent(inout) :: sizes(*), metrics(*)
-      integer(c_int32_t) :: status
-    end function c_estimate
-
-    function c_transfer(session, components, n, values, capacity, transferred, outside) result(status) &
-        bind(c, name="carreau_transfer")
-      import :: c_double, c_int32_t, c_int64_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      integer(c_int32_t), value :: components
-      integer(c_int64_t), value :: n, capacity
-      real(c_double), intent(in) :: values(*)
-      real(c_double), intent(inout) :: transferred(*)
-      integer(c_int64_t), intent(inout) :: outside
-      integer(c_int32_t) :: status
-    end function c_transfer
-
-    function c_adapt(session, adaptation, report) result(status) bind(c, name="carreau_adapt")
-      import :: c_adaptation, c_adaptation_report, c_int32_t, c_ptr
-      implicit none
-      type(c_ptr), value :: session
-      type(c_adaptation), intent(in) :: adaptation
-      type(c_adaptation_report), intent(inout) :: report
-      integer(c_int32_t) :: status
-    end function c_adapt
 
     function c_session_delivered(session, delivered) result(status) bind(c, name="carreau_session_delivered")
       import :: c_delivered, c_int32_t, c_ptr
@@ -809,8 +879,9 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_measure
 
+    !> Gives a histogram: counts[i] values from bounds[i] up to bounds[i + 1], where bounds[0] is -infinity.
     function c_delivered_histogram(session, kind, capacity, bounds, counts) result(status) &
-      bind(c, name="carreau_delivered_histogram")
+        bind(c, name="carreau_delivered_histogram")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
       type(c_ptr), value :: session
@@ -821,6 +892,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_histogram
 
+    !> Gives one value for each edge, vertex or triangle.
     function c_delivered_values(session, kind, capacity, values) result(status) bind(c, name="carreau_delivered_values")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -831,8 +903,10 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_values
 
+    !> Gives the edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0
+    !! inside a face.
     function c_delivered_edges(session, capacity, vertices, curves) result(status) &
-      bind(c, name="carreau_delivered_edges")
+        bind(c, name="carreau_delivered_edges")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
       type(c_ptr), value :: session
@@ -841,8 +915,9 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_edges
 
+    !> Gives the edge that leaves each corner of a triangle, m x 3.
     function c_delivered_triangle_edges(session, capacity, edges) result(status) &
-      bind(c, name="carreau_delivered_triangle_edges")
+        bind(c, name="carreau_delivered_triangle_edges")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none
       type(c_ptr), value :: session
@@ -851,6 +926,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_triangle_edges
 
+    !> Writes the spreads, histograms, counts and sentences as JSON.
     function c_delivered_write(session, path) result(status) bind(c, name="carreau_delivered_write")
       import :: c_char, c_int32_t, c_ptr
       implicit none
@@ -859,6 +935,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_delivered_write
 
+    !> Of the C library: the length of a text that the library returns.
     function c_strlen(text) result(length) bind(c, name="strlen")
       import :: c_ptr, c_size_t
       implicit none

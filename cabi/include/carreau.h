@@ -14,31 +14,31 @@
  *
  * Rules that hold for every function
  *
- *   Status     A function that can fail returns a carreau_status; results come through out_ arguments, which are left
- *              as they were when the status is an error.
+ *   Status     A function that can fail returns a carreau_status. Results come through out_ arguments; an error leaves
+ *              them as they were.
  *   Errors     carreau_last_error(session) and carreau_mesh_last_error(mesh) hold the sentence of the last call on
  *              that handle ("" after success). A NULL handle is CARREAU_ERR_ARGUMENT and has no sentence.
- *   Threads    Handles are independent of one another. One handle is used by one thread at a time; carreau_stop alone
- *              may be called from anywhere at any time. There is no global state.
- *   Callbacks  come from the thread that called carreau_mesh_generate, carreau_run_env, carreau_write_exr or, when what
- *              was delivered is measured, carreau_session_delivered and its like, one after another, unless
- *              carreau_cad.reentrant says otherwise. A callback must return: no longjmp or Fortran stop may leave it,
- *              and no C++ exception (one that does all the same is CARREAU_ERR_CALLBACK, where compilers agree). From
- *              inside one, carreau_stop is the only call allowed on its session and mesh; any other returns
- *              CARREAU_ERR_BUSY.
- *   Silence    Nothing is printed, no signal is raised or caught, and no call ends the process. The floating-point
- *              environment (rounding, traps, flags) of the caller is given back as it was; callbacks run in the
- *              default one.
- *   Ownership  Arguments are copied before the call returns. Strings that are returned belong to the library; each
- *              says until when it lives. Arrays of results belong to the caller.
- *   Text       is UTF-8, ends with a zero byte; numbers in it do not depend on the locale.
- *   Structs    start with struct_size, which the caller sets to sizeof the struct, so that they can grow. Set every
- *              other member of an input struct to zero (`= {0}`) before filling it.
+ *   Threads    Handles are independent of one another. Use a handle from one thread at a time; only carreau_stop may be
+ *              called from anywhere at any time. There is no global state.
+ *   Callbacks  come one after another from the thread that called carreau_mesh_generate, carreau_run_env,
+ *              carreau_write_exr or, to measure what was delivered, carreau_session_delivered and its like. Only
+ *              carreau_cad.reentrant allows more. A callback must return: no longjmp, Fortran stop or C++ exception may
+ *              leave it (an exception that does is CARREAU_ERR_CALLBACK, where compilers agree). Inside a callback,
+ *              carreau_stop is the only call allowed on its session and mesh; any other returns CARREAU_ERR_BUSY.
+ *   Silence    The library prints nothing, raises and catches no signal, and never ends the process. It gives back the
+ *              caller's floating-point environment (rounding, traps, flags) as it was; callbacks run in the default.
+ *   Ownership  The library copies arguments before a call returns. Strings that it returns belong to it, and each says
+ *              how long it lives. Arrays of results belong to the caller.
+ *   Text       is UTF-8 and ends with a zero byte. Numbers in it do not depend on the locale.
+ *   Structs    start with struct_size, so that they can grow: set it to sizeof the struct. Set every other member of an
+ *              input struct to zero (`= {0}`) before you fill it.
+ *   Arrays     are declared as `T name[]`, pointers to one value as `T* name`.
  *   Indices    of vertices, triangles, edges and faces count from 0. Two numbers of the manual count from 1 here too:
  *              `ic`, the rank of a curve in its face, and the rank in `orientation`.
- *   Units      lengths are in model units (those of S(u, v)), angles in degrees, times in seconds.
+ *   Units      Lengths are in model units (those of S(u, v)), angles in degrees, times in seconds.
  *
- * "RT-0232" is the manual of the program BLSURF: P. Laug, H. Borouchaki, INRIA RT-0232 (1999).
+ * "RT-0232" is the manual of the program BLSURF: P. Laug, H. Borouchaki, INRIA RT-0232 (1999). "RR-2818" is P. Laug,
+ * H. Borouchaki, P. L. George, INRIA RR-2818 (1996), and "HDR" is P. Laug's habilitation (2006).
  */
 /* clang-format on */
 #ifndef CARREAU_H
@@ -69,7 +69,7 @@ extern "C" {
 #define CARREAU_VERSION_MINOR 1
 #define CARREAU_VERSION_PATCH 0
 
-/* One row a status: X(symbol, value, meaning). Values are never changed nor used again. */
+/* One row for each status: X(symbol, value, meaning). A value never changes, and is never used again. */
 #define CARREAU_STATUS_TABLE(X)                                                                               \
   X(CARREAU_OK, 0, "success")                                                                                 \
   X(CARREAU_ERR_ARGUMENT, 1, "an argument or the value of a parameter violates its precondition")             \
@@ -92,33 +92,35 @@ enum {
 #undef CARREAU_STATUS_ROW
 };
 
-/* "CARREAU_ERR_FILE" and the meaning above; "CARREAU_UNKNOWN_STATUS" and "unknown status" for other values. Static. */
+/* Return "CARREAU_ERR_FILE" and the meaning above, or "CARREAU_UNKNOWN_STATUS" and "unknown status". Both are static.
+ */
 CARREAU_API const char* carreau_status_name(carreau_status status);
 CARREAU_API const char* carreau_status_meaning(carreau_status status);
 
-/* Version of the library that runs: "0.1.0" (static), and major * 10000 + minor * 100 + patch. */
+/* Return the version of the library that runs: "0.1.0" (static), and major * 10000 + minor * 100 + patch. */
 CARREAU_API const char* carreau_version(void);
 CARREAU_API int32_t carreau_version_number(void);
 
 /* ---- Sessions ---- */
 
-/* Geometry, model, parameters and the mesh made of them. */
+/* Holds geometry, model, parameters and the mesh made of them. */
 typedef struct carreau_session carreau_session;
-/* A mesh: of a session, or read from a file. */
+/* Holds a mesh: that of a session, or one read from a file. */
 typedef struct carreau_mesh carreau_mesh;
 
-/* Creates a session with default parameters, without geometry or model. Free it with carreau_session_free.
+/* Creates a session with default parameters, and without geometry or model. Free it with carreau_session_free.
  * Errors: ARGUMENT (out_session is NULL), MEMORY. */
 CARREAU_API carreau_status carreau_session_create(carreau_session** out_session);
 
-/* Frees a session and its mesh. NULL is allowed. Not from inside a callback of the session (ignored there). */
+/* Frees a session and its mesh. NULL is allowed. Inside a callback of the session the call is ignored. */
 CARREAU_API void carreau_session_free(carreau_session* session);
 
-/* The sentence of the last call on the session: which routine, which face, curve, (u, v) or t, which file and line.
- * "" after success, for a NULL session and from inside a callback. Lives until the next call on the session. */
+/* Returns the sentence of the last call on the session: which routine, which face, curve, (u, v) or t, which file and
+ * line. It is "" after success, for a NULL session, and inside a callback. It lives until the next call on the session.
+ */
 CARREAU_API const char* carreau_last_error(const carreau_session* session);
 
-/* What the last error is about. Zero, NaN or 0: not concerned. References are the host's own. */
+/* What the last error is about. A member that does not matter is 0, or NaN. References are the host's own. */
 typedef struct carreau_error_place {
   size_t struct_size;
   int32_t face;  /* reference of the face */
@@ -131,21 +133,22 @@ typedef struct carreau_error_place {
   double t;
 } carreau_error_place;
 
-/* Fills *out_place. Unlike other calls it keeps the sentence and the place. Errors: ARGUMENT. */
+/* Fills *out_place. Unlike other calls, it keeps the sentence and the place. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_last_error_place(const carreau_session* session, carreau_error_place* out_place);
 
 /* ---- Geometry: the routines of the module cad_m ---- */
 
-/* What h and the radii hold before a routine is asked; "does not answer" is to leave it there (RT-0232 sec. 3.1.3). */
+/* What h and the radii hold before a routine is asked. A routine that does not answer leaves it (RT-0232 sec. 3.1.3).
+ */
 #define CARREAU_HVIDE (-1e38)
 
-/* The routines of RT-0232 sec. 3.1 under their names and with their arguments, every one by reference: a bind(C)
- * procedure or an external Fortran 77 subroutine fits as it is.
+/* The routines of RT-0232 sec. 3.1, under their names and with their arguments, each by reference. A bind(C) procedure
+ * or an external Fortran 77 subroutine fits as it is.
  *   refs   reference of the face          ic   rank of the curve in the face, from 1 (order of the model)
  *   uv     u, v                           t    parameter on the curve, a <= t <= b
- * surf0, curv_int and curv0 are needed. Derivatives that are NULL are found by finite differences; those that are given
- * are compared with finite differences on a sample before a mesh is made. Sizes and radii that are NULL do not answer.
- * A routine has no status: it reports a failure by a value that is not finite, or by carreau_stop. */
+ * surf0, curv_int and curv0 are needed. Finite differences replace derivatives that are NULL. Derivatives that are
+ * given are compared with finite differences on a sample before a mesh is made. Sizes and radii that are NULL do not
+ * answer. A routine has no status: it reports a failure by a value that is not finite, or by carreau_stop. */
 typedef struct carreau_cad_m {
   size_t struct_size;
   void (*cad_init)(void);                                          /* called once, by carreau_set_cad_m; may be NULL */
@@ -163,38 +166,37 @@ typedef struct carreau_cad_m {
   void (*cad_radc)(const int32_t* refs, const int32_t* ic, const double* t, double* rhoc); /* when hgeo_flag = 2 */
 } carreau_cad_m;
 
-/* Registers the routines in place of any earlier geometry, and calls cad_init. The struct is copied.
+/* Registers the routines in place of any earlier geometry, and calls cad_init. Copies the struct.
  * Errors: ARGUMENT (a needed routine is missing, struct_size). */
 CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* routines);
 
 /* ---- Geometry: callbacks for C hosts ---- */
 
-/* A callback returns 0, or any other value to report a failure: the run ends with CARREAU_ERR_CALLBACK and a sentence
- * that holds the value. A size or radius may return CARREAU_NO_ANSWER, or 0 and leave CARREAU_HVIDE in *value: the host
- * does not answer. Entries above `order` may be left untouched.
- *   face    reference of the face
+/* A callback returns 0, or any other value to report a failure. The run then ends with CARREAU_ERR_CALLBACK and a
+ * sentence that holds the value. A size or radius that does not answer returns CARREAU_NO_ANSWER, or returns 0 and
+ * leaves CARREAU_HVIDE in *value. A callback may leave entries above `order` untouched. face    reference of the face
  *   ic      rank of the curve in the face, from 1
  *   order   highest derivative wanted: 0, 1 or 2, never above surface_order (curve_order)
  *   user    the member `user` of the struct */
 #define CARREAU_NO_ANSWER (-1)
 
-/* S(u, v) and its derivatives, [3] each. No pointer is NULL. */
+/* Gives S(u, v) and its derivatives, [3] each. No pointer is NULL. */
 typedef int32_t (*carreau_surface_fn)(int32_t face, double u, double v, int32_t order, double* S, double* Su,
                                       double* Sv, double* Suu, double* Suv, double* Svv, void* user);
-/* The same at n > 0 points: uv is n x 2 and every result n x 3, row by row; those above `order` are NULL. */
+/* Does the same at n > 0 points: uv is n x 2 and every result n x 3, row by row. Results above `order` are NULL. */
 typedef int32_t (*carreau_surface_batch_fn)(int32_t face, int64_t n, const double* uv, int32_t order, double* S,
                                             double* Su, double* Sv, double* Suu, double* Suv, double* Svv, void* user);
-/* Interval [a, b] of a curve, a < b. */
+/* Gives the interval [a, b] of a curve, a < b. */
 typedef int32_t (*carreau_interval_fn)(int32_t face, int32_t ic, double* a, double* b, void* user);
-/* C(t) in the parameter plane and its derivatives, [2] each. No pointer is NULL. */
+/* Gives C(t) in the parameter plane and its derivatives, [2] each. No pointer is NULL. */
 typedef int32_t (*carreau_curve_fn)(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct,
                                     double* Ctt, void* user);
-/* Wanted size (hphy_flag = 2) or radius of curvature (hgeo_flag = 2), a model length > 0. */
+/* Give the wanted size (hphy_flag = 2) or the radius of curvature (hgeo_flag = 2), a model length > 0. */
 typedef int32_t (*carreau_surface_value_fn)(int32_t face, double u, double v, double* value, void* user);
 typedef int32_t (*carreau_curve_value_fn)(int32_t face, int32_t ic, double t, double* value, void* user);
 typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* user);
-/* Why a callback has failed on a face, for people: part of the sentence of the error. Called right after the callback,
- * from the same thread. The text is copied; NULL or "": nothing to say. */
+/* Says to people why a callback has failed on a face, as part of the sentence of the error. It is called right after
+ * the callback, from the same thread. The text is copied; NULL or "" says nothing. */
 typedef const char* (*carreau_failure_fn)(int32_t face, void* user);
 
 typedef struct carreau_cad {
@@ -216,25 +218,27 @@ typedef struct carreau_cad {
   carreau_failure_fn failure;
 } carreau_cad;
 
-/* Registers the callbacks in place of any earlier geometry. The struct is copied; what `user` points to is not.
+/* Registers the callbacks in place of any earlier geometry. Copies the struct, but not what `user` points to.
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
 /* ---- Wanted sizes and metrics ---- */
 
-/* What a metric callback answers, by *kind (before the call it is NONE, and every value NaN):
- *   NONE      nothing; so does the status CARREAU_NO_ANSWER
+/* *kind tells what a metric callback answers. Before the call it is NONE, and every value is NaN.
+ *   NONE      nothing; the status CARREAU_NO_ANSWER means the same
  *   SIZE      value[0]: the same size in all directions, a model length
- *   SPACE     value[0..5]: xx, xy, xz, yy, yz, zz of a positive definite tensor M, in 1 / model length^2; a vector d
- * has the length sqrt(d^T M d), and edges are to have length 1. Sizes along the axes of M are 1 / sqrt(eigenvalue)
- *   TANGENT   value[0..4]: h1, h2 > 0, model lengths, and x, y, z of a direction of any length but zero: size h1 along
- *             it and h2 across it. It should be tangent to the surface: of one that is not, the tangent plane sees
- *             what it sees of the SPACE metric with h1 along it and h2 across; along the normal h2 is left
+ *   SPACE     value[0..5]: xx, xy, xz, yy, yz, zz of a positive definite tensor M, in 1 / model length^2. A vector d
+ *             has the length sqrt(d^T M d), and edges are to have length 1. Sizes along the axes of M are
+ *             1 / sqrt(eigenvalue)
+ *   TANGENT   value[0..4]: h1, h2 > 0, model lengths, and x, y, z of a direction of any length but zero. The size is h1
+ *             along the direction and h2 across it. The direction should be tangent to the surface. If it is not, the
+ *             answer is the SPACE metric with h1 along it and h2 across, as the tangent plane sees it; along the normal
+ *             h2 is left
  * A size that is not finite and positive, or a tensor that is not positive definite, ends the run with
  * CARREAU_ERR_CALLBACK and a sentence with the place. */
 enum { CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3 };
 
-/* At (u, v) in a face, at t on its curve number ic, at a point (its reference). value: room for 6. */
+/* Answer at (u, v) in a face, at t on its curve number ic, and at a point (its reference). `value` has room for 6. */
 typedef int32_t (*carreau_surface_metric_fn)(int32_t face, double u, double v, int32_t* kind, double* value,
                                              void* user);
 typedef int32_t (*carreau_curve_metric_fn)(int32_t face, int32_t ic, double t, int32_t* kind, double* value,
@@ -249,37 +253,38 @@ typedef struct carreau_metric_callbacks {
   carreau_point_metric_fn point_metric;
 } carreau_metric_callbacks;
 
-/* Registers callbacks beside the geometry, of either kind; all NULL: none, as in a new session. The struct is copied.
- * They are asked unless hphy_flag is 0. Sizes along the axes of a metric, in the tangent plane, are clamped to
- * [hphymin, hphymax]. Where a size routine of the geometry answers too (hphy_flag 2), both are kept: the largest
- * ellipse inside both unit balls. The result is combined with geometric sizes as the parameter metric_combination says.
- * On a curve the size is that along its tangent; a curve or point that has no answer of its own takes those of the
- * surfaces beside, by hmean_flag. Inside a face, a place without answer takes hphydef (hphy_flag 1) or the size
- * interpolated from the curves around (hphy_flag 2). Errors: ARGUMENT (struct_size). */
+/* Registers metric callbacks beside a geometry of either kind. If all are NULL there are none, as in a new session.
+ * Copies the struct. The library asks them unless hphy_flag is 0. It clamps sizes along the axes of a metric, in the
+ * tangent plane, to [hphymin, hphymax]. Where a size routine of the geometry answers too (hphy_flag 2), both hold: the
+ * result is the largest ellipse inside both unit balls. The parameter metric_combination says how it is combined with
+ * geometric sizes. On a curve the size is that along its tangent. A curve or point that has no answer of its own takes
+ * those of the surfaces beside it, by hmean_flag. Inside a face, a place without an answer takes hphydef (hphy_flag 1)
+ * or the size interpolated from the curves around (hphy_flag 2). Errors: ARGUMENT (struct_size). */
 CARREAU_API carreau_status carreau_set_metric_callbacks(carreau_session* session,
                                                         const carreau_metric_callbacks* callbacks);
 
 /* ---- Model: faces, curves and points (RT-0232 sec. 3.2) ---- */
 
-/* Kinds of curves (typc): on the boundary of a domain, or inside it. */
+/* The kinds of curves (typc): on the boundary of a domain, or inside it. */
 enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
 
-/* Drops all faces. A mesh made before stays. */
+/* Drops all faces. An earlier mesh stays. */
 CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
 
-/* Appends a face. ref: the number that callbacks get, different for each face. orientation: +k or -k, the domain lies
- * on the left (right) of its k-th curve, which must be a boundary. Errors: ARGUMENT. */
+/* Appends a face. Callbacks get the number `ref`, which differs from face to face. An orientation of +k (-k) says that
+ * the domain lies on the left (right) of the face's k-th curve, which must be a boundary. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation);
 
-/* Leaves a face out of what is meshed, for a reason that is not "" (NULL or "": it is meshed, as at first). It is in
- * the mesh, as failed with this reason; its geometry is not asked, and it may have no curves. Those that fail during a
- * run are left out when the parameter failing_faces is "leave_out". Errors: ARGUMENT (no such face). */
+/* Leaves a face out of what is meshed, for the reason `why`; NULL or "" takes it in again. The mesh holds the face as
+ * failed, with this reason. Its geometry is not asked, and it may have no curves. With the parameter failing_faces at
+ * "leave_out", faces that fail during a run are left out, too. Errors: ARGUMENT (no such face). */
 CARREAU_API carreau_status carreau_model_leave_out_face(carreau_session* session, int32_t face_ref, const char* why);
 
-/* Appends a curve to face `face_ref`; it is number ic = 1, 2, ... of that face. ref: the same for curves that are one
- * in space (twice in one face: a seam). end1, end2: references of the points at t = a and t = b. When the first curve
- * of the model has ref 0, all references of curves and ends are found by comparing positions (parameter eps_glue);
- * with parameter glue_open = 1 also those of curves that one face only has, once, and that have references.
+/* Appends a curve to face `face_ref`, as number ic = 1, 2, ... of that face. Curves that are one in space have the same
+ * `ref`; a seam has it twice in one face. end1 and end2 are the references of the points at t = a and t = b. When the
+ * first curve of the model has ref 0, the library finds all references of curves and ends by comparing positions
+ * (parameter eps_glue). With the parameter glue_open = 1 it also compares curves that have references and that one face
+ * only has, once.
  * Errors: ARGUMENT (no such face, unknown type). */
 CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_ref, int32_t type,
                                                    int32_t ref, int32_t end1, int32_t end2);
@@ -289,47 +294,47 @@ CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int
 CARREAU_API carreau_status carreau_model_add_point(carreau_session* session, int32_t face_ref, int32_t ref, double u,
                                                    double v);
 
-/* Names a face, for files that hold names (.vtu, .msh, .stl) and for people; several faces may have one name; "" takes
+/* Names a face, for people and for files that hold names (.vtu, .msh, .stl). Several faces may have one name; "" takes
  * it away. Errors: ARGUMENT (no such face, NULL). */
 CARREAU_API carreau_status carreau_model_name_face(carreau_session* session, int32_t face_ref, const char* name);
-/* Colours a face, for files that hold colours (.vtu): rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour away.
+/* Colours a face, for files that hold colours (.vtu). rgb is 0xRRGGBB in sRGB; -1, the default, takes the colour away.
  * Errors: ARGUMENT (no such face, no such colour). */
 CARREAU_API carreau_status carreau_model_color_face(carreau_session* session, int32_t face_ref, int32_t rgb);
 
-/* Says that a face is a part of another one, the first part, which it follows in the model, maybe behind other parts: a
- * face that was cut where its surface bends. What comes of a run has one face, that of the reference `whole_ref`, in
- * their place: references of triangles, carreau_mesh_face, files. Callbacks, messages, interfaces and images of fields
- * know each part by its own reference. Errors: ARGUMENT (no such face, another one is before it). */
+/* Makes a face a part of another one. A host that cuts a face where its surface bends adds its parts one after another,
+ * and calls this for each but the first; `whole_ref` is the reference of the first. The results of a run have one face,
+ * `whole_ref`, in their place: references of triangles, carreau_mesh_face, files. Callbacks, messages, interfaces and
+ * images of fields know each part by its own reference. Errors: ARGUMENT (no such face, another one is before it). */
 CARREAU_API carreau_status carreau_model_part_of_face(carreau_session* session, int32_t face_ref, int32_t whole_ref);
 
-/* The same for the curves of a reference that the model has: edges on them have the reference `whole_ref`, as those of
- * the other parts of that curve. Errors: ARGUMENT (no such curve). */
+/* Makes the curves of a reference that the model has parts of another one. Edges on them have the reference
+ * `whole_ref`, as edges on the other parts of that curve have. Errors: ARGUMENT (no such curve). */
 CARREAU_API carreau_status carreau_model_part_of_curve(carreau_session* session, int32_t ref, int32_t whole_ref);
 
-/* Replaces the model by the content of a file x.pardom. On error the old model stays. Errors: FILE, MODEL. */
+/* Replaces the model by the content of a file x.pardom. On an error the old model stays. Errors: FILE, MODEL. */
 CARREAU_API carreau_status carreau_model_read_pardom(carreau_session* session, const char* path);
 
 /* Writes the model in the layout of x.pardom. Errors: FILE. */
 CARREAU_API carreau_status carreau_model_write_pardom(carreau_session* session, const char* path);
 
-/* Checks the model against the rules that need no geometry; carreau_mesh_generate does so too. Errors: MODEL. */
+/* Checks the model against the rules that need no geometry, as carreau_mesh_generate does. Errors: MODEL. */
 CARREAU_API carreau_status carreau_model_check(carreau_session* session);
 
-/* Numbers of faces, of curves (all faces together) and of imposed points. Any pointer but session may be NULL. */
+/* Counts faces, curves (of all faces together) and imposed points. Any pointer but session may be NULL. */
 CARREAU_API carreau_status carreau_model_count(carreau_session* session, int64_t* out_faces, int64_t* out_curves,
                                                int64_t* out_points);
 
-/* Read the model back, with the references found by gluing once a mesh has been made. Faces in the order they were
- * added, curves and points face by face. `capacity`: number of rows the arrays have room for. An array may be NULL.
+/* Read the model back. Once a mesh has been made, it has the references that gluing found. Faces come in the order in
+ * which they were added, curves and points face by face. The arrays have room for `capacity` rows; each may be NULL.
  * Errors: ARGUMENT (capacity too small). */
-CARREAU_API carreau_status carreau_model_faces(carreau_session* session, int64_t capacity, int32_t* out_refs,
-                                               int32_t* out_orientations);
-/* out_ends: n x 2. */
-CARREAU_API carreau_status carreau_model_curves(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
-                                                int32_t* out_types, int32_t* out_refs, int32_t* out_ends);
-/* out_uv: n x 2. */
-CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_t capacity, int32_t* out_face_refs,
-                                                int32_t* out_refs, double* out_uv);
+CARREAU_API carreau_status carreau_model_faces(carreau_session* session, int64_t capacity, int32_t out_refs[],
+                                               int32_t out_orientations[]);
+/* out_ends is n x 2. */
+CARREAU_API carreau_status carreau_model_curves(carreau_session* session, int64_t capacity, int32_t out_face_refs[],
+                                                int32_t out_types[], int32_t out_refs[], int32_t out_ends[]);
+/* out_uv is n x 2. */
+CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_t capacity, int32_t out_face_refs[],
+                                                int32_t out_refs[], double out_uv[]);
 
 /* ---- Parameters (RT-0232 sec. 3.3) ---- */
 
@@ -347,35 +352,35 @@ typedef struct carreau_parameter {
   int32_t diag_relative;    /* 1: the default is default_number times diag, the diagonal of the box of all curves */
 } carreau_parameter;
 
-/* Number of parameters; and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
+/* Tell the number of parameters, and parameter `index` (from 0) in alphabetical order. Errors: ARGUMENT. */
 CARREAU_API int32_t carreau_parameter_count(void);
 CARREAU_API carreau_status carreau_parameter_info(int32_t index, carreau_parameter* out_parameter);
 
-/* Set a parameter for the runs to come. An integer may be given where a real is wanted.
- * Errors: ARGUMENT (unknown name: the sentence has the nearest one; other type; out of range). */
+/* Set a parameter for the runs to come. A real parameter takes an integer, too.
+ * Errors: ARGUMENT (unknown name, for which the sentence has the nearest one; other type; out of range). */
 CARREAU_API carreau_status carreau_set_integer(carreau_session* session, const char* name, int32_t value);
 CARREAU_API carreau_status carreau_set_real(carreau_session* session, const char* name, double value);
 CARREAU_API carreau_status carreau_set_text(carreau_session* session, const char* name, const char* value);
-/* From a word, as blsurf.env would ("hphydef", "1.5d-1"). Errors: ARGUMENT. */
+/* Sets a parameter from a word, as blsurf.env would ("hphydef", "1.5d-1"). Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_set_word(carreau_session* session, const char* name, const char* word);
-/* Those that a blsurf.env has before its first action; no action is run. Others keep their values; all do on an error.
- * Names of background meshes are those of files beside it. Errors: FILE, ARGUMENT (both with the line). */
+/* Sets the parameters that a blsurf.env has before its first action. No action is run. Other parameters keep their
+ * values; on an error all do. Background meshes are files beside it. Errors: FILE, ARGUMENT (both with the line). */
 CARREAU_API carreau_status carreau_read_env(carreau_session* session, const char* path);
 
-/* Value that is set, or the default. Errors: ARGUMENT (unknown name, other type); SEQUENCE (the default is relative to
- * diag, and no mesh has been made yet). */
+/* Get the value that is set, or the default. Errors: ARGUMENT (unknown name, other type); SEQUENCE (the default is
+ * relative to diag, and no mesh has been made yet). */
 CARREAU_API carreau_status carreau_get_integer(carreau_session* session, const char* name, int32_t* out_value);
 CARREAU_API carreau_status carreau_get_real(carreau_session* session, const char* name, double* out_value);
-/* *out_value lives until the next call on the session. */
+/* Gets a text, which lives until the next call on the session. */
 CARREAU_API carreau_status carreau_get_text(carreau_session* session, const char* name, const char** out_value);
 
-/* Back to the default: one parameter, or all. Errors: ARGUMENT (unknown name). */
+/* Set one parameter, or all, back to the default. Errors: ARGUMENT (unknown name). */
 CARREAU_API carreau_status carreau_reset_parameter(carreau_session* session, const char* name);
 CARREAU_API carreau_status carreau_reset_parameters(carreau_session* session);
 
 /* ---- Messages, progress, stop ---- */
 
-/* Levels of messages: those up to the parameter `verb` are delivered. */
+/* The levels of messages. The host gets those up to the parameter `verb`. */
 enum {
   CARREAU_LEVEL_ERROR = 0,
   CARREAU_LEVEL_WARNING = 1,
@@ -384,7 +389,7 @@ enum {
   CARREAU_LEVEL_DEBUG = 100
 };
 
-/* What a run is doing. */
+/* What a run is doing at the moment. */
 enum {
   CARREAU_PHASE_IDLE = 0,
   CARREAU_PHASE_MODEL = 1,
@@ -392,44 +397,43 @@ enum {
   CARREAU_PHASE_PATCHES = 3,
   CARREAU_PHASE_ASSEMBLY = 4,
   CARREAU_PHASE_WRITING = 5,
-  CARREAU_PHASE_MEASURE = 6,  /* of what was delivered; `fraction` is of the measure */
+  CARREAU_PHASE_MEASURE = 6,  /* measures what was delivered; `fraction` is of the measure */
   CARREAU_PHASE_GRADATION = 7 /* before curves and patches, when the parameter gradation is not 0 */
 };
 
-/* One sentence without a newline; text lives until the callback returns. */
+/* Gets one sentence without a newline. The text lives until the callback returns. */
 typedef void (*carreau_message_fn)(int32_t level, const char* text, void* user);
-/* entity: reference of the face or curve at work, 0: none. fraction: of the whole run, 0 to 1. Return 0, or any other
- * value to stop the run as carreau_stop does. */
+/* Gets the reference of the face or curve at work (0: none), and the fraction of the whole run, 0 to 1. Return 0, or
+ * any other value to stop the run as carreau_stop does. */
 typedef int32_t (*carreau_progress_fn)(int32_t phase, int32_t entity, double fraction, void* user);
 
-/* Register a callback, NULL: none (the state of a new session). */
+/* Register a callback. NULL removes it, as in a new session. */
 CARREAU_API carreau_status carreau_set_message_callback(carreau_session* session, carreau_message_fn callback,
                                                         void* user);
 CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback,
                                                          void* user);
 
-/* Asks the run under way to stop: it ends within 100 ms (plus the time of the callback it is in) with
- * CARREAU_ERR_CANCELLED. From any callback, any thread or a signal handler. Without a run under way it does nothing.
+/* Asks the run under way to stop. The run ends with CARREAU_ERR_CANCELLED within 100 ms, plus the time of the callback
+ * that it is in. You may call this from any callback, any thread or a signal handler. Without a run it does nothing.
  * NULL is allowed. */
 CARREAU_API void carreau_stop(carreau_session* session);
 
 /* ---- Run ---- */
 
-/* Makes the mesh of the model ("call inimesh"). On error an earlier mesh stays, and the session can be used again.
+/* Makes the mesh of the model ("call inimesh"). On an error an earlier mesh stays, and the session can be used again.
  * Errors: SEQUENCE (no geometry, no model), ARGUMENT (parameters that contradict each other), MODEL, CALLBACK, DOMAIN,
- * LIMIT, CANCELLED, MEMORY; PARTIAL: there is a new mesh, but without the faces whose status is CARREAU_FACE_FAILED. */
+ * LIMIT, CANCELLED, MEMORY; PARTIAL (there is a new mesh, without the faces whose status is CARREAU_FACE_FAILED). */
 CARREAU_API carreau_status carreau_mesh_generate(carreau_session* session);
 
 /* Runs all actions of a blsurf.env up to `call exit` (RT-0232 sec. 3.3). `call inimesh` reads <pref>.pardom beside the
- * env file, unless the session has a model already, from carreau_model_add_face and so on or from
- * carreau_model_read_pardom; `call export` writes beside it. Parameters have their defaults before, after each action,
- * and when the call returns; they keep their values when the file cannot be read.
- * Errors: FILE (with the line), ARGUMENT (unknown names, wrong values, with the line), those of
- * carreau_mesh_generate. */
+ * env file, unless the session has a model already, from carreau_model_add_face and its like or from
+ * carreau_model_read_pardom. `call export` writes beside it. Parameters have their defaults before the first action,
+ * after each action, and when the call returns. When the file cannot be read they keep their values. Errors: FILE (with
+ * the line), ARGUMENT (unknown names, wrong values, with the line), those of carreau_mesh_generate. */
 CARREAU_API carreau_status carreau_run_env(carreau_session* session, const char* path);
 
-/* What the last successful run did. One point of a batch, or one call of any order, counts as one call of the routine
- * of the highest order wanted. */
+/* What the last successful run did. A point of a batch, or a call of any order, counts as one call of the routine of
+ * the highest order wanted. */
 typedef struct carreau_report {
   size_t struct_size;
   double diag; /* diagonal of the box of all curves */
@@ -444,12 +448,13 @@ CARREAU_API carreau_status carreau_session_report(carreau_session* session, carr
 
 /* ---- Interfaces: the curves of the last mesh in space ---- */
 
-/* A curve has one discretisation. Its vertices lie on the surface of its first place; the others may be apart from it,
- * since curves that a model calls one, or that were glued, need not agree. */
+/* A curve of space and its places, the curves of faces that it is. It has one discretisation, whose vertices lie on the
+ * surface of its first place. The other places may be apart from it, since curves that a model calls one, or that were
+ * glued, need not agree. */
 typedef struct carreau_interface {
   size_t struct_size;
   int32_t curve;      /* its reference; after gluing that of its first place */
-  int32_t uses;       /* places: curves of faces. 1 on a boundary: open. Two in one face: a seam */
+  int32_t uses;       /* number of places. 1 on a boundary: open. Two in one face: a seam */
   int32_t face;       /* the first place */
   int32_t ic;         /* of the host's curve there, also where it was cut */
   int32_t other_face; /* the place that is farthest from the vertices; the first again when there is no other */
@@ -462,25 +467,27 @@ typedef struct carreau_interface {
                  it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
 } carreau_interface;
 
-/* Number of interfaces; and number `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Tell the number of interfaces, and interface `index`, from 0, by first appearance. Errors: ARGUMENT, SEQUENCE (no
+ * mesh yet). */
 CARREAU_API carreau_status carreau_session_interface_count(carreau_session* session, int64_t* out_count);
 CARREAU_API carreau_status carreau_session_interface(carreau_session* session, int64_t index,
                                                      carreau_interface* out_interface);
 
 /* ---- Background meshes: wanted sizes at the vertices of a mesh ---- */
 
-/* The next meshes take their sizes from a background mesh, unless hphy_flag = 0. It is looked up at the nearest point
- * of a surface in space, or in the triangle that holds (u, v) in a parameter plane; outside of it the nearest value
- * holds, and the point is counted. Between vertices sizes, or the sizes along common directions of metrics, vary by
+/* The next meshes take their sizes from a background mesh, unless hphy_flag = 0. The library looks up the nearest point
+ * of a surface in space, or the triangle that holds (u, v) in a parameter plane. Outside of it the nearest value holds,
+ * and the point is counted. Between vertices sizes, or the sizes along common directions of metrics, vary by
  * hinterpol_flag. Sizes are clamped to [hphymin, hphymax], whose defaults (diag / 500, diag / 5) may be too narrow.
  * Where callbacks answer too, the smaller size, or the intersection, holds. Each of the four calls replaces what the
- * others have set, and copies it. On error the old background mesh stays. Errors: ARGUMENT (sizes not positive, metrics
- * not positive definite, numbers not finite, no triangle, numbers of vertices that do not fit), FILE, SEQUENCE. */
+ * others have set, and copies it. On an error the old background mesh stays. Errors: ARGUMENT (sizes not positive,
+ * metrics not positive definite, numbers not finite, no triangle, numbers of vertices that do not fit), FILE, SEQUENCE.
+ */
 
-/* From files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each vertex.
- * Dimension 3: a surface in space. Dimension 2: parameter planes of the faces that the references of the triangles
- * name; 0: of any other face. Metrics are then those of the parameter plane. The parameters background_mesh and
- * background_sol name files, too, and come before what these calls set. */
+/* Reads files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each vertex. A
+ * mesh of dimension 3 is a surface in space. One of dimension 2 lies in the parameter planes of the faces that the
+ * references of its triangles name (0: any other face), and its metrics are those of the parameter plane. The
+ * parameters background_mesh and background_sol name files, too, and come before what these calls set. */
 CARREAU_API carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path,
                                                        const char* sol_path);
 
@@ -497,15 +504,15 @@ typedef struct carreau_background {
 } carreau_background;
 CARREAU_API carreau_status carreau_set_background(carreau_session* session, const carreau_background* background);
 
-/* On the session's own mesh: n sizes, or n metrics (n x 6), at its n vertices. Each face is looked up in its own
+/* Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh. Each face is looked up in its own
  * parameter plane. */
-CARREAU_API carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double* sizes);
-CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double* metrics);
+CARREAU_API carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double sizes[]);
+CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double metrics[]);
 
-/* None, as in a new session. */
+/* Removes the background mesh. */
 CARREAU_API carreau_status carreau_clear_background(carreau_session* session);
 
-/* How the last mesh has used its background mesh; all zero when there was none. */
+/* How the last mesh has used its background mesh. All members are zero when there was none. */
 typedef struct carreau_background_report {
   size_t struct_size;
   int64_t asked;   /* points looked up */
@@ -517,10 +524,10 @@ CARREAU_API carreau_status carreau_session_background(carreau_session* session, 
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
 
-/* What the error is estimated from: interpolation error by second derivatives; angles between edges and the tangent
- * planes of the graph of the field; distance from the graph's tangent planes. */
+/* What the error is estimated from: the interpolation error, by second derivatives; the angles between edges and the
+ * tangent planes of the graph of the field; the distance from the graph's tangent planes. */
 enum { CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2 };
-/* What is prescribed: a size; circles in the tangent planes of the graph; sizes by both principal values. */
+/* What is prescribed: a size; circles in the tangent planes of the graph; or sizes by both principal values. */
 enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
 
 typedef struct carreau_estimator {
@@ -535,23 +542,23 @@ typedef struct carreau_estimator {
   double ratio;          /* largest ratio of the two sizes of a metric. 0: 1000 */
 } carreau_estimator;
 
-/* Sizes or metrics at the n vertices of the session's mesh, from the values of a field there; give them back to
- * carreau_set_vertex_sizes or carreau_set_vertex_metrics. ISOTROPIC: out_sizes (n) or out_metrics (n x 6) may be NULL;
- * otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long, set
- * the parameter gradation (2, say): sizes that jump between neighbours hide the bends of a front from the fit of its
- * values. Errors: ARGUMENT, SEQUENCE. */
+/* Finds sizes or metrics at the n vertices of the session's mesh from the values of a field there. Give them back to
+ * carreau_set_vertex_sizes or carreau_set_vertex_metrics. With ISOTROPIC, out_sizes (n) or out_metrics (n x 6) may be
+ * NULL. Otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long,
+ * set the parameter gradation (to 2, say): sizes that jump between neighbours hide the bends of a front from the fit of
+ * its values. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
-                                            const double* values, double* out_sizes, double* out_metrics);
+                                            const double values[], double out_sizes[], double out_metrics[]);
 
-/* Interpolates a field with `components` values a vertex (n x components) from the n vertices of the mesh that the
- * session had before to those of its mesh now (out_values: rows of components, room for `capacity` rows). *out_outside,
- * which may be NULL: vertices beside the old mesh, which have the nearest value. Errors: ARGUMENT, SEQUENCE (fewer than
- * two meshes made). */
+/* Interpolates a field from the n vertices of the mesh that the session had before to those of its mesh now. `values`
+ * has `components` values a vertex (n x components), and out_values has room for `capacity` such rows. *out_outside,
+ * which may be NULL, counts the vertices beside the old mesh; they take the nearest value. Errors: ARGUMENT, SEQUENCE
+ * (fewer than two meshes made). */
 CARREAU_API carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n,
-                                            const double* values, int64_t capacity, double* out_values,
+                                            const double values[], int64_t capacity, double out_values[],
                                             int64_t* out_outside);
 
-/* The field at n points of space: xyz is n x 3. Returns 0, or any other value to report a failure. */
+/* Gives the field at n points of space; xyz is n x 3. Returns 0, or any other value to report a failure. */
 typedef int32_t (*carreau_field_fn)(int64_t n, const double* xyz, double* values, void* user);
 
 typedef struct carreau_adaptation {
@@ -565,7 +572,7 @@ typedef struct carreau_adaptation {
   double convergence;  /* ends when the number of triangles changes by a smaller share; 0: makes all iterations */
 } carreau_adaptation;
 
-/* What a loop did. Errors of the field: its distance from its linear interpolation on the mesh. */
+/* What a loop did. An error of the field is its distance from its linear interpolation on the mesh. */
 typedef struct carreau_adaptation_report {
   size_t struct_size;
   int32_t iterations; /* meshes made, without the one that it started with */
@@ -579,49 +586,49 @@ typedef struct carreau_adaptation_report {
   int64_t outside;                           /* points outside of the last background mesh */
 } carreau_adaptation_report;
 
-/* Mesh, estimate, a new field of sizes on the mesh, mesh again. Starts with the session's mesh, or makes one by the
- * parameters; with iterations = 1, call it again for each mesh to be looked at. The session has the last mesh in the
- * end, and no background mesh. hphymin and hphymax, unless they are set, are those of the estimator. out_report may be
- * NULL. Errors: those of carreau_mesh_generate; on an error the session has the last mesh that was made. */
+/* Adapts the mesh in a loop: it estimates, sets new sizes on the mesh, and meshes again. It starts with the session's
+ * mesh, or makes one by the parameters. To look at each mesh, set iterations = 1 and call it again. In the end the
+ * session has the last mesh, and no background mesh. hphymin and hphymax, unless they are set, are those of the
+ * estimator. out_report may be NULL. Errors: those of carreau_mesh_generate; the session then has the last mesh that
+ * was made. */
 CARREAU_API carreau_status carreau_adapt(carreau_session* session, const carreau_adaptation* adaptation,
                                          carreau_adaptation_report* out_report);
 
 /* ---- Meshes ---- */
 
-/* The mesh of a session. The handle belongs to the session and always shows its latest mesh; it lives until
- * carreau_session_free, and carreau_mesh_free leaves it alone. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Gives the mesh of a session. The handle belongs to the session, and always shows its latest mesh. It lives until
+ * carreau_session_free; carreau_mesh_free leaves it alone. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out_mesh);
 
-/* An empty mesh, to be filled by carreau_mesh_read and freed by carreau_mesh_free. Errors: ARGUMENT, MEMORY. */
+/* Creates an empty mesh. Fill it by carreau_mesh_read, and free it by carreau_mesh_free. Errors: ARGUMENT, MEMORY. */
 CARREAU_API carreau_status carreau_mesh_create(carreau_mesh** out_mesh);
 CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* NULL is allowed */
 
-/* Sentence of the last call on the mesh, "" after success. Lives until the next call on it. */
+/* Returns the sentence of the last call on the mesh, "" after success. It lives until the next call on the mesh. */
 CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 
-/* Replaces the content by that of a file; its suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
- * compressed by zlib), .stl (text, binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and
- * binary). What carreau_mesh_write has written comes back: points, exactly but for binary .stl; references and names
- * where the format holds them (.vtu: all, and status and colour of faces; .msh: references of faces and curves,
- * corners' if positive; .stl: solids as faces). On error the old content stays. Errors: FILE; ARGUMENT (suffix, mesh of
- * a session).
- */
+/* Replaces the content by that of a file. The suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
+ * compressed by zlib), .stl (text or binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and
+ * binary). What carreau_mesh_write has written comes back: points, exactly but for binary .stl, and references and
+ * names where the format holds them. These are all of them, with status and colour of faces, in .vtu; references of
+ * faces and curves, and of corners if positive, in .msh; solids as faces in .stl. On an error the old content stays.
+ * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
-/* Writes to a file; its suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face), .msh and
- * .msh2 (Gmsh 4.1 and 2.2, with physical names). The mesh of a session is written as its parameters option, refs and
- * flag say (RT-0232 sec. 4); onesurf2d of a face that has failed gives its curves in the parameter plane; .exr: its
- * fields, as carreau_write_exr does with multi_part. A mesh from a file has binary .stl. The file is complete or as it
- * was before. Errors: FILE; ARGUMENT (suffix, refs). */
+/* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
+ * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names). The parameters option, refs and flag say how the mesh of a
+ * session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves in the parameter plane.
+ * .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl. The
+ * file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
 
-/* Numbers of vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */
+/* Counts vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */
 CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
                                               int64_t* out_edges, int64_t* out_faces);
-/* 3, or 2 when the mesh was read from a plane one. */
+/* Tells the dimension: 3, or 2 when the mesh was read from a plane one. */
 CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
 
-/* Copy results into arrays of the caller; `capacity` is the number of rows (n, m or k) they have room for.
+/* Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
  * Errors: ARGUMENT (NULL, capacity too small), SEQUENCE (no mesh; data that a mesh from a file does not have).
  *   vertices        n x 3      x y z, model length
  *   vertex_refs     n          reference of the corner or imposed point, 0: made by the mesher
@@ -631,18 +638,18 @@ CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* o
  *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session only
  *   edges           k x 2      vertices, along each curve from its first end to its second
  *   edge_refs       k          reference of the curve */
-CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double* out_xyz);
-CARREAU_API carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
-CARREAU_API carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, double* out_sizes);
-CARREAU_API carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
-CARREAU_API carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
-CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double* out_uv);
-CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices);
-CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs);
+CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double out_xyz[]);
+CARREAU_API carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
+CARREAU_API carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, double out_sizes[]);
+CARREAU_API carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
+CARREAU_API carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
+CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double out_uv[]);
+CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
+CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 
-/* Status of a face. `mended`: meshed, after something was repaired, or with triangles that are turned over (`why` says
- * which); `failed`: without triangles; `collapsed`: a narrow face (parameter narrow_faces) that has vanished between
- * its neighbours, which share one curve in its place. */
+/* The status of a face. A `mended` face is meshed, but something was repaired, or triangles are turned over; `why` says
+ * which. A `failed` face has no triangles. A `collapsed` face is narrow (parameter narrow_faces) and has vanished
+ * between its neighbours, which share one curve in its place. */
 enum {
   CARREAU_FACE_NOT_MESHED = 0,
   CARREAU_FACE_MESHED = 1,
@@ -662,12 +669,12 @@ typedef struct carreau_face {
   int32_t rgb;      /* given by carreau_model_color_face, 0xRRGGBB, or -1 */
 } carreau_face;
 
-/* Face `index`, from 0. Faces of a mesh from a file are its triangle references, ascending, and others that it tells
- * of. Errors: ARGUMENT, SEQUENCE. */
+/* Tells of face `index`, from 0. The faces of a mesh from a file are its triangle references, ascending, and others
+ * that the file tells of. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face);
 
-/* Shape and size of the triangles. q1 = 2 sqrt(3) inradius / longest edge, q2 = 4 sqrt(3) area / sum of squared edges;
- * both 1 for an equilateral triangle. p1: first percentile. */
+/* The shapes and sizes of the triangles. q1 = 2 sqrt(3) inradius / longest edge and q2 = 4 sqrt(3) area / sum of
+ * squared edges (HDR eq. 1.5, 1.6) are 1 for an equilateral triangle. p1 is the first percentile. */
 typedef struct carreau_quality {
   size_t struct_size;
   int64_t vertices, triangles, edges; /* all edges of triangles */
@@ -684,16 +691,17 @@ typedef struct carreau_quality {
 CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
 
 /* Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area or
- * twice there, vertices without triangle, edges of more than two triangles away from curves, curves that are not in
- * their faces. closed = 1: an edge with one triangle is a defect too. *out_count: how many were found, at most `limit`
- * (> 0); *out_text: one sentence a line, lives until the next call on the mesh. Finding defects is CARREAU_OK.
+ * twice there, vertices without a triangle, edges of more than two triangles away from curves, and curves that are not
+ * in their faces. With closed = 1 an edge with one triangle is a defect too. *out_count tells how many were found, at
+ * most `limit` (> 0). *out_text has one sentence a line, and lives until the next call on the mesh. Finding defects is
+ * CARREAU_OK.
  * Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
                                                 const char** out_text);
 
 /* ---- Fields as images (OpenEXR) ---- */
 
-/* Groups of channels: 32-bit reals where nothing else is said.
+/* The groups of channels. They are 32-bit reals where nothing else is said.
  *   SIZE        size.h                       prescribed size: sqrt(h1 h2); model length
  *               size.h1 size.h2 size.angle   sizes along the axes of the prescribed metric, h1 <= h2, and the
  *                                            direction of h1 in the tangent plane, from Su to Sv; degrees, 0 to 180
@@ -712,8 +720,8 @@ CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t clos
  *   PREVIEW     R G B A                      16-bit reals of linear light: size in false colours, from red, the
  *                                            smallest of the face, to blue, the largest, on a logarithmic scale;
  *                                            sides of triangles and curves dark; purple: there is no size
- * A pixel stands for the point of the parameter plane at its centre. What is not known there is NaN: all but the mask
- * and the preview outside the domain, and whatever the host fails to give inside. */
+ * A pixel stands for the point of the parameter plane at its centre. What is not known there is NaN: outside the domain
+ * all but the mask and the preview, and inside it whatever the host fails to give. */
 enum {
   CARREAU_EXR_SIZE = 1,
   CARREAU_EXR_INDUCED = 2,
@@ -743,27 +751,27 @@ typedef struct carreau_exr_options {
   int32_t reserved;    /* 0 */
 } carreau_exr_options;
 
-/* Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images: from
- * "a/x.exr" the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns go from the smallest u
- * to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low, uv.high), the
- * reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>), the first
+/* Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images. From
+ * "a/x.exr" it makes the files a/x.face.<ref>.exr, or a/x.exr itself with `face` or `multi_part`. Columns go from the
+ * smallest u to the largest, rows from the largest v down to the smallest. Attributes hold the box (uv.low, uv.high),
+ * the reference (face), diag, face.status and face.why, all parameters that shape a mesh (parameter.<name>), the first
  * triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the version of
- * the library. `options` may be NULL: all zero.
+ * the library. `options` may be NULL, which means all zero.
  *
- * The fields are those of the session's mesh. Where there is none, where the last carreau_mesh_generate has failed, for
- * faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain, as far as its curves
- * are known: positions, derivatives, sizes; without triangles, and without a target unless the mesher had sampled it. A
- * host that fails at some points leaves NaN there, and a warning; its sentence is no error of this call.
+ * The fields are those of the session's mesh. When there is no mesh, when the last carreau_mesh_generate has failed,
+ * for faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain, as far as its
+ * curves are known: positions, derivatives, sizes. There are then no triangles, and no target unless the mesher had
+ * sampled it. A host that fails at some points leaves NaN there, and a warning; its sentence is no error of this call.
  *
- * Asks the geometry at every pixel of the domain, from the caller's thread, and for CARREAU_EXR_DEVIATION at some 20
- * points a vertex of the mesh. The mesh is not touched, whatever happens; each file is complete or as it was before.
- * Errors: ARGUMENT, SEQUENCE (no geometry, no model), MODEL, FILE, CANCELLED, MEMORY. */
+ * The call asks the geometry at every pixel of the domain, from the caller's thread, and for CARREAU_EXR_DEVIATION at
+ * some 20 points a vertex of the mesh. It never touches the mesh. Each file is complete, or as it was before. Errors:
+ * ARGUMENT, SEQUENCE (no geometry, no model), MODEL, FILE, CANCELLED, MEMORY. */
 CARREAU_API carreau_status carreau_write_exr(carreau_session* session, const char* path,
                                              const carreau_exr_options* options);
 
 /* ---- Curves in metrics ---- */
 
-/* A polyline of the plane or of space, and metrics that are known at places of it. */
+/* A polyline of the plane or of space, with metrics that are known at places of it. */
 typedef struct carreau_curve {
   size_t struct_size;
   int32_t dimension;       /* 2 or 3 */
@@ -777,20 +785,20 @@ typedef struct carreau_curve {
 } carreau_curve;
 
 /* Cuts a curve into edges of equal length in the metric, as near to 1 as a whole number of edges allows (RR-2818 sec.
- * 4). *out_edges = n; *out_length: that of the whole curve in the metric, so that each edge has out_length / n;
- * out_abscissae: n + 1 usual lengths from the first point; not written when capacity is 0: ask for n first. Each may be
- * NULL. The session only keeps the sentence of an error; its geometry and mesh are not touched.
- * Errors: ARGUMENT (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
+ * 4). *out_edges is n. *out_length is the length of the whole curve in the metric, so that each edge has out_length /
+ * n. out_abscissae gets n + 1 usual lengths from the first point, or nothing when capacity is 0: ask for n first. Each
+ * may be NULL. The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT
+ * (also a metric that is not positive definite, points that coincide, capacity below n + 1), LIMIT. */
 CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
-                                               double* out_abscissae, int64_t* out_edges, double* out_length);
+                                               double out_abscissae[], int64_t* out_edges, double* out_length);
 
 /* ---- What was delivered ---- */
 
-/* Measures of the latest mesh of a session, on the surface that the callbacks describe and against the sizes and
- * metrics that they prescribe, not against what the library had sampled of them. A mesh is measured when one of these
- * functions is first called, or right after the run when the parameter measure is 1: about 24 evaluations a vertex, by
- * the callbacks that made the mesh, so what they use must still be there. Messages say the result (levels SUMMARY and
- * WARNING); .vtu files written from then on hold the values: on triangles and vertices, and with flag = 1 on all edges.
+/* These functions measure the latest mesh of a session on the surface that the callbacks describe, against the sizes
+ * and metrics that they prescribe, and not against what the library had sampled of them. The first call of one of them
+ * measures the mesh; with the parameter measure at 1, the run does. It takes about 24 evaluations a vertex, by the
+ * callbacks that made the mesh: what they use must still be there. Messages tell the result (levels SUMMARY and
+ * WARNING). .vtu files written from then on hold the values, on triangles and vertices, and with flag = 1 on all edges.
  *
  *   kind                            of         unit
  *   CARREAU_MEASURE_LENGTH          edges      length of the edge's image on the surface in the prescribed metric, by
@@ -843,7 +851,7 @@ typedef struct carreau_measure {
   int64_t values;    /* number of entities */
   int64_t count;     /* of those whose value is not NaN; the spread is theirs, and zero when there are none */
   double mean, min, p1, p99, max; /* p1, p99: percentiles */
-  double limit;                   /* what was asked: no value above this; infinity: nothing was */
+  double limit;                   /* what was asked: no value above this; infinity if nothing was */
   int64_t beyond;                 /* values above it (gradation: by more than 2 %) */
   int64_t forced; /* of those: angles of edges as short as hgeomin lets them be (sqrt(2) times as long at most),
                      gradations of edges that cross a face from a vertex of a curve to another one */
@@ -852,21 +860,22 @@ typedef struct carreau_measure {
 CARREAU_API carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind,
                                                      carreau_measure* out_measure);
 
-/* Histogram: counts[i] values from bounds[i] up to bounds[i + 1]; bounds[0] is -infinity. `capacity`: rows of both. */
+/* Gives a histogram: counts[i] values from bounds[i] up to bounds[i + 1], where bounds[0] is -infinity. Both arrays
+ * have room for `capacity` rows. */
 CARREAU_API carreau_status carreau_delivered_histogram(carreau_session* session, int32_t kind, int64_t capacity,
-                                                       double* out_bounds, int64_t* out_counts);
-/* One value an edge, vertex or triangle; triangles and vertices as in carreau_mesh_triangles and _vertices. */
+                                                       double out_bounds[], int64_t out_counts[]);
+/* Gives one value for each edge, vertex or triangle. Triangles and vertices are in the order of the mesh. */
 CARREAU_API carreau_status carreau_delivered_values(carreau_session* session, int32_t kind, int64_t capacity,
-                                                    double* out_values);
-/* The edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0 inside a
- * face. Either array may be NULL. */
-CARREAU_API carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacity, int32_t* out_vertices,
-                                                   int32_t* out_curves);
-/* m x 3: the edge that leaves each corner of a triangle. */
+                                                    double out_values[]);
+/* Gives the edges of all triangles, each once: k x 2 vertices, the smaller first, and the reference of the curve, 0
+ * inside a face. Either array may be NULL. */
+CARREAU_API carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacity, int32_t out_vertices[],
+                                                   int32_t out_curves[]);
+/* Gives the edge that leaves each corner of a triangle, m x 3. */
 CARREAU_API carreau_status carreau_delivered_triangle_edges(carreau_session* session, int64_t capacity,
-                                                            int32_t* out_edges);
+                                                            int32_t out_edges[]);
 
-/* Writes the spreads, histograms, counts and sentences as JSON; numbers that are not finite are null. Errors: FILE. */
+/* Writes the spreads, histograms, counts and sentences as JSON. Numbers that are not finite are null. Errors: FILE. */
 CARREAU_API carreau_status carreau_delivered_write(carreau_session* session, const char* path);
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@ need() {
   done
 }
 need include/carreau.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
-  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md
+  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md
 if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
     lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1
