@@ -4,7 +4,7 @@
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 . "$root/tests/setup.sh"
-need_packages g++ gcc gfortran cmake ninja-build libpng-dev zlib1g-dev libcli11-dev libopenexr-dev libtbb-dev nlohmann-json3-dev
+need_packages g++ gcc gfortran cmake ninja-build libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev
 build=$root/build/examples
 out=$root/out/teapot
 configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_TESTS=OFF

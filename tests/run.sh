@@ -7,7 +7,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils locales \
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev libocct-modeling-algorithms-dev \
   libocct-modeling-data-dev libocct-foundation-dev \
-  libgtest-dev libmuparser-dev libpng-dev zlib1g-dev libcli11-dev libopenexr-dev libtbb-dev nlohmann-json3-dev openexr zsh fish groff-base clang libclang-rt-dev
+  libgtest-dev libmuparser-dev libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev openexr zsh fish groff-base clang libclang-rt-dev
 build=$root/build/test
 configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_BENCH=ON
 cmake --build "$build" -j "$(processors)"

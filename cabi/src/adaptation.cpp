@@ -124,7 +124,7 @@ FieldFunction function_of(carreau_field_fn field, void* user, const carreau::Mon
     for (std::size_t from = 0; from < points.size(); from += batch) {
       const std::size_t n = std::min(batch, points.size() - from);
       xyz.clear();
-      for (const Vec3& p : points.subspan(from, n)) xyz.insert(xyz.end(), {p.x, p.y, p.z});
+      for (const Vec3& p : points.subspan(from, n)) xyz.insert(xyz.end(), {p.x(), p.y(), p.z()});
       const std::int32_t status = field(std::int64_t(n), xyz.data(), values.data() + from, user);
       if (monitor.stop_requested()) throw carreau::Cancelled("stopped by the host");
       if (status != 0)

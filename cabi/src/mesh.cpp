@@ -150,7 +150,7 @@ carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, doubl
     check_capacity(capacity, Counts(*mesh).vertices, "vertices");
     double* out = out_xyz;
     for (const carreau::Vec3& p : mesh->session != nullptr ? surface_of(*mesh).vertices : mesh->flat.vertices)
-      *out++ = p.x, *out++ = p.y, *out++ = p.z;
+      *out++ = p.x(), *out++ = p.y(), *out++ = p.z();
   });
 }
 
@@ -208,7 +208,7 @@ carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, doub
     for_each_triangle(session_only(*mesh, "(u, v)"), [&](const FaceMesh& face, const auto& corners) {
       for (const std::int32_t local : corners) {
         const carreau::Vec2 uv = face.uv[std::size_t(local)];
-        *out++ = uv.x, *out++ = uv.y;
+        *out++ = uv.x(), *out++ = uv.y();
       }
     });
   });

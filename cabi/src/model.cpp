@@ -185,7 +185,7 @@ carreau_status carreau_model_points(carreau_session* session, int64_t capacity, 
       for (const carreau::FacePoint& point : face.points) {
         put(out_face_refs, i, face.ref);
         put(out_refs, i, point.ref);
-        if (out_uv != nullptr) out_uv[2 * i] = point.uv.x, out_uv[2 * i + 1] = point.uv.y;
+        if (out_uv != nullptr) out_uv[2 * i] = point.uv.x(), out_uv[2 * i + 1] = point.uv.y();
         ++i;
       }
   });

@@ -61,8 +61,8 @@ carreau_status carreau_last_error_place(const carreau_session* session, carreau_
     place.curve = where.curve;
     place.point = where.point;
     place.line = where.line;
-    place.uv[0] = uv.x;
-    place.uv[1] = uv.y;
+    place.uv[0] = uv.x();
+    place.uv[1] = uv.y();
     place.t = where.t.value_or(nan);
     write_struct(place, out_place, "out_place");
   };

@@ -49,9 +49,9 @@ Refined refine(std::span<const Vec3> vertices, std::span<const std::array<std::i
 std::vector<double> steps_of(const Refined& mesh) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec3 low{far, far, far}, high{-far, -far, -far};
-  for (const Vec3 p : mesh.vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  for (const Vec3& p : mesh.vertices) {
+    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
   }
   const double diagonal = norm(high - low);
   std::vector<double> steps(mesh.vertices.size(), largest_step * diagonal);
@@ -98,8 +98,8 @@ std::vector<LocalDerivatives> difference_derivatives(std::span<const Vec3> point
 VertexPrescriptions estimate_function(std::span<const Vec3> vertices,
                                       std::span<const std::array<std::int32_t, 3>> triangles,
                                       const FieldFunction& exact, const EstimatorOptions& options) {
-  for (const Vec3 p : vertices)
-    if (p.z != 0)
+  for (const Vec3& p : vertices)
+    if (p.z() != 0)
       throw InvalidArgument("a field is estimated by its own derivatives on meshes of the plane z = 0 only");
   const Refined fine = refine(vertices, triangles);
   std::vector<double> values(fine.vertices.size());

@@ -24,8 +24,8 @@ void check_options(const ScalarField& field, const EstimatorOptions& o) {
   if (o.source == ErrorSource::hessian && o.shape == ErrorShape::graph)
     throw InvalidArgument("the Hessian says nothing about sizes in the tangent planes of the graph");
   if (o.source == ErrorSource::hessian) return;
-  for (const Vec3 p : field.vertices)
-    if (p.z != 0) throw InvalidArgument("a graph is estimated over a mesh of the plane z = 0 only");
+  for (const Vec3& p : field.vertices)
+    if (p.z() != 0) throw InvalidArgument("a graph is estimated over a mesh of the plane z = 0 only");
 }
 
 /// The graph z = field at a vertex: root of its first fundamental form, curvatures and their directions.
@@ -37,7 +37,7 @@ struct Graph {
 
 Metric2 sandwich(Metric2 s, Metric2 m) noexcept {  // S M S
   const Vec2 p{m.a * s.a + m.b * s.b, m.b * s.a + m.c * s.b}, q{m.a * s.b + m.b * s.c, m.b * s.b + m.c * s.c};
-  return {s.a * p.x + s.b * p.y, s.a * q.x + s.b * q.y, s.b * q.x + s.c * q.y};
+  return {s.a * p.x() + s.b * p.y(), s.a * q.x() + s.b * q.y(), s.b * q.x() + s.c * q.y()};
 }
 
 /// Identity plus (factor - 1) along g.
@@ -45,14 +45,14 @@ Metric2 stretched_along(Vec2 g, double factor) noexcept {
   const double g2 = dot(g, g);
   if (!(g2 > 0)) return {1, 0, 1};
   const double k = (factor - 1) / g2;
-  return {1 + k * g.x * g.x, k * g.x * g.y, 1 + k * g.y * g.y};
+  return {1 + k * g.x() * g.x(), k * g.x() * g.y(), 1 + k * g.y() * g.y()};
 }
 
 /// Absolute values; the larger first.
 Eigen2 absolute(Eigen2 e) noexcept {
   e.major = std::abs(e.major);
   e.minor = std::abs(e.minor);
-  if (e.major < e.minor) e = {e.minor, e.major, {-e.direction.y, e.direction.x}};
+  if (e.major < e.minor) e = {e.minor, e.major, {-e.direction.y(), e.direction.x()}};
   return e;
 }
 
@@ -131,8 +131,8 @@ class Estimate {
     for (const std::int32_t w : neighbours_.of(static_cast<std::int32_t>(v))) {
       const Vec3 r = field_.vertices[static_cast<std::size_t>(w)] - field_.vertices[v];
       const double rise = field_.values[static_cast<std::size_t>(w)] - field_.values[v];
-      const double away = std::abs(rise - dot(d.gradient, Vec2{r.x, r.y})) / std::sqrt(1 + graph.slope2);
-      const double along2 = r.x * r.x + r.y * r.y + rise * rise - away * away;
+      const double away = std::abs(rise - dot(d.gradient, Vec2{r.x(), r.y()})) / std::sqrt(1 + graph.slope2);
+      const double along2 = r.x() * r.x() + r.y() * r.y() + rise * rise - away * away;
       if (along2 > 0) steepest = std::max(steepest, away / along2);
     }
     return steepest > 0 ? std::sqrt(tolerance_at(v) / steepest) : options_.hmax;
@@ -151,9 +151,9 @@ Metric3 in_space(Metric2 m, const VertexFrame& f) noexcept {
     return m.a * x1 * x2 + m.b * (x1 * y2 + y1 * x2) + m.c * y1 * y2 + across * z1 * z2;
   };
   const Vec3 p = f.e1, q = f.e2, n = f.normal;
-  return {entry(p.x, q.x, n.x, p.x, q.x, n.x), entry(p.x, q.x, n.x, p.y, q.y, n.y),
-          entry(p.x, q.x, n.x, p.z, q.z, n.z), entry(p.y, q.y, n.y, p.y, q.y, n.y),
-          entry(p.y, q.y, n.y, p.z, q.z, n.z), entry(p.z, q.z, n.z, p.z, q.z, n.z)};
+  return {entry(p.x(), q.x(), n.x(), p.x(), q.x(), n.x()), entry(p.x(), q.x(), n.x(), p.y(), q.y(), n.y()),
+          entry(p.x(), q.x(), n.x(), p.z(), q.z(), n.z()), entry(p.y(), q.y(), n.y(), p.y(), q.y(), n.y()),
+          entry(p.y(), q.y(), n.y(), p.z(), q.z(), n.z()), entry(p.z(), q.z(), n.z(), p.z(), q.z(), n.z())};
 }
 
 }  // namespace

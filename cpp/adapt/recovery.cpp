@@ -56,10 +56,10 @@ VertexFrame frame_of(Vec3 normal) {
   if (!(length > 0)) return {};
   VertexFrame f;
   // Upwards, so that the frame of a mesh in the plane is (x, y) however its triangles turn.
-  f.normal = (normal.z < 0 ? -1 / length : 1 / length) * normal;
+  f.normal = (normal.z() < 0 ? -1 / length : 1 / length) * normal;
   // The axis that is least along the normal; in the plane (x, y) this gives the coordinates themselves.
   const Vec3 n = f.normal;
-  const bool y_last = std::abs(n.x) <= 0.9;
+  const bool y_last = std::abs(n.x()) <= 0.9;
   const Vec3 axis = y_last ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   f.e1 = axis - dot(axis, n) * n;
   f.e1 = (1 / norm(f.e1)) * f.e1;
@@ -77,7 +77,7 @@ std::vector<VertexFrame> frames_of(const ScalarField& field) {
   }
   std::vector<VertexFrame> frames;
   frames.reserve(normals.size());
-  for (const Vec3 n : normals) frames.push_back(frame_of(n));
+  for (const Vec3& n : normals) frames.push_back(frame_of(n));
   return frames;
 }
 
@@ -119,16 +119,16 @@ class Fitter {
     [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
     [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
       const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;
-      return {p.x * first.x + q.x * second.x, p.x * first.y + q.x * second.y, p.y * first.y + q.y * second.y};
+      return {p.x() * first.x() + q.x() * second.x(), p.x() * first.y() + q.x() * second.y(), p.y() * first.y() + q.y() * second.y()};
     }
   };
 
   [[nodiscard]] bool whitening(Whitening& w) const noexcept {
     Metric2 covariance{0, 0, 0};
-    for (const Vec2 d : offset_) covariance = covariance + Metric2{d.x * d.x, d.x * d.y, d.y * d.y};
+    for (const Vec2& d : offset_) covariance = covariance + Metric2{d.x() * d.x(), d.x() * d.y(), d.y() * d.y()};
     const Eigen2 e = eigen((2 / static_cast<double>(offset_.size())) * covariance);
     if (!(e.minor > 1e-14 * e.major)) return false;
-    w = {(1 / std::sqrt(e.major)) * e.direction, (1 / std::sqrt(e.minor)) * Vec2{-e.direction.y, e.direction.x}};
+    w = {(1 / std::sqrt(e.major)) * e.direction, (1 / std::sqrt(e.minor)) * Vec2{-e.direction.y(), e.direction.x()}};
     return true;
   }
 
@@ -145,7 +145,7 @@ class Fitter {
       const Vec2 d = white.of(offset_[k]);
       const double weight = 1 / std::max(norm(d), 1e-3);
       const double rise = field_.values[static_cast<std::size_t>(around_[k + 1])] - field_.values[at];
-      rows_.push_back({weight * d.x, weight * d.y, weight * d.x * d.x / 2, weight * d.x * d.y, weight * d.y * d.y / 2,
+      rows_.push_back({weight * d.x(), weight * d.y(), weight * d.x() * d.x() / 2, weight * d.x() * d.y(), weight * d.y() * d.y() / 2,
                        weight * rise});
     }
     std::array<double, unknowns> x{};
@@ -168,14 +168,14 @@ Vec2 gradient_times_area(const ScalarField& field, const std::array<std::int32_t
   std::array<Vec2, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 q = field.vertices[static_cast<std::size_t>(t[i])];
-    p[i] = {q.x, q.y};
+    p[i] = {q.x(), q.y()};
   }
   doubled_area = std::abs(cross(p[1] - p[0], p[2] - p[0]));
   const double sign = cross(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
   Vec2 sum;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec2 edge = p[(i + 2) % 3] - p[(i + 1) % 3];
-    sum = sum + sign * value_at(static_cast<std::size_t>(t[i])) * Vec2{-edge.y, edge.x};
+    sum = sum + sign * value_at(static_cast<std::size_t>(t[i])) * Vec2{-edge.y(), edge.x()};
   }
   return sum;
 }
@@ -210,15 +210,15 @@ std::vector<LocalDerivatives> recover_derivatives(const ScalarField& field) {
 
 std::vector<LocalDerivatives> project_derivatives(const ScalarField& field) {
   check_field(field);
-  for (const Vec3 p : field.vertices)
-    if (p.z != field.vertices.front().z) throw InvalidArgument("derivatives are projected on plane meshes only");
+  for (const Vec3& p : field.vertices)
+    if (p.z() != field.vertices.front().z()) throw InvalidArgument("derivatives are projected on plane meshes only");
   const std::vector<Vec2> g = projected_gradients(field, [&](std::size_t v) { return field.values[v]; });
-  const std::vector<Vec2> gx = projected_gradients(field, [&](std::size_t v) { return g[v].x; });
-  const std::vector<Vec2> gy = projected_gradients(field, [&](std::size_t v) { return g[v].y; });
+  const std::vector<Vec2> gx = projected_gradients(field, [&](std::size_t v) { return g[v].x(); });
+  const std::vector<Vec2> gy = projected_gradients(field, [&](std::size_t v) { return g[v].y(); });
   std::vector<LocalDerivatives> result(g.size());
   for (std::size_t v = 0; v < g.size(); ++v) {
     result[v].gradient = g[v];
-    result[v].hessian = {gx[v].x, 0.5 * (gx[v].y + gy[v].x), gy[v].y};
+    result[v].hessian = {gx[v].x(), 0.5 * (gx[v].y() + gy[v].x()), gy[v].y()};
   }
   return result;
 }

@@ -91,7 +91,7 @@ struct Piece {
 
 Piece piece_of(const FaceMesh& face) {
   std::vector<Vec3> vertices;
-  for (const Vec2 p : face.uv) vertices.push_back({p.x, p.y, 0});
+  for (const Vec2& p : face.uv) vertices.push_back({p.x(), p.y(), 0});
   std::vector<Triangle> triangles = face.triangles;
   triangles.insert(triangles.end(), face.flattened.begin(), face.flattened.end());
   Piece piece;
@@ -120,8 +120,8 @@ class Transfer {
       : from_(from), to_(to), values_(values), components_(components) {
     result_.values.assign(to.vertices.size() * components, 0);
     done_.assign(to.vertices.size(), 0);
-    for (const Vec3 p : from.vertices)
-      largest_coordinate_ = std::max({largest_coordinate_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    for (const Vec3& p : from.vertices)
+      largest_coordinate_ = std::max({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
   }
 
   TransferredField run() {
@@ -134,7 +134,7 @@ class Transfer {
       Piece piece = piece_of(*old->second);
       const Neighbourhood space(from_.vertices, piece.carriers);
       for (std::size_t i = 0; i < face.vertex.size(); ++i)
-        look_up(piece, {face.uv[i].x, face.uv[i].y, 0}, static_cast<std::size_t>(face.vertex[i]), &space);
+        look_up(piece, {face.uv[i].x(), face.uv[i].y(), 0}, static_cast<std::size_t>(face.vertex[i]), &space);
     }
     if (std::find(done_.begin(), done_.end(), 0) != done_.end()) {
       Piece whole = piece_of(from_);

@@ -25,13 +25,13 @@ void check_number(double x, const Where& where, const char* routine) {
                                  ", which is too large to compute with (beyond " + format_number(largest) + ")");
 }
 bool is_usable(Vec3 v) {  // false for NaN
-  return std::abs(v.x) <= largest && std::abs(v.y) <= largest && std::abs(v.z) <= largest;
+  return std::abs(v.x()) <= largest && std::abs(v.y()) <= largest && std::abs(v.z()) <= largest;
 }
 void check_vector(Vec3 v, const Where& where, const char* routine) {
-  for (const double x : {v.x, v.y, v.z}) check_number(x, where, routine);
+  for (const double x : {v.x(), v.y(), v.z()}) check_number(x, where, routine);
 }
 void check_vector(Vec2 v, const Where& where, const char* routine) {
-  for (const double x : {v.x, v.y}) check_number(x, where, routine);
+  for (const double x : {v.x(), v.y()}) check_number(x, where, routine);
 }
 
 bool is_usable(const SurfaceJet& jet, unsigned want) {
@@ -57,9 +57,9 @@ void CheckedCad::surface(int face, unsigned want, std::span<const Vec2> uv, std:
     const Where where{.face = face, .uv = uv[i]};
     if ((want & want_position) != 0) check_vector(jet.s, where, "surf0");
     if ((want & want_first) != 0)
-      for (const Vec3 v : {jet.su, jet.sv}) check_vector(v, where, "surf1");
+      for (const Vec3& v : {jet.su, jet.sv}) check_vector(v, where, "surf1");
     if ((want & want_second) != 0)
-      for (const Vec3 v : {jet.suu, jet.suv, jet.svv}) check_vector(v, where, "surf2");
+      for (const Vec3& v : {jet.suu, jet.suv, jet.svv}) check_vector(v, where, "surf2");
   }
 }
 

@@ -21,7 +21,7 @@ constexpr double tolerance = 0.01;
 // Derivatives below this share of extent / range are zero.
 constexpr double negligible = 1e-3;
 // How far from a suspicious point the second opinion is sought; not along a parameter line or a diagonal.
-constexpr Vec2 nearby{0.0131, 0.0073};
+const Vec2 nearby{0.0131, 0.0073};
 
 /// Values along one parameter: up to two functions, each asked once at each offset.
 class Line {
@@ -76,7 +76,7 @@ double shown(double value, double size) {
 std::string text(Vec3 v, int components, bool rounded) {
   const double size = norm(v);
   const auto number = [&](double x) { return format_number(rounded ? shown(x, size) : x); };
-  return "(" + number(v.x) + ", " + number(v.y) + (components == 3 ? ", " + number(v.z) : "") + ")";
+  return "(" + number(v.x()) + ", " + number(v.y()) + (components == 3 ? ", " + number(v.z()) : "") + ")";
 }
 
 WrongDerivative wrong_at(const Where& where, const char* routine, const Claim& claim, Vec3 found, int components) {
@@ -105,25 +105,25 @@ std::optional<WrongDerivative> test_surface(Cad& cad, int face, Vec2 p, Vec2 ran
     const SurfaceJet jet = surface_at(cad, face, order == 1 ? want_position : want_first, at);
     return order == 1 ? Line::Values{jet.s, {}} : Line::Values{jet.su, jet.sv};
   };
-  Line along_u([&](double d) { return sample({p.x + d, p.y}); });
-  Line along_v([&](double d) { return sample({p.x, p.y + d}); });
+  Line along_u([&](double d) { return sample({p.x() + d, p.y()}); });
+  Line along_v([&](double d) { return sample({p.x(), p.y() + d}); });
   const SurfaceJet jet = surface_at(cad, face, order == 1 ? want_first : want_second, p);
   const Where where{.face = face, .uv = p};
   if (order == 1) {
-    const double extent = norm(jet.su) * range.x + norm(jet.sv) * range.y;
-    const std::array tests{Test{{"Su", jet.su, 0}, along_u, range.x, extent},
-                           Test{{"Sv", jet.sv, 0}, along_v, range.y, extent}};
+    const double extent = norm(jet.su) * range.x() + norm(jet.sv) * range.y();
+    const std::array tests{Test{{"Su", jet.su, 0}, along_u, range.x(), extent},
+                           Test{{"Sv", jet.sv, 0}, along_v, range.y(), extent}};
     return first_contradiction(tests, where, "surf1", 3);
   }
   const auto size = [](Line& line, double r, std::size_t slot) { return norm(line.at(coarse * r)[slot]); };
-  const std::array tests{Test{{"Suu", jet.suu, 0}, along_u, range.x, size(along_u, range.x, 0)},
-                         Test{{"Suv", jet.suv, 1}, along_u, range.x, size(along_u, range.x, 1)},
-                         Test{{"Svv", jet.svv, 1}, along_v, range.y, size(along_v, range.y, 1)}};
+  const std::array tests{Test{{"Suu", jet.suu, 0}, along_u, range.x(), size(along_u, range.x(), 0)},
+                         Test{{"Suv", jet.suv, 1}, along_u, range.x(), size(along_u, range.x(), 1)},
+                         Test{{"Svv", jet.svv, 1}, along_v, range.y(), size(along_v, range.y(), 1)}};
   return first_contradiction(tests, where, "surf2", 3);
 }
 
 std::optional<WrongDerivative> test_curve(Cad& cad, int face, int ic, double t, double range, int order) {
-  const auto lift = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  const auto lift = [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; };
   Line line([&](double d) {
     const CurveJet jet = cad.curve(face, ic, order == 1 ? want_position : want_first, t + d);
     return Line::Values{lift(order == 1 ? jet.c : jet.ct), {}};
@@ -160,12 +160,12 @@ std::vector<WrongDerivative> find_wrong_surface_derivatives(Cad& cad, int face, 
   std::vector<WrongDerivative> wrong;
   const Vec2 range = high - low;
   const auto moved = [&](Vec2 p, Vec2 share) {
-    return Vec2{inside(p.x, share.x * range.x, low.x, high.x), inside(p.y, share.y * range.y, low.y, high.y)};
+    return Vec2{inside(p.x(), share.x() * range.x(), low.x(), high.x()), inside(p.y(), share.y() * range.y(), low.y(), high.y())};
   };
   for (const int order : {1, 2}) {
     const unsigned bit = order == 1 ? want_first : want_second;
     if ((cad.surface_gives() & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
-    for (const Vec2 given : uv) {
+    for (const Vec2& given : uv) {
       const Vec2 p = moved(given, {}), other = moved(p, nearby);
       const auto test = [&](Vec2 at) {
         return where_defined([&] { return test_surface(cad, face, at, range, order); });
@@ -187,7 +187,7 @@ std::vector<WrongDerivative> find_wrong_curve_derivatives(Cad& cad, int face, in
     const unsigned bit = order == 1 ? want_first : want_second;
     if ((cad.curve_gives() & bit) == 0 || (order == 2 && (!second || !wrong.empty()))) continue;
     for (const double given : t) {
-      const double p = inside(given, 0, range.a, range.b), other = inside(p, nearby.x * width, range.a, range.b);
+      const double p = inside(given, 0, range.a, range.b), other = inside(p, nearby.x() * width, range.a, range.b);
       const auto test = [&](double at) {
         return where_defined([&] { return test_curve(cad, face, ic, at, width, order); });
       };

@@ -22,13 +22,13 @@ constexpr std::size_t chunk = 512;
 void append_points(bool second_from_position, Vec2 uv, DifferenceStep u, DifferenceStep v, std::vector<Vec2>& points) {
   const int order = second_from_position ? 2 : 1;
   const Stencil along_u = stencil_of(order, u.side), along_v = stencil_of(order, v.side);
-  for (int i = 0; i < along_u.count; ++i) points.push_back({uv.x + along_u.offset[i] * u.step, uv.y});
-  for (int i = 0; i < along_v.count; ++i) points.push_back({uv.x, uv.y + along_v.offset[i] * v.step});
+  for (int i = 0; i < along_u.count; ++i) points.push_back({uv.x() + along_u.offset[i] * u.step, uv.y()});
+  for (int i = 0; i < along_v.count; ++i) points.push_back({uv.x(), uv.y() + along_v.offset[i] * v.step});
   if (!second_from_position) return;
   const Stencil mixed_u = stencil_of(1, u.side), mixed_v = stencil_of(1, v.side);
   for (int i = 0; i < mixed_u.count; ++i)
     for (int j = 0; j < mixed_v.count; ++j)
-      points.push_back({uv.x + mixed_u.offset[i] * u.step, uv.y + mixed_v.offset[j] * v.step});
+      points.push_back({uv.x() + mixed_u.offset[i] * u.step, uv.y() + mixed_v.offset[j] * v.step});
 }
 
 // Consumes the values of one (u, v) and returns their number.
@@ -67,8 +67,8 @@ std::size_t combine(unsigned missing, unsigned from, DifferenceStep u, Differenc
 }
 
 bool is_finite(const SurfaceJet& jet, unsigned bit) {
-  return bit == want_first ? is_finite(jet.su) && is_finite(jet.sv)
-                           : is_finite(jet.suu) && is_finite(jet.suv) && is_finite(jet.svv);
+  return bit == want_first ? carreau::is_finite(jet.su) && carreau::is_finite(jet.sv)
+                           : carreau::is_finite(jet.suu) && carreau::is_finite(jet.suv) && carreau::is_finite(jet.svv);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ DifferenceCad::DifferenceCad(std::unique_ptr<Cad> source, unsigned surface_gives
     : source_(std::move(source)), surface_gives_(surface_gives), curve_gives_(curve_gives) {}
 
 void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
-  if (!(is_finite(low) && is_finite(high) && low.x < high.x && low.y < high.y))
+  if (!(is_finite(low) && is_finite(high) && low.x() < high.x() && low.y() < high.y()))
     throw InvalidArgument(Where{.face = face},
                           "a parameter box must have finite bounds, the low ones below the high ones");
   boxes_[face] = {low, high};
@@ -87,7 +87,7 @@ DifferenceCad::Box DifferenceCad::box_at(int face, Vec2 uv) const {
   const auto it = boxes_.find(face);
   if (it != boxes_.end()) return it->second;
   // Nothing is known: a box about the point, as wide as its parameters are large.
-  const Vec2 half = {std::max(1.0, std::abs(uv.x)) / 2, std::max(1.0, std::abs(uv.y)) / 2};
+  const Vec2 half = {std::max(1.0, std::abs(uv.x())) / 2, std::max(1.0, std::abs(uv.y())) / 2};
   return {uv - half, uv + half};
 }
 
@@ -109,10 +109,10 @@ void DifferenceCad::add_differences(int face, const Task& task, std::span<const 
   std::vector<Vec2> points;
   std::vector<std::pair<DifferenceStep, DifferenceStep>> steps;
   steps.reserve(uv.size());
-  for (const Vec2 p : uv) {
+  for (const Vec2& p : uv) {
     const Box box = box_at(face, p);
-    steps.emplace_back(difference_step(p.x, box.low.x, box.high.x, task.relative),
-                       difference_step(p.y, box.low.y, box.high.y, task.relative));
+    steps.emplace_back(difference_step(p.x(), box.low.x(), box.high.x(), task.relative),
+                       difference_step(p.y(), box.low.y(), box.high.y(), task.relative));
     append_points(second_from_position, p, steps.back().first, steps.back().second, points);
   }
   std::vector<SurfaceJet> values(points.size());
@@ -146,8 +146,8 @@ bool DifferenceCad::add_differences_at(int face, const Task& task, Vec2 uv, Diff
 // The host's domain ends near the point in a way that its box does not tell: every pair of sides that the box allows.
 void DifferenceCad::add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out) {
   const Box box = box_at(face, uv);
-  DifferenceStep u = difference_step(uv.x, box.low.x, box.high.x, task.relative),
-                 v = difference_step(uv.y, box.low.y, box.high.y, task.relative);
+  DifferenceStep u = difference_step(uv.x(), box.low.x(), box.high.x(), task.relative),
+                 v = difference_step(uv.y(), box.low.y(), box.high.y(), task.relative);
   const auto sides = [](Side side) {
     return side == Side::central ? std::vector{Side::central, Side::forward, Side::backward} : std::vector{side};
   };

@@ -80,8 +80,8 @@ std::optional<PrincipalFrame> principal_frame(const SurfaceJet& jet) noexcept {
 }
 
 double normal_curvature(const FirstForm& first, const SecondForm& second, Vec2 x) noexcept {
-  return (second.l * x.x * x.x + 2 * second.m * x.x * x.y + second.n * x.y * x.y) /
-         (first.e * x.x * x.x + 2 * first.f * x.x * x.y + first.g * x.y * x.y);
+  return (second.l * x.x() * x.x() + 2 * second.m * x.x() * x.y() + second.n * x.y() * x.y()) /
+         (first.e * x.x() * x.x() + 2 * first.f * x.x() * x.y() + first.g * x.y() * x.y());
 }
 
 }  // namespace carreau

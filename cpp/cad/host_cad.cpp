@@ -19,10 +19,10 @@ constexpr std::size_t batch_size = 4096;
 
 /// What a routine does not write must not pass for a value.
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Vec3 nan3{nan, nan, nan};
+const Vec3 nan3{nan, nan, nan};
 
-bool is_unset(Vec2 v) { return std::isnan(v.x) && std::isnan(v.y); }
-bool is_unset(Vec3 v) { return std::isnan(v.x) && std::isnan(v.y) && std::isnan(v.z); }
+bool is_unset(Vec2 v) { return std::isnan(v.x()) && std::isnan(v.y()); }
+bool is_unset(Vec3 v) { return std::isnan(v.x()) && std::isnan(v.y()) && std::isnan(v.z()); }
 
 std::optional<double> answer_of(double value) {
   return value == no_answer ? std::nullopt : std::optional<double>(value);
@@ -43,10 +43,10 @@ class CadMHost : public Cad {
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
     for (std::size_t i = 0; i < uv.size(); ++i) {
       SurfaceJet jet{nan3, nan3, nan3, nan3, nan3, nan3};
-      const double p[2] = {uv[i].x, uv[i].y};
-      if ((want & want_position) != 0) table_.surf0(&face, p, &jet.s.x);
-      if ((want & want_first) != 0) table_.surf1(&face, p, &jet.su.x, &jet.sv.x);
-      if ((want & want_second) != 0) table_.surf2(&face, p, &jet.suu.x, &jet.suv.x, &jet.svv.x);
+      const double p[2] = {uv[i].x(), uv[i].y()};
+      if ((want & want_position) != 0) table_.surf0(&face, p, &jet.s.x());
+      if ((want & want_first) != 0) table_.surf1(&face, p, &jet.su.x(), &jet.sv.x());
+      if ((want & want_second) != 0) table_.surf2(&face, p, &jet.suu.x(), &jet.suv.x(), &jet.svv.x());
       merge(jet, want, out[i]);
     }
     counter_.add_surface(want, uv.size());
@@ -58,9 +58,9 @@ class CadMHost : public Cad {
   }
   CurveJet curve(int face, int ic, unsigned want, double t) override {
     CurveJet jet{{nan, nan}, {nan, nan}, {nan, nan}};
-    if ((want & want_position) != 0) table_.curv0(&face, &ic, &t, &jet.c.x);
-    if ((want & want_first) != 0) table_.curv1(&face, &ic, &t, &jet.ct.x);
-    if ((want & want_second) != 0) table_.curv2(&face, &ic, &t, &jet.ctt.x);
+    if ((want & want_position) != 0) table_.curv0(&face, &ic, &t, &jet.c.x());
+    if ((want & want_first) != 0) table_.curv1(&face, &ic, &t, &jet.ct.x());
+    if ((want & want_second) != 0) table_.curv2(&face, &ic, &t, &jet.ctt.x());
     counter_.add_curve(want);
     return jet;
   }
@@ -86,7 +86,7 @@ class CadMHost : public Cad {
     if (routine == nullptr) return {};
     counter_.add_size();
     double value = no_answer;
-    const double p[2] = {uv.x, uv.y};
+    const double p[2] = {uv.x(), uv.y()};
     routine(&face, p, &value);
     return answer_of(value);
   }
@@ -117,8 +117,8 @@ class CHost : public Cad {
     }
     for (std::size_t i = 0; i < uv.size(); ++i) {
       SurfaceJet jet{nan3, nan3, nan3, nan3, nan3, nan3};
-      check_status(table_.surface(face, uv[i].x, uv[i].y, order_of(want), &jet.s.x, &jet.su.x, &jet.sv.x, &jet.suu.x,
-                                  &jet.suv.x, &jet.svv.x, table_.user),
+      check_status(table_.surface(face, uv[i].x(), uv[i].y(), order_of(want), &jet.s.x(), &jet.su.x(), &jet.sv.x(), &jet.suu.x(),
+                                  &jet.suv.x(), &jet.svv.x(), table_.user),
                    {.face = face, .uv = uv[i]}, "surface");
       check_written(jet, want, {.face = face, .uv = uv[i]}, "surface");
       merge(jet, want, out[i]);
@@ -133,7 +133,7 @@ class CHost : public Cad {
   CurveJet curve(int face, int ic, unsigned want, double t) override {
     counter_.add_curve(want);
     CurveJet jet{{nan, nan}, {nan, nan}, {nan, nan}};
-    check_status(table_.curve(face, ic, t, order_of(want), &jet.c.x, &jet.ct.x, &jet.ctt.x, table_.user),
+    check_status(table_.curve(face, ic, t, order_of(want), &jet.c.x(), &jet.ct.x(), &jet.ctt.x(), table_.user),
                  {.face = face, .curve_index = ic, .t = t}, "curve");
     if (!is_unset(jet.c)) {
       const Where where{.face = face, .curve_index = ic, .t = t};
@@ -174,7 +174,7 @@ class CHost : public Cad {
     const std::int32_t order = order_of(want);
     const std::size_t arrays = order == 0 ? 1 : order == 1 ? 3 : 6;
     std::vector<double> points(2 * n), values(3 * n * arrays, nan);
-    for (std::size_t i = 0; i < n; ++i) points[2 * i] = uv[i].x, points[2 * i + 1] = uv[i].y;
+    for (std::size_t i = 0; i < n; ++i) points[2 * i] = uv[i].x(), points[2 * i + 1] = uv[i].y();
     const auto array = [&](std::size_t k) { return k < arrays ? values.data() + 3 * n * k : nullptr; };
     const std::int32_t status = table_.surface_batch(face, static_cast<std::int64_t>(n), points.data(), order, array(0),
                                                      array(1), array(2), array(3), array(4), array(5), table_.user);
@@ -225,7 +225,7 @@ class CHost : public Cad {
     if (callback == nullptr) return {};
     counter_.add_size();
     double value = no_answer;
-    const std::int32_t status = callback(face, uv.x, uv.y, &value, table_.user);
+    const std::int32_t status = callback(face, uv.x(), uv.y(), &value, table_.user);
     return answer(status, value, {.face = face, .uv = uv}, name);
   }
   std::optional<double> on_curve(decltype(HostTable::curve_size) callback, int face, int ic, double t,

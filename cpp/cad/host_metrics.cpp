@@ -29,8 +29,8 @@ Prescription tangent_metric(const double* value, const Where& where, const std::
                                    ", which must be positive");
   }
   if (!is_finite(direction) || !(norm(direction) > 0)) {
-    throw CallbackError(where, callback + " returned the direction (" + format_number(direction.x) + ", " +
-                                   format_number(direction.y) + ", " + format_number(direction.z) +
+    throw CallbackError(where, callback + " returned the direction (" + format_number(direction.x()) + ", " +
+                                   format_number(direction.y()) + ", " + format_number(direction.z()) +
                                    "), which must be finite and not zero");
   }
   return Prescription::of_space(metric_of_sizes(direction, h1, h2));
@@ -61,7 +61,7 @@ Prescription HostMetrics::on_surface(int face, Vec2 uv, Vec3 /*xyz*/) {
   Answer a;
   const Where where{.face = face, .uv = uv};
   const std::int32_t status = ask_host(
-      where, "surface_metric", [&] { return table_.surface_metric(face, uv.x, uv.y, &a.kind, a.value, table_.user); });
+      where, "surface_metric", [&] { return table_.surface_metric(face, uv.x(), uv.y(), &a.kind, a.value, table_.user); });
   return prescription_of(status, a, where, "surface_metric");
 }
 

@@ -55,7 +55,7 @@ class ReparametrisedCad final : public Cad {
  private:
   [[nodiscard]] Vec2 host_uv(int face, Vec2 xy) const noexcept { return face == face_ ? map_.to_host(xy) : xy; }
   void differentiate(Vec2 xy, SurfaceJet& jet) const noexcept {
-    const MonotoneMap::Jet u = map_.u.jet(xy.x), v = map_.v.jet(xy.y);
+    const MonotoneMap::Jet u = map_.u.jet(xy.x()), v = map_.v.jet(xy.y());
     jet.suu = (u.first * u.first) * jet.suu + u.second * jet.su;
     jet.suv = (u.first * v.first) * jet.suv;
     jet.svv = (v.first * v.first) * jet.svv + v.second * jet.sv;

@@ -100,8 +100,8 @@ BorderSamples::BorderSamples(const Lattice& lattice)
       in_cell_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
 
 void BorderSamples::add(Vec2 position, Metric2 root) {
-  const int i = std::clamp(static_cast<int>(position.x / lattice_.step()), 0, columns_ - 1);
-  const int j = std::clamp(static_cast<int>(position.y / lattice_.step()), 0, rows_ - 1);
+  const int i = std::clamp(static_cast<int>(position.x() / lattice_.step()), 0, columns_ - 1);
+  const int j = std::clamp(static_cast<int>(position.y() / lattice_.step()), 0, rows_ - 1);
   in_cell_[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(samples_.size()));
   samples_.push_back({position, root});
 }
@@ -121,19 +121,19 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
   const auto cells = [&](double x, int count) {
     return std::clamp(static_cast<int>(std::floor(x / lattice_.step())), 0, count - 1);
   };
-  const int i0 = cells(centre.x - reach, columns_), i1 = cells(centre.x + reach, columns_);
-  const int j0 = cells(centre.y - reach, rows_), j1 = cells(centre.y + reach, rows_);
+  const int i0 = cells(centre.x() - reach, columns_), i1 = cells(centre.x() + reach, columns_);
+  const int j0 = cells(centre.y() - reach, rows_), j1 = cells(centre.y() + reach, rows_);
   for (int j = j0; j <= j1; ++j)
     for (int i = i0; i <= i1; ++i)
       for (const std::int32_t k : in_cell_[static_cast<std::size_t>(j * columns_ + i)]) {
         const Vec2 d = samples_[k].position - centre;
-        if (std::max(std::abs(d.x), std::abs(d.y)) <= reach) found.push_back(samples_[k]);
+        if (std::max(std::abs(d.x()), std::abs(d.y())) <= reach) found.push_back(samples_[k]);
       }
   // Far nodes of the finer of both grids would add little but time.
   const double near = near_share * reach;
   const auto is_left_out = [&](std::int32_t i, std::int32_t j) {
     const bool fine = ((i | j) & spacing) != 0;
-    return fine && (std::abs(i - centre.x) > near || std::abs(j - centre.y) > near);
+    return fine && (std::abs(i - centre.x()) > near || std::abs(j - centre.y()) > near);
   };
   const auto lowest = [&](double x) { return static_cast<std::int32_t>(std::ceil(std::max(x - reach, 0.))); };
   const auto highest = [&](double x, std::int32_t end) {
@@ -141,8 +141,8 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
   };
   if (lattice_.samples().size() <= few_nodes) {
     if (nodes_.size() < lattice_.samples().size()) sort_nodes();
-    const std::int32_t left = lowest(centre.x), right = highest(centre.x, lattice_.end().i);
-    const std::int32_t bottom = lowest(centre.y), top = highest(centre.y, lattice_.end().j);
+    const std::int32_t left = lowest(centre.x()), right = highest(centre.x(), lattice_.end().i);
+    const std::int32_t bottom = lowest(centre.y()), top = highest(centre.y(), lattice_.end().j);
     auto n = std::lower_bound(nodes_.begin(), nodes_.end(), bottom,
                               [](const NodeAt& at, std::int32_t j) { return at.p.j < j; });
     for (; n != nodes_.end() && n->p.j <= top; ++n) {
@@ -155,10 +155,10 @@ void BorderSamples::collect(Vec2 centre, double reach, std::int32_t spacing, std
   const auto first = [&](double x) {
     return std::max(0, static_cast<std::int32_t>(std::ceil((x - reach) / spacing)) * spacing);
   };
-  const double right = std::min<double>(centre.x + reach, lattice_.end().i);
-  const double top = std::min<double>(centre.y + reach, lattice_.end().j);
-  for (std::int32_t j = first(centre.y); j <= top; j += spacing)
-    for (std::int32_t i = first(centre.x); i <= right; i += spacing) {
+  const double right = std::min<double>(centre.x() + reach, lattice_.end().i);
+  const double top = std::min<double>(centre.y() + reach, lattice_.end().j);
+  for (std::int32_t j = first(centre.y()); j <= top; j += spacing)
+    for (std::int32_t i = first(centre.x()); i <= right; i += spacing) {
       if (is_left_out(i, j)) continue;
       if (const Metric2* root = lattice_.sample({i, j}))
         found.push_back({{static_cast<double>(i), static_cast<double>(j)}, *root});
@@ -185,7 +185,7 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
   for (const Sample& s : near) {
     const Vec2 d = (1 / scale) * (s.position - position);
     const double q = softness + dot(d, d);
-    equations.add(d.x, d.y, 1 / (q * q), s.root);
+    equations.add(d.x(), d.y(), 1 / (q * q), s.root);
   }
   return clamped_to(near, equations.value_at_origin());
 }

@@ -40,8 +40,8 @@ MetricSlopes ControlSpace::slopes_in(const Leaf& leaf, double s, double t) const
     return Metric2{unit_.a * (p[0] * q[0] + p[1] * q[1]), 0.5 * unit_.b * (p[1] * (q[0] + q[2]) + q[1] * (p[0] + p[2])),
                    unit_.c * (p[1] * q[1] + p[2] * q[2])};
   };
-  return {product(root, root), 2 * leaf.scale * scale_.x * product(root, by_s),
-          2 * leaf.scale * scale_.y * product(root, by_t)};
+  return {product(root, root), 2 * leaf.scale * scale_.x() * product(root, by_s),
+          2 * leaf.scale * scale_.y() * product(root, by_t)};
 }
 
 MetricSlopes ControlSpace::slopes_at(Vec2 uv) const noexcept {

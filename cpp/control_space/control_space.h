@@ -112,7 +112,7 @@ class ControlSpace {
     double s, t;
   };
   [[nodiscard]] Place place(Vec2 uv) const noexcept {
-    const double x = within((uv.x - low_.x) * scale_.x, last_.x), y = within((uv.y - low_.y) * scale_.y, last_.y);
+    const double x = within((uv.x() - low_.x()) * scale_.x(), last_.x()), y = within((uv.y() - low_.y()) * scale_.y(), last_.y());
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     std::int32_t cell = table_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)];
     if (cell < 0) cell = descend(cell, x - i, y - j);

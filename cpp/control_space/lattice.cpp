@@ -35,15 +35,15 @@ bool plausible(Metric2 root, Metric2 p, Metric2 q) noexcept {
 Lattice::Lattice(Vec2 low, Vec2 high, int columns, int rows, std::int32_t step, const PolygonLocator& domain)
     : low_(low),
       high_(high),
-      cell_{(high.x - low.x) / columns, (high.y - low.y) / rows},
+      cell_{(high.x() - low.x()) / columns, (high.y() - low.y()) / rows},
       step_(step),
       end_{columns * step, rows * step},
       domain_(domain) {}
 
 Vec2 Lattice::parameters(GridPoint p) const noexcept {
   const double x = static_cast<double>(p.i) / end_.i, y = static_cast<double>(p.j) / end_.j;
-  return {p.i == end_.i ? high_.x : low_.x + x * (high_.x - low_.x),
-          p.j == end_.j ? high_.y : low_.y + y * (high_.y - low_.y)};
+  return {p.i == end_.i ? high_.x() : low_.x() + x * (high_.x() - low_.x()),
+          p.j == end_.j ? high_.y() : low_.y() + y * (high_.y() - low_.y())};
 }
 
 // Of a node on a side of the box: off it by what points interpolated along a side may be.
@@ -54,7 +54,7 @@ Vec2 Lattice::inward(GridPoint p) const noexcept {
     const double by = rounding * std::max(std::abs(low), std::abs(high));
     return i == 0 ? x + by : i == end ? x - by : x;
   };
-  return {off(at.x, low_.x, high_.x, p.i, end_.i), off(at.y, low_.y, high_.y, p.j, end_.j)};
+  return {off(at.x(), low_.x(), high_.x(), p.i, end_.i), off(at.y(), low_.y(), high_.y(), p.j, end_.j)};
 }
 
 // Sides of the box go through the outermost vertices: the others of a straight side may be off it by rounding.

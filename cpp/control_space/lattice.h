@@ -96,7 +96,7 @@ class Lattice {
   }
   /// Position in units of the finest grid, not rounded.
   [[nodiscard]] Vec2 position(Vec2 uv) const noexcept {
-    return {(uv.x - low_.x) / cell_.x * step_, (uv.y - low_.y) / cell_.y * step_};
+    return {(uv.x() - low_.x()) / cell_.x() * step_, (uv.y() - low_.y()) / cell_.y() * step_};
   }
   /// The lower corner of the cell of the finest grid that holds a point; of the nearest one for points outside the box.
   [[nodiscard]] GridPoint unit_cell(Vec2 uv) const noexcept {
@@ -104,7 +104,7 @@ class Lattice {
     const auto within = [](double x, std::int32_t end) {
       return x > 0 ? std::min(static_cast<std::int32_t>(std::min<double>(x, end)), end - 1) : 0;
     };
-    return {within(p.x, end_.i), within(p.y, end_.j)};
+    return {within(p.x(), end_.i), within(p.y(), end_.j)};
   }
   [[nodiscard]] bool contains(GridPoint p) const noexcept {
     return p.i >= 0 && p.j >= 0 && p.i <= end_.i && p.j <= end_.j;

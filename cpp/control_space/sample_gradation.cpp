@@ -79,16 +79,16 @@ class Bounding {
     const Metric2 g = (1. / 3) * (a.form + b.form + c.form);
     const double root = std::sqrt(std::max(g.a, 0.)), mixed = root > 0 ? g.b / root : 0;
     const double height = std::sqrt(std::max(g.c - mixed * mixed, 0.));
-    const auto place = [&](Vec2 d) { return Vec3{root * d.x + mixed * d.y, height * d.y, 0}; };
+    const auto place = [&](Vec2 d) { return Vec3{root * d.x() + mixed * d.y(), height * d.y(), 0}; };
     return {Vec3{}, place(b.uv - a.uv), place(c.uv - a.uv)};
   }
 
   [[nodiscard]] bool too_steep(const std::array<std::int32_t, 3>& t) const noexcept {
     const std::array<Vec3, 3> p = unrolled(t);
-    const double area = p[1].x * p[2].y - p[1].y * p[2].x;
+    const double area = p[1].x() * p[2].y() - p[1].y() * p[2].x();
     const double b = h_[t[1]] - h_[t[0]], c = h_[t[2]] - h_[t[0]];
     // area times the gradient
-    const double x = b * p[2].y - c * p[1].y, y = c * p[1].x - b * p[2].x;
+    const double x = b * p[2].y() - c * p[1].y(), y = c * p[1].x() - b * p[2].x();
     return !(x * x + y * y <= slope_ * slope_ * area * area);
   }
 
@@ -163,7 +163,7 @@ struct DirectedSample {
   }
   /// Size along an offset of parameters.
   [[nodiscard]] double along(Vec2 e) const noexcept {
-    const Vec3 w = e.x * tangents.su + e.y * tangents.sv;
+    const Vec3 w = e.x() * tangents.su + e.y() * tangents.sv;
     return sizes.along((1 / norm(w)) * w);
   }
 };

@@ -32,7 +32,7 @@ class SampledNormals::Fit {
         y_(std::sqrt(std::max(m.c - m.b * m.b / m.a, 0.0)) / reach) {}
 
   void add(Vec2 d, Vec3 normal) noexcept {
-    const double x = x_ * d.x + skew_ * d.y, y = y_ * d.y, r2 = x * x + y * y;
+    const double x = x_ * d.x() + skew_ * d.y(), y = y_ * d.y(), r2 = x * x + y * y;
     if (!(r2 < 1)) return;
     ++count_;
     const double w = (1 - r2) * (1 - r2) / (r2 * r2 + nearest);
@@ -91,13 +91,13 @@ void SampledNormals::index(const ControlSpace& space) {
   side_ = std::max(1, static_cast<int>(std::sqrt(n / samples_per_bucket)));
   Vec2 high = low_ = samples_.front().uv;
   for (const Sample& s : samples_) {
-    low_ = {std::min(low_.x, s.uv.x), std::min(low_.y, s.uv.y)};
-    high = {std::max(high.x, s.uv.x), std::max(high.y, s.uv.y)};
+    low_ = {std::min(low_.x(), s.uv.x()), std::min(low_.y(), s.uv.y())};
+    high = {std::max(high.x(), s.uv.x()), std::max(high.y(), s.uv.y())};
   }
-  scale_ = {side_ / std::max(high.x - low_.x, std::numeric_limits<double>::min()),
-            side_ / std::max(high.y - low_.y, std::numeric_limits<double>::min())};
+  scale_ = {side_ / std::max(high.x() - low_.x(), std::numeric_limits<double>::min()),
+            side_ / std::max(high.y() - low_.y(), std::numeric_limits<double>::min())};
   first_.assign(static_cast<std::size_t>(side_) * side_ + 1, 0);
-  const auto bucket = [this](Vec2 uv) { return static_cast<std::size_t>(row(uv.y)) * side_ + column(uv.x); };
+  const auto bucket = [this](Vec2 uv) { return static_cast<std::size_t>(row(uv.y())) * side_ + column(uv.x()); };
   for (const Sample& s : samples_) ++first_[bucket(s.uv) + 1];
   for (std::size_t k = 1; k < first_.size(); ++k) first_[k] += first_[k - 1];
   std::stable_sort(samples_.begin(), samples_.end(),
@@ -105,19 +105,19 @@ void SampledNormals::index(const ControlSpace& space) {
 }
 
 int SampledNormals::column(double u) const noexcept {
-  return static_cast<int>(std::clamp((u - low_.x) * scale_.x, 0.0, side_ - 1.0));
+  return static_cast<int>(std::clamp((u - low_.x()) * scale_.x(), 0.0, side_ - 1.0));
 }
 
 int SampledNormals::row(double v) const noexcept {
-  return static_cast<int>(std::clamp((v - low_.y) * scale_.y, 0.0, side_ - 1.0));
+  return static_cast<int>(std::clamp((v - low_.y()) * scale_.y(), 0.0, side_ - 1.0));
 }
 
 void SampledNormals::gather(Vec2 uv, Metric2 m, double reach, Fit& fit) const noexcept {
   // The box of the ellipse.
   const double det = std::max(determinant(m), std::numeric_limits<double>::min());
   const double du = reach * std::sqrt(m.c / det), dv = reach * std::sqrt(m.a / det);
-  const int left = column(uv.x - du), right = column(uv.x + du), top = row(uv.y + dv);
-  for (int j = row(uv.y - dv); j <= top; ++j) {
+  const int left = column(uv.x() - du), right = column(uv.x() + du), top = row(uv.y() + dv);
+  for (int j = row(uv.y() - dv); j <= top; ++j) {
     const std::size_t start = static_cast<std::size_t>(j) * side_;
     for (std::int32_t k = first_[start + left]; k < first_[start + right + 1]; ++k)
       fit.add(samples_[k].uv - uv, samples_[k].normal);

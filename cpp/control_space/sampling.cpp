@@ -80,7 +80,7 @@ void ControlSpaceSampling::run() {
   for (std::size_t k = 0; k < s.vertices.size(); ++k) {
     border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of_boxed(s.metrics[k]));
     const Metric2 m = s.metrics[k];
-    keep_border(s.vertices[k], {m.a / (box_.x * box_.x), m.b / (box_.x * box_.y), m.c / (box_.y * box_.y)}, k);
+    keep_border(s.vertices[k], {m.a / (box_.x() * box_.x()), m.b / (box_.x() * box_.y()), m.c / (box_.y() * box_.y())}, k);
     vertex_sampled_[s.vertices[k]] = 1;
   }
   sample_roots();
@@ -103,7 +103,7 @@ void ControlSpaceSampling::settle(std::vector<std::int32_t> active) {
 // A suspect counts by its own metric too: all that the leaf knows may lie around what it hides.
 void ControlSpaceSampling::look_at_suspects() {
   std::vector<Vec2> uv;
-  for (const Vec2 p : options_.suspects)
+  for (const Vec2& p : options_.suspects)
     if (locator_.contains(p)) uv.push_back(p);
   if (samples_left() < static_cast<double>(uv.size())) return;
   std::vector<Metric2> roots = ask(uv);

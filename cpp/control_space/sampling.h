@@ -71,7 +71,7 @@ class ControlSpaceSampling {
   [[nodiscard]] Metric2 root_of_form(Metric2 form) const noexcept;
   [[nodiscard]] Metric2 root_in_cells(Metric2 boxed) const noexcept;
   [[nodiscard]] Metric2 boxed(Metric2 m) const noexcept {
-    return {m.a * box_.x * box_.x, m.b * box_.x * box_.y, m.c * box_.y * box_.y};
+    return {m.a * box_.x() * box_.x(), m.b * box_.x() * box_.y(), m.c * box_.y() * box_.y()};
   }
   [[nodiscard]] static bool is_much_stretched(Metric2 root) noexcept;
   void sample_roots();

@@ -29,12 +29,12 @@ void find_box(const SampledDomain& domain, Survey& s) {
   if (domain.edges.empty()) throw DomainError("the parameter domain has no boundary");
   s.low = s.high = domain.vertices[domain.edges[0].first];
   for (const auto& [a, b] : domain.edges)
-    for (const Vec2 p : {domain.vertices[a], domain.vertices[b]}) {
-      s.low = {std::min(s.low.x, p.x), std::min(s.low.y, p.y)};
-      s.high = {std::max(s.high.x, p.x), std::max(s.high.y, p.y)};
+    for (const Vec2& p : {domain.vertices[a], domain.vertices[b]}) {
+      s.low = {std::min(s.low.x(), p.x()), std::min(s.low.y(), p.y())};
+      s.high = {std::max(s.high.x(), p.x()), std::max(s.high.y(), p.y())};
     }
   const Vec2 w = s.high - s.low;
-  if (!(w.x > 0) || !(w.y > 0)) throw DomainError("the parameter domain has no area");
+  if (!(w.x() > 0) || !(w.y() > 0)) throw DomainError("the parameter domain has no area");
 }
 
 // The points of the box's regular n x n grid of cell centres that are inside.
@@ -42,7 +42,7 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
   std::vector<Vec2> points;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      const Vec2 p{s.low.x + (i + 0.5) / n * (s.high.x - s.low.x), s.low.y + (j + 0.5) / n * (s.high.y - s.low.y)};
+      const Vec2 p{s.low.x() + (i + 0.5) / n * (s.high.x() - s.low.x()), s.low.y() + (j + 0.5) / n * (s.high.y() - s.low.y())};
       if (locator.contains(p)) points.push_back(p);
     }
   return points;
@@ -58,26 +58,26 @@ int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLoca
   std::vector<char> doubtful(static_cast<std::size_t>(n), 0);
   for (const auto& [a, b] : domain.edges) {
     Vec2 p = domain.vertices[a], q = domain.vertices[b];
-    if (p.y > q.y) std::swap(p, q);
-    const int first = std::max(0, static_cast<int>((p.y - s.low.y) / w.y * n) - 1);
+    if (p.y() > q.y()) std::swap(p, q);
+    const int first = std::max(0, static_cast<int>((p.y() - s.low.y()) / w.y() * n) - 1);
     for (int j = first; j < n; ++j) {
-      const double y = at(j, s.low.y, w.y);
-      if (y < p.y - near * w.y) continue;
-      if (y > q.y + near * w.y) break;
-      if (y < p.y + near * w.y || y > q.y - near * w.y)
+      const double y = at(j, s.low.y(), w.y());
+      if (y < p.y() - near * w.y()) continue;
+      if (y > q.y() + near * w.y()) break;
+      if (y < p.y() + near * w.y() || y > q.y() - near * w.y())
         doubtful[static_cast<std::size_t>(j)] = 1;
       else
-        crossings[static_cast<std::size_t>(j)].push_back(p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x));
+        crossings[static_cast<std::size_t>(j)].push_back(p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
     }
   }
   int count = 0;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      const double x = at(i, s.low.x, w.x), y = at(j, s.low.y, w.y);
+      const double x = at(i, s.low.x(), w.x()), y = at(j, s.low.y(), w.y());
       bool inside = false, close = doubtful[static_cast<std::size_t>(j)] != 0;
       for (const double crossing : crossings[static_cast<std::size_t>(j)]) {
         if (crossing < x) inside = !inside;
-        close = close || std::abs(crossing - x) < near * w.x;
+        close = close || std::abs(crossing - x) < near * w.x();
       }
       if (close) inside = locator.contains({x, y});
       count += inside ? 1 : 0;
@@ -95,7 +95,7 @@ double floor_from(std::vector<double> shortest, double longest) {
   return length * length;
 }
 
-Metric2 in_box(Metric2 m, Vec2 w) { return {m.a * w.x * w.x, m.b * w.x * w.y, m.c * w.y * w.y}; }
+Metric2 in_box(Metric2 m, Vec2 w) { return {m.a * w.x() * w.x(), m.b * w.x() * w.y(), m.c * w.y() * w.y()}; }
 
 // Relative change between two metrics; the eigenvalues must not be too small.
 double change(Metric2 p, Metric2 q, double floor) {

@@ -27,9 +27,9 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
   for (std::size_t e = 0; e < domain.edges.size(); ++e) {
     const Vec2 p = lattice.position(domain.vertices[domain.edges[e].first]);
     const Vec2 q = lattice.position(domain.vertices[domain.edges[e].second]);
-    const int i0 = cell_of(std::min(p.x, q.x), columns_, -widening),
-              i1 = cell_of(std::max(p.x, q.x), columns_, widening);
-    const int j0 = cell_of(std::min(p.y, q.y), rows_, -widening), j1 = cell_of(std::max(p.y, q.y), rows_, widening);
+    const int i0 = cell_of(std::min(p.x(), q.x()), columns_, -widening),
+              i1 = cell_of(std::max(p.x(), q.x()), columns_, widening);
+    const int j0 = cell_of(std::min(p.y(), q.y()), rows_, -widening), j1 = cell_of(std::max(p.y(), q.y()), rows_, widening);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i)
         candidates[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(e));
@@ -53,8 +53,8 @@ bool Tree::meets(const TreeCell& cell, std::int32_t edge) const noexcept {
   const double half = 0.5 * cell.size * (1 + widening);
   const Vec2 centre{cell.i + 0.5 * cell.size, cell.j + 0.5 * cell.size};
   const Vec2 middle = 0.5 * (p + q) - centre, d = 0.5 * (q - p);
-  const double x = std::abs(d.x), y = std::abs(d.y);
-  return std::abs(middle.x) <= half + x && std::abs(middle.y) <= half + y &&
+  const double x = std::abs(d.x()), y = std::abs(d.y());
+  return std::abs(middle.x()) <= half + x && std::abs(middle.y()) <= half + y &&
          std::abs(cross(d, middle)) <= half * (x + y) * (1 + widening);
 }
 
@@ -176,7 +176,7 @@ void Tree::vertices_in(const TreeCell& cell, std::vector<int>& found) const {
   for (std::int32_t k = cell.edges_begin; k < cell.edges_end; ++k)
     for (const int v : {domain_.edges[edges_[k]].first, domain_.edges[edges_[k]].second}) {
       const Vec2 p = lattice_.position(domain_.vertices[v]);
-      if (p.x >= cell.i && p.x <= cell.i + cell.size && p.y >= cell.j && p.y <= cell.j + cell.size) found.push_back(v);
+      if (p.x() >= cell.i && p.x() <= cell.i + cell.size && p.y() >= cell.j && p.y() <= cell.j + cell.size) found.push_back(v);
     }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

@@ -73,7 +73,7 @@ class ControlSpace::DesertSearch {
   }
   Content visit(std::int32_t number) {
     const Leaf& leaf = space_.leaves_[static_cast<std::size_t>(number)];
-    const Vec2 centre = space_.low_ + Vec2{leaf.x / space_.scale_.x, leaf.y / space_.scale_.y};
+    const Vec2 centre = space_.low_ + Vec2{leaf.x / space_.scale_.x(), leaf.y / space_.scale_.y()};
     places_.push_back({accurate_determinant(space_.at(centre)), centre});
     return {space_.measures_[static_cast<std::size_t>(number)] / triangles_per_vertex,
             static_cast<double>(held_[static_cast<std::size_t>(number)]), false};
@@ -104,7 +104,7 @@ class ControlSpace::DesertSearch {
 
 std::vector<std::vector<Vec2>> ControlSpace::deserts(std::size_t count,
                                                      const std::function<Vec2(std::size_t)>& vertex) const {
-  if (!(scale_.x > 0) || !(scale_.y > 0)) return {};  // constant()
+  if (!(scale_.x() > 0) || !(scale_.y() > 0)) return {};  // constant()
   DesertSearch search(*this);
   for (std::size_t v = 0; v < count; ++v) search.count(vertex(v));
   return search.run();

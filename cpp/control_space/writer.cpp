@@ -235,8 +235,8 @@ double ControlSpaceWriter::measure_of(const TreeCell& cell, const Nine& v) const
     int inside = 0;
     for (int k = 0; k < share_points * share_points; ++k) {
       const double x = (k % share_points + 0.5) / share_points, y = (k / share_points + 0.5) / share_points;
-      const Vec2 p{lattice_.low().x + (cell.i + x * cell.size) / lattice_.step() * lattice_.cell().x,
-                   lattice_.low().y + (cell.j + y * cell.size) / lattice_.step() * lattice_.cell().y};
+      const Vec2 p{lattice_.low().x() + (cell.i + x * cell.size) / lattice_.step() * lattice_.cell().x(),
+                   lattice_.low().y() + (cell.j + y * cell.size) / lattice_.step() * lattice_.cell().y()};
       inside += sampling_.locator().contains(p) ? 1 : 0;
     }
     share = static_cast<double>(inside) / (share_points * share_points);
@@ -316,9 +316,9 @@ void ControlSpaceWriter::write() {
   space_.low_ = lattice_.low();
   const Vec2 unit = lattice_.cell();
   const double per_cell = static_cast<double>(lattice_.step()) / table_step_;
-  space_.scale_ = {per_cell / unit.x, per_cell / unit.y};
+  space_.scale_ = {per_cell / unit.x(), per_cell / unit.y()};
   space_.last_ = {std::nextafter(static_cast<double>(columns), 0.0), std::nextafter(static_cast<double>(rows), 0.0)};
-  space_.unit_ = {1 / (unit.x * unit.x), 1 / (unit.x * unit.y), 1 / (unit.y * unit.y)};
+  space_.unit_ = {1 / (unit.x() * unit.x()), 1 / (unit.x() * unit.y()), 1 / (unit.y() * unit.y())};
   space_.samples_ = sampling_.samples();
 }
 

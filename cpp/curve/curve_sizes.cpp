@@ -95,8 +95,8 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
     const std::vector<Vec2> places = rules.steep_places(use.face);
     if (places.empty() || !(support.length() > 0)) continue;
     double extent = 0;
-    for (const Vec2 p : support.uv) extent = std::max(extent, norm(p - support.uv.front()));
-    for (const Vec2 place : places) {
+    for (const Vec2& p : support.uv) extent = std::max(extent, norm(p - support.uv.front()));
+    for (const Vec2& place : places) {
       const double fraction = fraction_near(support, support.uv, place, beside_curve * extent);
       if (fraction >= 0) add(use.reversed ? 1 - fraction : fraction);
     }

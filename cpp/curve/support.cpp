@@ -187,8 +187,8 @@ class Builder {
     const std::size_t last = points.size() - 1;
     const double w = support_.t[i + 1] - support_.t[i];
     Excess left, right;
-    if (i > 0) left = excess_of(0.125 * w * w * bend_at(support_.t, points, i), chord, tolerance);
-    if (i + 1 < last) right = excess_of(0.125 * w * w * bend_at(support_.t, points, i + 1), chord, tolerance);
+    if (i > 0) left = excess_of<V>(0.125 * w * w * bend_at(support_.t, points, i), chord, tolerance);
+    if (i + 1 < last) right = excess_of<V>(0.125 * w * w * bend_at(support_.t, points, i + 1), chord, tolerance);
     Excess both = worse(left, right);
     // The two ends tell different stories: no smooth arc, and halving is all that can be trusted.
     if (i > 0 && i + 1 < last && 2 * std::min(left.ratio, right.ratio) < both.ratio) {

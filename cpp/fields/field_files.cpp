@@ -175,11 +175,11 @@ double diag_of_curves(const Model& model, Cad& cad, Monitor& monitor) {
     FieldSampler(face.ref, want_position, nullptr, cad, monitor).sample(uv, jets, ignored);
     for (const SurfaceJet& jet : jets) {
       if (!is_finite(jet.s)) continue;
-      low = {std::min(low.x, jet.s.x), std::min(low.y, jet.s.y), std::min(low.z, jet.s.z)};
-      high = {std::max(high.x, jet.s.x), std::max(high.y, jet.s.y), std::max(high.z, jet.s.z)};
+      low = {std::min(low.x(), jet.s.x()), std::min(low.y(), jet.s.y()), std::min(low.z(), jet.s.z())};
+      high = {std::max(high.x(), jet.s.x()), std::max(high.y(), jet.s.y()), std::max(high.z(), jet.s.z())};
     }
   }
-  return low.x <= high.x ? norm(high - low) : 0;
+  return low.x() <= high.x() ? norm(high - low) : 0;
 }
 
 std::vector<std::string> write_fields(const FieldRun& run, const std::string& path, const FieldOptions& options,

@@ -13,8 +13,8 @@ namespace carreau {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Vec3 nowhere{nan, nan, nan};
-constexpr SurfaceJet nothing{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
+const Vec3 nowhere{nan, nan, nan};
+const SurfaceJet nothing{nowhere, nowhere, nowhere, nowhere, nowhere, nowhere};
 // Points to evaluate at a time, as elsewhere.
 constexpr std::size_t batch = 1024;
 // A host that fails everywhere, by an exception at each point, would take seconds to say so: when it has failed at so
@@ -39,7 +39,7 @@ TangentSizes tangent_sizes(const SurfaceJet& jet, Metric2 metric) noexcept {
   sizes.h1 = 1 / std::sqrt(e.major), sizes.h2 = 1 / std::sqrt(e.minor);
   sizes.h = std::sqrt(sizes.h1) * std::sqrt(sizes.h2);
   if (sizes.h2 <= (1 + isotropic) * sizes.h1) return sizes;
-  sizes.angle = std::atan2(e.direction.y, e.direction.x) * 180 / std::numbers::pi;
+  sizes.angle = std::atan2(e.direction.y(), e.direction.x()) * 180 / std::numbers::pi;
   if (sizes.angle < 0) sizes.angle += 180;
   if (sizes.angle >= 180) sizes.angle -= 180;
   return sizes;

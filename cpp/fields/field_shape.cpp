@@ -15,11 +15,11 @@ constexpr int samples_of_curve = 257;
 void set_box(FieldShape& shape) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec2 low{far, far}, high{-far, -far};
-  for (const Vec2 p : shape.loops.vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  for (const Vec2& p : shape.loops.vertices) {
+    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
   }
-  if (low.x <= high.x) shape.low = low, shape.high = high;
+  if (low.x() <= high.x()) shape.low = low, shape.high = high;
 }
 
 // Appends a polyline and returns the ranks of its ends.
@@ -67,14 +67,14 @@ class LoopCloser {
   // Nearly all of them; the rest is few.
   void join_those_that_meet() {
     double extent = 0;
-    for (const Vec2 p : shape_.loops.vertices) extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+    for (const Vec2& p : shape_.loops.vertices) extent = std::max({extent, std::abs(p.x()), std::abs(p.y())});
     const double tolerance = 1e-9 * extent;
     std::vector<std::size_t> order(ends_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) { return at(i).x < at(j).x; });
+    std::stable_sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) { return at(i).x() < at(j).x(); });
     for (std::size_t a = 0; a < order.size(); ++a)
       for (std::size_t b = a + 1; b < order.size() && taken_[order[a]] == 0; ++b) {
-        if (at(order[b]).x - at(order[a]).x > tolerance) break;
+        if (at(order[b]).x() - at(order[a]).x() > tolerance) break;
         if (taken_[order[b]] == 0 && norm(at(order[b]) - at(order[a])) <= tolerance) join(order[a], order[b]);
       }
   }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr Vec3 nowhere{nan, nan, nan};
+const Vec3 nowhere{nan, nan, nan};
 constexpr int most_pixels_a_side = 65536;  // as in io/exr.cpp
 
 // Channels in the order of this table; a file has them by name.
@@ -139,7 +139,7 @@ double ink_of_triangle(const std::array<Vec2, 3>& corner, Vec2 pixel) {
 
 // Relief: surfaces that face this direction, or turn their back to it, are lightest.
 double shade_of(const Vec3& normal) {
-  constexpr Vec3 light{0.36, 0.48, 0.8};
+  const Vec3 light{0.36, 0.48, 0.8};
   return 0.62 + 0.38 * std::abs(dot(normal, light));
 }
 
@@ -184,7 +184,7 @@ struct FieldImage::State {
 void FieldImage::State::probe() {
   const bool needs_shape = options.width == 0;
   const Vec2 box = source.shape.high - source.shape.low;
-  if (!(box.x > 0 && box.y > 0)) return choose_grid(1, 1);
+  if (!(box.x() > 0 && box.y() > 0)) return choose_grid(1, 1);
   if (!needs_shape && !has(field_preview)) return choose_grid(1, 1);
   const PixelGrid coarse = grid_of(source.shape, probe_columns, probe_columns);
   std::vector<std::uint8_t> inside(static_cast<std::size_t>(probe_columns) * probe_columns);
@@ -210,7 +210,7 @@ void FieldImage::State::probe() {
   }
   if (source.mesh != nullptr && !source.vertex_size.empty())
     for (const std::int32_t v : source.mesh->vertex) extend(source.vertex_size[static_cast<std::size_t>(v)]);
-  choose_grid(box.x * length_u, box.y * length_v);
+  choose_grid(box.x() * length_u, box.y() * length_v);
 }
 
 void FieldImage::State::choose_grid(double length_u, double length_v) {
@@ -218,7 +218,7 @@ void FieldImage::State::choose_grid(double length_u, double length_v) {
   if (width == 0) {
     const Vec2 box = source.shape.high - source.shape.low;
     double ratio = length_v / length_u;
-    if (!(ratio > 0 && std::isfinite(ratio))) ratio = box.y / box.x;  // the host says nothing
+    if (!(ratio > 0 && std::isfinite(ratio))) ratio = box.y() / box.x();  // the host says nothing
     if (!(ratio > 0 && std::isfinite(ratio)) || std::abs(ratio - 1) < nearly_square) ratio = 1;
     ratio = std::clamp(ratio, flattest, 1 / flattest);
     const auto shorter = [&](double share) {
@@ -286,7 +286,7 @@ void FieldImage::State::paint_point(const Painter& painter, const Block& block, 
   }
   if (has(field_curvature))
     if (const auto frame = principal_frame(jet)) painter.put(field_curvature, pixel, {frame->k1, frame->k2});
-  if (has(field_position)) painter.put(field_position, pixel, {jet.s.x, jet.s.y, jet.s.z});
+  if (has(field_position)) painter.put(field_position, pixel, {jet.s.x(), jet.s.y(), jet.s.z()});
   if (has(field_mask)) painter.put(field_mask, pixel, {1});
 }
 
@@ -305,7 +305,7 @@ void FieldImage::State::paint(const Block& block, std::span<ExrPlane> planes) co
     if (has(field_size)) painter.put(field_size, pixel, {size.h, size.h1, size.h2, size.angle});
     if (has(field_normal) || has(field_preview)) {
       const Vec3 normal = unit_normal(block.jets[i]).value_or(nowhere);
-      if (has(field_normal)) painter.put(field_normal, pixel, {normal.x, normal.y, normal.z});
+      if (has(field_normal)) painter.put(field_normal, pixel, {normal.x(), normal.y(), normal.z()});
       if (has(field_preview)) {
         const LinearColour colour = colour_of(block, i, triangle[pixel], size.h, normal);
         const double light = 1 - static_cast<double>(ink[pixel]);

@@ -10,9 +10,9 @@ namespace {
 
 // Rows that a range of v may touch, one more at each side for rounding.
 std::pair<int, int> rows_between(const PixelGrid& grid, double v_low, double v_high, double margin) {
-  const double dv = grid.pixel().y;
+  const double dv = grid.pixel().y();
   if (!(dv > 0)) return {0, -1};
-  const auto row = [&](double v) { return std::clamp((grid.high.y - v) / dv - 0.5, -4.0, grid.height + 4.0); };
+  const auto row = [&](double v) { return std::clamp((grid.high.y() - v) / dv - 0.5, -4.0, grid.height + 4.0); };
   return {static_cast<int>(std::floor(row(v_high) - margin)) - 1, static_cast<int>(std::ceil(row(v_low) + margin)) + 1};
 }
 
@@ -20,7 +20,7 @@ std::vector<std::pair<int, int>> rows_of(const PlaneSegments& lines, const Pixel
   std::vector<std::pair<int, int>> rows;
   rows.reserve(lines.segments.size());
   for (const auto& [a, b] : lines.segments) {
-    const double p = lines.vertices[static_cast<std::size_t>(a)].y, q = lines.vertices[static_cast<std::size_t>(b)].y;
+    const double p = lines.vertices[static_cast<std::size_t>(a)].y(), q = lines.vertices[static_cast<std::size_t>(b)].y();
     rows.push_back(rows_between(grid, std::min(p, q), std::max(p, q), margin));
   }
   return rows;
@@ -32,7 +32,7 @@ std::vector<std::pair<int, int>> rows_of(std::span<const Vec2> vertices,
   std::vector<std::pair<int, int>> rows;
   rows.reserve(triangles.size());
   for (const auto& t : triangles) {
-    const auto [low, high] = std::minmax({vertices[t[0]].y, vertices[t[1]].y, vertices[t[2]].y});
+    const auto [low, high] = std::minmax({vertices[t[0]].y(), vertices[t[1]].y(), vertices[t[2]].y()});
     rows.push_back(rows_between(grid, low, high, 0));
   }
   return rows;
@@ -41,15 +41,15 @@ std::vector<std::pair<int, int>> rows_of(std::span<const Vec2> vertices,
 // Where an edge crosses the line of a row; half-open, so that of two edges that meet on it one does. The same number
 // for both directions of the edge: neighbours share their pixels without gap or overlap.
 std::optional<double> crossing(Vec2 p, Vec2 q, double v) noexcept {
-  if (q.y < p.y) std::swap(p, q);
-  if (!(p.y <= v && v < q.y)) return {};
-  return p.x + (v - p.y) / (q.y - p.y) * (q.x - p.x);
+  if (q.y() < p.y()) std::swap(p, q);
+  if (!(p.y() <= v && v < q.y())) return {};
+  return p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
 }
 
 }  // namespace
 
 int PixelGrid::first_column(double u_wanted) const noexcept {
-  const double guess = (u_wanted - low.x) / pixel().x - 0.5;
+  const double guess = (u_wanted - low.x()) / pixel().x() - 0.5;
   int column = static_cast<int>(std::clamp(std::ceil(guess), 0.0, static_cast<double>(width)));
   while (column > 0 && u(column - 1) >= u_wanted) --column;
   while (column < width && u(column) < u_wanted) ++column;
@@ -140,14 +140,14 @@ void LineRaster::coverage(int first, int rows, std::span<float> out) const {
       const Vec2 b = grid_.in_pixels(lines_.vertices[static_cast<std::size_t>(lines_.segments[i].second)]);
       // The part of the segment that can be within reach of this row.
       double from = 0, to = 1;
-      if (const double rise = b.y - a.y; rise != 0) {
-        const double s = (row - reach_ - a.y) / rise, t = (row + reach_ - a.y) / rise;
+      if (const double rise = b.y() - a.y(); rise != 0) {
+        const double s = (row - reach_ - a.y()) / rise, t = (row + reach_ - a.y()) / rise;
         from = std::max(from, std::min(s, t)), to = std::min(to, std::max(s, t));
-      } else if (std::abs(a.y - row) > reach_) {
+      } else if (std::abs(a.y() - row) > reach_) {
         continue;
       }
       if (from > to) continue;
-      const auto [left, right] = std::minmax({lerp(a, b, from).x, lerp(a, b, to).x});
+      const auto [left, right] = std::minmax({lerp(a, b, from).x(), lerp(a, b, to).x()});
       const double last = grid_.width - 1.0;
       if (!(right + reach_ >= 0 && left - reach_ <= last)) continue;  // also for what is not finite
       const int begin = static_cast<int>(std::max(std::ceil(left - reach_), 0.0));

@@ -17,14 +17,14 @@ struct PixelGrid {
   Vec2 low, high;
   int width = 1, height = 1;
 
-  [[nodiscard]] Vec2 pixel() const noexcept { return {(high.x - low.x) / width, (high.y - low.y) / height}; }
+  [[nodiscard]] Vec2 pixel() const noexcept { return {(high.x() - low.x()) / width, (high.y() - low.y()) / height}; }
   /// Coordinates of the centres of a column and of a row.
-  [[nodiscard]] double u(int column) const noexcept { return low.x + (column + 0.5) * pixel().x; }
-  [[nodiscard]] double v(int row) const noexcept { return high.y - (row + 0.5) * pixel().y; }
+  [[nodiscard]] double u(int column) const noexcept { return low.x() + (column + 0.5) * pixel().x(); }
+  [[nodiscard]] double v(int row) const noexcept { return high.y() - (row + 0.5) * pixel().y(); }
   [[nodiscard]] Vec2 centre(int column, int row) const noexcept { return {u(column), v(row)}; }
   /// Position in pixels: the centre of (column, row) is at (column, row).
   [[nodiscard]] Vec2 in_pixels(Vec2 uv) const noexcept {
-    return {(uv.x - low.x) / pixel().x - 0.5, (high.y - uv.y) / pixel().y - 0.5};
+    return {(uv.x() - low.x()) / pixel().x() - 0.5, (high.y() - uv.y()) / pixel().y() - 0.5};
   }
   /// First column whose centre is at or right of u, `width` when there is none.
   [[nodiscard]] int first_column(double u) const noexcept;

@@ -14,12 +14,12 @@ constexpr int leaf_size = 4;
 // Halves of halves: more than any number of edges needs.
 constexpr std::size_t deepest = 64;
 
-Vec3 least(Vec3 p, Vec3 q) noexcept { return {std::min(p.x, q.x), std::min(p.y, q.y), std::min(p.z, q.z)}; }
-Vec3 largest(Vec3 p, Vec3 q) noexcept { return {std::max(p.x, q.x), std::max(p.y, q.y), std::max(p.z, q.z)}; }
+Vec3 least(Vec3 p, Vec3 q) noexcept { return {std::min(p.x(), q.x()), std::min(p.y(), q.y()), std::min(p.z(), q.z())}; }
+Vec3 largest(Vec3 p, Vec3 q) noexcept { return {std::max(p.x(), q.x()), std::max(p.y(), q.y()), std::max(p.z(), q.z())}; }
 
 double distance_to_box(Vec3 p, Vec3 low, Vec3 high) noexcept {
   const auto beyond = [](double x, double from, double to) { return std::max({from - x, x - to, 0.}); };
-  return norm(Vec3{beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)});
+  return norm(Vec3{beyond(p.x(), low.x(), high.x()), beyond(p.y(), low.y(), high.y()), beyond(p.z(), low.z(), high.z())});
 }
 
 }  // namespace
@@ -40,13 +40,11 @@ void EdgeSizes::build(int node) {
   }
   if (n.end - n.first > leaf_size) {
     const Vec3 extent = n.high - n.low;
-    const auto axis = extent.x >= extent.y && extent.x >= extent.z ? &Vec3::x
-                      : extent.y >= extent.z                       ? &Vec3::y
-                                                                   : &Vec3::z;
+    const int axis = extent.x() >= extent.y() && extent.x() >= extent.z() ? 0 : extent.y() >= extent.z() ? 1 : 2;
     const int middle = (n.first + n.end) / 2;
     std::nth_element(
         sources_.begin() + n.first, sources_.begin() + middle, sources_.begin() + n.end,
-        [axis](const Source& p, const Source& q) { return p.a.*axis + p.b.*axis < q.a.*axis + q.b.*axis; });
+        [axis](const Source& p, const Source& q) { return p.a[axis] + p.b[axis] < q.a[axis] + q.b[axis]; });
     n.children = static_cast<int>(nodes_.size());
     nodes_.push_back({{}, {}, 0, n.first, middle, -1});
     nodes_.push_back({{}, {}, 0, middle, n.end, -1});

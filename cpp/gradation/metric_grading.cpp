@@ -151,8 +151,8 @@ std::optional<TangentMetric> tangent_metric(const SurfaceJet& jet, Metric2 metri
   if (!frame) return {};
   const Eigen2 e = eigen(frame->of_parameters(metric));
   if (!(e.minor > 0) || !std::isfinite(e.major)) return {};
-  return TangentMetric{e.direction.x * frame->e1 + e.direction.y * frame->e2,
-                       e.direction.x * frame->e2 - e.direction.y * frame->e1, 1 / std::sqrt(e.major),
+  return TangentMetric{e.direction.x() * frame->e1 + e.direction.y() * frame->e2,
+                       e.direction.x() * frame->e2 - e.direction.y() * frame->e1, 1 / std::sqrt(e.major),
                        1 / std::sqrt(e.minor)};
 }
 
@@ -174,7 +174,7 @@ void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexce
   const Vec2 x = in_parameters(sizes.d1), y = in_parameters(sizes.d2);
   // Second derivative along both, without its part along the edge.
   const auto aside = [&](Vec2 a, Vec2 b) {
-    const Vec3 s = (a.x * b.x) * jet.suu + (a.x * b.y + a.y * b.x) * jet.suv + (a.y * b.y) * jet.svv;
+    const Vec3 s = (a.x() * b.x()) * jet.suu + (a.x() * b.y() + a.y() * b.x()) * jet.suv + (a.y() * b.y()) * jet.svv;
     return norm(s - dot(s, sizes.d2) * sizes.d2);
   };
   const double bend = aside(y, y), turn = aside(x, y);

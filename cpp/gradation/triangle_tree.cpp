@@ -21,31 +21,31 @@ TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<
   if (triangles.empty()) return;
   // Triangles as long as wide in the mean: boxes around them overlap least.
   Vec2 low = vertices.front(), high = low, length;
-  for (const Vec2 p : vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  for (const Vec2& p : vertices) {
+    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
   }
   for (const auto& t : triangles)
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 edge = vertices[static_cast<std::size_t>(t[(i + 1) % 3])] - vertices[static_cast<std::size_t>(t[i])];
-      length = length + Vec2{std::abs(edge.x), std::abs(edge.y)};
+      length = length + Vec2{std::abs(edge.x()), std::abs(edge.y())};
     }
   const double edges = 3 * static_cast<double>(triangles.size());
   low_ = low;
-  scale_ = {length.x > 0 ? edges / length.x : 1, length.y > 0 ? edges / length.y : 1};
-  inside_ = rounding * std::max((high.x - low.x) * scale_.x, (high.y - low.y) * scale_.y);
+  scale_ = {length.x() > 0 ? edges / length.x() : 1, length.y() > 0 ? edges / length.y() : 1};
+  inside_ = rounding * std::max((high.x() - low.x()) * scale_.x(), (high.y() - low.y()) * scale_.y());
   std::vector<Vec3> scaled;
   scaled.reserve(vertices.size());
-  for (const Vec2 p : vertices) scaled.push_back({(p.x - low_.x) * scale_.x, (p.y - low_.y) * scale_.y, 0});
+  for (const Vec2& p : vertices) scaled.push_back({(p.x() - low_.x()) * scale_.x(), (p.y() - low_.y()) * scale_.y(), 0});
   search_ = TriangleSearch(scaled, triangles, &monitor);
   corners_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 p = scaled[static_cast<std::size_t>(triangles[t][i])];
-      corners_[t].at[i] = {p.x, p.y};
+      corners_[t].at[i] = {p.x(), p.y()};
     }
   join_sides(triangles);
-  make_starts({(high.x - low.x) * scale_.x, (high.y - low.y) * scale_.y});
+  make_starts({(high.x() - low.x()) * scale_.x(), (high.y() - low.y()) * scale_.y()});
 }
 
 void TriangleTree::join_sides(const std::vector<std::array<std::int32_t, 3>>& triangles) {
@@ -74,12 +74,12 @@ void TriangleTree::join_sides(const std::vector<std::array<std::int32_t, 3>>& tr
 // A cell for each triangle, about; it holds the last centre in it, or what the cell before holds.
 void TriangleTree::make_starts(Vec2 extent) {
   const double count = static_cast<double>(corners_.size());
-  const double side = std::sqrt(std::max(extent.x * extent.y / count, 1e-300));
+  const double side = std::sqrt(std::max(extent.x() * extent.y() / count, 1e-300));
   const auto cells = [&](double length) {
     return static_cast<std::int32_t>(std::clamp(std::ceil(length / side), 1.0, count));
   };
-  columns_ = cells(extent.x), rows_ = cells(extent.y);
-  start_scale_ = {extent.x > 0 ? columns_ / extent.x : 0, extent.y > 0 ? rows_ / extent.y : 0};
+  columns_ = cells(extent.x()), rows_ = cells(extent.y());
+  start_scale_ = {extent.x() > 0 ? columns_ / extent.x() : 0, extent.y() > 0 ? rows_ / extent.y() : 0};
   starts_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1);
   for (std::size_t t = 0; t < corners_.size(); ++t) {
     const auto& c = corners_[t].at;
@@ -93,7 +93,7 @@ std::size_t TriangleTree::start_near(Vec2 p) const noexcept {
   const auto cell = [](double x, std::int32_t count) {
     return x > 0 ? static_cast<std::size_t>(std::min(x, count - 1.0)) : 0;
   };
-  return cell(p.y * start_scale_.y, rows_) * static_cast<std::size_t>(columns_) + cell(p.x * start_scale_.x, columns_);
+  return cell(p.y() * start_scale_.y(), rows_) * static_cast<std::size_t>(columns_) + cell(p.x() * start_scale_.x(), columns_);
 }
 
 // The only triangle that holds a point; -1 where that is not clear, or the way there is long or leaves the domain.
@@ -106,7 +106,7 @@ std::int32_t TriangleTree::walk(Vec2 p) const noexcept {
     bool holds = true;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 from = c.at[i], along = c.at[(i + 1) % 3] - from;
-      const double side = cross(along, p - from), least = clear * (std::abs(along.x) + std::abs(along.y));
+      const double side = cross(along, p - from), least = clear * (std::abs(along.x()) + std::abs(along.y()));
       if (side > least) continue;
       holds = false;
       if (side >= -least) continue;
@@ -121,12 +121,12 @@ std::int32_t TriangleTree::walk(Vec2 p) const noexcept {
 
 TrianglePlace TriangleTree::find(Vec2 uv) const noexcept {
   if (search_.empty()) return {};
-  const Vec2 p{(uv.x - low_.x) * scale_.x, (uv.y - low_.y) * scale_.y};
-  const Vec3 flat{p.x, p.y, 0};
+  const Vec2 p{(uv.x() - low_.x()) * scale_.x(), (uv.y() - low_.y()) * scale_.y()};
+  const Vec3 flat{p.x(), p.y(), 0};
   NearestOnMesh nearest;
   if (const std::int32_t t = walk(p); t >= 0) {
     const auto& [a, b, c] = corners_[static_cast<std::size_t>(t)].at;
-    nearest = nearest_on_triangle(flat, {Vec3{a.x, a.y, 0}, Vec3{b.x, b.y, 0}, Vec3{c.x, c.y, 0}});
+    nearest = nearest_on_triangle(flat, {Vec3{a.x(), a.y(), 0}, Vec3{b.x(), b.y(), 0}, Vec3{c.x(), c.y(), 0}});
     nearest.triangle = t;
   } else {
     nearest = search_.nearest(flat);

@@ -113,7 +113,7 @@ struct ExrWriter::State {
       require(exr_attr_set_double(context, part, name, *real));
     } else if (const auto* pair = std::get_if<Vec2>(&attribute.value)) {
       exr_attr_v2d_t value{};
-      value.x = pair->x, value.y = pair->y;
+      value.x = pair->x(), value.y = pair->y();
       require(exr_attr_set_v2d(context, part, name, &value));
     } else {
       require(exr_attr_set_string(context, part, name, std::get<std::string>(attribute.value).c_str()));

@@ -148,8 +148,8 @@ FacePoint PardomReader::point(int surface, int rank) {
   FacePoint point;
   point.ref = integer({"refp", surface, 0, rank});
   point.line = line_;
-  point.uv.x = real({"u", surface, 0, rank});
-  point.uv.y = real({"v", surface, 0, rank});
+  point.uv.x() = real({"u", surface, 0, rank});
+  point.uv.y() = real({"v", surface, 0, rank});
   return point;
 }
 
@@ -225,7 +225,7 @@ std::string pardom_text(const Model& model) {
       if (!is_finite(point.uv))
         throw InvalidArgument({.face = face.ref, .point = point.ref, .uv = point.uv},
                               "a point that is not finite cannot be written to a file");
-      text += std::to_string(point.ref) + ' ' + format_number(point.uv.x) + ' ' + format_number(point.uv.y) + comment;
+      text += std::to_string(point.ref) + ' ' + format_number(point.uv.x()) + ' ' + format_number(point.uv.y()) + comment;
       comment = "\n";
     }
   }

@@ -31,7 +31,7 @@ class JoinedPoints {
   struct Hash {
     std::size_t operator()(const Vec3& p) const noexcept {
       std::uint64_t hash = 0;
-      for (const double x : {p.x, p.y, p.z}) {
+      for (const double x : {p.x(), p.y(), p.z()}) {
         hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 and 0 are equal
         hash ^= hash >> 32;
       }
@@ -95,9 +95,9 @@ class TextReader {
     for (std::int32_t& corner : corners) {
       expect("vertex");
       Vec3 p;
-      p.x = in_.real("a coordinate of a vertex");
-      p.y = in_.real("a coordinate of a vertex");
-      p.z = in_.real("a coordinate of a vertex");
+      p.x() = in_.real("a coordinate of a vertex");
+      p.y() = in_.real("a coordinate of a vertex");
+      p.z() = in_.real("a coordinate of a vertex");
       corner = points_.add(mesh_.vertices, p);
     }
     expect("endloop");

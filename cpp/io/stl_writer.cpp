@@ -22,7 +22,7 @@ Facet facet_of(const FlatMesh& mesh, std::size_t i) {
   Facet facet;
   for (std::size_t k = 0; k < 3; ++k) {
     facet.corners[k] = mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
-    if (mesh.dimension == 2) facet.corners[k].z = 0;
+    if (mesh.dimension == 2) facet.corners[k].z() = 0;
   }
   const Vec3 n = cross(facet.corners[1] - facet.corners[0], facet.corners[2] - facet.corners[0]);
   const double length = norm(n);
@@ -44,7 +44,7 @@ void check_single_precision(const FlatMesh& mesh) {
   constexpr double largest = std::numeric_limits<float>::max();
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& p = mesh.vertices[i];
-    if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > largest)
+    if (std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())}) > largest)
       throw InvalidArgument("vertex " + std::to_string(i) +
                             " (from 0) has a coordinate too large for the single precision of binary STL");
   }
@@ -52,7 +52,7 @@ void check_single_precision(const FlatMesh& mesh) {
 
 void append_point(std::string& text, const char* before, Vec3 p) {
   text += before;
-  for (const double x : {p.x, p.y, p.z}) {
+  for (const double x : {p.x(), p.y(), p.z()}) {
     text += ' ';
     append_number(text, x);
   }
@@ -87,9 +87,9 @@ std::string stl_bytes(const FlatMesh& mesh) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Facet facet = facet_of(mesh, i);
     for (const Vec3& p : {facet.normal, facet.corners[0], facet.corners[1], facet.corners[2]}) {
-      append_single(bytes, p.x);
-      append_single(bytes, p.y);
-      append_single(bytes, p.z);
+      append_single(bytes, p.x());
+      append_single(bytes, p.y());
+      append_single(bytes, p.z());
     }
     bytes.append(2, '\0');  // attribute byte count, unused
   }

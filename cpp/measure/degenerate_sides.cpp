@@ -31,7 +31,7 @@ std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, Vec2 a, Vec3 su, Ve
     const double across = cross(along, way);
     const double t = across != 0 ? std::clamp(cross(a - from, way) / across, 0.0, 1.0) : 0;
     const Vec2 place = from + t * along, step = place - a;
-    const double d = e * step.x * step.x + 2 * f * step.x * step.y + g * step.y * step.y;
+    const double d = e * step.x() * step.x() + 2 * f * step.x() * step.y() + g * step.y() * step.y();
     if (!(d < nearest)) continue;
     nearest = d;
     best = place;

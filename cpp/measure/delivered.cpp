@@ -159,7 +159,7 @@ class Measurement {
   // The size that is prescribed along d at a vertex; NaN at a singular one.
   [[nodiscard]] double size_along(std::int32_t v, Vec2 d) const { return size_along(v, d, at_vertex_[v].metric); }
   [[nodiscard]] double size_along(std::int32_t v, Vec2 d, Metric2 metric) const {
-    return normal_[v] ? norm(d.x * at_vertex_[v].su + d.y * at_vertex_[v].sv) / length(metric, d) : nan;
+    return normal_[v] ? norm(d.x() * at_vertex_[v].su + d.y() * at_vertex_[v].sv) / length(metric, d) : nan;
   }
 
   // The size of the circle of the same area as the unit ellipse of the tangent plane at a vertex.
@@ -247,7 +247,7 @@ class Measurement {
                    if (!o.measured) return;
                    double speed = length(metric, d);
                    if (const auto h = curve_sizes(o.edge, o.a))
-                     speed = norm(d.x * jet.su + d.y * jet.sv) /
+                     speed = norm(d.x() * jet.su + d.y() * jet.sv) /
                              interpolate_size(options_.law, (*h)[0], (*h)[1], gauss_.node[k % n]);
                    of(DeliveredKind::length)[o.edge] += gauss_.weight[k % n] * speed;
                  });

@@ -61,7 +61,7 @@ class DefectFinder {
     if (face.uv.size() != face.vertex.size()) add(name + ": local vertices and (u, v) differ in number");
     for (const std::int32_t v : face.vertex)
       if (!is_vertex(v)) add(name + ": a local vertex has no vertex in space");
-    for (const Vec2 p : face.uv)
+    for (const Vec2& p : face.uv)
       if (!is_finite(p)) add(name + ": (u, v) of a vertex is not finite");
     for (std::size_t t = 0; t < face.triangles.size(); ++t)
       for (const std::int32_t v : face.triangles[t])
@@ -102,7 +102,7 @@ class DefectFinder {
     for (std::size_t i = 1; i < directed.size(); ++i)
       if (directed[i] == directed[i - 1])
         add("face " + std::to_string(face.ref) + ": two triangles run along one edge the same way, near u = " +
-            std::to_string(face.uv[directed[i][0]].x) + ", v = " + std::to_string(face.uv[directed[i][0]].y));
+            std::to_string(face.uv[directed[i][0]].x()) + ", v = " + std::to_string(face.uv[directed[i][0]].y()));
   }
 
   void check_duplicates() {

@@ -14,8 +14,8 @@ namespace {
 constexpr std::int32_t leaf_size = 4;
 constexpr std::int64_t moved_between_checks = 1 << 16;
 
-double& coordinate(Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+double& coordinate(Vec3& p, int axis) noexcept { return axis == 0 ? p.x() : axis == 1 ? p.y() : p.z(); }
+double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x() : axis == 1 ? p.y() : p.z(); }
 
 /// Weights of the point of a triangle that is nearest to p.
 std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner) noexcept {
@@ -75,7 +75,7 @@ struct TriangleSearch::Builder {
   void split(std::size_t b) {
     const Box box = tree.boxes_[b];
     const Vec3 size = box.high - box.low;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const int axis = size.x() >= size.y() && size.x() >= size.z() ? 0 : size.y() >= size.z() ? 1 : 2;
     const auto begin = tree.order_.begin() + box.first;
     const std::int32_t half = box.count / 2;
     std::nth_element(begin, begin + half, begin + box.count, [&](std::int32_t s, std::int32_t t) {
@@ -124,8 +124,8 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
 
 double TriangleSearch::squared_distance(const Box& box, Vec3 p) noexcept {
   const auto beyond = [](double low, double x, double high) { return std::max({low - x, x - high, 0.0}); };
-  const double x = beyond(box.low.x, p.x, box.high.x), y = beyond(box.low.y, p.y, box.high.y),
-               z = beyond(box.low.z, p.z, box.high.z);
+  const double x = beyond(box.low.x(), p.x(), box.high.x()), y = beyond(box.low.y(), p.y(), box.high.y()),
+               z = beyond(box.low.z(), p.z(), box.high.z());
   return x * x + y * y + z * z;
 }
 
@@ -136,8 +136,8 @@ void TriangleSearch::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best)
   const auto beyond = [](double x, double a, double b, double d) {
     return std::max({std::min({a, b, d}) - x, x - std::max({a, b, d}), 0.0});
   };
-  const double x = beyond(p.x, c[0].x, c[1].x, c[2].x), y = beyond(p.y, c[0].y, c[1].y, c[2].y),
-               z = beyond(p.z, c[0].z, c[1].z, c[2].z);
+  const double x = beyond(p.x(), c[0].x(), c[1].x(), c[2].x()), y = beyond(p.y(), c[0].y(), c[1].y(), c[2].y()),
+               z = beyond(p.z(), c[0].z(), c[1].z(), c[2].z());
   if (x * x + y * y + z * z > best.distance) return;
   const std::array<double, 3> w = nearest_weights(p, c);
   const Vec3 point = w[0] * c[0] + w[1] * c[1] + w[2] * c[2];

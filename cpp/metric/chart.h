@@ -35,11 +35,11 @@ class Chart {
   [[nodiscard]] Vec2 at(Vec2 p) const noexcept { return at_offset(p - origin_); }
   /// y of origin + e.
   [[nodiscard]] Vec2 at_offset(Vec2 e) const noexcept {
-    return to_frame({e.x + squared_length(u_, e), e.y + squared_length(v_, e)});
+    return to_frame({e.x() + squared_length(u_, e), e.y() + squared_length(v_, e)});
   }
 
   /// J^-1 d: the offset that the tensor alone gives.
-  [[nodiscard]] Vec2 offset(Vec2 d) const noexcept { return {(d.x - q_ * d.y / r_) / p_, d.y / r_}; }
+  [[nodiscard]] Vec2 offset(Vec2 d) const noexcept { return {(d.x() - q_ * d.y() / r_) / p_, d.y() / r_}; }
   /// The point at y, by Newton's method from one nearby, which is given back where the chart folds.
   [[nodiscard]] Vec2 point(Vec2 y, Vec2 near) const noexcept {
     constexpr int steps = 4;           // from within a unit length: 1e-8 after three
@@ -47,10 +47,10 @@ class Chart {
     Vec2 e = near - origin_;
     for (int k = 0; k < steps; ++k) {
       const Vec2 d = y - at_offset(e), w = offset(d);
-      const double a = 1 + 2 * (u_.a * e.x + u_.b * e.y), b = 2 * (u_.b * e.x + u_.c * e.y),
-                   c = 2 * (v_.a * e.x + v_.b * e.y), f = 1 + 2 * (v_.b * e.x + v_.c * e.y), det = a * f - b * c;
+      const double a = 1 + 2 * (u_.a * e.x() + u_.b * e.y()), b = 2 * (u_.b * e.x() + u_.c * e.y()),
+                   c = 2 * (v_.a * e.x() + v_.b * e.y()), f = 1 + 2 * (v_.b * e.x() + v_.c * e.y()), det = a * f - b * c;
       if (!(det > least_det)) return near;
-      e = e + (1 / det) * Vec2{f * w.x - b * w.y, a * w.y - c * w.x};
+      e = e + (1 / det) * Vec2{f * w.x() - b * w.y(), a * w.y() - c * w.x()};
     }
     return origin_ + e;
   }
@@ -64,7 +64,7 @@ class Chart {
   }
 
  private:
-  [[nodiscard]] Vec2 to_frame(Vec2 w) const noexcept { return {p_ * w.x + q_ * w.y, r_ * w.y}; }
+  [[nodiscard]] Vec2 to_frame(Vec2 w) const noexcept { return {p_ * w.x() + q_ * w.y(), r_ * w.y()}; }
 
   Vec2 origin_;
   double p_ = 1, q_ = 0, r_ = 1;  // J = (p q; 0 r)

@@ -20,15 +20,15 @@ constexpr Metric2 operator*(double s, Metric2 m) noexcept { return {s * m.a, s *
 
 constexpr double determinant(Metric2 m) noexcept { return m.a * m.c - m.b * m.b; }
 /// <p, q> in the metric.
-constexpr double dot(Metric2 m, Vec2 p, Vec2 q) noexcept {
-  return m.a * p.x * q.x + m.b * (p.x * q.y + p.y * q.x) + m.c * p.y * q.y;
+inline double dot(Metric2 m, Vec2 p, Vec2 q) noexcept {
+  return m.a * p.x() * q.x() + m.b * (p.x() * q.y() + p.y() * q.x()) + m.c * p.y() * q.y();
 }
-constexpr double squared_length(Metric2 m, Vec2 d) noexcept { return dot(m, d, d); }
+inline double squared_length(Metric2 m, Vec2 d) noexcept { return dot(m, d, d); }
 inline double length(Metric2 m, Vec2 d) noexcept { return std::sqrt(squared_length(m, d)); }
 
 /// Corners of a regular hexagon on the unit circle.
 inline constexpr double half_root3 = 0.8660254037844386;
-inline constexpr Vec2 six_directions[] = {{1, 0},  {0.5, half_root3},   {-0.5, half_root3},
+inline const Vec2 six_directions[] = {{1, 0},  {0.5, half_root3},   {-0.5, half_root3},
                                           {-1, 0}, {-0.5, -half_root3}, {0.5, -half_root3}};
 
 /// Maps the unit circle to that of a metric, by the inverse of its Cholesky factor. Metrics that are singular up to
@@ -39,8 +39,8 @@ class UnitCircle {
       : p_(std::sqrt(m.a)), q_(m.b / p_), r_(std::sqrt(std::max(m.c - q_ * q_, 1e-12 * m.c))) {}
   /// The vector whose length in the metric is the Euclidean one of d.
   [[nodiscard]] Vec2 vector(Vec2 d) const noexcept {
-    const double y = d.y / r_;
-    return {(d.x - q_ * y) / p_, y};
+    const double y = d.y() / r_;
+    return {(d.x() - q_ * y) / p_, y};
   }
 
  private:
@@ -49,7 +49,7 @@ class UnitCircle {
 
 /// J^T J / h^2 (RR-2928 eq. 27 for an isotropic size h): the metric that a wanted size h in space
 /// induces on the parameter plane where the surface has first derivatives su, sv.
-constexpr Metric2 induced_metric(Vec3 su, Vec3 sv, double h) noexcept {
+inline Metric2 induced_metric(Vec3 su, Vec3 sv, double h) noexcept {
   const double k = 1 / (h * h);
   return {k * dot(su, su), k * dot(su, sv), k * dot(sv, sv)};
 }

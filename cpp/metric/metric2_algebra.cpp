@@ -79,8 +79,8 @@ Eigen2 eigen(Metric2 m) noexcept {
 
 Metric2 compose(const Eigen2& e) noexcept {
   const Vec2 d = e.direction;
-  return {e.major * d.x * d.x + e.minor * d.y * d.y, (e.major - e.minor) * d.x * d.y,
-          e.major * d.y * d.y + e.minor * d.x * d.x};
+  return {e.major * d.x() * d.x() + e.minor * d.y() * d.y(), (e.major - e.minor) * d.x() * d.y(),
+          e.major * d.y() * d.y() + e.minor * d.x() * d.x()};
 }
 
 Metric2 clamp_eigenvalues(Metric2 m, double low, double high) noexcept {

@@ -127,8 +127,8 @@ Metric3 compose(const Eigen3& e) noexcept {
   Metric3 m{0, 0, 0, 0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 d = e.axis[i], k = e.value[i] * d;
-    m.xx += k.x * d.x, m.xy += k.x * d.y, m.xz += k.x * d.z;
-    m.yy += k.y * d.y, m.yz += k.y * d.z, m.zz += k.z * d.z;
+    m.xx += k.x() * d.x(), m.xy += k.x() * d.y(), m.xz += k.x() * d.z();
+    m.yy += k.y() * d.y(), m.yz += k.y() * d.z(), m.zz += k.z() * d.z();
   }
   return m;
 }
@@ -164,18 +164,18 @@ Reduction3 reduce(const Metric3& p, const Metric3& q) noexcept {
   const Factor3 l = factor(p), k = factor(q);
   // A = L^-1 K, both lower triangular; q = L A A^T L^T.
   Columns a{};
-  a[0].x = k.xx / l.xx;
-  a[0].y = std::fma(-l.xy, a[0].x, k.xy) / l.yy;
-  a[0].z = std::fma(-l.yz, a[0].y, std::fma(-l.xz, a[0].x, k.xz)) / l.zz;
-  a[1].y = k.yy / l.yy;
-  a[1].z = std::fma(-l.yz, a[1].y, k.yz) / l.zz;
-  a[2].z = k.zz / l.zz;
+  a[0].x() = k.xx / l.xx;
+  a[0].y() = std::fma(-l.xy, a[0].x(), k.xy) / l.yy;
+  a[0].z() = std::fma(-l.yz, a[0].y(), std::fma(-l.xz, a[0].x(), k.xz)) / l.zz;
+  a[1].y() = k.yy / l.yy;
+  a[1].z() = std::fma(-l.yz, a[1].y(), k.yz) / l.zz;
+  a[2].z() = k.zz / l.zz;
   orthogonalise(a);
   Reduction3 r;
   for (std::size_t i = 0; i < 3; ++i) {
     r.ratio[i] = dot(a[i], a[i]);
     const Vec3 u = (1 / std::sqrt(r.ratio[i])) * a[i];
-    r.axis[i] = {l.xx * u.x, l.xy * u.x + l.yy * u.y, l.xz * u.x + l.yz * u.y + l.zz * u.z};
+    r.axis[i] = {l.xx * u.x(), l.xy * u.x() + l.yy * u.y(), l.xz * u.x() + l.yz * u.y() + l.zz * u.z()};
   }
   return r;
 }
@@ -226,12 +226,12 @@ Metric3 metric_of_sizes(Vec3 direction, double h1, double h2) noexcept {
   const Vec3 d = (1 / norm(direction)) * direction;
   // k1 d d^T + k2 (I - d d^T), each eigenvalue from terms of its own sign.
   const double k1 = 1 / (h1 * h1), k2 = 1 / (h2 * h2);
-  return {k1 * d.x * d.x + k2 * (d.y * d.y + d.z * d.z),
-          (k1 - k2) * d.x * d.y,
-          (k1 - k2) * d.x * d.z,
-          k1 * d.y * d.y + k2 * (d.x * d.x + d.z * d.z),
-          (k1 - k2) * d.y * d.z,
-          k1 * d.z * d.z + k2 * (d.x * d.x + d.y * d.y)};
+  return {k1 * d.x() * d.x() + k2 * (d.y() * d.y() + d.z() * d.z()),
+          (k1 - k2) * d.x() * d.y(),
+          (k1 - k2) * d.x() * d.z(),
+          k1 * d.y() * d.y() + k2 * (d.x() * d.x() + d.z() * d.z()),
+          (k1 - k2) * d.y() * d.z(),
+          k1 * d.z() * d.z() + k2 * (d.x() * d.x() + d.y() * d.y())};
 }
 
 std::optional<TangentFrame> TangentFrame::of(Vec3 su, Vec3 sv) noexcept {
@@ -264,7 +264,7 @@ Metric2 TangentFrame::of_parameters(Metric2 m) const noexcept {
 
 Metric3 TangentFrame::in_space(Metric2 t, double across) const noexcept {
   const Eigen2 e = eigen(t);
-  const Vec3 d = e.direction.x * e1 + e.direction.y * e2, n = e.direction.x * e2 - e.direction.y * e1;
+  const Vec3 d = e.direction.x() * e1 + e.direction.y() * e2, n = e.direction.x() * e2 - e.direction.y() * e1;
   return compose(Eigen3{{e.major, e.minor, across}, {d, n, cross(d, n)}});
 }
 

@@ -189,7 +189,7 @@ class Gluer {
   void merge_what_is_open() {
     std::vector<std::pair<double, std::size_t>> by_x;  // smallest x of both ends
     for (const std::size_t k : open_entries())
-      if (takes_part_[k] != 0) by_x.emplace_back(std::min(entries_[k].trace.front().x, entries_[k].trace.back().x), k);
+      if (takes_part_[k] != 0) by_x.emplace_back(std::min(entries_[k].trace.front().x(), entries_[k].trace.back().x()), k);
     std::sort(by_x.begin(), by_x.end());
     std::vector<Candidate> pairs;
     for (std::size_t i = 0; i < by_x.size(); ++i)

@@ -163,7 +163,7 @@ class ModelChecker {
         continue;
       }
       // + 0.0: no negative zero.
-      const auto [it, added] = known.try_emplace({point.uv.x + 0.0, point.uv.y + 0.0}, p);
+      const auto [it, added] = known.try_emplace({point.uv.x() + 0.0, point.uv.y() + 0.0}, p);
       if (added) continue;
       Where where = place(f, point.line);
       where.uv = point.uv;

@@ -30,7 +30,7 @@ void merge_near_points(std::span<const Vec3> points, double eps, UnionFind& sets
   Cells cells;
   for (std::size_t i = 0; i < points.size(); ++i) {
     auto& members =
-        cells[{std::floor(points[i].x / side), std::floor(points[i].y / side), std::floor(points[i].z / side)}];
+        cells[{std::floor(points[i].x() / side), std::floor(points[i].y() / side), std::floor(points[i].z() / side)}];
     if (!members.empty()) sets.merge(members.front(), i);
     members.push_back(i);
   }

@@ -17,16 +17,16 @@ struct Box {
   Vec3 low, high;
 
   [[nodiscard]] bool holds(Vec3 p, double margin) const noexcept {
-    return p.x >= low.x - margin && p.x <= high.x + margin && p.y >= low.y - margin && p.y <= high.y + margin &&
-           p.z >= low.z - margin && p.z <= high.z + margin;
+    return p.x() >= low.x() - margin && p.x() <= high.x() + margin && p.y() >= low.y() - margin && p.y() <= high.y() + margin &&
+           p.z() >= low.z() - margin && p.z() <= high.z() + margin;
   }
 };
 
 Box box_of(std::span<const Vec3> trace) {
   Box box{trace.front(), trace.front()};
   for (const Vec3& p : trace) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
+    box.low = {std::min(box.low.x(), p.x()), std::min(box.low.y(), p.y()), std::min(box.low.z(), p.z())};
+    box.high = {std::max(box.high.x(), p.x()), std::max(box.high.y(), p.y()), std::max(box.high.z(), p.z())};
   }
   return box;
 }
@@ -50,7 +50,7 @@ class Splitter {
       }
     points_ = UnionFind(ends.size());
     merge_near_points(ends, eps, points_);
-    for (std::size_t i = 0; i < ends.size(); ++i) by_x_.emplace_back(ends[i].x, i);
+    for (std::size_t i = 0; i < ends.size(); ++i) by_x_.emplace_back(ends[i].x(), i);
     std::sort(by_x_.begin(), by_x_.end());
   }
 
@@ -73,8 +73,8 @@ class Splitter {
     const double reach = eps_ + trace_deviation(entry.trace);  // an arc bulges off its trace by more than eps, say
     std::map<std::size_t, CurveSplit> by_set;
     std::vector<std::size_t> near;
-    const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x - reach, std::size_t{0}});
-    for (auto it = from; it != by_x_.end() && it->first <= box.high.x + reach; ++it) near.push_back(it->second);
+    const auto from = std::lower_bound(by_x_.begin(), by_x_.end(), std::pair{box.low.x() - reach, std::size_t{0}});
+    for (auto it = from; it != by_x_.end() && it->first <= box.high.x() + reach; ++it) near.push_back(it->second);
     std::sort(near.begin(), near.end());  // of several ends as near as one another the first one cuts
     for (const std::size_t i : near) {
       const Entry& other = entries_[i / 2];

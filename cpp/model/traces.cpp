@@ -102,10 +102,10 @@ double traces_diagonal(const CurveTraces& traces) {
   for (const auto& of_face : traces)
     for (const auto& trace : of_face)
       for (const Vec3& p : trace) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
+        high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
       }
-  return low.x > high.x ? 0 : norm(high - low);
+  return low.x() > high.x() ? 0 : norm(high - low);
 }
 
 }  // namespace carreau

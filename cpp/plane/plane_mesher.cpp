@@ -14,7 +14,7 @@ namespace {
 PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangulation, const plane::Frame& frame) {
   PlaneMesh mesh;
   mesh.vertices.reserve(triangulation.vertices.size());
-  for (const Vec2 p : domain.vertices) mesh.vertices.push_back(p);
+  for (const Vec2& p : domain.vertices) mesh.vertices.push_back(p);
   std::vector<std::int32_t> shifted;  // numbers of the vertices from the first one that was removed
   std::size_t first_removed = triangulation.vertices.size();
   for (std::size_t v = domain.vertices.size(); v < triangulation.vertices.size(); ++v) {

@@ -22,21 +22,21 @@ std::vector<double> quantile_lines(const std::vector<double>& sorted, std::size_
 }
 
 /// Mean number of lines that an edge crosses when there is a line at every vertex, divided by the number of lines.
-double mean_span(const std::vector<double>& sorted, std::span<const Vec2> vertices, Edges edges, double Vec2::*axis) {
+double mean_span(const std::vector<double>& sorted, std::span<const Vec2> vertices, Edges edges, int axis) {
   const auto rank = [&](double value) {
     return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin());
   };
   double sum = 0;
-  for (const auto& [a, b] : edges) sum += std::abs(rank(vertices[a].*axis) - rank(vertices[b].*axis));
+  for (const auto& [a, b] : edges) sum += std::abs(rank(vertices[a][axis]) - rank(vertices[b][axis]));
   return sum / (static_cast<double>(edges.size()) * static_cast<double>(sorted.size()));
 }
 
-std::vector<double> sorted_coordinates(std::span<const Vec2> vertices, Edges edges, double Vec2::*axis) {
+std::vector<double> sorted_coordinates(std::span<const Vec2> vertices, Edges edges, int axis) {
   std::vector<double> values;
   values.reserve(2 * edges.size());
   for (const auto& [a, b] : edges) {
-    values.push_back(vertices[a].*axis);
-    values.push_back(vertices[b].*axis);
+    values.push_back(vertices[a][axis]);
+    values.push_back(vertices[b][axis]);
   }
   std::sort(values.begin(), values.end());
   return values;
@@ -55,14 +55,14 @@ double intersection(double pa, double pb, double qa, double qb, double at) noexc
 }  // namespace
 
 EdgeGrid::EdgeGrid(std::span<const Vec2> vertices, Edges edges) {
-  const std::vector<double> sorted_x = sorted_coordinates(vertices, edges, &Vec2::x);
-  const std::vector<double> sorted_y = sorted_coordinates(vertices, edges, &Vec2::y);
+  const std::vector<double> sorted_x = sorted_coordinates(vertices, edges, 0);
+  const std::vector<double> sorted_y = sorted_coordinates(vertices, edges, 1);
   // About four cells an edge, but no more than some 16 cells met by an edge on average.
   const double n = static_cast<double>(std::max<std::size_t>(edges.size(), 1));
   const double cells = 4 * n, longest = 16;
   const auto limit = [&](double span) { return std::max(1.0, span > 0 ? longest / span : cells); };
-  const double most_x = limit(edges.empty() ? 0 : mean_span(sorted_x, vertices, edges, &Vec2::x));
-  const double most_y = limit(edges.empty() ? 0 : mean_span(sorted_y, vertices, edges, &Vec2::y));
+  const double most_x = limit(edges.empty() ? 0 : mean_span(sorted_x, vertices, edges, 0));
+  const double most_y = limit(edges.empty() ? 0 : mean_span(sorted_y, vertices, edges, 1));
   const double nx = std::clamp(std::sqrt(cells), std::min(cells / most_y, most_x), most_x);
   const double ny = std::clamp(cells / nx, 1.0, most_y);
   xs_ = quantile_lines(sorted_x, static_cast<std::size_t>(std::max(1.0, nx)));
@@ -85,15 +85,15 @@ int EdgeGrid::interval_of(const std::vector<double>& lines, double value) noexce
 
 template <typename Visit>
 void EdgeGrid::visit_cells(Vec2 a, Vec2 b, const Visit& visit) const {
-  if (b.y < a.y) std::swap(a, b);
+  if (b.y() < a.y()) std::swap(a, b);
   const double slack = 16 * std::numeric_limits<double>::epsilon();
-  const double padding = slack * std::abs(a.x) + slack * std::abs(b.x) + 4 * std::numeric_limits<double>::denorm_min();
-  const double leftmost = std::min(a.x, b.x), rightmost = std::max(a.x, b.x);
+  const double padding = slack * std::abs(a.x()) + slack * std::abs(b.x()) + 4 * std::numeric_limits<double>::denorm_min();
+  const double leftmost = std::min(a.x(), b.x()), rightmost = std::max(a.x(), b.x());
   // A point on a line belongs to the closed cells on both sides of it.
-  const int bottom = std::max(0, row_of(a.y) - (ys_[row_of(a.y)] == a.y ? 1 : 0)), top = row_of(b.y);
+  const int bottom = std::max(0, row_of(a.y()) - (ys_[row_of(a.y())] == a.y() ? 1 : 0)), top = row_of(b.y());
   for (int row = bottom; row <= top; ++row) {
-    const double from = intersection(a.y, b.y, a.x, b.x, std::clamp(ys_[row], a.y, b.y));
-    const double to = a.y == b.y ? b.x : intersection(a.y, b.y, a.x, b.x, std::clamp(ys_[row + 1], a.y, b.y));
+    const double from = intersection(a.y(), b.y(), a.x(), b.x(), std::clamp(ys_[row], a.y(), b.y()));
+    const double to = a.y() == b.y() ? b.x() : intersection(a.y(), b.y(), a.x(), b.x(), std::clamp(ys_[row + 1], a.y(), b.y()));
     const double low = std::max(leftmost, std::min(from, to) - padding);
     const double high = std::min(rightmost, std::max(from, to) + padding);
     int left = column_of(low);

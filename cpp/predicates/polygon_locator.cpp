@@ -14,7 +14,7 @@ namespace {
 
 /// Does the line y = level + e' meet the segment?
 bool spans_level(Vec2 p, Vec2 q, double level) noexcept {
-  return std::min(p.y, q.y) <= level && level < std::max(p.y, q.y);
+  return std::min(p.y(), q.y()) <= level && level < std::max(p.y(), q.y());
 }
 
 }  // namespace
@@ -36,14 +36,14 @@ PolygonLocator::PolygonLocator(std::span<const Vec2> vertices, std::span<const s
 int PolygonLocator::side(const Segment& s, Vec2 p) noexcept {
   const int sign = orientation(s.low, s.high, p);
   if (sign != 0) return sign;
-  if (s.low.y != s.high.y) return s.low.y < s.high.y ? -1 : 1;
-  return s.low.x != s.high.x ? 1 : 0;
+  if (s.low.y() != s.high.y()) return s.low.y() < s.high.y() ? -1 : 1;
+  return s.low.x() != s.high.x() ? 1 : 0;
 }
 
 /// Does the leg from the corner to (x, corner.y) cross the segment?
 bool PolygonLocator::crosses_horizontally(const Segment& s, Vec2 corner, double x) noexcept {
-  if (!spans_level(s.low, s.high, corner.y) || s.low.x > x || s.high.x < corner.x) return false;
-  return side(s, corner) != side(s, {x, corner.y});
+  if (!spans_level(s.low, s.high, corner.y()) || s.low.x() > x || s.high.x() < corner.x()) return false;
+  return side(s, corner) != side(s, {x, corner.y()});
 }
 
 void PolygonLocator::find_corners() {
@@ -56,7 +56,7 @@ void PolygonLocator::find_corners() {
     // From far on the left, outside: the edges that touch the first line and pass the corner on its left.
     for (const int e : grid_.edges_in(0, row)) {
       const Segment& s = segment_[e];
-      if (spans_level(s.low, s.high, y) && side(s, {grid_.x(0), y}) != (s.low.y < s.high.y ? 1 : -1)) inside = !inside;
+      if (spans_level(s.low, s.high, y) && side(s, {grid_.x(0), y}) != (s.low.y() < s.high.y() ? 1 : -1)) inside = !inside;
     }
     for (int column = 0; column < columns; ++column, ++cell) {
       corner_inside_[cell] = inside ? 1 : 0;
@@ -67,24 +67,24 @@ void PolygonLocator::find_corners() {
 }
 
 bool PolygonLocator::in_box(Vec2 p) const noexcept {
-  return !segment_.empty() && p.x >= grid_.x(0) && p.x <= grid_.x(grid_.columns()) && p.y >= grid_.y(0) &&
-         p.y <= grid_.y(grid_.rows());
+  return !segment_.empty() && p.x() >= grid_.x(0) && p.x() <= grid_.x(grid_.columns()) && p.y() >= grid_.y(0) &&
+         p.y() <= grid_.y(grid_.rows());
 }
 
 bool PolygonLocator::contains(Vec2 p) const noexcept {
   if (!in_box(p)) return false;
-  const int column = grid_.column_of(p.x), row = grid_.row_of(p.y);
-  const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{p.x, corner.y};
+  const int column = grid_.column_of(p.x()), row = grid_.row_of(p.y());
+  const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{p.x(), corner.y()};
   bool inside = corner_inside_[static_cast<std::size_t>(row) * grid_.columns() + column] != 0;
   for (const int e : grid_.edges_in(column, row)) {
     const Segment& s = segment_[e];
-    if (crosses_horizontally(s, corner, p.x)) inside = !inside;
-    if (p.x < s.low.x || p.x > s.high.x) continue;
-    const double bottom = std::min(s.low.y, s.high.y), top = std::max(s.low.y, s.high.y);
-    if (p.y < bottom) continue;
-    if (p.y <= top && orientation(s.low, s.high, p) == 0) return true;
+    if (crosses_horizontally(s, corner, p.x())) inside = !inside;
+    if (p.x() < s.low.x() || p.x() > s.high.x()) continue;
+    const double bottom = std::min(s.low.y(), s.high.y()), top = std::max(s.low.y(), s.high.y());
+    if (p.y() < bottom) continue;
+    if (p.y() <= top && orientation(s.low, s.high, p) == 0) return true;
     // The vertical leg is at p.x + e: an edge that ends at p.x does not meet it.
-    if (p.x < s.high.x && top >= corner.y && side(s, turn) != side(s, p)) inside = !inside;
+    if (p.x() < s.high.x() && top >= corner.y() && side(s, turn) != side(s, p)) inside = !inside;
   }
   return inside;
 }
@@ -92,9 +92,9 @@ bool PolygonLocator::contains(Vec2 p) const noexcept {
 int PolygonLocator::edge_through(Vec2 p) const noexcept {
   if (!in_box(p)) return -1;
   int lowest = -1;
-  for (const int e : grid_.edges_in(grid_.column_of(p.x), grid_.row_of(p.y))) {
+  for (const int e : grid_.edges_in(grid_.column_of(p.x()), grid_.row_of(p.y()))) {
     const Segment& s = segment_[e];
-    if (p.x < s.low.x || p.x > s.high.x || p.y < std::min(s.low.y, s.high.y) || p.y > std::max(s.low.y, s.high.y))
+    if (p.x() < s.low.x() || p.x() > s.high.x() || p.y() < std::min(s.low.y(), s.high.y()) || p.y() > std::max(s.low.y(), s.high.y()))
       continue;
     if ((lowest == -1 || e < lowest) && orientation(s.low, s.high, p) == 0) lowest = e;
   }
@@ -104,13 +104,13 @@ int PolygonLocator::edge_through(Vec2 p) const noexcept {
 /// As `contains`, for the point that lies on low - high, infinitely near to low, and then just below, or just right
 /// when low - high is vertical. `edge`: which edge low - high is, or -1.
 bool PolygonLocator::inside_below(Vec2 low, Vec2 high, int edge) const noexcept {
-  const int column = grid_.column_of(low.x), row = grid_.row_of(low.y);
-  const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{low.x, corner.y};
+  const int column = grid_.column_of(low.x()), row = grid_.row_of(low.y());
+  const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{low.x(), corner.y()};
   bool inside = corner_inside_[static_cast<std::size_t>(row) * grid_.columns() + column] != 0;
   for (const int e : grid_.edges_in(column, row)) {
     const Segment& s = segment_[e];
-    if (crosses_horizontally(s, corner, low.x)) inside = !inside;
-    if (low.x < s.low.x || low.x >= s.high.x) continue;
+    if (crosses_horizontally(s, corner, low.x())) inside = !inside;
+    if (low.x() < s.low.x() || low.x() >= s.high.x()) continue;
     // An edge through `low` passes below the point when it passes below `high`.
     int target = orientation(s.low, s.high, low);
     if (target == 0) target = orientation(s.low, s.high, high);

@@ -31,7 +31,7 @@ class PolygonLocator {
   struct Segment {
     Vec2 low, high;  // low comes before high in the order of x, then y
   };
-  static bool comes_after(Vec2 p, Vec2 q) noexcept { return q.x < p.x || (q.x == p.x && q.y < p.y); }
+  static bool comes_after(Vec2 p, Vec2 q) noexcept { return q.x() < p.x() || (q.x() == p.x() && q.y() < p.y()); }
   static int side(const Segment& s, Vec2 p) noexcept;
   static bool crosses_horizontally(const Segment& s, Vec2 corner, double x) noexcept;
   void find_corners();

@@ -20,7 +20,7 @@ bool in_safe_range(double x) noexcept {
   return x == 0 || (size >= smallest && size <= largest);
 }
 
-bool in_safe_range(Vec2 p) noexcept { return in_safe_range(p.x) && in_safe_range(p.y); }
+bool in_safe_range(Vec2 p) noexcept { return in_safe_range(p.x()) && in_safe_range(p.y()); }
 
 /// The formulas for any ring of numbers; the arguments are differences to the last point.
 template <typename Number>
@@ -75,14 +75,14 @@ int compare(TwoTerms left, TwoTerms right) noexcept {
 
 int exact_orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
   // On a side parallel to an axis both products have a factor that is zero, exactly: differences never underflow.
-  if ((a.x == c.x || b.y == c.y) && (a.y == c.y || b.x == c.x)) return 0;
+  if ((a.x() == c.x() || b.y() == c.y()) && (a.y() == c.y() || b.x() == c.x())) return 0;
   if (!in_safe_range(a) || !in_safe_range(b) || !in_safe_range(c)) {
     if (!is_finite(a) || !is_finite(b) || !is_finite(c)) return 0;
-    const Integers<6> n({a.x, a.y, b.x, b.y, c.x, c.y});
+    const Integers<6> n({a.x(), a.y(), b.x(), b.y(), c.x(), c.y()});
     return sign_of_orientation(n[0] - n[4], n[1] - n[5], n[2] - n[4], n[3] - n[5]);
   }
-  const TwoTerms ax = two_sum(a.x, -c.x), ay = two_sum(a.y, -c.y);
-  const TwoTerms bx = two_sum(b.x, -c.x), by = two_sum(b.y, -c.y);
+  const TwoTerms ax = two_sum(a.x(), -c.x()), ay = two_sum(a.y(), -c.y());
+  const TwoTerms bx = two_sum(b.x(), -c.x()), by = two_sum(b.y(), -c.y());
   // Points on a straight side of a domain usually end here: their differences are exact.
   if (ax.low == 0 && ay.low == 0 && bx.low == 0 && by.low == 0)
     return compare(two_product(ax.high, by.high), two_product(ay.high, bx.high));
@@ -91,10 +91,10 @@ int exact_orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
 
 int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
   if (in_safe_range(a) && in_safe_range(b) && in_safe_range(c) && in_safe_range(d))
-    return sign_of_in_circle(difference(a.x, d.x), difference(a.y, d.y), difference(b.x, d.x), difference(b.y, d.y),
-                             difference(c.x, d.x), difference(c.y, d.y));
+    return sign_of_in_circle(difference(a.x(), d.x()), difference(a.y(), d.y()), difference(b.x(), d.x()), difference(b.y(), d.y()),
+                             difference(c.x(), d.x()), difference(c.y(), d.y()));
   if (!is_finite(a) || !is_finite(b) || !is_finite(c) || !is_finite(d)) return 0;
-  const Integers<8> n({a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y});
+  const Integers<8> n({a.x(), a.y(), b.x(), b.y(), c.x(), c.y(), d.x(), d.y()});
   return sign_of_in_circle(n[0] - n[6], n[1] - n[7], n[2] - n[6], n[3] - n[7], n[4] - n[6], n[5] - n[7]);
 }
 

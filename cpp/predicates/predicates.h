@@ -26,8 +26,8 @@ inline constexpr double underflow_bound = 1e-290;
 /// Sign of the area of (a, b, c): +1 counterclockwise, -1 clockwise, 0 collinear. Exact for all finite doubles,
 /// however large or small; meaningless for infinities and NaN.
 inline int orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
-  const double left = (a.x - c.x) * (b.y - c.y);
-  const double right = (a.y - c.y) * (b.x - c.x);
+  const double left = (a.x() - c.x()) * (b.y() - c.y());
+  const double right = (a.y() - c.y()) * (b.x() - c.x());
   const double det = left - right;
   const double bound = detail::orientation_bound * (std::abs(left) + std::abs(right)) + detail::underflow_bound;
   // An overflow makes the bound infinite or NaN, and both comparisons false.
@@ -39,9 +39,9 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
 /// +1 when d lies inside the circle through a, b, c (counterclockwise), -1 outside, 0 on it; the opposite when a, b, c
 /// are clockwise. Exact for all finite doubles.
 inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
-  const double ax = a.x - d.x, ay = a.y - d.y;
-  const double bx = b.x - d.x, by = b.y - d.y;
-  const double cx = c.x - d.x, cy = c.y - d.y;
+  const double ax = a.x() - d.x(), ay = a.y() - d.y();
+  const double bx = b.x() - d.x(), by = b.y() - d.y();
+  const double cx = c.x() - d.x(), cy = c.y() - d.y();
   const double bxcy = bx * cy, cxby = cx * by;
   const double cxay = cx * ay, axcy = ax * cy;
   const double axby = ax * by, bxay = bx * ay;

@@ -177,9 +177,9 @@ EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Ve
   options.tolerance = parameters.real("adapt_tolerance");
   options.relative = parameters.integer("adapt_relative") != 0;
   Vec3 low = vertices.front(), high = low;
-  for (const Vec3 p : vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  for (const Vec3& p : vertices) {
+    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
   }
   const double diagonal = norm(high - low);
   options.hmin = parameters.real("adapt_hmin") > 0 ? parameters.real("adapt_hmin") : diagonal / 500;
@@ -194,7 +194,7 @@ SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
   mesh.vertex_ref.assign(flat.vertices.size(), 0);
   FaceMesh whole;
   for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
-    whole.uv.push_back({flat.vertices[v].x, flat.vertices[v].y});
+    whole.uv.push_back({flat.vertices[v].x(), flat.vertices[v].y()});
     whole.vertex.push_back(static_cast<std::int32_t>(v));
   }
   const auto part = [&](int ref, int named) {

@@ -20,9 +20,9 @@ Box box_of(const std::vector<CurveSupport>& supports) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Box box{{far, far}, {-far, -far}};
   for (const CurveSupport& support : supports)
-    for (const Vec2 p : support.uv) {
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    for (const Vec2& p : support.uv) {
+      box.low = {std::min(box.low.x(), p.x()), std::min(box.low.y(), p.y())};
+      box.high = {std::max(box.high.x(), p.x()), std::max(box.high.y(), p.y())};
     }
   return box;
 }
@@ -51,7 +51,7 @@ void check_derivatives(const Model& model, const ModelSupports& supports, Cad& c
       of_face[f].insert(of_face[f].end(), more.begin(), more.end());
     };
     const Box box = box_of(supports.of_face[f]);
-    if (box.high.x > box.low.x && box.high.y > box.low.y)
+    if (box.high.x() > box.low.x() && box.high.y() > box.low.y())
       take(find_wrong_surface_derivatives(cad, model.faces[f].ref, sample_points(supports.of_face[f]), box.low,
                                           box.high, second));
     for (std::size_t c = 0; c < supports.of_face[f].size(); ++c) {

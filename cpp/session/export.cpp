@@ -85,7 +85,7 @@ class FaceAppender {
     std::int32_t& rank = rank_[plane_ ? local : global];
     if (rank < 0) {
       rank = static_cast<std::int32_t>(flat_.vertices.size());
-      flat_.vertices.push_back(plane_ ? Vec3{face.uv[local].x, face.uv[local].y, 0} : mesh_.vertices[global]);
+      flat_.vertices.push_back(plane_ ? Vec3{face.uv[local].x(), face.uv[local].y(), 0} : mesh_.vertices[global]);
       flat_.vertex_refs.push_back(mesh_.vertex_ref[global]);
       source_.push_back(global);
     }
@@ -149,7 +149,7 @@ void append_boundary(const ExportSource& source, std::size_t f, FlatMesh& flat) 
     const FaceCurve& curve = source.model.faces[f].curves[c];
     const std::vector<Vec2>& uv = source.supports.of_face[f][c].uv;
     for (std::size_t i = 0; i < uv.size(); ++i) {
-      flat.vertices.push_back({uv[i].x, uv[i].y, 0});
+      flat.vertices.push_back({uv[i].x(), uv[i].y(), 0});
       flat.vertex_refs.push_back(i == 0 ? curve.end1 : i + 1 == uv.size() ? curve.end2 : 0);
       const auto last = static_cast<std::int32_t>(flat.vertices.size()) - 1;
       if (i > 0) flat.edges.push_back({last - 1, last}), flat.edge_refs.push_back(curve.ref);

@@ -101,11 +101,11 @@ void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad&
     constexpr double far = std::numeric_limits<double>::infinity();
     Vec2 low{far, far}, high{-far, -far};
     for (const CurveSupport& support : supports.of_face[f])
-      for (const Vec2 p : support.uv) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      for (const Vec2& p : support.uv) {
+        low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+        high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
       }
-    if (low.x < high.x && low.y < high.y) cad.set_parameter_box(model.faces[f].ref, low, high);
+    if (low.x() < high.x() && low.y() < high.y()) cad.set_parameter_box(model.faces[f].ref, low, high);
   }
 }
 

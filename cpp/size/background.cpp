@@ -111,7 +111,7 @@ BackgroundField::BackgroundField(const SurfaceMesh& mesh, VertexValues values)
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) whole.value.push_back(static_cast<std::int32_t>(v));
   for (const FaceMesh& face : mesh.faces) {
     Piece piece;
-    for (const Vec2 p : face.uv) piece.vertices.push_back({p.x, p.y, 0});
+    for (const Vec2& p : face.uv) piece.vertices.push_back({p.x(), p.y(), 0});
     piece.value = face.vertex;
     piece.triangles = face.triangles;
     piece.triangles.insert(piece.triangles.end(), face.flattened.begin(), face.flattened.end());
@@ -155,7 +155,7 @@ Prescription BackgroundField::look_up(Piece& piece, Vec3 p) {
 }
 
 Prescription BackgroundField::on_surface(int face, Vec2 uv, Vec3 xyz) {
-  if (Piece* const piece = piece_of(face)) return look_up(*piece, {uv.x, uv.y, 0});
+  if (Piece* const piece = piece_of(face)) return look_up(*piece, {uv.x(), uv.y(), 0});
   return space_ ? look_up(*space_, xyz) : Prescription{};
 }
 
@@ -227,7 +227,7 @@ std::vector<Vec2> BackgroundField::steep_vertices(const Piece& piece) const {
     }
   std::vector<Vec2> places;
   for (std::size_t v = 0; v < steep.size(); ++v)
-    if (steep[v] != 0) places.push_back({piece.vertices[v].x, piece.vertices[v].y});
+    if (steep[v] != 0) places.push_back({piece.vertices[v].x(), piece.vertices[v].y()});
   return places;
 }
 

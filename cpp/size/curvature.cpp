@@ -37,11 +37,11 @@ std::optional<double> smallest_radius(const SurfaceJet& jet) noexcept {
 }
 
 double curve_radius(const SurfaceJet& surface, const CurveJet& curve) noexcept {
-  const double u1 = curve.ct.x, v1 = curve.ct.y;
+  const double u1 = curve.ct.x(), v1 = curve.ct.y();
   // First and second derivative of S(C(t)) (HDR eq. 4.80 differentiated twice).
   const Vec3 first = u1 * surface.su + v1 * surface.sv;
   const Vec3 second = (u1 * u1) * surface.suu + (2 * u1 * v1) * surface.suv + (v1 * v1) * surface.svv +
-                      curve.ctt.x * surface.su + curve.ctt.y * surface.sv;
+                      curve.ctt.x() * surface.su + curve.ctt.y() * surface.sv;
   const double speed = norm(first);
   const double turning = norm(cross(first, second));
   if (!(speed > 0) || !(turning > 0)) return infinity;

@@ -23,7 +23,7 @@ double size_along(Metric2 m, Vec2 d) noexcept { return 1 / length(m, d); }
 Metric2 in_plane(const DirectedSizes& sizes, const TangentFrame& frame) noexcept {
   const auto term = [&](Vec3 w, double h) {
     const Vec2 d{dot(w, frame.e1) / h, dot(w, frame.e2) / h};
-    return Metric2{d.x * d.x, d.x * d.y, d.y * d.y};
+    return Metric2{d.x() * d.x(), d.x() * d.y(), d.y() * d.y()};
   };
   return sizes.h1 == sizes.h2 ? isotropic(sizes.h1) : term(sizes.w1, sizes.h1) + term(sizes.w2, sizes.h2);
 }
@@ -320,7 +320,7 @@ SizeRules::CurvePlace SizeRules::place_on(const CurveUse& use, double t) {
     place.jet = surface_at(cad_, ref, wants, plane.c);
     const auto frame = TangentFrame::of(place.jet.su, place.jet.sv);
     if (!frame) continue;
-    const Vec3 along = plane.ct.x * place.jet.su + plane.ct.y * place.jet.sv;
+    const Vec3 along = plane.ct.x() * place.jet.su + plane.ct.y() * place.jet.sv;
     const double speed = norm(along);
     if (!(speed > 0)) continue;
     if (uses_curvature()) {

@@ -21,7 +21,7 @@ std::string Where::prefix() const {
       add("curve of reference " + std::to_string(curve));
   }
   if (point != 0) add("point of reference " + std::to_string(point));
-  if (uv) add("u = " + format_number(uv->x) + ", v = " + format_number(uv->y));
+  if (uv) add("u = " + format_number(uv->x()) + ", v = " + format_number(uv->y()));
   if (t) add("t = " + format_number(*t));
   return text.empty() ? text : text + ": ";
 }

@@ -1,44 +1,70 @@
-// Small fixed-size vectors: plain numbers, no invariants.
+// Small fixed-size vectors: Eigen's, unaligned, so that arrays of them are arrays of plain numbers.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
+#include <concepts>
 
 namespace carreau {
 
+/// A column of n numbers, all 0 at first (EIGEN_INITIALIZE_MATRICES_BY_ZERO). Sums and multiples of vectors are
+/// expressions that refer to their operands: what outlives a statement is declared as a vector, never as `auto`.
+template <int n>
+using Vec = Eigen::Matrix<double, n, 1, Eigen::DontAlign>;
 /// A point or vector of a parameter plane (u, v).
-struct Vec2 {
-  double x = 0, y = 0;
-  friend bool operator==(const Vec2&, const Vec2&) = default;
-};
-
+using Vec2 = Vec<2>;
 /// A point or vector of space.
-struct Vec3 {
-  double x = 0, y = 0, z = 0;
-  friend bool operator==(const Vec3&, const Vec3&) = default;
-};
+using Vec3 = Vec<3>;
 
-constexpr Vec2 operator+(Vec2 p, Vec2 q) noexcept { return {p.x + q.x, p.y + q.y}; }
-constexpr Vec2 operator-(Vec2 p, Vec2 q) noexcept { return {p.x - q.x, p.y - q.y}; }
-constexpr Vec2 operator*(double s, Vec2 p) noexcept { return {s * p.x, s * p.y}; }
-constexpr double dot(Vec2 p, Vec2 q) noexcept { return p.x * q.x + p.y * q.y; }
+#ifndef EIGEN_INITIALIZE_MATRICES_BY_ZERO
+#error "vectors without a value must be 0: link carreau_engine"
+#endif
+static_assert(sizeof(Vec2[2]) == 4 * sizeof(double) && alignof(Vec2) == alignof(double));
+static_assert(sizeof(Vec3[2]) == 6 * sizeof(double) && alignof(Vec3) == alignof(double));
+
+// Eigen's own dot() and norm() sum in an order that depends on the processor; these sum from left to right.
+inline double dot(const Vec2& p, const Vec2& q) noexcept { return p.x() * q.x() + p.y() * q.y(); }
 /// Signed area of the parallelogram (p, q). Not for topological decisions: see predicates/.
-constexpr double cross(Vec2 p, Vec2 q) noexcept { return p.x * q.y - p.y * q.x; }
-inline double norm(Vec2 p) noexcept { return std::sqrt(dot(p, p)); }
-inline bool is_finite(Vec2 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y); }
+inline double cross(const Vec2& p, const Vec2& q) noexcept { return p.x() * q.y() - p.y() * q.x(); }
+inline double norm(const Vec2& p) noexcept { return std::sqrt(dot(p, p)); }
+inline bool is_finite(const Vec2& p) noexcept { return std::isfinite(p.x()) && std::isfinite(p.y()); }
 
-constexpr Vec3 operator+(Vec3 p, Vec3 q) noexcept { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-constexpr Vec3 operator-(Vec3 p, Vec3 q) noexcept { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-constexpr Vec3 operator*(double s, Vec3 p) noexcept { return {s * p.x, s * p.y, s * p.z}; }
-constexpr double dot(Vec3 p, Vec3 q) noexcept { return p.x * q.x + p.y * q.y + p.z * q.z; }
-constexpr Vec3 cross(Vec3 p, Vec3 q) noexcept {
-  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+inline double dot(const Vec3& p, const Vec3& q) noexcept { return p.x() * q.x() + p.y() * q.y() + p.z() * q.z(); }
+inline Vec3 cross(const Vec3& p, const Vec3& q) noexcept {
+  return {p.y() * q.z() - p.z() * q.y(), p.z() * q.x() - p.x() * q.z(), p.x() * q.y() - p.y() * q.x()};
 }
-inline double norm(Vec3 p) noexcept { return std::sqrt(dot(p, p)); }
-inline bool is_finite(Vec3 p) noexcept { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+inline double norm(const Vec3& p) noexcept { return std::sqrt(dot(p, p)); }
+inline bool is_finite(const Vec3& p) noexcept {
+  return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z());
+}
+
+// The same of expressions, which would fit both sizes.
+template <typename P>
+concept VectorLike = std::derived_from<P, Eigen::MatrixBase<P>> && (P::ColsAtCompileTime == 1);
+template <typename P>
+concept VectorExpression = VectorLike<P> && !std::same_as<P, Vec<P::RowsAtCompileTime>>;
+template <VectorLike P, VectorLike Q>
+  requires(VectorExpression<P> || VectorExpression<Q>)
+double dot(const P& p, const Q& q) noexcept {
+  return dot(Vec<P::RowsAtCompileTime>(p), Vec<Q::RowsAtCompileTime>(q));
+}
+template <VectorLike P, VectorLike Q>
+  requires(VectorExpression<P> || VectorExpression<Q>)
+auto cross(const P& p, const Q& q) noexcept {
+  return cross(Vec<P::RowsAtCompileTime>(p), Vec<Q::RowsAtCompileTime>(q));
+}
+template <VectorExpression P>
+double norm(const P& p) noexcept {
+  return norm(Vec<P::RowsAtCompileTime>(p));
+}
+template <VectorExpression P>
+bool is_finite(const P& p) noexcept {
+  return is_finite(Vec<P::RowsAtCompileTime>(p));
+}
 
 /// Linear interpolation, exact at both ends.
-template <typename V>
-constexpr V lerp(V p, V q, double w) noexcept {
+template <VectorLike P, VectorLike Q>
+Vec<P::RowsAtCompileTime> lerp(const P& p, const Q& q, double w) noexcept {
   return (1 - w) * p + w * q;
 }
 

@@ -290,7 +290,7 @@ bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
 void FaceJob::refuse_unsound(Monitor& monitor) const {
   double area = 0, extent2 = 0;
   const std::vector<Vec3>& p = mesh_->xyz;
-  for (const Vec3 q : p) extent2 = std::max(extent2, dot(q - p.front(), q - p.front()));
+  for (const Vec3& q : p) extent2 = std::max(extent2, dot(q - p.front(), q - p.front()));
   for (const auto& [a, b, c] : mesh_->plane.triangles) {
     area += norm(cross(p[b] - p[a], p[c] - p[a])) / 2;
     if (area > no_area * extent2) break;  // a few triangles tell

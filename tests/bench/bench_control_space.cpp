@@ -36,7 +36,7 @@ double time_of_at(const ControlSpace& space, const std::vector<Vec2>& points) {
   double best = 1e9, sum = 0;
   for (int run = 0; run < 5; ++run) {
     const double start = now();
-    for (const Vec2 p : points) sum += space.at(p).a;
+    for (const Vec2& p : points) sum += space.at(p).a;
     best = std::min(best, now() - start);
   }
   if (sum == 0.5) std::puts("");  // the sum is used
@@ -53,27 +53,27 @@ void report(const Field& field) {
   const ControlSpace space = build(field);
   const carreau::PolygonLocator locator(field.domain.vertices, field.domain.edges);
   Vec2 low = field.domain.vertices[0], high = low;
-  for (const Vec2 p : field.domain.vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  for (const Vec2& p : field.domain.vertices) {
+    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
   }
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> unit(0, 1);
   std::vector<Vec2> points;
   while (points.size() < 40'000) {
-    const Vec2 p{low.x + unit(engine) * (high.x - low.x), low.y + unit(engine) * (high.y - low.y)};
+    const Vec2 p{low.x() + unit(engine) * (high.x() - low.x()), low.y() + unit(engine) * (high.y() - low.y())};
     if (locator.contains(p)) points.push_back(p);
   }
   std::vector<double> error;
-  for (const Vec2 p : points) error.push_back(carreau::length_error(space.at(p), field.metric(p)));
+  for (const Vec2& p : points) error.push_back(carreau::length_error(space.at(p), field.metric(p)));
   std::sort(error.begin(), error.end());
   double mean = 0;
   for (const double e : error) mean += e / static_cast<double>(error.size());
   const double at_random = time_of_at(space, points);
   // A mesher asks near where it asked before.
-  const auto row = [&](Vec2 p) { return std::floor((p.y - low.y) / (high.y - low.y) * 100); };
+  const auto row = [&](Vec2 p) { return std::floor((p.y() - low.y()) / (high.y() - low.y()) * 100); };
   std::sort(points.begin(), points.end(),
-            [&](Vec2 p, Vec2 q) { return row(p) != row(q) ? row(p) < row(q) : p.x < q.x; });
+            [&](Vec2 p, Vec2 q) { return row(p) != row(q) ? row(p) < row(q) : p.x() < q.x(); });
   const double vertices = 0.5 * space.measure();
   std::printf("%-30s %8.0f %7.3f %8.3f %6.0f %9.1e %9.1e %9.1e %5.1f %5.1f %8zu\n", field.name.c_str(), vertices,
               static_cast<double>(space.samples()) / vertices, best * 1e3, best / vertices * 1e9, mean,

@@ -37,7 +37,7 @@ PlaneMesh read(const std::string& path) {
   PlaneMesh mesh;
   mesh.vertices.resize(vertices);
   mesh.triangles.resize(triangles);
-  for (Vec2& p : mesh.vertices) in >> p.x >> p.y;
+  for (Vec2& p : mesh.vertices) in >> p.x() >> p.y();
   for (auto& t : mesh.triangles) in >> t[0] >> t[1] >> t[2];
   if (in) return mesh;
   std::fprintf(stderr, "bench_metric: %s is not a mesh\n", path.c_str());
@@ -48,7 +48,7 @@ void write(const PlaneMesh& mesh, const std::string& path) {
   std::ofstream out(path);
   out.precision(17);
   out << mesh.vertices.size() << ' ' << mesh.triangles.size() << '\n';
-  for (const Vec2 p : mesh.vertices) out << p.x << ' ' << p.y << '\n';
+  for (const Vec2& p : mesh.vertices) out << p.x() << ' ' << p.y() << '\n';
   for (const auto& t : mesh.triangles) out << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
 }
 

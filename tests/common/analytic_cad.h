@@ -62,14 +62,14 @@ inline AnalyticCurve segment(Vec2 p, Vec2 q) {
 inline AnalyticCurve arc(Vec2 centre, double radius, double from, double to) {
   return {{0, 1}, [=](double t) {
             const double w = to - from, a = from + t * w, c = radius * std::cos(a), s = radius * std::sin(a);
-            return CurveJet{{centre.x + c, centre.y + s}, {-w * s, w * c}, {-w * w * c, -w * w * s}};
+            return CurveJet{{centre.x() + c, centre.y() + s}, {-w * s, w * c}, {-w * w * c, -w * w * s}};
           }};
 }
 
 /// The four sides of a rectangle, counterclockwise from its lower side.
 inline std::vector<AnalyticCurve> rectangle(Vec2 low, Vec2 high) {
-  return {segment(low, {high.x, low.y}), segment({high.x, low.y}, high), segment(high, {low.x, high.y}),
-          segment({low.x, high.y}, low)};
+  return {segment(low, {high.x(), low.y()}), segment({high.x(), low.y()}, high), segment(high, {low.x(), high.y()}),
+          segment({low.x(), high.y()}, low)};
 }
 
 /// A model whose references are all to be found by gluing.
@@ -85,7 +85,7 @@ inline Model unglued(const AnalyticCad& cad) {
 
 /// z = (u^2 + v^2) / 2 (RT-0232 sec. 6.1).
 inline SurfaceJet paraboloid_jet(Vec2 p) {
-  return {{p.x, p.y, (p.x * p.x + p.y * p.y) / 2}, {1, 0, p.x}, {0, 1, p.y}, {0, 0, 1}, {}, {0, 0, 1}};
+  return {{p.x(), p.y(), (p.x() * p.x() + p.y() * p.y()) / 2}, {1, 0, p.x()}, {0, 1, p.y()}, {0, 0, 1}, {}, {0, 0, 1}};
 }
 
 inline AnalyticCad paraboloid() {
@@ -97,7 +97,7 @@ inline AnalyticCad paraboloid() {
 /// Half of the unit sphere over the unit disc by the inverse stereographic projection (RT-0232 sec. 2.1 example 2, R =
 /// 1/2 up to scale).
 inline SurfaceJet stereographic_jet(Vec2 p) {
-  const double u = p.x, v = p.y, d = 1 + u * u + v * v, d2 = d * d, d3 = d2 * d;
+  const double u = p.x(), v = p.y(), d = 1 + u * u + v * v, d2 = d * d, d3 = d2 * d;
   SurfaceJet j;
   j.s = {2 * u / d, 2 * v / d, (2 - d) / d};
   j.su = {2 / d - 4 * u * u / d2, -4 * u * v / d2, -4 * u / d2};
@@ -120,7 +120,7 @@ inline AnalyticCad half_ellipsoid(double a, double b, double c) {
   constexpr double pi = std::numbers::pi;
   const auto jet = [=](Vec2 p) {
     SurfaceJet j = stereographic_jet(p);
-    for (Vec3* v : {&j.s, &j.su, &j.sv, &j.suu, &j.suv, &j.svv}) *v = {a * v->x, b * v->y, c * v->z};
+    for (Vec3* v : {&j.s, &j.su, &j.sv, &j.suu, &j.suv, &j.svv}) *v = {a * v->x(), b * v->y(), c * v->z()};
     return j;
   };
   AnalyticCad cad;
@@ -131,8 +131,8 @@ inline AnalyticCad half_ellipsoid(double a, double b, double c) {
 /// A quarter of a cylinder, as a fillet; u is the angle, v the height.
 inline AnalyticCad fillet(double radius, double length) {
   const auto jet = [=](Vec2 p) {
-    const double c = radius * std::cos(p.x), s = radius * std::sin(p.x);
-    return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+    const double c = radius * std::cos(p.x()), s = radius * std::sin(p.x());
+    return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
   };
   AnalyticCad cad;
   cad.faces[1] = {jet, rectangle({0, 0}, {std::numbers::pi / 2, length})};
@@ -141,7 +141,7 @@ inline AnalyticCad fillet(double radius, double length) {
 
 /// Torus of radii big (to the centre of the tube) and small; u along the big circle, v along the small one.
 inline SurfaceJet torus_jet(Vec2 p, double big, double small) {
-  const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y), w = big + small * cv;
+  const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y()), w = big + small * cv;
   SurfaceJet j;
   j.s = {w * cu, w * su, small * sv};
   j.su = {-w * su, w * cu, 0};
@@ -169,8 +169,8 @@ inline SurfaceJet bezier_jet(const std::array<Vec3, 16>& control, Vec2 p) {
     dd = {6 * s, 6 * t - 12 * s, 6 * s - 12 * t, 6 * t};
   };
   std::array<double, 4> bu{}, du{}, ddu{}, bv{}, dv{}, ddv{};
-  basis(p.x, bu, du, ddu);
-  basis(p.y, bv, dv, ddv);
+  basis(p.x(), bu, du, ddu);
+  basis(p.y(), bv, dv, ddv);
   SurfaceJet j;
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 4; ++k) {
@@ -195,7 +195,7 @@ inline AnalyticCad bezier_file(const std::string& path) {
     int rows = 0, columns = 0;
     file >> rows >> columns;
     std::array<Vec3, 16> control;
-    for (Vec3& q : control) file >> q.x >> q.y >> q.z;
+    for (Vec3& q : control) file >> q.x() >> q.y() >> q.z();
     cad.faces[k] = {[control](Vec2 p) { return bezier_jet(control, p); }, rectangle({0, 0}, {1, 1})};
   }
   return cad;

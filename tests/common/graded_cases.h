@@ -32,12 +32,12 @@ inline double two_sources(Vec3 p, Vec3 a, Vec3 b, double h, double slope) {
 /// Waves along two directions, between the extreme sizes.
 inline double waves(Vec3 p, double h, double slope) {
   const double k = slope * std::numbers::sqrt2 / (4.5 * h);
-  return h * (5.5 + 2.25 * (std::sin(k * (0.8 * p.x + 0.6 * p.z)) + std::sin(k * p.y)));
+  return h * (5.5 + 2.25 * (std::sin(k * (0.8 * p.x() + 0.6 * p.z())) + std::sin(k * p.y())));
 }
 /// Waves along one direction, with crests across the axes.
 inline double ripples(Vec3 p, double h, double slope) {
   const double k = slope / (4.5 * h);
-  return h * (5.5 + 4.5 * std::sin(k * (0.48 * p.x + 0.64 * p.y + 0.6 * p.z)));
+  return h * (5.5 + 4.5 * std::sin(k * (0.48 * p.x() + 0.64 * p.y() + 0.6 * p.z())));
 }
 
 struct NamedField {
@@ -45,8 +45,8 @@ struct NamedField {
   SizeField size;
 };
 inline const NamedField size_fields[] = {
-    {"ring", [](Vec3 p, double h, double g) { return size_at_distance(std::hypot(p.x, p.y) - 0.8, h, g); }},
-    {"line", [](Vec3 p, double h, double g) { return size_at_distance(0.96 * p.x + 0.28 * p.y - 0.1, h, g); }},
+    {"ring", [](Vec3 p, double h, double g) { return size_at_distance(std::hypot(p.x(), p.y()) - 0.8, h, g); }},
+    {"line", [](Vec3 p, double h, double g) { return size_at_distance(0.96 * p.x() + 0.28 * p.y() - 0.1, h, g); }},
     {"point",
      [](Vec3 p, double h, double g) {
        return size_at_distance(norm(p - Vec3{0.8, 0.4, 0.4}), h, g);
@@ -73,14 +73,14 @@ struct NamedSurface {
 inline const NamedSurface graded_surfaces[] = {
     {"plane",
      [](Vec2 p) {
-       return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+       return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
      },
      {-2, -2},
      {2, 2}},
     {"paraboloid", paraboloid_jet, {-1.5, -1.5}, {1.5, 1.5}},
     {"sphere",
      [](Vec2 p) {
-       const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+       const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
        return SurfaceJet{{cu * cv, su * cv, sv},  {-su * cv, cu * cv, 0}, {-cu * sv, -su * sv, cv},
                          {-cu * cv, -su * cv, 0}, {su * sv, -cu * sv, 0}, {-cu * cv, -su * cv, -sv}};
      },
@@ -94,12 +94,12 @@ inline double size_for(const NamedSurface& surface, SizeField size, double slope
   constexpr int n = 400;
   std::vector<Vec3> places;
   std::vector<double> areas;
-  const Vec2 cell{(surface.high.x - surface.low.x) / n, (surface.high.y - surface.low.y) / n};
+  const Vec2 cell{(surface.high.x() - surface.low.x()) / n, (surface.high.y() - surface.low.y()) / n};
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const SurfaceJet s = surface.at({surface.low.x + (i + 0.5) * cell.x, surface.low.y + (j + 0.5) * cell.y});
+      const SurfaceJet s = surface.at({surface.low.x() + (i + 0.5) * cell.x(), surface.low.y() + (j + 0.5) * cell.y()});
       places.push_back(s.s);
-      areas.push_back(norm(cross(s.su, s.sv)) * cell.x * cell.y);
+      areas.push_back(norm(cross(s.su, s.sv)) * cell.x() * cell.y());
     }
   double low = 1e-4, high = 1;
   for (int step = 0; step < 30; ++step) {

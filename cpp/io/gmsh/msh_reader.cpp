@@ -122,9 +122,9 @@ void MshReader::entities() {
 
 Vec3 MshReader::point() {
   Vec3 p;
-  p.x = in_.real("a coordinate of a node");
-  p.y = in_.real("a coordinate of a node");
-  p.z = in_.real("a coordinate of a node");
+  p.x() = in_.real("a coordinate of a node");
+  p.y() = in_.real("a coordinate of a node");
+  p.z() = in_.real("a coordinate of a node");
   return p;
 }
 

@@ -112,7 +112,7 @@ class MshText {
 
   void add_coordinates(std::size_t v) {
     const Vec3 p = mesh_.vertices[v];
-    number(text_, p.x), number(text_, p.y), number(text_, mesh_.dimension == 3 ? p.z : 0.0);
+    number(text_, p.x()), number(text_, p.y()), number(text_, mesh_.dimension == 3 ? p.z() : 0.0);
     end_line(text_);
   }
 
@@ -157,8 +157,8 @@ class MshText {
       const Vec3 p = mesh_.vertices[static_cast<std::size_t>(v)];
       if (!any) low = high = p;
       any = true;
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
+      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
     };
     for (const std::size_t member : entity.members) {
       if (dim == 1)
@@ -166,7 +166,7 @@ class MshText {
       else
         for (const std::int32_t v : mesh_.triangles[member]) add(v);
     }
-    for (const double x : {low.x, low.y, low.z, high.x, high.y, high.z}) number(text_, x);
+    for (const double x : {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}) number(text_, x);
   }
 
   void add_entities() {
@@ -174,7 +174,7 @@ class MshText {
              std::to_string(entities_[2].size()) + " 0\n";
     for (const auto& [ref, point] : entities_[0]) {
       const Vec3 p = mesh_.vertices[point.members.front()];
-      number(text_, point.tag), number(text_, p.x), number(text_, p.y), number(text_, p.z), number(text_, 0);
+      number(text_, point.tag), number(text_, p.x()), number(text_, p.y()), number(text_, p.z()), number(text_, 0);
       end_line(text_);
     }
     for (const int dim : {1, 2})

@@ -37,9 +37,9 @@ void GmfReader::vertices() {
   mesh_.vertex_refs.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     Vec3& p = mesh_.vertices[i];
-    p.x = in_.real("a coordinate");
-    p.y = in_.real("a coordinate");
-    if (mesh_.dimension == 3) p.z = in_.real("a coordinate");
+    p.x() = in_.real("a coordinate");
+    p.y() = in_.real("a coordinate");
+    if (mesh_.dimension == 3) p.z() = in_.real("a coordinate");
     mesh_.vertex_refs[i] = in_.reference();
   }
 }

@@ -77,9 +77,9 @@ std::string gmf_bytes(const FlatMesh& mesh, int version) {
   writer.integer(static_cast<std::int32_t>(mesh.vertices.size()));
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& p = mesh.vertices[i];
-    writer.real(p.x);
-    writer.real(p.y);
-    if (mesh.dimension == 3) writer.real(p.z);
+    writer.real(p.x());
+    writer.real(p.y());
+    if (mesh.dimension == 3) writer.real(p.z());
     writer.integer(ref_of(mesh.vertex_refs, i));
   }
   writer.entities(GmfCode::edges, mesh.edges, mesh.edge_refs);

@@ -38,9 +38,9 @@ void MeditReader::vertices() {
   mesh_.vertex_refs.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     Vec3& p = mesh_.vertices[i];
-    p.x = in_.real("a coordinate of a vertex");
-    p.y = in_.real("a coordinate of a vertex");
-    if (mesh_.dimension == 3) p.z = in_.real("a coordinate of a vertex");
+    p.x() = in_.real("a coordinate of a vertex");
+    p.y() = in_.real("a coordinate of a vertex");
+    if (mesh_.dimension == 3) p.z() = in_.real("a coordinate of a vertex");
     mesh_.vertex_refs[i] = in_.integer("the reference of a vertex");
   }
 }

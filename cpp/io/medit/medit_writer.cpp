@@ -50,12 +50,12 @@ std::string medit_text(const FlatMesh& mesh) {
   append_header(text, "Vertices", mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3& p = mesh.vertices[i];
-    append_number(text, p.x);
+    append_number(text, p.x());
     text += ' ';
-    append_number(text, p.y);
+    append_number(text, p.y());
     text += ' ';
     if (mesh.dimension == 3) {
-      append_number(text, p.z);
+      append_number(text, p.z());
       text += ' ';
     }
     append_integer(text, ref_of(mesh.vertex_refs, i));

@@ -197,7 +197,7 @@ std::string vtu_bytes(const FlatMesh& mesh) {
   add_cell_data(file, mesh);
   std::vector<double> points;
   points.reserve(3 * mesh.vertices.size());
-  for (const Vec3& p : mesh.vertices) points.insert(points.end(), {p.x, p.y, mesh.dimension == 3 ? p.z : 0});
+  for (const Vec3& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), mesh.dimension == 3 ? p.z() : 0});
   file.xml("<Points>\n");
   file.array("Points", 3, points);
   file.xml("</Points>\n");

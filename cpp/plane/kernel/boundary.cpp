@@ -41,17 +41,17 @@ class BoundaryMesher {
     mesh_.vertices.resize(domain_.vertices.size() + 4);
     for (int v = 0; v < count_; ++v) {
       const Vec2 p = frame_.inward(domain_.vertices[v]);
-      mesh_.vertices[v].x = p.x, mesh_.vertices[v].y = p.y;
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+      mesh_.vertices[v].x = p.x(), mesh_.vertices[v].y = p.y();
+      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
     }
-    const double w = 3 * (high.x - low.x), h = 3 * (high.y - low.y);
-    const Vec2 corners[4] = {{low.x - w, low.y - h},
-                             {high.x + 1.02 * w, low.y - 1.05 * h},
-                             {high.x + w, high.y + h},
-                             {low.x - 0.97 * w, high.y + 1.01 * h}};
+    const double w = 3 * (high.x() - low.x()), h = 3 * (high.y() - low.y());
+    const Vec2 corners[4] = {{low.x() - w, low.y() - h},
+                             {high.x() + 1.02 * w, low.y() - 1.05 * h},
+                             {high.x() + w, high.y() + h},
+                             {low.x() - 0.97 * w, high.y() + 1.01 * h}};
     for (int k = 0; k < 4; ++k)
-      mesh_.vertices[count_ + k].x = corners[k].x, mesh_.vertices[count_ + k].y = corners[k].y;
+      mesh_.vertices[count_ + k].x = corners[k].x(), mesh_.vertices[count_ + k].y = corners[k].y();
     mesh_.triangles.resize(2);
     Triangle &first = mesh_.triangles[0], &second = mesh_.triangles[1];
     first.v[0] = second.v[0] = count_;

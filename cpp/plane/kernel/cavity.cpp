@@ -34,7 +34,7 @@ bool Triangulation::too_near(Vec2 p, int v, double d2, const InsertRules& rules,
   if (in_chart) return true;
   const Vertex& w = vertices[v];
   // Both ends must agree: a metric that varies would refuse on one side what it wants on the other.
-  return 0.5 * (d2 + squared(w.metric(), w.x - p.x, w.y - p.y)) < rules.distance2;
+  return 0.5 * (d2 + squared(w.metric(), w.x - p.x(), w.y - p.y())) < rules.distance2;
 }
 
 // Whether the new point lies in the circle through a, d, b, which are all far from it, in the mean of their metrics and
@@ -78,7 +78,7 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
   std::size_t cavity_size = 0, rim_size = 0, top = 0, point_count = 3;
   for (int i = 0; i < 3; ++i) {
     const Vertex& w = vertices[S.v[i]];
-    const double x = w.x - p.x, y = w.y - p.y;
+    const double x = w.x - p.x(), y = w.y - p.y();
     if constexpr (charted) charted_[i] = chart->at_offset({x, y});
     const double d2 = charted ? dot(charted_[i], charted_[i]) : squared(metric, x, y);
     if ((x == 0 && y == 0) || (d2 < rules.distance2 && too_near(p, S.v[i], d2, rules, charted))) return false;
@@ -106,7 +106,7 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
       const Triangle& N = triangles[t];
       const Vertex& w = vertices[N.v[i]];
       RimPoint& D = points[point_count];
-      D.x = w.x - p.x, D.y = w.y - p.y, D.v = N.v[i];
+      D.x = w.x - p.x(), D.y = w.y - p.y(), D.v = N.v[i];
       D.d2 = squared(metric, D.x, D.y);
       const auto d = static_cast<std::int32_t>(point_count);
       if constexpr (charted) {

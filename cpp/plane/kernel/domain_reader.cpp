@@ -71,13 +71,13 @@ void check_domain(const PlaneDomain& domain) {
 
 Frame frame_of(const PlaneDomain& domain) {
   Vec2 low = domain.vertices[0], high = low;
-  for (const Vec2 p : domain.vertices) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  for (const Vec2& p : domain.vertices) {
+    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
   }
   Frame frame;
-  frame.scale = {scale_for(low.x, high.x, low), scale_for(low.y, high.y, low)};
-  frame.unscale = {1 / frame.scale.x, 1 / frame.scale.y};
+  frame.scale = {scale_for(low.x(), high.x(), low), scale_for(low.y(), high.y(), low)};
+  frame.unscale = {1 / frame.scale.x(), 1 / frame.scale.y()};
   return frame;
 }
 

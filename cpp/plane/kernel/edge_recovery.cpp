@@ -42,7 +42,7 @@ class Recovery {
   // For v on the line: whether it lies on the same side of a as b.
   [[nodiscard]] bool ahead(int v) const noexcept {
     const Vec2 w = mesh_.at(v);
-    return p_.x != q_.x ? (w.x > p_.x) == (q_.x > p_.x) : (w.y > p_.y) == (q_.y > p_.y);
+    return p_.x() != q_.x() ? (w.x() > p_.x()) == (q_.x() > p_.x()) : (w.y() > p_.y()) == (q_.y() > p_.y());
   }
 
   // The triangle at a that the segment enters, and the corner of a in it. -1: result_ tells.

@@ -12,8 +12,8 @@ namespace carreau::plane {
 struct Frame {
   Vec2 scale{1, 1}, unscale{1, 1};
 
-  [[nodiscard]] Vec2 inward(Vec2 uv) const noexcept { return {uv.x * scale.x, uv.y * scale.y}; }
-  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x * unscale.x, p.y * unscale.y}; }
+  [[nodiscard]] Vec2 inward(Vec2 uv) const noexcept { return {uv.x() * scale.x(), uv.y() * scale.y()}; }
+  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale.x(), p.y() * unscale.y()}; }
 };
 
 /// Bend of a chart from which on it takes the place of the tensor: a size that grows by a tenth, or directions that
@@ -33,19 +33,19 @@ class Field {
   Field(const ControlSpace& space, const Frame& frame, bool charts = true) noexcept
       : space_(space),
         unscale_(frame.unscale),
-        aa_(unscale_.x * unscale_.x),
-        ab_(unscale_.x * unscale_.y),
-        bb_(unscale_.y * unscale_.y),
+        aa_(unscale_.x() * unscale_.x()),
+        ab_(unscale_.x() * unscale_.y()),
+        bb_(unscale_.y() * unscale_.y()),
         bends_(charts && space.measure() >= least_bent_measure && space.largest_bend() > least_bend) {}
 
   [[nodiscard]] Metric2 at(Vec2 p) const noexcept {
-    const Metric2 m = space_.at({p.x * unscale_.x, p.y * unscale_.y});
+    const Metric2 m = space_.at({p.x() * unscale_.x(), p.y() * unscale_.y()});
     return {m.a * aa_, m.b * ab_, m.c * bb_};
   }
   [[nodiscard]] MetricSlopes slopes(Vec2 p) const noexcept {
-    const MetricSlopes s = space_.slopes_at({p.x * unscale_.x, p.y * unscale_.y});
+    const MetricSlopes s = space_.slopes_at({p.x() * unscale_.x(), p.y() * unscale_.y()});
     const auto inward = [&](Metric2 m, double k) { return Metric2{k * aa_ * m.a, k * ab_ * m.b, k * bb_ * m.c}; };
-    return {inward(s.metric, 1), inward(s.by_u, unscale_.x), inward(s.by_v, unscale_.y)};
+    return {inward(s.metric, 1), inward(s.by_u, unscale_.x()), inward(s.by_v, unscale_.y())};
   }
   /// `curved` false: of the tensor alone.
   [[nodiscard]] Chart chart(Vec2 p, bool curved = true) const noexcept {
@@ -54,7 +54,7 @@ class Field {
     return {p, {at(p), none, none}};
   }
   /// Parameters of the host.
-  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x * unscale_.x, p.y * unscale_.y}; }
+  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
   /// Whether there may be places where it bends.
   [[nodiscard]] bool bends() const noexcept { return bends_; }
   /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).

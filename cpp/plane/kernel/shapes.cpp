@@ -13,7 +13,7 @@ Bend Field::bend(const MetricSlopes& slopes, const Chart& chart) const noexcept 
   const double by_shapes = bend_of_shapes(slopes);
   if (!(by_shapes > least_bend) || by_shapes > most_bend) return Bend::none;
   constexpr double tolerance = 0.1;
-  for (const Vec2 d : six_directions) {
+  for (const Vec2& d : six_directions) {
     Vec2 e = chart.offset(d);
     // Along a strong bend only so far that the curve is about a unit long.
     const double aside = norm(chart.at_offset(e) - d);

@@ -117,10 +117,10 @@ bool Optimiser::move_to_best(int v) {
   for (double step = 0.24; step > 0.02; step *= 0.5) {
     const UnitCircle circle(P.metric());
     const Vec2 centre = P.point();
-    for (const Vec2 d : six_directions) {
+    for (const Vec2& d : six_directions) {
       const Vertex kept = P;
       const Vec2 to = centre + circle.vector(step * d);
-      P.x = to.x, P.y = to.y;
+      P.x = to.x(), P.y = to.y();
       // Shapes depend on it only where the field bends.
       if (!mesh_.bends.empty()) P.set_metric(field_.at(P.point()));
       const double now = star_penalty(v, best);
@@ -216,7 +216,7 @@ bool Optimiser::rescue_by_insertion(int t) {
     if (l2[k] < l2[i]) i = k;
   const Vec2 a = V[next3[i]]->point(), b = V[prev3[i]]->point(), e = b - a;
   const double k = short_edge_height / std::sqrt(std::max(determinant(m), 1e-300));
-  const Vec2 p{0.5 * (a.x + b.x) - k * (m.b * e.x + m.c * e.y), 0.5 * (a.y + b.y) + k * (m.a * e.x + m.b * e.y)};
+  const Vec2 p{0.5 * (a.x() + b.x()) - k * (m.b * e.x() + m.c * e.y()), 0.5 * (a.y() + b.y()) + k * (m.a * e.x() + m.b * e.y())};
   return insert_to_improve(p, t, false);
 }
 
@@ -259,7 +259,7 @@ bool Optimiser::insert_to_improve(Vec2 p, int t, bool spaced) {
     before = std::min(before, shape(C.v[0], C.v[1], C.v[2]));
   }
   const auto v = static_cast<std::int32_t>(mesh_.vertices.size());
-  mesh_.vertices.push_back({p.x, p.y});
+  mesh_.vertices.push_back({p.x(), p.y()});
   if (!mesh_.bends.empty()) mesh_.bends.push_back(Bend::none);
   shapes_.set_metric(v);
   ring_.clear();

@@ -159,7 +159,7 @@ double Optimiser::star_cost(int v, double enough) { return star_sum(v, enough, c
 
 void Optimiser::place(int v, Vec2 p) {
   Vertex& P = mesh_.vertices[v];
-  P.x = p.x, P.y = p.y;
+  P.x = p.x(), P.y = p.y();
   P.set_metric(field_.at(p));
   places_[v] = key_of_place(p);
 }
@@ -186,14 +186,14 @@ Vec2 Optimiser::best_place(int v, bool quick, bool settled) {
       const UnitCircle circle(P.metric());
       const Vec2 centre = P.point();
       bool any = false;
-      for (const Vec2 d : six_directions) {
+      for (const Vec2& d : six_directions) {
         const Vec2 kept = P.point(), to = centre + circle.vector(step * d);
-        P.x = to.x, P.y = to.y;
+        P.x = to.x(), P.y = to.y();
         const double now = star_cost(v, best);
         if (now < best * (1 - tie))
           best = now, any = true;
         else
-          P.x = kept.x, P.y = kept.y;
+          P.x = kept.x(), P.y = kept.y();
       }
       if (!any) break;
     }
@@ -260,7 +260,7 @@ void Optimiser::split_edge(int t, int i) {
   const auto m = static_cast<std::int32_t>(mesh_.vertices.size());
   const auto t2 = static_cast<std::int32_t>(mesh_.triangles.size()), u2 = t2 + 1;
   const Vec2 p = 0.5 * (mesh_.at(a) + mesh_.at(b));
-  mesh_.vertices.push_back({p.x, p.y});
+  mesh_.vertices.push_back({p.x(), p.y()});
   mesh_.vertices.back().triangle = t;
   shapes_.set_metric(m);
   places_.push_back(key_of_place(p));

@@ -21,7 +21,7 @@ inline PlaceKey mixed(PlaceKey k) noexcept {
   return k ^ k >> 31;
 }
 inline PlaceKey key_of_place(Vec2 p) noexcept {
-  return mixed(mixed(std::bit_cast<std::uint64_t>(p.x)) + std::bit_cast<std::uint64_t>(p.y));
+  return mixed(mixed(std::bit_cast<std::uint64_t>(p.x())) + std::bit_cast<std::uint64_t>(p.y()));
 }
 inline PlaceKey key_of_side(PlaceKey from, PlaceKey to) noexcept { return from ^ std::rotl(to, 32); }
 /// From whatever corner it starts.

@@ -49,9 +49,9 @@ void Optimiser::propose_in_chart(const Triangle& T, double weight) {
   for (int i = 0; i < 3; ++i) {
     const Vec2 from = y[next3[i]], to = y[prev3[i]], e = to - from;
     const Vec2 top =
-        triangle.chart.point(0.5 * (from + to) + 0.5 * std::numbers::sqrt3 * Vec2{-e.y, e.x}, mesh_.at(T.v[i]));
+        triangle.chart.point(0.5 * (from + to) + 0.5 * std::numbers::sqrt3 * Vec2{-e.y(), e.x()}, mesh_.at(T.v[i]));
     Vec2& p = proposals_[T.v[i]];
-    p.x += weight * top.x, p.y += weight * top.y;
+    p.x() += weight * top.x(), p.y() += weight * top.y();
   }
 }
 
@@ -145,8 +145,8 @@ void Optimiser::propose(double pull) {
       const double height = k0 - std::min(std::max(k1 * (ex * ny - ey * nx), low), high);
       const double x = 0.5 * (from.x + to.x) + height * nx, y = 0.5 * (from.y + to.y) + height * ny;
       Vec2& p = proposals[v];
-      p.x += by_size ? weight * x : x;
-      p.y += by_size ? weight * y : y;
+      p.x() += by_size ? weight * x : x;
+      p.y() += by_size ? weight * y : y;
     };
     tell(T.v[0], Q, R);
     tell(T.v[1], R, P);
@@ -157,7 +157,7 @@ void Optimiser::propose(double pull) {
 bool Optimiser::undo(int v) {
   Vertex& P = mesh_.vertices[v];
   if (v < fixed_ || P.point() == before_[v]) return false;
-  P.x = before_[v].x, P.y = before_[v].y;
+  P.x = before_[v].x(), P.y = before_[v].y();
   undone_.push_back(v);
   return true;
 }
@@ -208,8 +208,8 @@ void Optimiser::sweep(Sweep how, double pull, bool first) {
     const Vec2 to = proposals_[v], old = P.point();
     if (weights_[v] > 0) {
       const double share = relaxation / weights_[v], kept = momentum - relaxation;
-      P.x += share * to.x + kept * P.x - momentum * before_[v].x;
-      P.y += share * to.y + kept * P.y - momentum * before_[v].y;
+      P.x += share * to.x() + kept * P.x - momentum * before_[v].x();
+      P.y += share * to.y() + kept * P.y - momentum * before_[v].y();
     }
     before_[v] = old;
   }

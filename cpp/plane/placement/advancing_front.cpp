@@ -106,7 +106,7 @@ Filler::Candidate Filler::apex(const FrontEdge& edge) const {
     const double l2 = m.a * ex * ex + 2 * m.b * ex * ey + m.c * ey * ey;
     const double height2 = std::max(1 - 0.25 * l2, least_height2);
     const double k = std::sqrt(height2 / (std::max(determinant(m), 1e-300) * l2));
-    return Vec2{middle.x - k * (m.b * ex + m.c * ey), middle.y + k * (m.a * ex + m.b * ey)};
+    return Vec2{middle.x() - k * (m.b * ex + m.c * ey), middle.y() + k * (m.a * ex + m.b * ey)};
   };
   const Metric2 at_ends = 0.5 * (A.metric() + B.metric());
   const Metric2 at_apex = field_.at(place(at_ends));
@@ -124,7 +124,7 @@ Filler::Candidate Filler::apex_in_charts(const FrontEdge& edge, Vec2 first) cons
     const ChartedTriangle y(field_, a, b, top, !mesh_.is_kinked(edge.a, edge.b));
     const Vec2 e = y.b - y.a;
     const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, least_height2) / l2);
-    top = y.chart.point(0.5 * (y.a + y.b) + height * Vec2{-e.y, e.x}, top);
+    top = y.chart.point(0.5 * (y.a + y.b) + height * Vec2{-e.y(), e.x()}, top);
   }
   return {top, field_.at(top), edge.edge, edge.a};
 }

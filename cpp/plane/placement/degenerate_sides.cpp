@@ -157,7 +157,7 @@ void Filler::surround(DegenerateEdge& edge) {
   if (takes_part(edge.a, ring.before)) fan.push_back(ring.before);
   int hint = ring.triangle;
   double spacing = 0;
-  for (const Vec2 p : points_on(ring, height, edge, spacing)) {
+  for (const Vec2& p : points_on(ring, height, edge, spacing)) {
     hint = mesh_.locate(p, hint);
     if (hint < 0) {
       hint = mesh_.vertices[edge.a].triangle;

@@ -85,7 +85,7 @@ void Filler::insert_at(Vec2 p, Metric2 metric, Bend bend) {
   constexpr double r2 = done_radius * done_radius;
   const auto v = static_cast<int>(mesh_.vertices.size());
   mesh_.vertices.emplace_back();
-  mesh_.vertices.back().x = p.x, mesh_.vertices.back().y = p.y;
+  mesh_.vertices.back().x = p.x(), mesh_.vertices.back().y = p.y();
   mesh_.vertices.back().set_metric(metric);
   if (field_.bends()) mesh_.bends.push_back(bend);
   mesh_.fill(v);

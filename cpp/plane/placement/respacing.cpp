@@ -72,7 +72,7 @@ void Filler::go_round_corner(const Candidate& before, const Candidate& after) {
   const double lu = length(m, u);
   if (pieces < 2 || pieces > 5 || !(lu > 0)) return;
   // An orthonormal pair of the metric: e along u, f a quarter turn counterclockwise from it.
-  const Vec2 e = (1 / lu) * u, f{-(m.b * e.x + m.c * e.y) / root, (m.a * e.x + m.b * e.y) / root};
+  const Vec2 e = (1 / lu) * u, f{-(m.b * e.x() + m.c * e.y()) / root, (m.a * e.x() + m.b * e.y()) / root};
   for (int k = 1; k < pieces; ++k) {
     const double a = -angle * k / pieces;
     const Vec2 d = std::cos(a) * e + std::sin(a) * f;

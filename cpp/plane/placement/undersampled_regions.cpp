@@ -36,8 +36,8 @@ bool Filler::settle(Vec2 place) {
   if (start < 0 || !try_insert(place, start, far_from_all, imposed_height)) return false;
   const Eigen2 e = eigen(field_.at(place));
   const Vec2 base = (1 / std::sqrt(e.major)) * e.direction;
-  const Vec2 height = (0.5 * std::numbers::sqrt3 / std::sqrt(e.minor)) * Vec2{-e.direction.y, e.direction.x};
-  for (const Vec2 p : {place + base, place + 0.5 * base + height}) {
+  const Vec2 height = (0.5 * std::numbers::sqrt3 / std::sqrt(e.minor)) * Vec2{-e.direction.y(), e.direction.x()};
+  for (const Vec2& p : {Vec2(place + base), Vec2(place + 0.5 * base + height)}) {
     const int t = mesh_.locate(p, mesh_.vertices.back().triangle);
     if (t >= 0) try_insert(p, t, row_distance, imposed_height);
   }

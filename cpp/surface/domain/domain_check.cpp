@@ -12,7 +12,7 @@ namespace {
 
 double uv_length(const PlaneDomain& domain, const PlaneEdge& e) noexcept {
   const Vec2 a = domain.vertices[e.a], b = domain.vertices[e.b];
-  return std::hypot(0.5 * a.x - 0.5 * b.x, 0.5 * a.y - 0.5 * b.y);  // halves: no overflow
+  return std::hypot(0.5 * a.x() - 0.5 * b.x(), 0.5 * a.y() - 0.5 * b.y());  // halves: no overflow
 }
 
 std::vector<int> flagged(const std::vector<char>& flags) {

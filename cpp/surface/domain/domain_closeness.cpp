@@ -258,8 +258,8 @@ bool ClosenessCheck::is_too_long(int edge) const {
   if (!(delta > 0) || !(det > 0)) return false;
   // Half-axes of the box about the ellipse of radius delta.
   const Vec2 reach{delta * std::sqrt(m.c / det), delta * std::sqrt(m.a / det)};
-  const int left = grid_.column_of(std::min(a.x, b.x) - reach.x), right = grid_.column_of(std::max(a.x, b.x) + reach.x);
-  const int bottom = grid_.row_of(std::min(a.y, b.y) - reach.y), top = grid_.row_of(std::max(a.y, b.y) + reach.y);
+  const int left = grid_.column_of(std::min(a.x(), b.x()) - reach.x()), right = grid_.column_of(std::max(a.x(), b.x()) + reach.x());
+  const int bottom = grid_.row_of(std::min(a.y(), b.y()) - reach.y()), top = grid_.row_of(std::max(a.y(), b.y()) + reach.y());
   for (int row = bottom; row <= top; ++row)
     for (int column = left; column <= right; ++column)
       for (const int vertex : grid_.edges_in(column, row))

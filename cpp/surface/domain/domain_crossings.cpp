@@ -13,19 +13,19 @@
 namespace carreau {
 namespace {
 
-bool comes_before(Vec2 p, Vec2 q) noexcept { return p.x < q.x || (p.x == q.x && p.y < q.y); }
+bool comes_before(Vec2 p, Vec2 q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
 /// Is p, which is on the line through a and b, between them or at one of them?
 bool within_span(Vec2 a, Vec2 b, Vec2 p) noexcept {
-  return std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
-         p.y <= std::max(a.y, b.y);
+  return std::min(a.x(), b.x()) <= p.x() && p.x() <= std::max(a.x(), b.x()) && std::min(a.y(), b.y()) <= p.y() &&
+         p.y() <= std::max(a.y(), b.y());
 }
 
 /// Where a - b and c - d cross properly, to rounding and without overflow.
 Vec2 crossing_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
-  const double scale = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y), std::abs(c.x),
-                                 std::abs(c.y), std::abs(d.x), std::abs(d.y)});
-  const auto scaled = [&](Vec2 p) { return Vec2{p.x / scale, p.y / scale}; };
+  const double scale = std::max({std::abs(a.x()), std::abs(a.y()), std::abs(b.x()), std::abs(b.y()), std::abs(c.x()),
+                                 std::abs(c.y()), std::abs(d.x()), std::abs(d.y())});
+  const auto scaled = [&](Vec2 p) { return Vec2{p.x() / scale, p.y() / scale}; };
   const Vec2 e = scaled(d) - scaled(c), p = scaled(a) - scaled(c), q = scaled(b) - scaled(c);
   const double left = std::abs(cross(e, p)), right = std::abs(cross(e, q));
   const double w = left + right > 0 ? left / (left + right) : 0.5;
@@ -54,8 +54,8 @@ std::optional<Vec2> overlap_beyond(Vec2 p, Vec2 q, Vec2 r) noexcept {
 std::optional<Vec2> conflict_between(const PlaneDomain& domain, const PlaneEdge& e, const PlaneEdge& f) noexcept {
   const auto at = [&](int vertex) { return domain.vertices[vertex]; };
   const Vec2 a = at(e.a), b = at(e.b), c = at(f.a), d = at(f.b);
-  if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x) ||
-      std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
+  if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) || std::max(c.x(), d.x()) < std::min(a.x(), b.x()) ||
+      std::max(a.y(), b.y()) < std::min(c.y(), d.y()) || std::max(c.y(), d.y()) < std::min(a.y(), b.y()))
     return std::nullopt;
   if ((e.a == f.a && e.b == f.b) || (e.a == f.b && e.b == f.a)) return lerp(a, b, 0.5);
   if (e.a == f.a) return overlap_beyond(a, b, d);

@@ -20,9 +20,9 @@ void require_sound(const PlaneDomain& domain) {
 
 std::string name_of_place(Vec2 uv) {
   std::string name = "(u, v) = (";
-  append_number(name, uv.x);
+  append_number(name, uv.x());
   name += ", ";
-  append_number(name, uv.y);
+  append_number(name, uv.y());
   return name + ")";
 }
 

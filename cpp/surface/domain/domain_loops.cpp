@@ -69,7 +69,7 @@ double side_of_inside(const PlaneDomain& domain, const Boundary& boundary, const
     const PlaneEdge& e = domain.edges[chain.edges[i]];
     const Vec2 a = domain.vertices[e.a], b = domain.vertices[e.b];
     if (a == b) continue;
-    const double share = std::hypot(a.x / extent - b.x / extent, a.y / extent - b.y / extent);
+    const double share = std::hypot(a.x() / extent - b.x() / extent, a.y() / extent - b.y() / extent);
     const bool left = boundary.inside_left_of(chain.edges[i]) != (chain.against[i] != 0);
     vote += (left ? 1 : -1) * std::max(share, 1e-30);
   }
@@ -78,7 +78,7 @@ double side_of_inside(const PlaneDomain& domain, const Boundary& boundary, const
 
 double extent_of(const PlaneDomain& domain) {
   double extent = 0;
-  for (const Vec2 p : domain.vertices) extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+  for (const Vec2& p : domain.vertices) extent = std::max({extent, std::abs(p.x()), std::abs(p.y())});
   return extent > 0 ? extent : 1;
 }
 
@@ -167,7 +167,7 @@ void report_points(const Boundary& boundary, Report& report) {
       report.add(point + " lies on " + report.name(e));
     else if (!boundary.inside().contains(p))
       report.add(point + " is outside the domain");
-    else if (!seen.emplace(p.x, p.y).second)
+    else if (!seen.emplace(p.x(), p.y()).second)
       report.add(point + " is imposed twice");
   }
 }

@@ -269,7 +269,7 @@ void GradingRound::add_triangles(const FaceDomain& domain, GradedFace& face, std
     // A pole has no directions of its own.
     TangentMetric& m = metric_[first + v];
     if (!std::isfinite(m.h1)) {
-      m.d1 = unit(cross(n, std::abs(n.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
+      m.d1 = unit(cross(n, std::abs(n.x()) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})), m.d2 = cross(n, m.d1);
       continue;
     }
     // Those of a limit lie in the tangent plane of a meridian, where what a bound says along the normal of that plane

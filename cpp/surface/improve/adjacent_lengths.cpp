@@ -199,7 +199,7 @@ class LengthEvening {
     const Judgement before = judge(around);
     best = before;
     for (const double step : placement_distances)
-      for (const Vec2 d : six_directions) {
+      for (const Vec2& d : six_directions) {
         mesh_.faces[v.face].uv[v.local] = here.uv + circle.vector(step * d);
         if (left_ > 0 && local_->are_positive(fan)) {  // so it is inside the domain
           lift(v);

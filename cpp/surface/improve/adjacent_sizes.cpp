@@ -297,7 +297,7 @@ class SizeEvening {
     Judgement best = before;
     std::optional<State> found;
     for (const double step : placement_distances)
-      for (const Vec2 d : six_directions) {
+      for (const Vec2& d : six_directions) {
         const Vec2 at = here.uv + circle.vector(step * d);
         mesh_.faces[inside->face].uv[inside->local] = at;
         if (left_ > 0 && local_->are_positive(fan)) {  // so it is inside the domain

@@ -149,16 +149,16 @@ class SpaceSmoothing {
     const Vec3 home = mesh_.xyz[star.vertex];
     const double length = mean_edge(star);
     static constexpr double d = 0.70710678118654752;
-    static constexpr std::array<Vec2, 8> directions{
+    static const std::array<Vec2, 8> directions{
         {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
     Vec2 way;
     double best = worst_around(star);
     order_ = star.triangles;
     for (double step = first_step; step > last_step;) {
       Vec2 next = way;
-      for (const Vec2 direction : directions) {
+      for (const Vec2& direction : directions) {
         const Vec2 there = way + (step * length) * direction;
-        mesh_.xyz[star.vertex] = home + there.x * e1 + there.y * e2;
+        mesh_.xyz[star.vertex] = home + there.x() * e1 + there.y() * e2;
         const double worst = worst_in_order(best);
         if (worst > best) best = worst, next = there;
       }
@@ -191,8 +191,8 @@ class SpaceSmoothing {
     const Vec3 e1 = (1 / norm(jet.su)) * jet.su, e2 = cross(*normal, e1);
     const Vec2 way = best_way(star, e1, e2);
     if (way == Vec2{}) return false;
-    const double along_v = way.y / dot(jet.sv, e2);
-    const Vec2 step{(way.x - along_v * dot(jet.sv, e1)) / norm(jet.su), along_v};
+    const double along_v = way.y() / dot(jet.sv, e2);
+    const Vec2 step{(way.x() - along_v * dot(jet.sv, e1)) / norm(jet.su), along_v};
     star.normal = normal;
     ask_normals(star);
     agreement_before_.clear();

@@ -44,16 +44,16 @@ class SteepPlaces {
     constexpr double inf = std::numeric_limits<double>::infinity();
     Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
     double longest = 0;
-    for (const Vec3 p : mesh_.xyz) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    for (const Vec3& p : mesh_.xyz) {
+      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
+      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
     }
     for (const auto& t : mesh_.plane.triangles)
       for (int i = 0; i < 3; ++i) longest = std::max(longest, norm(mesh_.xyz[t[i]] - mesh_.xyz[t[(i + 1) % 3]]));
     const auto near_box = [&](const SteepPlace& s) {
       const double d = s.reach + longest;
-      return s.at.x > low.x - d && s.at.x < high.x + d && s.at.y > low.y - d && s.at.y < high.y + d &&
-             s.at.z > low.z - d && s.at.z < high.z + d;
+      return s.at.x() > low.x() - d && s.at.x() < high.x() + d && s.at.y() > low.y() - d && s.at.y() < high.y() + d &&
+             s.at.z() > low.z() - d && s.at.z() < high.z() + d;
     };
     std::vector<SteepPlace> around;
     std::copy_if(places.begin(), places.end(), std::back_inserter(around), near_box);
@@ -86,7 +86,7 @@ class SteepPlaces {
         Foot& f = feet[moving[first + i]];
         distance[moving[first + i]] = norm(f.at - jets[i].s);
         const Vec2 d = step_towards(jets[i], f.at);
-        f.moving = norm(d.x * jets[i].su + d.y * jets[i].sv) > settled * f.reach && locator.contains(f.uv + d);
+        f.moving = norm(d.x() * jets[i].su + d.y() * jets[i].sv) > settled * f.reach && locator.contains(f.uv + d);
         if (f.moving) f.uv = f.uv + d;
       }
     };

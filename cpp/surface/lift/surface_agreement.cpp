@@ -38,7 +38,7 @@ class Pieces {
         if (i + j + 1 < parts) add(i + 2. / 3, j + 2. / 3);
       }
     cad_.surface(input_.ref, want_first, uv_, jets_);
-    const double share = (q.x * r.y - q.y * r.x) / 2 / static_cast<double>(n);
+    const double share = (q.x() * r.y() - q.y() * r.x()) / 2 / static_cast<double>(n);
     Piece piece;
     for (const SurfaceJet& jet : jets_) {
       const Vec3 normal = share * cross(jet.su, jet.sv);

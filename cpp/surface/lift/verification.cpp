@@ -229,8 +229,8 @@ std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh
       if ((a < imposed && b < imposed) || in_space[i] > far || !(in_domain[i] > apart)) continue;
       const Vec2 to = mesh.plane.vertices[b];
       return Where{.face = ref, .uv = mesh.plane.vertices[a]}.prefix() +
-             "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x) + ", " +
-             format_number(to.y) + ") is the same point of space";
+             "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x()) + ", " +
+             format_number(to.y()) + ") is the same point of space";
     }
   }
   return {};

@@ -109,7 +109,7 @@ class Finder {
   bool is_near_a_point(NarrowFace& narrow) const {
     const Vec3 start = model_.supports[face_].front().xyz.front();
     for (const CurveSupport& s : model_.supports[face_])
-      for (const Vec3 p : s.xyz) narrow.width = std::max(narrow.width, norm(p - start));
+      for (const Vec3& p : s.xyz) narrow.width = std::max(narrow.width, norm(p - start));
     return narrow.width <= reach_;
   }
 

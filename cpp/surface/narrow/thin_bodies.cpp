@@ -49,7 +49,7 @@ class Bodies {
       if (edge.curve != curve || edge.segment != middle) continue;
       const Vec2 a = domain.vertices[edge.a], along = domain.vertices[edge.b] - a;
       const SurfaceJet jet = surface_at(model_.cad, model_.model.faces[face].ref, want_first, a + 0.5 * along);
-      const Vec3 tangent = along.x * jet.su + along.y * jet.sv, inside = -along.y * jet.su + along.x * jet.sv;
+      const Vec3 tangent = along.x() * jet.su + along.y() * jet.sv, inside = -along.y() * jet.su + along.x() * jet.sv;
       const double square = dot(tangent, tangent);
       if (!(square > 0)) return {};
       const Vec3 across = inside - (dot(inside, tangent) / square) * tangent;

@@ -32,7 +32,7 @@ constexpr double least_speed = 0.02;
 constexpr double shortest = 1e-7;
 
 /// One parameter: 0 is u, 1 is v.
-double of(Vec2 p, int axis) noexcept { return axis == 0 ? p.x : p.y; }
+double of(Vec2 p, int axis) noexcept { return axis == 0 ? p.x() : p.y(); }
 Vec2 point(int axis, double along, double across) noexcept {
   return axis == 0 ? Vec2{along, across} : Vec2{across, along};
 }
@@ -285,7 +285,7 @@ ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& 
   const auto sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     for (std::size_t k = 0; k < uv.size(); ++k) {
       const Vec2 p = map.from_host(uv[k]);
-      metric[k] = scaled(space.at(p), 1 / map.u.jet(p.x).first, 1 / map.v.jet(p.y).first);
+      metric[k] = scaled(space.at(p), 1 / map.u.jet(p.x()).first, 1 / map.v.jet(p.y()).first);
     }
   };
   return ControlSpace::build(sampled_domain(host), sampler, {.max_samples = most_samples}, monitor);

@@ -22,8 +22,8 @@ constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
 Vec2 along_meridian(const SurfaceJet& jet, Vec2 to_middle, Vec2 half) noexcept {
   constexpr double still = 1e-12;
   const double u = norm(jet.su), v = norm(jet.sv);
-  if (u <= still * v) return {0, std::copysign(half.y, to_middle.y)};
-  if (v <= still * u) return {std::copysign(half.x, to_middle.x), 0};
+  if (u <= still * v) return {0, std::copysign(half.y(), to_middle.y())};
+  if (v <= still * u) return {std::copysign(half.x(), to_middle.x()), 0};
   return to_middle;
 }
 
@@ -56,9 +56,9 @@ std::optional<Vec2> FaceMetric::beside(Vec2 uv, const SurfaceJet& jet) {
   if (!inside_) {
     const SampledDomain domain = sampled_domain(plane_);
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
-    for (const Vec2 p : domain.vertices) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    for (const Vec2& p : domain.vertices) {
+      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
     }
     inside_.emplace(Inside{{domain.vertices, domain.edges}, 0.5 * (low + high), 0.5 * (high - low)});
   }

@@ -83,12 +83,12 @@ InterfaceSizes::InterfaceSizes(const PlaneDomain& domain, const std::vector<doub
     for (double& h : value_) h = std::log(h);
   // Units of u and of v may have nothing in common.
   Vec2 high = low_ = mesh_.vertices.front();
-  for (const Vec2 p : mesh_.vertices) {
-    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  for (const Vec2& p : mesh_.vertices) {
+    low_ = {std::min(low_.x(), p.x()), std::min(low_.y(), p.y())};
+    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
   }
-  scale_ = {1 / (high.x - low_.x), 1 / (high.y - low_.y)};
-  for (Vec2& p : mesh_.vertices) p = {(p.x - low_.x) * scale_.x, (p.y - low_.y) * scale_.y};
+  scale_ = {1 / (high.x() - low_.x()), 1 / (high.y() - low_.y())};
+  for (Vec2& p : mesh_.vertices) p = {(p.x() - low_.x()) * scale_.x(), (p.y() - low_.y()) * scale_.y()};
 }
 
 /// Barycentric coordinates.
@@ -120,7 +120,7 @@ int InterfaceSizes::triangle_at(Vec2 p) const {
 }
 
 double InterfaceSizes::operator()(Vec2 uv) const {
-  const Vec2 from{(uv.x - low_.x) * scale_.x, (uv.y - low_.y) * scale_.y};
+  const Vec2 from{(uv.x() - low_.x()) * scale_.x(), (uv.y() - low_.y()) * scale_.y()};
   last_ = triangle_at(from);
   const Triangle& home = mesh_.triangles[last_];
   const auto size_of = [&](double mean) { return law_ == SizeLaw::geometric ? std::exp(mean) : mean; };

@@ -26,7 +26,7 @@ constexpr double degree = std::numbers::pi / 180;
 TEST(HessianEstimator, SolvesTheBoundForTheSize) {
   // HDR eq. 3.5 with the largest eigenvalue 8.
   TestMesh mesh = square_mesh(12);
-  mesh.with([](Vec3 p) { return 4 * p.x * p.x - p.y * p.y; });
+  mesh.with([](Vec3 p) { return 4 * p.x() * p.x() - p.y() * p.y(); });
   const auto result = estimate(mesh.field(), {.tolerance = 0.02, .hmin = 1e-4, .hmax = 10});
   ASSERT_EQ(result.sizes.size(), mesh.vertices.size());
   EXPECT_TRUE(result.metrics.empty());
@@ -37,7 +37,7 @@ TEST(HessianEstimator, GivesBothSizesAlongTheAxes) {
   TestMesh mesh = square_mesh(12);
   const double c = std::cos(0.5), s = std::sin(0.5);
   mesh.with([&](Vec3 p) {
-    const double x = c * p.x + s * p.y, y = -s * p.x + c * p.y;
+    const double x = c * p.x() + s * p.y(), y = -s * p.x() + c * p.y();
     return 50 * x * x - y * y / 2;
   });
   const auto result =
@@ -64,7 +64,7 @@ TEST(HessianEstimator, ItsUnitTrianglesHaveTheError) {
 
 TEST(HessianEstimator, KeepsBoundsAndRatio) {
   TestMesh mesh = square_mesh(12);
-  mesh.with([](Vec3 p) { return 1e6 * p.x * p.x; });
+  mesh.with([](Vec3 p) { return 1e6 * p.x() * p.x(); });
   const EstimatorOptions options{
       .shape = ErrorShape::anisotropic, .tolerance = 1e-4, .hmin = 0.01, .hmax = 0.5, .ratio = 20};
   for (const Metric3& m : estimate(mesh.field(), options).metrics) {
@@ -79,13 +79,13 @@ TEST(HessianEstimator, KeepsBoundsAndRatio) {
 TEST(HessianEstimator, RelativeErrorsScaleWithTheField) {
   TestMesh mesh = square_mesh(12);
   const EstimatorOptions options{.tolerance = 0.01, .relative = true, .hmin = 1e-4, .hmax = 10};
-  mesh.with([](Vec3 p) { return 3 + p.x * p.x; });
+  mesh.with([](Vec3 p) { return 3 + p.x() * p.x(); });
   const auto once = estimate(mesh.field(), options);
-  mesh.with([](Vec3 p) { return 1000 * (3 + p.x * p.x); });
+  mesh.with([](Vec3 p) { return 1000 * (3 + p.x() * p.x()); });
   const auto thousand = estimate(mesh.field(), options);
   for (std::size_t v = 0; v < once.sizes.size(); ++v) {
     EXPECT_NEAR(once.sizes[v], thousand.sizes[v], 1e-8);
-    const double value = 3 + mesh.vertices[v].x * mesh.vertices[v].x;
+    const double value = 3 + mesh.vertices[v].x() * mesh.vertices[v].x();
     EXPECT_NEAR(once.sizes[v], std::sqrt(9 * 0.01 * value / 4), 1e-8);
   }
 }
@@ -94,7 +94,7 @@ TEST(CurvatureEstimator, GivesTheSizeOfAnAngleOnASphere) {
   // The graph of a sphere of radius 3: 2 sin(8 degrees) 3 in the tangent plane, projected.
   const double radius = 3;
   TestMesh mesh = square_mesh(60, 0.1);
-  mesh.with([&](Vec3 p) { return std::sqrt(radius * radius - p.x * p.x - p.y * p.y); });
+  mesh.with([&](Vec3 p) { return std::sqrt(radius * radius - p.x() * p.x() - p.y() * p.y()); });
   EstimatorOptions options{.source = ErrorSource::curvature, .tolerance = 8, .hmin = 1e-4, .hmax = 10};
   const double h = 2 * std::sin(8 * degree) * radius;
   const auto circles = estimate(mesh.field(), options);
@@ -115,7 +115,7 @@ TEST(CurvatureEstimator, GivesTheSizeOfAnAngleOnASphere) {
 TEST(CurvatureEstimator, FollowsTheTwoRadiiAtTheTop) {
   // HDR figure 4.8: radii 1 and 4, 30 degrees: sizes 1 and sqrt((2 - sqrt 3)(14 + sqrt 3)).
   TestMesh mesh = square_mesh(12);
-  mesh.with([](Vec3 p) { return p.x * p.x / 2 + p.y * p.y / 8; });
+  mesh.with([](Vec3 p) { return p.x() * p.x() / 2 + p.y() * p.y() / 8; });
   const auto result = estimate(
       mesh.field(),
       {.source = ErrorSource::curvature, .shape = ErrorShape::anisotropic, .tolerance = 30, .hmin = 1e-4, .hmax = 10});
@@ -133,7 +133,7 @@ TEST(DeformationEstimator, IsAPropertyOfTheSurfaceNotOfTheMesh) {
   // z = k r^2 / 2: the distance from the tangent plane at the top is k h^2 / 2.
   for (const int n : {8, 16, 64}) {
     TestMesh mesh = square_mesh(n, 0);
-    mesh.with([](Vec3 p) { return 0.4 * (p.x * p.x + p.y * p.y) / 2; });
+    mesh.with([](Vec3 p) { return 0.4 * (p.x() * p.x() + p.y() * p.y()) / 2; });
     const EstimatorOptions options{.source = ErrorSource::deformation, .tolerance = 0.01, .hmin = 1e-4, .hmax = 10};
     const auto result = estimate(mesh.field(), options);
     const std::size_t centre = static_cast<std::size_t>(n / 2) * static_cast<std::size_t>(n + 2);
@@ -145,16 +145,16 @@ TEST(DeformationEstimator, IsAPropertyOfTheSurfaceNotOfTheMesh) {
 TEST(Estimators, TurnWithTheMesh) {
   const double c = std::cos(1.1), s = std::sin(1.1);
   TestMesh mesh = square_mesh(16);
-  mesh.with([](Vec3 p) { return std::sin(2 * p.x + p.y) + p.y * p.y; });
-  const TestMesh turned = testing::mapped(mesh, [&](Vec3 p) { return Vec3{c * p.x - s * p.y, s * p.x + c * p.y, 0}; });
+  mesh.with([](Vec3 p) { return std::sin(2 * p.x() + p.y()) + p.y() * p.y(); });
+  const TestMesh turned = testing::mapped(mesh, [&](Vec3 p) { return Vec3{c * p.x() - s * p.y(), s * p.x() + c * p.y(), 0}; });
   for (const ErrorSource source : {ErrorSource::hessian, ErrorSource::curvature, ErrorSource::deformation}) {
     const EstimatorOptions options{
         .source = source, .shape = ErrorShape::anisotropic, .tolerance = 0.5, .hmin = 1e-3, .hmax = 10};
     const auto p = estimate(mesh.field(), options), q = estimate(turned.field(), options);
     for (std::size_t v = 0; v < p.metrics.size(); ++v)
-      for (const Vec2 d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, 0.8}})
+      for (const Vec2& d : {Vec2{1, 0}, Vec2{0, 1}, Vec2{0.6, 0.8}})
         EXPECT_NEAR(length(plane_part(p.metrics[v]), d),
-                    length(plane_part(q.metrics[v]), {c * d.x - s * d.y, s * d.x + c * d.y}),
+                    length(plane_part(q.metrics[v]), {c * d.x() - s * d.y(), s * d.x() + c * d.y()}),
                     1e-7 * length(plane_part(p.metrics[v]), d));
   }
 }
@@ -177,7 +177,7 @@ TEST(Estimators, RefuseOptionsThatMeanNothing) {
   refused([](auto& o) { o.relative_floor = 0; });
   refused([](auto& o) { o.shape = ErrorShape::graph; });
   refused([](auto& o) { o.source = ErrorSource::curvature, o.tolerance = 90; });
-  mesh.vertices[0].z = 1;
+  mesh.vertices[0].z() = 1;
   refused([](auto& o) { o.source = ErrorSource::deformation; });
 }
 

@@ -18,22 +18,22 @@ Metric2 difference(Metric2 p, Metric2 q) { return p + -1. * q; }
 
 TEST(Recovery, IsExactOnQuadraticsUpToTheBorder) {
   TestMesh mesh = square_mesh(11);
-  mesh.with([](Vec3 p) { return 3 + 2 * p.x - p.y + 1.5 * p.x * p.x - 4 * p.x * p.y + 0.25 * p.y * p.y; });
+  mesh.with([](Vec3 p) { return 3 + 2 * p.x() - p.y() + 1.5 * p.x() * p.x() - 4 * p.x() * p.y() + 0.25 * p.y() * p.y(); });
   const auto derivatives = recover_derivatives(mesh.field());
   for (std::size_t v = 0; v < derivatives.size(); ++v) {
     const auto& d = derivatives[v];
     ASSERT_TRUE(d.reliable);
     const Vec3 p = mesh.vertices[v];
-    EXPECT_NEAR(d.gradient.x, 2 + 3 * p.x - 4 * p.y, 1e-9);
-    EXPECT_NEAR(d.gradient.y, -1 - 4 * p.x + 0.5 * p.y, 1e-9);
+    EXPECT_NEAR(d.gradient.x(), 2 + 3 * p.x() - 4 * p.y(), 1e-9);
+    EXPECT_NEAR(d.gradient.y(), -1 - 4 * p.x() + 0.5 * p.y(), 1e-9);
     EXPECT_LT(largest_entry(difference(d.hessian, {3, -4, 0.5})), 1e-8);
   }
 }
 
 TEST(Recovery, IsExactOnQuadraticsOfStretchedMeshes) {
   // 1000 : 1, oblique.
-  TestMesh mesh = mapped(square_mesh(11), [](Vec3 p) { return Vec3{p.x + 0.001 * p.y, p.x - 0.001 * p.y, 0}; });
-  mesh.with([](Vec3 p) { return p.x * p.x + 7 * p.x * p.y - 2 * p.y * p.y; });
+  TestMesh mesh = mapped(square_mesh(11), [](Vec3 p) { return Vec3{p.x() + 0.001 * p.y(), p.x() - 0.001 * p.y(), 0}; });
+  mesh.with([](Vec3 p) { return p.x() * p.x() + 7 * p.x() * p.y() - 2 * p.y() * p.y(); });
   for (const auto& d : recover_derivatives(mesh.field())) {
     ASSERT_TRUE(d.reliable);
     EXPECT_LT(largest_entry(difference(d.hessian, {2, 7, -4})), 1e-3);
@@ -47,14 +47,14 @@ struct Errors {
 /// Mean errors inside, for sin 3x cos 2y.
 Errors errors(int n, double jitter, bool projection) {
   TestMesh mesh = square_mesh(n, jitter);
-  mesh.with([](Vec3 p) { return std::sin(3 * p.x) * std::cos(2 * p.y); });
+  mesh.with([](Vec3 p) { return std::sin(3 * p.x()) * std::cos(2 * p.y()); });
   const auto derivatives = projection ? project_derivatives(mesh.field()) : recover_derivatives(mesh.field());
   Errors e;
   double count = 0;
   for (std::size_t v = 0; v < derivatives.size(); ++v) {
     const Vec3 p = mesh.vertices[v];
-    if (std::abs(p.x) > 0.7 || std::abs(p.y) > 0.7) continue;
-    const double sx = std::sin(3 * p.x), cx = std::cos(3 * p.x), sy = std::sin(2 * p.y), cy = std::cos(2 * p.y);
+    if (std::abs(p.x()) > 0.7 || std::abs(p.y()) > 0.7) continue;
+    const double sx = std::sin(3 * p.x()), cx = std::cos(3 * p.x()), sy = std::sin(2 * p.y()), cy = std::cos(2 * p.y());
     e.gradient += norm(derivatives[v].gradient - Vec2{3 * cx * cy, -2 * sx * sy});
     e.hessian += largest_entry(difference(derivatives[v].hessian, {-9 * sx * cy, -6 * cx * sy, -4 * sx * cy}));
     ++count;
@@ -84,11 +84,11 @@ TEST(Projection, ConvergesOnRegularMeshes) {
 TEST(Recovery, TurnsWithTheMesh) {
   const auto turn = [](Vec3 p) {  // a rotation about a slanted axis, and a shift
     const double c = std::cos(0.8), s = std::sin(0.8);
-    const Vec3 q{c * p.x - s * p.y, s * p.x + c * p.y, p.z};
-    return Vec3{q.x + 5, c * q.y - s * q.z, s * q.y + c * q.z};
+    const Vec3 q{c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
+    return Vec3{q.x() + 5, c * q.y() - s * q.z(), s * q.y() + c * q.z()};
   };
   TestMesh mesh = square_mesh(13);
-  mesh.with([](Vec3 p) { return std::exp(p.x) * (1 + p.y * p.y); });
+  mesh.with([](Vec3 p) { return std::exp(p.x()) * (1 + p.y() * p.y()); });
   const TestMesh turned = mapped(mesh, turn);
   const auto before = recover_derivatives(mesh.field()), after = recover_derivatives(turned.field());
   for (std::size_t v = 0; v < before.size(); ++v) {
@@ -96,8 +96,8 @@ TEST(Recovery, TurnsWithTheMesh) {
     EXPECT_NEAR(p.major, q.major, 1e-8);
     EXPECT_NEAR(p.minor, q.minor, 1e-8);
     const VertexFrame& f = after[v].frame;
-    const Vec3 gradient = after[v].gradient.x * f.e1 + after[v].gradient.y * f.e2;
-    const Vec3 expected = turn({before[v].gradient.x, before[v].gradient.y, 0}) - turn({0, 0, 0});
+    const Vec3 gradient = after[v].gradient.x() * f.e1 + after[v].gradient.y() * f.e2;
+    const Vec3 expected = turn({before[v].gradient.x(), before[v].gradient.y(), 0}) - turn({0, 0, 0});
     EXPECT_LT(norm(gradient - expected), 1e-9);
   }
 }
@@ -107,15 +107,15 @@ TEST(Recovery, FindsTheHessianOfAHeightOnASphere) {
   double before = 0;
   for (const int n : {16, 32, 64}) {
     TestMesh mesh = mapped(square_mesh(n, 0.2), [](Vec3 p) {
-      const Vec3 q{p.x, p.y, 1.2};
+      const Vec3 q{p.x(), p.y(), 1.2};
       return (1 / norm(q)) * q;
     });
-    mesh.with([](Vec3 p) { return p.z; });
+    mesh.with([](Vec3 p) { return p.z(); });
     const auto derivatives = recover_derivatives(mesh.field());
     double error = 0, count = 0;
     for (std::size_t v = 0; v < derivatives.size(); ++v) {
       if (mesh.inside[v] == 0) continue;
-      const double z = mesh.vertices[v].z;
+      const double z = mesh.vertices[v].z();
       error += largest_entry(difference(derivatives[v].hessian, {-z, 0, -z}));
       ++count;
     }
@@ -149,7 +149,7 @@ TEST(Recovery, RefusesFieldsThatDoNotFit) {
   mesh.triangles.clear();
   EXPECT_THROW(recover_derivatives(mesh.field()), InvalidArgument);
   mesh = square_mesh(3);
-  mesh.vertices[0].x = HUGE_VAL;
+  mesh.vertices[0].x() = HUGE_VAL;
   EXPECT_THROW(recover_derivatives(mesh.field()), InvalidArgument);
 }
 

@@ -20,7 +20,7 @@ struct TestMesh {
   [[nodiscard]] ScalarField field() const { return {vertices, triangles, values}; }
   TestMesh& with(const std::function<double(Vec3)>& f) {
     values.clear();
-    for (const Vec3 p : vertices) values.push_back(f(p));
+    for (const Vec3& p : vertices) values.push_back(f(p));
     return *this;
   }
 };

@@ -22,7 +22,7 @@ SurfaceMesh surface(const TestMesh& mesh, int ref) {
   FaceMesh face;
   face.ref = ref;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    face.uv.push_back({mesh.vertices[v].x, mesh.vertices[v].y});
+    face.uv.push_back({mesh.vertices[v].x(), mesh.vertices[v].y()});
     face.vertex.push_back(static_cast<std::int32_t>(v));
   }
   face.triangles = mesh.triangles;
@@ -33,21 +33,21 @@ SurfaceMesh surface(const TestMesh& mesh, int ref) {
 }
 
 void field_of(std::span<const Vec3> points, std::span<double> values) {
-  for (std::size_t i = 0; i < points.size(); ++i) values[i] = 3 * points[i].x * points[i].x + points[i].y * points[i].y;
+  for (std::size_t i = 0; i < points.size(); ++i) values[i] = 3 * points[i].x() * points[i].x() + points[i].y() * points[i].y();
 }
 
 TEST(TransferField, IsExactForLinearFieldsAndKeepsComponentsTogether) {
   const TestMesh coarse = square_mesh(5), fine = square_mesh(13);
   std::vector<double> values;
-  for (const Vec3 p : coarse.vertices) values.insert(values.end(), {2 * p.x - p.y, 7 + p.y});
+  for (const Vec3& p : coarse.vertices) values.insert(values.end(), {2 * p.x() - p.y(), 7 + p.y()});
   for (const int ref : {1, 2}) {  // face by face, and in space
     const TransferredField moved = transfer_field(surface(coarse, 1), surface(fine, ref), values, 2);
     ASSERT_EQ(moved.values.size(), 2 * fine.vertices.size());
     EXPECT_EQ(moved.outside, 0);
     for (std::size_t v = 0; v < fine.vertices.size(); ++v) {
       const Vec3 p = fine.vertices[v];
-      EXPECT_NEAR(moved.values[2 * v], 2 * p.x - p.y, 1e-13);
-      EXPECT_NEAR(moved.values[2 * v + 1], 7 + p.y, 1e-13);
+      EXPECT_NEAR(moved.values[2 * v], 2 * p.x() - p.y(), 1e-13);
+      EXPECT_NEAR(moved.values[2 * v + 1], 7 + p.y(), 1e-13);
     }
   }
 }
@@ -83,10 +83,10 @@ SurfaceMesh half_cap(int n, double angle) {
   face.ref = 1;
   std::int32_t pole = -1;
   const TestMesh square = square_mesh(n, 0.2);
-  for (const Vec3 p : square.vertices) {
-    const double u = pi / 2 * (p.x + 1), v = pi / 2 - angle * (1 - p.y) / 2;
+  for (const Vec3& p : square.vertices) {
+    const double u = pi / 2 * (p.x() + 1), v = pi / 2 - angle * (1 - p.y()) / 2;
     face.uv.push_back({u, v});
-    const bool top = p.y > 1 - 1e-12;
+    const bool top = p.y() > 1 - 1e-12;
     if (top && pole >= 0) {
       face.vertex.push_back(pole);
       continue;
@@ -108,19 +108,19 @@ SurfaceMesh half_cap(int n, double angle) {
 
 TEST(TransferField, IsOfSecondOrderAroundPoles) {
   // Three sectors of 60 degrees: in (u, v) the triangle of a sector covers half of its cell, and the flat one the rest.
-  const auto linear = [](Vec3 p) { return 1 + 2 * p.x - 3 * p.y + 0.5 * p.z; };
+  const auto linear = [](Vec3 p) { return 1 + 2 * p.x() - 3 * p.y() + 0.5 * p.z(); };
   std::vector<double> errors;
   for (const double angle : {0.4, 0.2, 0.1}) {
     const SurfaceMesh coarse = half_cap(3, angle), fine = half_cap(20, angle);
     std::vector<double> values;
-    for (const Vec3 p : coarse.vertices) values.push_back(linear(p));
+    for (const Vec3& p : coarse.vertices) values.push_back(linear(p));
     const TransferredField moved = transfer_field(coarse, fine, values, 1);
     EXPECT_EQ(moved.outside, 0);
     double largest = 0;
     for (std::size_t v = 0; v < fine.vertices.size(); ++v) {
       const Vec3 p = fine.vertices[v];
       // Inside of the chords of the rim, and of those of the first meridian.
-      if (std::hypot(p.x, p.y) > 0.8 * angle || p.y < 0.1 * angle) continue;
+      if (std::hypot(p.x(), p.y()) > 0.8 * angle || p.y() < 0.1 * angle) continue;
       largest = std::max(largest, std::abs(moved.values[v] - linear(p)));
     }
     errors.push_back(largest);
@@ -140,16 +140,16 @@ TEST(TransferField, KeepsValuesAtVerticesThatStay) {
 
 TEST(TransferField, CountsVerticesOutside) {
   TestMesh half = square_mesh(4);
-  for (Vec3& p : half.vertices) p.x /= 2;
+  for (Vec3& p : half.vertices) p.x() /= 2;
   std::vector<double> values;
-  for (const Vec3 p : half.vertices) values.push_back(p.x);
+  for (const Vec3& p : half.vertices) values.push_back(p.x());
   const TestMesh fine = square_mesh(10);
   const TransferredField moved = transfer_field(surface(half, 1), surface(fine, 1), values, 1);
   EXPECT_GT(moved.outside, 0);
   double right = 0;
-  for (const Vec3 p : half.vertices) right = std::max(right, p.x);
+  for (const Vec3& p : half.vertices) right = std::max(right, p.x());
   for (std::size_t v = 0; v < fine.vertices.size(); ++v)
-    EXPECT_NEAR(moved.values[v], std::clamp(fine.vertices[v].x, -right, right), 1e-12);
+    EXPECT_NEAR(moved.values[v], std::clamp(fine.vertices[v].x(), -right, right), 1e-12);
 }
 
 TEST(TransferField, RefusesWhatDoesNotFit) {
@@ -163,13 +163,13 @@ TEST(TransferField, RefusesWhatDoesNotFit) {
 TEST(InterpolationError, OfAQuadraticIsThatOfItsEdges) {
   // On an edge of length h along x the error is 3 h^2 / 4, h^2 / 4 along y: all middles, exactly.
   TestMesh mesh = square_mesh(8);
-  mesh.with([](Vec3 p) { return 3 * p.x * p.x + p.y * p.y; });
+  mesh.with([](Vec3 p) { return 3 * p.x() * p.x() + p.y() * p.y(); });
   double largest = 0;
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 d =
           mesh.vertices[static_cast<std::size_t>(t[k])] - mesh.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
-      largest = std::max(largest, std::abs(3 * d.x * d.x + d.y * d.y) / 4);
+      largest = std::max(largest, std::abs(3 * d.x() * d.x() + d.y() * d.y()) / 4);
     }
   const InterpolationError error = interpolation_error(mesh.field(), field_of);
   EXPECT_NEAR(error.largest, largest, 1e-12);
@@ -197,17 +197,17 @@ TEST(EstimateFunction, SeesBetweenVertices) {
   // A ridge along the middle of a column of squares: flat at all vertices.
   const TestMesh mesh = square_mesh(4, 0);
   double left = 1e9, next = 1e9;
-  for (const Vec3 p : mesh.vertices) left = std::min(left, p.x);
-  for (const Vec3 p : mesh.vertices)
-    if (p.x > left) next = std::min(next, p.x);
+  for (const Vec3& p : mesh.vertices) left = std::min(left, p.x());
+  for (const Vec3& p : mesh.vertices)
+    if (p.x() > left) next = std::min(next, p.x());
   const double middle = (left + next) / 2, width = (next - left) / 20;
   const auto ridge = [&](std::span<const Vec3> points, std::span<double> values) {
-    for (std::size_t i = 0; i < points.size(); ++i) values[i] = std::exp(-std::pow((points[i].x - middle) / width, 2));
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = std::exp(-std::pow((points[i].x() - middle) / width, 2));
   };
   const auto wanted =
       estimate_function(mesh.vertices, mesh.triangles, ridge, {.tolerance = 0.01, .hmin = 1e-4, .hmax = 10});
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (mesh.vertices[v].x <= next + 1e-12)
+    if (mesh.vertices[v].x() <= next + 1e-12)
       EXPECT_NEAR(wanted.sizes[v], std::sqrt(4.5 * 0.01 / 2) * width, 1e-3 * width) << v;
     else
       EXPECT_EQ(wanted.sizes[v], 10) << v;

@@ -39,7 +39,7 @@ TEST(FindWrongDerivatives, FindsNothingInSoundGeometry) {
            paraboloid_jet, stereographic_jet, monkey_saddle_jet, [](Vec2 p) { return torus_jet(p, 2, 0.7); },
            [](Vec2 p) { return cylinder_jet(p, 1e-3); },
            [](Vec2 p) {
-             return SurfaceJet{{1e7 + p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+             return SurfaceJet{{1e7 + p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
            }}) {
     cad.jet = jet;
     const auto wrong = check(cad);
@@ -69,7 +69,7 @@ TEST(FindWrongDerivatives, TellsRoutinePlaceAndBothValues) {
   FaceCad cad;
   cad.jet = [](Vec2 p) {
     SurfaceJet jet = paraboloid_jet(p);
-    jet.sv.z = -jet.sv.z;
+    jet.sv.z() = -jet.sv.z();
     return jet;
   };
   const auto wrong = check(cad);
@@ -116,7 +116,7 @@ TEST(FindWrongDerivatives, FindsWrongDerivativesOfCurves) {
   const auto right = cad.along;
   cad.along = [&](double t) {
     CurveJet jet = right(t);
-    jet.ct.x = -jet.ct.x;
+    jet.ct.x() = -jet.ct.x();
     return jet;
   };
   auto wrong = check_curve(cad);
@@ -136,8 +136,8 @@ TEST(FindWrongDerivatives, TakesNoKinkForAnError) {
   // |u - 0.5|: at the kink any of both sides is right; three of the points lie on it.
   FaceCad cad;
   cad.jet = [](Vec2 p) {
-    const double side = p.x < 0.5 ? -1 : 1;
-    return SurfaceJet{{p.x, p.y, std::abs(p.x - 0.5)}, {1, 0, side}, {0, 1, 0}, {}, {}, {}};
+    const double side = p.x() < 0.5 ? -1 : 1;
+    return SurfaceJet{{p.x(), p.y(), std::abs(p.x() - 0.5)}, {1, 0, side}, {0, 1, 0}, {}, {}, {}};
   };
   const std::array<Vec2, 3> on{Vec2{0.5, 0.2}, {0.5, 0.5}, {0.49995, 0.7}};
   EXPECT_TRUE(find_wrong_surface_derivatives(cad, 1, on, {0, 0}, {1, 1}, true).empty());
@@ -148,7 +148,7 @@ TEST(FindWrongDerivatives, TakesNoSingularPointForAnError) {
   constexpr double pi = 3.141592653589793;
   FaceCad cad;
   cad.jet = [](Vec2 p) {
-    SurfaceJet jet = sphere_jet({p.x, std::min(p.y, pi / 2 - 5e-3)}, 1);
+    SurfaceJet jet = sphere_jet({p.x(), std::min(p.y(), pi / 2 - 5e-3)}, 1);
     jet.s = sphere_jet(p, 1).s;
     return jet;
   };
@@ -157,7 +157,7 @@ TEST(FindWrongDerivatives, TakesNoSingularPointForAnError) {
 
   cad.jet = [](Vec2 p) {  // RT-0232 sec. 2.1 example 2: unstable at the equator
     const double z = std::sqrt(1 - dot(p, p));
-    return SurfaceJet{{p.x, p.y, z}, {1, 0, -p.x / z}, {0, 1, -p.y / z}, {}, {}, {}};
+    return SurfaceJet{{p.x(), p.y(), z}, {1, 0, -p.x() / z}, {0, 1, -p.y() / z}, {}, {}, {}};
   };
   const std::array<Vec2, 3> near_equator{Vec2{0.6, 0.79999}, {-0.9999, 0}, {0.70710678, 0.70710678}};
   EXPECT_TRUE(find_wrong_surface_derivatives(cad, 1, near_equator, {-1, -1}, {1, 1}, false).empty());
@@ -167,19 +167,19 @@ TEST(FindWrongDerivatives, TakesNoisyOrFailingHostsForWhatTheyAre) {
   FaceCad cad;
   cad.jet = [](Vec2 p) {  // single precision inside
     SurfaceJet jet = torus_jet(p, 2, 0.7);
-    jet.s = {static_cast<float>(jet.s.x), static_cast<float>(jet.s.y), static_cast<float>(jet.s.z)};
-    jet.su = {static_cast<float>(jet.su.x), static_cast<float>(jet.su.y), static_cast<float>(jet.su.z)};
+    jet.s = {static_cast<float>(jet.s.x()), static_cast<float>(jet.s.y()), static_cast<float>(jet.s.z())};
+    jet.su = {static_cast<float>(jet.su.x()), static_cast<float>(jet.su.y()), static_cast<float>(jet.su.z())};
     return jet;
   };
   EXPECT_TRUE(check(cad).empty());
   cad.jet = [](Vec2 p) {
     SurfaceJet jet = torus_jet(p, 2, 0.7);
-    if (p.x > 0.5) jet.su = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
+    if (p.x() > 0.5) jet.su = {std::numeric_limits<double>::quiet_NaN(), 0, 0};
     return jet;
   };
   EXPECT_TRUE(check(cad).empty());
   cad.jet = [](Vec2 p) -> SurfaceJet {
-    if (p.x > 0.2) throw CallbackError("beyond the host's domain");
+    if (p.x() > 0.2) throw CallbackError("beyond the host's domain");
     return torus_jet(p, 2, 0.7);
   };
   EXPECT_TRUE(check(cad).empty());
@@ -214,7 +214,7 @@ TEST(FindWrongDerivatives, AsksASoundHostFewTimes) {
 TEST(FindWrongDerivatives, StaysInTheBox) {
   FaceCad cad;
   cad.jet = [](Vec2 p) {
-    EXPECT_TRUE(0 <= p.x && p.x <= 1 && 0 <= p.y && p.y <= 1);
+    EXPECT_TRUE(0 <= p.x() && p.x() <= 1 && 0 <= p.y() && p.y() <= 1);
     SurfaceJet jet = torus_jet(p, 2, 0.7);
     jet.su = 3 * jet.su;
     return jet;

@@ -93,7 +93,7 @@ constexpr unsigned everything = want_position | want_first | want_second;
 TEST(DifferenceCad, FindsDerivativesFromPositions) {
   DifferenceCad cad = differenced(want_position);
   cad.set_parameter_box(1, {0, 0}, {2, 3});
-  for (const Vec2 p : {Vec2{1, 1}, Vec2{0, 0}, Vec2{2, 3}, Vec2{0, 1.7}, Vec2{1.99999999, 1e-9}}) {
+  for (const Vec2& p : {Vec2{1, 1}, Vec2{0, 0}, Vec2{2, 3}, Vec2{0, 1.7}, Vec2{1.99999999, 1e-9}}) {
     const SurfaceJet jet = surface_at(cad, 1, everything, p);
     EXPECT_EQ(jet.s, exact(p).s);
     expect_first(jet, p, 4e-9);
@@ -104,7 +104,7 @@ TEST(DifferenceCad, FindsDerivativesFromPositions) {
 TEST(DifferenceCad, FindsSecondDerivativesFromFirstOnes) {
   DifferenceCad cad = differenced(want_position | want_first);
   cad.set_parameter_box(1, {0, 0}, {2, 3});
-  for (const Vec2 p : {Vec2{1, 1}, Vec2{0, 0}, Vec2{2, 3}}) {
+  for (const Vec2& p : {Vec2{1, 1}, Vec2{0, 0}, Vec2{2, 3}}) {
     const SurfaceJet jet = surface_at(cad, 1, everything, p);
     EXPECT_EQ(jet.su, exact(p).su);
     expect_second(jet, p, 1e-8);
@@ -124,10 +124,10 @@ TEST(DifferenceCad, StaysInsideTheBox) {
     DifferenceCad cad = differenced(gives, &source);
     const Vec2 low{0.25, -3}, high{0.75, 100};
     cad.set_parameter_box(1, low, high);
-    for (const Vec2 p : {low, high, Vec2{low.x, high.y}, Vec2{0.25000001, 99.9999}, Vec2{0.5, 0}})
+    for (const Vec2& p : {low, high, Vec2{low.x(), high.y()}, Vec2{0.25000001, 99.9999}, Vec2{0.5, 0}})
       surface_at(cad, 1, everything, p);
-    for (const Vec2 p : source->asked) {
-      EXPECT_TRUE(low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y) << p.x << " " << p.y;
+    for (const Vec2& p : source->asked) {
+      EXPECT_TRUE(low.x() <= p.x() && p.x() <= high.x() && low.y() <= p.y() && p.y() <= high.y()) << p.x() << " " << p.y();
     }
   }
 }
@@ -139,7 +139,7 @@ TEST(DifferenceCad, TakesOtherSidesWhereTheHostIsNotDefined) {
     DifferenceCad cad = differenced(gives, &source);
     cad.set_parameter_box(1, {-1, -1}, {1, 1});
     source->inside = [](Vec2 p) { return dot(p, p) <= 1; };
-    for (const Vec2 p : {Vec2{0.6, 0.7999999999}, Vec2{-0.6, 0.7999999999}, Vec2{0.6, -0.7999999999}}) {
+    for (const Vec2& p : {Vec2{0.6, 0.7999999999}, Vec2{-0.6, 0.7999999999}, Vec2{0.6, -0.7999999999}}) {
       const SurfaceJet jet = surface_at(cad, 1, everything, p);
       expect_first(jet, p, 1e-8);
       expect_second(jet, p, 1e-5);
@@ -174,7 +174,7 @@ TEST(DifferenceCad, AnswersABatchAsItAnswersSinglePoints) {
 TEST(DifferenceCad, KeepsItsAccuracyFarFromTheOrigin) {
   auto host = std::make_unique<Source>();
   const double far = 1e6;
-  host->jet = [&](Vec2 p) { return exact({p.x - far, p.y}); };
+  host->jet = [&](Vec2 p) { return exact({p.x() - far, p.y()}); };
   host->gives = want_position;
   DifferenceCad cad(std::move(host), want_position, want_position);
   cad.set_parameter_box(1, {far, 0}, {far + 1, 1});

@@ -24,15 +24,15 @@ void expect_consistent(const SurfaceJet& jet) {
   EXPECT_NEAR(norm(frame->w1), 1, 1e-13);
   EXPECT_NEAR(norm(frame->w2), 1, 1e-13);
   expect_near(cross(frame->w1, frame->w2), frame->normal, 1e-13);
-  expect_near(frame->x1.x * jet.su + frame->x1.y * jet.sv, frame->w1, 1e-12);
-  expect_near(frame->x2.x * jet.su + frame->x2.y * jet.sv, frame->w2, 1e-12);
+  expect_near(frame->x1.x() * jet.su + frame->x1.y() * jet.sv, frame->w1, 1e-12);
+  expect_near(frame->x2.x() * jet.su + frame->x2.y() * jet.sv, frame->w2, 1e-12);
   EXPECT_NEAR(normal_curvature(first, *second, frame->x1), frame->k1, scale);
   EXPECT_NEAR(normal_curvature(first, *second, frame->x2), frame->k2, scale);
   // Eq. 36: principal directions are its roots.
-  for (const Vec2 x : {frame->x1, frame->x2}) {
-    const double root = (first.f * second->l - first.e * second->m) * x.x * x.x +
-                        (first.g * second->l - first.e * second->n) * x.x * x.y +
-                        (first.g * second->m - first.f * second->n) * x.y * x.y;
+  for (const Vec2& x : {frame->x1, frame->x2}) {
+    const double root = (first.f * second->l - first.e * second->m) * x.x() * x.x() +
+                        (first.g * second->l - first.e * second->n) * x.x() * x.y() +
+                        (first.g * second->m - first.f * second->n) * x.y() * x.y();
     EXPECT_NEAR(root, 0, scale * std::sqrt(first.e * first.g - first.f * first.f));
   }
   // Gauss and mean curvature by their usual quotients.
@@ -78,7 +78,7 @@ TEST(PrincipalFrame, OfCylindersFollowsAxisAndCircle) {
   ASSERT_TRUE(frame);
   EXPECT_NEAR(frame->k1, 0, 1e-15);
   EXPECT_NEAR(frame->k2, -0.25, 1e-15);  // outward normal
-  EXPECT_NEAR(std::abs(frame->w1.z), 1, 1e-15);
+  EXPECT_NEAR(std::abs(frame->w1.z()), 1, 1e-15);
   EXPECT_NEAR(frame->largest(), 0.25, 1e-15);
 }
 
@@ -103,7 +103,7 @@ TEST(PrincipalFrame, OfParaboloidMatchesTheClosedForm) {
 }
 
 TEST(PrincipalFrame, OfEnnepersSurfaceIsMinimal) {
-  for (const Vec2 p : {Vec2{0, 0}, Vec2{0.7, -0.2}, Vec2{-2, 1}}) {
+  for (const Vec2& p : {Vec2{0, 0}, Vec2{0.7, -0.2}, Vec2{-2, 1}}) {
     const auto frame = principal_frame(enneper_jet(p));
     ASSERT_TRUE(frame);
     const double k = 2 / std::pow(1 + dot(p, p), 2);

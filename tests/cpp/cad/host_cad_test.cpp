@@ -16,8 +16,8 @@ using namespace testing;
 
 constexpr unsigned everything = want_position | want_first | want_second;
 
-void put(Vec3 v, double* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
-void put(Vec2 v, double* out) { out[0] = v.x, out[1] = v.y; }
+void put(Vec3 v, double* out) { out[0] = v.x(), out[1] = v.y(), out[2] = v.z(); }
+void put(Vec2 v, double* out) { out[0] = v.x(), out[1] = v.y(); }
 Vec2 taken(const double* uv) { return {uv[0], uv[1]}; }
 
 // The face's reference is the torus' big radius, so that a reference that is lost shows.

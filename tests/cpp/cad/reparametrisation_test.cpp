@@ -70,10 +70,10 @@ TEST(Reparametrised, ObeysTheChainRule) {
   const Reparametrisation map{uneven(), {{0, 1, 2}, {0, 0.2, 3}}};
   const auto even = reparametrised(cad, 1, map);
   const unsigned all = want_position | want_first | want_second;
-  for (const Vec2 p : {Vec2{0.2, 0.3}, {0.45, 0.7}, {0.7, 1.5}, {1.6, 1.9}}) {
+  for (const Vec2& p : {Vec2{0.2, 0.3}, {0.45, 0.7}, {0.7, 1.5}, {1.6, 1.9}}) {
     const SurfaceJet jet = surface_at(*even, 1, all, p);
     EXPECT_EQ(jet.s, surface_at(cad, 1, all, map.to_host(p)).s);
-    const auto beside = [&](double x, double y) { return surface_at(*even, 1, all, {p.x + x, p.y + y}); };
+    const auto beside = [&](double x, double y) { return surface_at(*even, 1, all, {p.x() + x, p.y() + y}); };
     constexpr double h = 1e-5;
     const auto expect_near = [](Vec3 a, Vec3 b) { EXPECT_LT(norm(a - b), 1e-6 * (1 + norm(a))); };
     expect_near(jet.su, (1 / (2 * h)) * (beside(h, 0).s - beside(-h, 0).s));

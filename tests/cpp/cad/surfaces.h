@@ -12,19 +12,19 @@
 namespace carreau::testing {
 
 inline SurfaceJet sphere_jet(Vec2 p, double radius) {
-  const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y), r = radius;
+  const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y()), r = radius;
   return {{r * cu * cv, r * su * cv, r * sv}, {-r * su * cv, r * cu * cv, 0}, {-r * cu * sv, -r * su * sv, r * cv},
           {-r * cu * cv, -r * su * cv, 0},    {r * su * sv, -r * cu * sv, 0}, {-r * cu * cv, -r * su * cv, -r * sv}};
 }
 
 inline SurfaceJet cylinder_jet(Vec2 p, double radius) {
-  const double c = std::cos(p.x), s = std::sin(p.x), r = radius;
-  return {{r * c, r * s, p.y}, {-r * s, r * c, 0}, {0, 0, 1}, {-r * c, -r * s, 0}, {}, {}};
+  const double c = std::cos(p.x()), s = std::sin(p.x()), r = radius;
+  return {{r * c, r * s, p.y()}, {-r * s, r * c, 0}, {0, 0, 1}, {-r * c, -r * s, 0}, {}, {}};
 }
 
 /// Minimal: k1 = -k2 = 2 / (1 + u^2 + v^2)^2.
 inline SurfaceJet enneper_jet(Vec2 p) {
-  const double u = p.x, v = p.y;
+  const double u = p.x(), v = p.y();
   return {{u - u * u * u / 3 + u * v * v, v - v * v * v / 3 + v * u * u, u * u - v * v},
           {1 - u * u + v * v, 2 * u * v, 2 * u},
           {2 * u * v, 1 - v * v + u * u, -2 * v},
@@ -35,7 +35,7 @@ inline SurfaceJet enneper_jet(Vec2 p) {
 
 /// z = u^3 - 3 u v^2: a planar umbilic at the origin.
 inline SurfaceJet monkey_saddle_jet(Vec2 p) {
-  const double u = p.x, v = p.y;
+  const double u = p.x(), v = p.y();
   return {{u, v, u * u * u - 3 * u * v * v},
           {1, 0, 3 * u * u - 3 * v * v},
           {0, 1, -6 * u * v},

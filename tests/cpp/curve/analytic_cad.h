@@ -68,7 +68,7 @@ class AnalyticCad : public Cad {
 inline Surface flat() {
   return {[](Vec2 p) {
     SurfaceJet j;
-    j.s = {p.x, p.y, 0};
+    j.s = {p.x(), p.y(), 0};
     j.su = {1, 0, 0};
     j.sv = {0, 1, 0};
     return j;
@@ -79,9 +79,9 @@ inline Surface flat() {
 inline Surface paraboloid() {
   return {[](Vec2 p) {
     SurfaceJet j;
-    j.s = {p.x, p.y, (p.x * p.x + p.y * p.y) / 2};
-    j.su = {1, 0, p.x};
-    j.sv = {0, 1, p.y};
+    j.s = {p.x(), p.y(), (p.x() * p.x() + p.y() * p.y()) / 2};
+    j.su = {1, 0, p.x()};
+    j.sv = {0, 1, p.y()};
     j.suu = j.svv = {0, 0, 1};
     return j;
   }};
@@ -90,7 +90,7 @@ inline Surface paraboloid() {
 /// Sphere of radius R about the origin, u = longitude, v = latitude: poles at v = +-pi/2.
 inline Surface sphere(double R) {
   return {[R](Vec2 p) {
-    const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+    const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
     SurfaceJet j;
     j.s = {R * cu * cv, R * su * cv, R * sv};
     j.su = {-R * su * cv, R * cu * cv, 0};
@@ -105,9 +105,9 @@ inline Surface sphere(double R) {
 /// Cylinder of radius R about the z axis, u = angle, v = height.
 inline Surface cylinder(double R) {
   return {[R](Vec2 p) {
-    const double c = std::cos(p.x), s = std::sin(p.x);
+    const double c = std::cos(p.x()), s = std::sin(p.x());
     SurfaceJet j;
-    j.s = {R * c, R * s, p.y};
+    j.s = {R * c, R * s, p.y()};
     j.su = {-R * s, R * c, 0};
     j.sv = {0, 0, 1};
     j.suu = {-R * c, -R * s, 0};

@@ -114,7 +114,7 @@ TEST(DiscretiseCurve, UniformSideHasEqualEdgesAndTheManualsCount) {
   EXPECT_EQ(s.cad.calls.sizes, 0);
   const auto arc = [](double x) { return (x * std::sqrt(1 + x * x) + std::asinh(x)) / 2; };
   for (int k = 0; k < 54; ++k) {
-    const double length = arc(d.xyz[k + 1].x) - arc(d.xyz[k].x);
+    const double length = arc(d.xyz[k + 1].x()) - arc(d.xyz[k].x());
     EXPECT_NEAR(length, 2 * arc(2.5) / 54, 2e-4 * 2 * arc(2.5) / 54);
     EXPECT_NEAR(d.size[k], s.sizes.hphydef, 1e-15);
   }
@@ -179,7 +179,7 @@ TEST(DiscretiseCurve, ReportsTheGapBetweenFacesThatDoNotMeet) {
   const int first = s.add_face(1, flat());
   const int second = s.add_face(2, Surface{[](Vec2 p) {
                                   SurfaceJet j;
-                                  j.s = {p.x, p.y, 0.02 * std::sin(pi * p.x)};
+                                  j.s = {p.x(), p.y(), 0.02 * std::sin(pi * p.x())};
                                   return j;
                                 }});
   const auto a = s.add_use(first, segment({0, 0}, {1, 0}));
@@ -220,9 +220,9 @@ TEST(DiscretiseCurve, SeamIsCarriedToBothSidesOfOneFace) {
   const DiscreteCurve d = discretise_curve(s.curve_model(), 0, rules);
   EXPECT_EQ(d.segments(), 20);
   for (std::size_t k = 0; k < d.r.size(); ++k) {
-    EXPECT_NEAR(d.uv_of_use[0][k].x, 0, 1e-15);
-    EXPECT_NEAR(d.uv_of_use[1][k].x, 2 * pi, 1e-14);
-    EXPECT_NEAR(d.uv_of_use[0][k].y, d.uv_of_use[1][k].y, 1e-12);
+    EXPECT_NEAR(d.uv_of_use[0][k].x(), 0, 1e-15);
+    EXPECT_NEAR(d.uv_of_use[1][k].x(), 2 * pi, 1e-14);
+    EXPECT_NEAR(d.uv_of_use[0][k].y(), d.uv_of_use[1][k].y(), 1e-12);
   }
   EXPECT_LT(d.gap, 1e-12);
 }
@@ -261,7 +261,7 @@ TEST(SplitSegment, HalvesTheLengthInEveryUse) {
     ASSERT_EQ(d.physical.size(), d.r.size());
     const auto arc = [](double x) { return (x * std::sqrt(1 + x * x) + std::asinh(x)) / 2; };
     for (std::size_t k = 0; k < d.r.size(); ++k) {
-      EXPECT_NEAR((arc(d.xyz[k].x) + arc(2.5)) / (2 * arc(2.5)), d.r[k], 2e-6);
+      EXPECT_NEAR((arc(d.xyz[k].x()) + arc(2.5)) / (2 * arc(2.5)), d.r[k], 2e-6);
       for (std::size_t u = 0; u < 2; ++u) {
         EXPECT_LT(norm(s.lifted(s.topology.curves[0].uses[u], d.uv_of_use[u][k]) - d.xyz[k]), 1.5e-4);
       }

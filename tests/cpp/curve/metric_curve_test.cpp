@@ -158,7 +158,7 @@ TEST(MetricCurve, AConstantMetricGivesTheChordsOfItsEllipse) {
 
 TEST(MetricCurve, IsInvariantUnderRotationAndScaling) {
   const double c = std::cos(0.7), s = std::sin(0.7), k = 30;
-  const auto turn = [&](Vec2 p) { return Vec2{k * (c * p.x - s * p.y), k * (s * p.x + c * p.y)}; };
+  const auto turn = [&](Vec2 p) { return Vec2{k * (c * p.x() - s * p.y()), k * (s * p.x() + c * p.y())}; };
   const std::vector<Vec2> points{{0, 0}, {2, 1}, {3, 3}, {2, 6}};
   const double total = std::sqrt(5.) + std::sqrt(5.) + std::sqrt(10.);
   const PlaneMetricCurve before(points, {0, 3, total}, {triplet(10, 1, 0.2), triplet(70, 0.4, 0.3), triplet(0, 1, 1)},

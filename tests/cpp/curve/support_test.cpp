@@ -230,7 +230,7 @@ TEST(BuildSupport, PeriodicCurveIsNotTakenForAStraightOne) {
   AnalyticCad cad = cad_of(flat(), plane_curve({0, 1}, [](double t) { return Vec2{t, 0.1 * std::sin(8 * pi * t)}; }));
   const CurveSupport s = build_support(cad, 1, 1, {});
   double highest = 0;
-  for (const Vec2 p : s.uv) highest = std::max(highest, p.y);
+  for (const Vec2& p : s.uv) highest = std::max(highest, p.y());
   EXPECT_NEAR(highest, 0.1, 1e-4);
 }
 
@@ -257,7 +257,7 @@ TEST(BuildSupport, VerticalTangentOfTheParametrisationIsBounded) {
   // Orthogonal projection of a hemisphere (RT-0232 sec. 2.1 example 2): infinite speed at the equator.
   AnalyticCad cad = cad_of(Surface{[](Vec2 p) {
                              SurfaceJet j;
-                             j.s = {p.x, p.y, std::sqrt(std::max(0., 1 - p.x * p.x - p.y * p.y))};
+                             j.s = {p.x(), p.y(), std::sqrt(std::max(0., 1 - p.x() * p.x() - p.y() * p.y()))};
                              return j;
                            }},
                            segment({-1, 0}, {1, 0}));
@@ -311,7 +311,7 @@ TEST(BuildSupport, SaysWhichValueIsNotFinite) {
   EXPECT_THROW(build_support(cad, 1, 1, {}), CallbackError);
   AnalyticCad other = cad_of(Surface{[](Vec2 p) {
                                SurfaceJet j;
-                               j.s = {1 / p.x, 0, 0};
+                               j.s = {1 / p.x(), 0, 0};
                                return j;
                              }},
                              segment({0, 0}, {1, 0}));

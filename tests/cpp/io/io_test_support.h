@@ -115,7 +115,7 @@ inline FlatMesh random_mesh(std::mt19937_64& random) {
   const auto index = [&] { return static_cast<std::int32_t>(random() % n); };
   for (std::size_t i = 0; i < n; ++i) {
     mesh.vertices.push_back({random_double(random), random_double(random), 0});
-    if (mesh.dimension == 3) mesh.vertices.back().z = random_double(random);
+    if (mesh.dimension == 3) mesh.vertices.back().z() = random_double(random);
     mesh.vertex_refs.push_back(ref());
   }
   for (std::size_t i = random() % 60; i > 0; --i) {

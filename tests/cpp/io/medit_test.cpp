@@ -56,7 +56,7 @@ TEST(Medit, LayoutCommentsAndOtherSectionsDoNotMatter) {
   EXPECT_EQ(mesh.vertices[0], (Vec3{0, 1.5, -0.25}));
   EXPECT_EQ(mesh.vertices[1], (Vec3{1e300, 0.5, 0}));
   EXPECT_EQ(mesh.vertices[2], (Vec3{0, 1e-3, 7}));
-  EXPECT_TRUE(std::signbit(mesh.vertices[2].x));
+  EXPECT_TRUE(std::signbit(mesh.vertices[2].x()));
   EXPECT_EQ(mesh.vertex_refs, (std::vector<std::int32_t>{1, 2, -3}));
   EXPECT_EQ(mesh.triangles[0], (std::array<std::int32_t, 3>{0, 1, 2}));
   EXPECT_EQ(mesh.triangle_refs[0], 5);

@@ -30,7 +30,7 @@ FlatMesh back(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& op
 /// As other formats than Medit's hold it: in space.
 FlatMesh in_space(FlatMesh mesh) {
   if (mesh.dimension == 2)
-    for (Vec3& p : mesh.vertices) p.z = 0;
+    for (Vec3& p : mesh.vertices) p.z() = 0;
   mesh.dimension = 3;
   return mesh;
 }
@@ -138,7 +138,7 @@ TEST(MeshReaders, StlTextGivesPointsExactlyAndSolidsAsFaces) {
     EXPECT_EQ(found.triangle_refs, mesh.triangle_refs);
     std::vector<Vec3> unique = corners_of(mesh);
     std::sort(unique.begin(), unique.end(),
-              [](Vec3 a, Vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+              [](Vec3 a, Vec3 b) { return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z()); });
     unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
     EXPECT_EQ(found.vertices.size(), unique.size());
   }
@@ -151,7 +151,7 @@ TEST(MeshReaders, StlTextGivesPointsExactlyAndSolidsAsFaces) {
 
 TEST(MeshReaders, BinaryStlGivesPointsBackInSinglePrecision) {
   FlatMesh mesh = square();
-  mesh.vertices[2].z = 0.1;
+  mesh.vertices[2].z() = 0.1;
   const FlatMesh found = back(mesh, MeshFormat::stl);
   EXPECT_EQ(found.triangles, mesh.triangles);
   EXPECT_EQ(found.triangle_refs, (std::vector<std::int32_t>{0, 0}));

@@ -66,7 +66,7 @@ TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRefusedAndTheOldFileStays) {
     return first;
   };
   const std::string start = "a mesh cannot be written: ";
-  EXPECT_EQ(sentence([](FlatMesh& m) { m.vertices[2].y = std::nan(""); }),
+  EXPECT_EQ(sentence([](FlatMesh& m) { m.vertices[2].y() = std::nan(""); }),
             start + "vertex 2 (from 0) has a coordinate that is not finite");
   EXPECT_EQ(sentence([](FlatMesh& m) { m.triangles[1][2] = 4; }), start + "triangle 1 (from 0) names vertex 4 of 4");
   EXPECT_EQ(sentence([](FlatMesh& m) { m.edges[0][0] = -1; }), start + "edge 0 (from 0) names vertex -1 of 4");

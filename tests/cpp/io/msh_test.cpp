@@ -53,7 +53,7 @@ Content read_2(const std::string& text) {
   words >> count;
   for (int i = 0; i < count; ++i) {
     Vec3 p;
-    words >> tag >> p.x >> p.y >> p.z;
+    words >> tag >> p.x() >> p.y() >> p.z();
     content.nodes[tag] = p;
   }
   words = section(text, "Elements");
@@ -102,7 +102,7 @@ Content read_4(const std::string& text) {
     for (int& each : tags) words >> each;
     for (const int each : tags) {
       Vec3 p;
-      words >> p.x >> p.y >> p.z;
+      words >> p.x() >> p.y() >> p.z();
       EXPECT_TRUE(content.nodes.emplace(each, p).second) << each;
     }
   }

@@ -29,9 +29,9 @@ TEST(Stl, BinaryHoldsEveryTriangleWithItsNormal) {
     EXPECT_FLOAT_EQ(number_at(bytes, 92 + 50 * i), static_cast<float>(2 / std::sqrt(5.0)));
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& p = mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
-      EXPECT_EQ(number_at(bytes, 96 + 50 * i + 12 * k), static_cast<float>(p.x));
-      EXPECT_EQ(number_at(bytes, 100 + 50 * i + 12 * k), static_cast<float>(p.y));
-      EXPECT_EQ(number_at(bytes, 104 + 50 * i + 12 * k), static_cast<float>(p.z));
+      EXPECT_EQ(number_at(bytes, 96 + 50 * i + 12 * k), static_cast<float>(p.x()));
+      EXPECT_EQ(number_at(bytes, 100 + 50 * i + 12 * k), static_cast<float>(p.y()));
+      EXPECT_EQ(number_at(bytes, 104 + 50 * i + 12 * k), static_cast<float>(p.z()));
     }
     EXPECT_EQ(bytes.substr(84 + 50 * i + 48, 2), std::string(2, '\0'));
   }
@@ -56,7 +56,7 @@ TEST(Stl, ATriangleWithoutAreaHasAZeroNormal) {
 
 TEST(Stl, CoordinatesBeyondSinglePrecisionAreRefusedInBinary) {
   FlatMesh mesh = square();
-  mesh.vertices[1].x = 1e39;
+  mesh.vertices[1].x() = 1e39;
   EXPECT_EQ(sentence_of<InvalidArgument>([&] { mesh_bytes(mesh, MeshFormat::stl); }),
             "vertex 1 (from 0) has a coordinate too large for the single precision of binary STL");
   EXPECT_NE(mesh_bytes(mesh, MeshFormat::stl, {.ascii_stl = true}).find("vertex 1e+39 0 0"), std::string::npos);

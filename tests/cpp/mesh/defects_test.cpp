@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Damage{"Index", "does not exist", [](SurfaceMesh& m) { m.faces[0].triangles[0][1] = 9; }},
                       Damage{"Local", "no vertex in space", [](SurfaceMesh& m) { m.faces[0].vertex[1] = 77; }},
                       Damage{"Nan", "not finite",
-                             [](SurfaceMesh& m) { m.vertices[3].y = std::numeric_limits<double>::quiet_NaN(); }},
+                             [](SurfaceMesh& m) { m.vertices[3].y() = std::numeric_limits<double>::quiet_NaN(); }},
                       Damage{"Repeated", "appears twice",
                              [](SurfaceMesh& m) {
                                m.faces[0].triangles[0] = {0, 1, 1};
@@ -90,7 +90,7 @@ TEST(FindDefects, PassesOverFacesThatFailed) {
 
 TEST(FindDefects, StopsAtItsLimit) {
   SurfaceMesh mesh = two_squares();
-  for (Vec3& p : mesh.vertices) p.x = std::nan("");
+  for (Vec3& p : mesh.vertices) p.x() = std::nan("");
   EXPECT_EQ(find_defects(mesh, {.closed = false, .limit = 3}).size(), 3U);
 }
 

@@ -53,7 +53,7 @@ TEST(QualitySummary, OfAnyNumberOfThreadsIsThatOfEachTriangle) {
   const auto angle = [](Vec3 p, Vec3 q) { return std::atan2(norm(cross(p, q)), dot(p, q)) * 180 / std::numbers::pi; };
   for (int i = 0; i < 20000; ++i) {
     const Vec3 a{0, 0, 0}, b{1. + i % 3, 0, 0}, c{std::cos(i), std::sin(i) * std::pow(i % 101, 2), 0.1 * (i % 7)};
-    for (const Vec3 p : {a, b, c}) mesh.vertices.push_back(p);
+    for (const Vec3& p : {a, b, c}) mesh.vertices.push_back(p);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     area += norm(cross(b - a, c - a)) / 2;
     sum += quality_q2(a, b, c);

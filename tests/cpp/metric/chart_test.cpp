@@ -13,12 +13,12 @@ namespace {
 constexpr double turns = 1.5;
 Vec2 swirl(Vec2 p) {
   const double g = turns * dot(p, p), x = std::cos(g), y = std::sin(g);
-  return {x * p.x - y * p.y, y * p.x + x * p.y};
+  return {x * p.x() - y * p.y(), y * p.x() + x * p.y()};
 }
 // J^T J with J = R (I + turns Q p (2 p)^T): in closed form.
 Metric2 metric(Vec2 p) {
-  const Vec2 q{-p.y, p.x};
-  const Vec2 u = Vec2{1, 0} + (2 * turns * p.x) * q, v = Vec2{0, 1} + (2 * turns * p.y) * q;
+  const Vec2 q{-p.y(), p.x()};
+  const Vec2 u = Vec2{1, 0} + (2 * turns * p.x()) * q, v = Vec2{0, 1} + (2 * turns * p.y()) * q;
   return {dot(u, u), dot(u, v), dot(v, v)};
 }
 MetricSlopes slopes(Vec2 p) {

@@ -18,7 +18,7 @@ TEST(FieldLength, OfAConstantFieldIsTheMetricsOwn) {
 // h = 1/10 + x / 4: the length from 0 to x is 4 ln(h(x) / h(0)) (RR-2818 sec. 5.4.1).
 TEST(FieldLength, ConvergesWithLssAtOrderTwoToTheClosedFormOfALinearSize) {
   const auto field = [](Vec2 p) {
-    const double h = 0.1 + 0.25 * p.x;
+    const double h = 0.1 + 0.25 * p.x();
     return Metric2{1 / (h * h), 0, 1 / (h * h)};
   };
   const double exact = 4 * std::log((0.1 + 0.25 * 4) / 0.1);
@@ -30,7 +30,7 @@ TEST(FieldLength, ConvergesWithLssAtOrderTwoToTheClosedFormOfALinearSize) {
 
 TEST(FieldLength, EqualEndsDoNotHideTheMiddle) {
   const auto field = [](Vec2 p) {
-    const double s = 0.1 + 2 * std::exp(-50 * (p.x - 0.5) * (p.x - 0.5));
+    const double s = 0.1 + 2 * std::exp(-50 * (p.x() - 0.5) * (p.x() - 0.5));
     return Metric2{s * s, 0, 1};
   };
   // One trapezoid of both ends would be 0.1, and short enough.
@@ -50,7 +50,7 @@ TEST(FieldLength, TheNumberOfEvaluationsFollowsTheLengthAndIsBoundedByTheDepth) 
   calls = 0;
   const auto endless = [&](Vec2 p) {
     ++calls;
-    return Metric2{1e30 / ((p.x + 1e-9) * (p.x + 1e-9)), 0, 1};
+    return Metric2{1e30 / ((p.x() + 1e-9) * (p.x() + 1e-9)), 0, 1};
   };
   EXPECT_GT(field_length(endless, {0, 0}, {1, 0}, 0.5, 10), 1e15);
   EXPECT_LE(calls, 1025);

@@ -211,7 +211,7 @@ TEST(Interpolate, IsSymmetricAndFollowsChangesOfCoordinates) {
   for (int k = 0; k < 1000; ++k) {
     const Metric2 p = random.next(3), q = random.next(3);
     const double t = random.unit();
-    const Vec2 e = random.direction(), f{-e.y, e.x};
+    const Vec2 e = random.direction(), f{-e.y(), e.x()};
     const Vec2 c1 = 3.0 * e, c2 = 0.5 * f + 0.4 * e;
     for (const MetricLaw law : {MetricLaw::linear, MetricLaw::geometric}) {
       const Metric2 m = interpolate(p, q, t, law);
@@ -251,7 +251,7 @@ TEST(Intersection, IsSymmetricAndTurnsWithTheCoordinates) {
   for (int k = 0; k < 1000; ++k) {
     const Metric2 p = random.next(4), q = random.next(4);
     EXPECT_EQ(intersection(p, q), intersection(q, p));
-    const Vec2 e = random.direction(), f{-e.y, e.x};
+    const Vec2 e = random.direction(), f{-e.y(), e.x()};
     const Metric2 there = intersection(pulled_back(p, e, f), pulled_back(q, e, f));
     EXPECT_LT(length_error(there, pulled_back(intersection(p, q), e, f)), 1e-8);
   }

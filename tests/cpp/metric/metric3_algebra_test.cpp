@@ -16,7 +16,7 @@ constexpr std::array laws{MetricLaw::linear, MetricLaw::geometric, MetricLaw::si
 
 struct Rotation {
   std::array<Vec3, 3> column;
-  [[nodiscard]] Vec3 operator()(Vec3 p) const { return p.x * column[0] + p.y * column[1] + p.z * column[2]; }
+  [[nodiscard]] Vec3 operator()(Vec3 p) const { return p.x() * column[0] + p.y() * column[1] + p.z() * column[2]; }
 };
 
 class Random {
@@ -73,7 +73,7 @@ void expect_inside_by_directions(const Metric3& inner, const Metric3& outer, Ran
   for (int k = 0; k < 20; ++k) d.push_back(random.direction());
   // What rounding the entries of either tensor does to a squared length.
   const double rounding = 2e-15 * (largest_entry(inner) + largest_entry(outer));
-  for (const Vec3 v : d) EXPECT_LE(squared_length(outer, v), squared_length(inner, v) * (1 + slack) + rounding);
+  for (const Vec3& v : d) EXPECT_LE(squared_length(outer, v), squared_length(inner, v) * (1 + slack) + rounding);
 }
 
 TEST(Eigen3, RecoversADecomposition) {
@@ -333,7 +333,7 @@ TEST(Induced, LengthsOfImages) {
   for (int k = 0; k < 1000; ++k) {
     const Vec3 su = (0.1 + random.unit()) * random.direction(), sv = (1 + 9 * random.unit()) * random.direction();
     const Vec2 d{random.unit() - 0.5, random.unit() - 0.5};
-    const Vec3 image = d.x * su + d.y * sv;
+    const Vec3 image = d.x() * su + d.y() * sv;
     const double scale = norm(su) + norm(sv);
     EXPECT_NEAR(length(induced_metric(su, sv, 1.0), d), norm(image), 1e-13 * scale);
     EXPECT_NEAR(length(induced_metric(su, sv, 0.25), d), 4 * norm(image), 1e-12 * scale);

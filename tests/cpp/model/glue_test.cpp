@@ -220,7 +220,7 @@ std::map<int, std::array<int, 2>> sides_of_a_row(const std::vector<std::array<do
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto [low, high, z] = row[static_cast<std::size_t>(order[k])];
     AnalyticFace face = flat(rectangle({low, 0}, {high, 1}));
-    face.at = [z = z](Vec2 p) { return SurfaceJet{{p.x, p.y, z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
+    face.at = [z = z](Vec2 p) { return SurfaceJet{{p.x(), p.y(), z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
     cad.faces[static_cast<int>(k) + 1] = face;
   }
   const Model model = glued(cad, eps);
@@ -255,7 +255,7 @@ TEST(Glue, FindsSeamsWithinTheRoundingOfFiles) {
   CurveTraces traces = traces_of(exact);
   const Model expected = glue(unglued(exact), traces, 1e-7);
   for (auto& of_face : traces)
-    for (Vec3& p : of_face.back()) p.x += 2e-10;
+    for (Vec3& p : of_face.back()) p.x() += 2e-10;
   EXPECT_EQ(references(glue(unglued(exact), traces, 1e-7)), references(expected));
 }
 

@@ -33,7 +33,7 @@ inline CurveTraces traces_of(const AnalyticCad& cad, int n = 96) {
 
 /// The plane z = 0 over some curves.
 inline AnalyticFace flat(std::vector<AnalyticCurve> curves) {
-  return {[](Vec2 p) { return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, std::move(curves)};
+  return {[](Vec2 p) { return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, std::move(curves)};
 }
 
 inline AnalyticCad torus() {
@@ -47,7 +47,7 @@ inline AnalyticCad cylinder() {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
                     SurfaceJet jet;
-                    jet.s = {std::cos(p.x), std::sin(p.x), p.y};
+                    jet.s = {std::cos(p.x()), std::sin(p.x()), p.y()};
                     return jet;
                   },
                   rectangle({0, 0}, {2 * pi, 2})};
@@ -59,7 +59,7 @@ inline AnalyticCad cone() {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
                     SurfaceJet jet;
-                    jet.s = {(1 - p.y) * std::cos(p.x), (1 - p.y) * std::sin(p.x), p.y};
+                    jet.s = {(1 - p.y()) * std::cos(p.x()), (1 - p.y()) * std::sin(p.x()), p.y()};
                     return jet;
                   },
                   rectangle({0, 0}, {2 * pi, 1})};
@@ -72,7 +72,7 @@ inline AnalyticCad klein_bottle() {
   for (int ref = 1; ref <= 4; ++ref) {
     const double u0 = ref <= 2 ? 0 : pi, v0 = ref % 2 == 1 ? 0 : pi;
     cad.faces[ref] = {[ref](Vec2 p) {
-                        const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+                        const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
                         const double r = 4 - 2 * cu;
                         SurfaceJet jet;
                         jet.s = ref <= 2 ? Vec3{6 * cu * (1 + su) + r * cu * cv, 16 * su + r * su * cv, r * sv}

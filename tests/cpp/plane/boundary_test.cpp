@@ -184,7 +184,7 @@ TEST(TriangulateDomain, CoordinatesMayBeTinyHugeOrFarAway) {
                          Map{{1e300, 1e-250}, {0, 0}}, Map{{1, 1}, {1e9, -1e12}}, Map{{1e-3, 1e5}, {1e7, 1e3}}}) {
     PlaneDomain domain;
     std::vector<Vec2> polygon;
-    for (const Vec2 p : shape) polygon.push_back({map.scale.x * p.x + map.shift.x, map.scale.y * p.y + map.shift.y});
+    for (const Vec2& p : shape) polygon.push_back({map.scale.x() * p.x() + map.shift.x(), map.scale.y() * p.y() + map.shift.y()});
     add_loop(domain, polygon);
     const PlaneMesh mesh = triangulate(domain);
     EXPECT_EQ(mesh.triangles.size(), 55U);
@@ -259,9 +259,9 @@ TEST(TriangulateDomain, BadDomainsAreRefusedWithASentence) {
   EXPECT_NE(error_of(slanted), "");
 
   PlaneDomain not_finite = square();
-  not_finite.vertices[2].x = std::nan("");
+  not_finite.vertices[2].x() = std::nan("");
   refused(not_finite, "not finite");
-  not_finite.vertices[2].x = INFINITY;
+  not_finite.vertices[2].x() = INFINITY;
   refused(not_finite, "not finite");
 
   PlaneDomain index = square();

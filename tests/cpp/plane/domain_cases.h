@@ -24,7 +24,7 @@ inline int add_loop(PlaneDomain& domain, const std::vector<Vec2>& loop, int curv
 inline std::vector<Vec2> circle(int n, Vec2 centre, double radius) {
   std::vector<Vec2> loop;
   for (int i = 0; i < n; ++i)
-    loop.push_back({centre.x + radius * std::cos(2 * pi * i / n), centre.y + radius * std::sin(2 * pi * i / n)});
+    loop.push_back({centre.x() + radius * std::cos(2 * pi * i / n), centre.y() + radius * std::sin(2 * pi * i / n)});
   return loop;
 }
 
@@ -84,7 +84,7 @@ inline std::function<Vec2(double)> segment(Vec2 p, Vec2 q) {
 inline std::function<Vec2(double)> arc(Vec2 centre, double radius, double from, double to) {
   return [=](double t) {
     const double angle = from + t * (to - from);
-    return Vec2{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+    return Vec2{centre.x() + radius * std::cos(angle), centre.y() + radius * std::sin(angle)};
   };
 }
 

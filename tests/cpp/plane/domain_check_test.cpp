@@ -38,10 +38,10 @@ struct Lattice {
   std::int64_t x, y;
 };
 
-std::int64_t area(Lattice a, Lattice b, Lattice c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+std::int64_t area(Lattice a, Lattice b, Lattice c) { return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()); }
 
 bool holds(Lattice a, Lattice b, Lattice p) {
-  return area(a, b, p) == 0 && (p.x - a.x) * (p.x - b.x) <= 0 && (p.y - a.y) * (p.y - b.y) <= 0;
+  return area(a, b, p) == 0 && (p.x() - a.x()) * (p.x() - b.x()) <= 0 && (p.y() - a.y()) * (p.y() - b.y()) <= 0;
 }
 
 bool properly_cross(Lattice a, Lattice b, Lattice c, Lattice d) {
@@ -68,7 +68,7 @@ TEST(FindCrossings, AgreesWithIntegersOnRandomLatticeGraphs) {
     PlaneDomain domain;
     for (int i = 0; i < n; ++i) {
       lattice.push_back({static_cast<std::int64_t>(random() % size), static_cast<std::int64_t>(random() % size)});
-      domain.vertices.push_back({static_cast<double>(lattice.back().x), static_cast<double>(lattice.back().y)});
+      domain.vertices.push_back({static_cast<double>(lattice.back().x()), static_cast<double>(lattice.back().y())});
     }
     // From a few edges, often without conflict, to more than vertices.
     for (int i = 0; i < 1 + n * (trial % 7) / 6; ++i) {
@@ -87,7 +87,7 @@ TEST(FindCrossings, AgreesWithIntegersOnRandomLatticeGraphs) {
     // Powers of two change nothing, to the ends of the range.
     for (const int exponent : {-1074, 1023 - 6}) {
       PlaneDomain scaled = domain;
-      for (Vec2& p : scaled.vertices) p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent)};
+      for (Vec2& p : scaled.vertices) p = {std::ldexp(p.x(), exponent), std::ldexp(p.y(), exponent)};
       ASSERT_EQ(pairs_of(find_crossings(scaled)), expected) << trial << " at 2^" << exponent;
     }
   }
@@ -327,7 +327,7 @@ TEST(FindLoopDefects, SaysWhatIsWrong) {
 
   expect_sentence(find_loop_defects(PlaneDomain{}), {"no boundary"});
   d = square;
-  d.vertices[1].x = std::numeric_limits<double>::infinity();
+  d.vertices[1].x() = std::numeric_limits<double>::infinity();
   expect_sentence(find_loop_defects(d), {"vertex 1", "not finite"});
   d = square;
   d.edges[1].b = 9;

@@ -52,7 +52,7 @@ CurvedDomain channel(double width, double h) {
                                   {-1, width / 2}, {2, width / 2}, {2, 2},          {-2, 2}};
   // The outside is the channel's left wing: a C-shaped domain would be open; here the C itself is the domain.
   CurvedDomain domain;
-  for (const Vec2 p : corners) domain.add_vertex(p);
+  for (const Vec2& p : corners) domain.add_vertex(p);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t j = (i + 1) % corners.size();
     const int n = std::max(1, static_cast<int>(std::lround(norm(corners[j] - corners[i]) / h)));
@@ -67,7 +67,7 @@ CurvedDomain bridge(double width, double h) {
   const std::vector<Vec2> corners{{-3, -1}, {-1, -1}, {-1, -w}, {1, -w}, {1, -1}, {3, -1},
                                   {3, 1},   {1, 1},   {1, w},   {-1, w}, {-1, 1}, {-3, 1}};
   CurvedDomain domain;
-  for (const Vec2 p : corners) domain.add_vertex(p);
+  for (const Vec2& p : corners) domain.add_vertex(p);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const std::size_t j = (i + 1) % corners.size();
     const int n = std::max(1, static_cast<int>(std::lround(norm(corners[j] - corners[i]) / h)));
@@ -119,17 +119,17 @@ TEST(Closeness, RefinesANarrowZoneAndNothingElse) {
     for (const PlaneEdge& e : domain.plane.edges) {
       const Vec2 a = domain.plane.vertices[e.a], b = domain.plane.vertices[e.b], m = lerp(a, b, 0.5);
       const double length = norm(b - a);
-      if (std::abs(m.x) < 1 && std::abs(m.y) < 0.75 * width) {
-        EXPECT_LT(length, width / coef * 1.0001) << m.x;
-        EXPECT_GT(length, 0.49 * width) << "much shorter than needed at " << m.x;
+      if (std::abs(m.x()) < 1 && std::abs(m.y()) < 0.75 * width) {
+        EXPECT_LT(length, width / coef * 1.0001) << m.x();
+        EXPECT_GT(length, 0.49 * width) << "much shorter than needed at " << m.x();
       }
-      if (std::abs(m.x) > 2.2) {
-        EXPECT_DOUBLE_EQ(length, 0.5) << m.x << ' ' << m.y;
+      if (std::abs(m.x()) > 2.2) {
+        EXPECT_DOUBLE_EQ(length, 0.5) << m.x() << ' ' << m.y();
       }
       for (int v = 0; v < static_cast<int>(domain.plane.vertices.size()); ++v) {
         const Vec2 p = domain.plane.vertices[v];
         if (v == e.a || v == e.b || cross(b - a, p - a) < 0) continue;
-        EXPECT_GT(distance(a, b, p), coef * length) << m.x << ' ' << m.y;
+        EXPECT_GT(distance(a, b, p), coef * length) << m.x() << ' ' << m.y();
       }
     }
   }
@@ -143,12 +143,12 @@ TEST(Closeness, LooksAtTheSideOfTheDomainOnly) {
   for (const int e : edges_to_split_for_closeness(slit.plane, metric, 0.25)) {
     // Only beside the short bottom of the slit, 0.05 long between edges of 0.5.
     const PlaneEdge& edge = slit.plane.edges[e];
-    EXPECT_LT(std::abs(slit.plane.vertices[edge.a].y), 0.6);
-    EXPECT_LT(std::min(slit.plane.vertices[edge.a].x, slit.plane.vertices[edge.b].x), -0.9);
+    EXPECT_LT(std::abs(slit.plane.vertices[edge.a].y()), 0.6);
+    EXPECT_LT(std::min(slit.plane.vertices[edge.a].x(), slit.plane.vertices[edge.b].x()), -0.9);
   }
   // An internal edge has the domain on both sides.
   CurvedDomain square;
-  for (const Vec2 p : {Vec2{0, 0}, {4, 0}, {4, 4}, {0, 4}}) square.add_vertex(p);
+  for (const Vec2& p : {Vec2{0, 0}, {4, 0}, {4, 4}, {0, 4}}) square.add_vertex(p);
   for (int i = 0; i < 4; ++i)
     square.add_curve(segment(square.plane.vertices[i], square.plane.vertices[(i + 1) % 4]), 4, i, (i + 1) % 4);
   square.add_curve(segment({1, 2}, {3, 2}), 2, -1, -1, PlaneEdgeKind::internal);
@@ -177,7 +177,7 @@ TEST(Closeness, KeepsTheLengthOfEdgesInThinZones) {
       double longest = 0;
       for (const PlaneEdge& e : domain.plane.edges) {
         const Vec2 m = lerp(domain.plane.vertices[e.a], domain.plane.vertices[e.b], 0.5);
-        if (std::abs(m.x) < 0.9 && std::abs(m.y) < width * h) longest = std::max(longest, uv_length(domain.plane, e));
+        if (std::abs(m.x()) < 0.9 && std::abs(m.y()) < width * h) longest = std::max(longest, uv_length(domain.plane, e));
       }
       EXPECT_LE(longest, std::min(h, allowed * 1.0001)) << coef << ' ' << width;
       EXPECT_GT(longest, 0.4999 * std::min(h, allowed)) << coef << ' ' << width;
@@ -196,13 +196,13 @@ TEST(Closeness, IsMeasuredInTheMetric) {
   const Vec2 row0{d / det, -b / det}, row1{-c / det, a / det};  // rows of the inverse
   const ControlSpace metric = ControlSpace::constant({4, 0, 4});
   const ControlSpace carried =
-      ControlSpace::constant({4 * (row0.x * row0.x + row1.x * row1.x), 4 * (row0.x * row0.y + row1.x * row1.y),
-                              4 * (row0.y * row0.y + row1.y * row1.y)});
+      ControlSpace::constant({4 * (row0.x() * row0.x() + row1.x() * row1.x()), 4 * (row0.x() * row0.y() + row1.x() * row1.y()),
+                              4 * (row0.y() * row0.y() + row1.y() * row1.y())});
   for (const double width : {0.3, 0.11, 0.02})
     for (const double coef : {0.15, 0.25, 0.7}) {
       const CurvedDomain domain = bridge(width, 0.5);
       PlaneDomain mapped = domain.plane;
-      for (Vec2& p : mapped.vertices) p = {a * p.x + b * p.y, c * p.x + d * p.y};
+      for (Vec2& p : mapped.vertices) p = {a * p.x() + b * p.y(), c * p.x() + d * p.y()};
       EXPECT_EQ(edges_to_split_for_closeness(domain.plane, metric, coef),
                 edges_to_split_for_closeness(mapped, carried, coef))
           << width << ' ' << coef;
@@ -253,7 +253,7 @@ TEST(Closeness, EndsAtAPole) {
   // over h^2, sampled; the two meridians meet at the apex under the angle k although they are parallel in (u, v).
   for (const double k : {1.0, 0.3, 0.1, 0.02}) {
     CurvedDomain cone;
-    for (const Vec2 p : {Vec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}) cone.add_vertex(p);
+    for (const Vec2& p : {Vec2{0, 0}, {1, 0}, {1, 1}, {0, 1}}) cone.add_vertex(p);
     cone.add_curve(segment({0, 0}, {1, 0}), 1, 0, 1, PlaneEdgeKind::degenerate);
     cone.add_curve(segment({1, 0}, {1, 1}), 10, 1, 2);
     cone.add_curve(segment({1, 1}, {0, 1}), std::max(1, static_cast<int>(10 * k)), 2, 3);
@@ -265,7 +265,7 @@ TEST(Closeness, EndsAtAPole) {
         sampled,
         [&](std::span<const Vec2> uv, std::span<Metric2> m) {
           for (std::size_t i = 0; i < uv.size(); ++i) {
-            const double r = std::max(uv[i].y, 1e-4) * k;
+            const double r = std::max(uv[i].y(), 1e-4) * k;
             m[i] = {100 * r * r, 0, 100};
           }
         },
@@ -282,13 +282,13 @@ TEST(Closeness, RefinesBeyondTheTipOfANeedle) {
   const double w = 0.01, tip = w / std::tan(10 * pi / 180);
   const std::vector<Vec2> corners{{0, 0}, {tip, -w}, {3, -w}, {3, w}, {tip, w}};
   CurvedDomain needle;
-  for (const Vec2 p : corners) needle.add_vertex(p);
+  for (const Vec2& p : corners) needle.add_vertex(p);
   const int n[] = {1, 30, 1, 30, 1};
   for (int i = 0; i < 5; ++i) needle.add_curve(segment(corners[i], corners[(i + 1) % 5]), n[i], i, (i + 1) % 5);
   const ControlSpace metric = ControlSpace::constant({100, 0, 100});
   refine(needle, [&](const PlaneDomain& d) { return edges_to_split_for_closeness(d, metric, 0.25); });
   for (const PlaneEdge& e : needle.plane.edges)
-    if (needle.plane.vertices[e.a].x > 6 * tip) {
+    if (needle.plane.vertices[e.a].x() > 6 * tip) {
       EXPECT_LT(uv_length(needle.plane, e), 0.0801);
     }
   EXPECT_GT(shortest(needle.plane), 0.009);
@@ -331,7 +331,7 @@ TEST(Balance, FollowsClosenessAsInFigure34) {
 
 TEST(Balance, ComparesEdgesOfOneCurveOrLoopInTheMetric) {
   CurvedDomain domain;
-  for (const Vec2 p : {Vec2{0, 0}, {4, 0}, {4, 4}, {0, 4}}) domain.add_vertex(p);
+  for (const Vec2& p : {Vec2{0, 0}, {4, 0}, {4, 4}, {0, 4}}) domain.add_vertex(p);
   for (int i = 0; i < 4; ++i)
     domain.add_curve(segment(domain.plane.vertices[i], domain.plane.vertices[(i + 1) % 4]), 1, i, (i + 1) % 4);
   const ControlSpace unit = ControlSpace::constant({1, 0, 1}), stretched = ControlSpace::constant({1, 0, 16});

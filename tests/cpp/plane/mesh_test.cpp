@@ -87,7 +87,7 @@ TEST(MeshPlane, LongStripsAreDelaunayInTheMetric) {
     double longest = 0;
     for (const auto& t : mesh.triangles)
       for (int i = 0; i < 3; ++i)
-        longest = std::max(longest, std::abs(mesh.vertices[t[i]].x - mesh.vertices[t[(i + 1) % 3]].x) / h);
+        longest = std::max(longest, std::abs(mesh.vertices[t[i]].x() - mesh.vertices[t[(i + 1) % 3]].x()) / h);
     EXPECT_LT(longest, 1.5);
   }
 }
@@ -112,7 +112,7 @@ TEST(MeshPlane, LongStripsOfOneLayerDoNotLean) {
     Monitor monitor;
     const auto field = [&](std::span<const Vec2> at, std::span<Metric2> metric) {
       for (std::size_t k = 0; k < at.size(); ++k) {
-        const double s = std::sin(2 * along * at[k].x + 3 * at[k].y);
+        const double s = std::sin(2 * along * at[k].x() + 3 * at[k].y());
         metric[k] = {along * along, -0.04 * along * (0.5 + s), 1.2 * (1 + 0.4 * s)};
       }
     };
@@ -121,7 +121,7 @@ TEST(MeshPlane, LongStripsOfOneLayerDoNotLean) {
     double longest = 0;
     for (const auto& t : mesh.triangles)
       for (int i = 0; i < 3; ++i)
-        longest = std::max(longest, along * std::abs(mesh.vertices[t[i]].x - mesh.vertices[t[(i + 1) % 3]].x));
+        longest = std::max(longest, along * std::abs(mesh.vertices[t[i]].x() - mesh.vertices[t[(i + 1) % 3]].x()));
     EXPECT_LT(longest, 1.5);
   }
 }
@@ -131,9 +131,9 @@ TEST(MeshPlane, DoesNotDependOnTheUnitOfTheParameters) {
   const PlaneCase c = paraboloid(0.3);
   PlaneCase scaled = c;
   const Vec2 k{std::ldexp(1.0, 40), std::ldexp(1.0, -300)};
-  for (Vec2& p : scaled.domain.vertices) p = {k.x * p.x, k.y * p.y};
+  for (Vec2& p : scaled.domain.vertices) p = {k.x() * p.x(), k.y() * p.y()};
   const ControlSpace space = ControlSpace::constant({20, 5, 30});
-  const ControlSpace scaled_space = ControlSpace::constant({20 / (k.x * k.x), 5 / (k.x * k.y), 30 / (k.y * k.y)});
+  const ControlSpace scaled_space = ControlSpace::constant({20 / (k.x() * k.x()), 5 / (k.x() * k.y()), 30 / (k.y() * k.y())});
   Monitor monitor;
   const PlaneMesh mesh = mesh_plane(c.domain, space, {}, monitor);
   const PlaneMesh other = mesh_plane(scaled.domain, scaled_space, {}, monitor);

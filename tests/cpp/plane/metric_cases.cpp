@@ -15,7 +15,7 @@ namespace {
 /// Metric of sizes `across` along the unit vector n and `along` in the other direction.
 Metric2 stretched_metric(Vec2 n, double across, double along) {
   const double p = 1 / (across * across), q = 1 / (along * along);
-  return {p * n.x * n.x + q * n.y * n.y, (p - q) * n.x * n.y, p * n.y * n.y + q * n.x * n.x};
+  return {p * n.x() * n.x() + q * n.y() * n.y(), (p - q) * n.x() * n.y(), p * n.y() * n.y() + q * n.x() * n.x()};
 }
 
 double metric_length(const MetricCase& c, Vec2 p, Vec2 q) {
@@ -49,7 +49,7 @@ void append_side(MetricCase& c, Vec2 p, Vec2 q) {
 
 MetricCase on_box(std::string name, Vec2 low, Vec2 high, std::function<Metric2(Vec2)> metric) {
   MetricCase c{.name = std::move(name), .metric = std::move(metric), .domain = {}};
-  const std::array<Vec2, 4> corner = {low, Vec2{high.x, low.y}, high, Vec2{low.x, high.y}};
+  const std::array<Vec2, 4> corner = {low, Vec2{high.x(), low.y()}, high, Vec2{low.x(), high.y()}};
   for (std::size_t i = 0; i < 4; ++i) append_side(c, corner[i], corner[(i + 1) % 4]);
   const int n = static_cast<int>(c.domain.vertices.size());
   for (int i = 0; i < n; ++i) c.domain.edges.push_back({.a = i, .b = (i + 1) % n});
@@ -98,20 +98,20 @@ MetricCase layer_on_spiral(double h, double ratio) {
   // r = pitch (angle / 2 pi + k): the nearest turn; away from the origin, where there is none.
   constexpr double pitch = 0.3;
   return on_box("layer on a spiral", {0.2, 0.2}, {1.2, 1.2}, [=](Vec2 p) {
-    const double r = norm(p), turn = r / pitch - std::atan2(p.y, p.x) / (2 * std::numbers::pi);
+    const double r = norm(p), turn = r / pitch - std::atan2(p.y(), p.x()) / (2 * std::numbers::pi);
     const double distance = pitch * (turn - std::round(turn));
     // Gradient of r - pitch angle / (2 pi), made a unit vector.
     const double bend = pitch / (2 * std::numbers::pi * r);
     const Vec2 radial = (1 / r) * p;
-    const Vec2 n = (1 / std::sqrt(1 + bend * bend)) * (radial - bend * Vec2{-radial.y, radial.x});
+    const Vec2 n = (1 / std::sqrt(1 + bend * bend)) * (radial - bend * Vec2{-radial.y(), radial.x()});
     return layer(n, distance / std::sqrt(1 + bend * bend), h, ratio);
   });
 }
 
 MetricCase layer_on_sine(double h, double ratio) {
   return on_box("layer on a sine", {0, -2}, {2 * std::numbers::pi, 2}, [=](Vec2 p) {
-    const double slope = std::cos(p.x), k = 1 / std::sqrt(1 + slope * slope);
-    return layer({-k * slope, k}, k * (p.y - std::sin(p.x)), h, ratio);
+    const double slope = std::cos(p.x()), k = 1 / std::sqrt(1 + slope * slope);
+    return layer({-k * slope, k}, k * (p.y() - std::sin(p.x())), h, ratio);
   });
 }
 

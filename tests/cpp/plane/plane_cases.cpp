@@ -19,7 +19,7 @@ PlaneCase make(const std::string& name, Vec2 low, Vec2 high, double h, std::func
   return c;
 }
 
-void append_box(PlaneCase& c) { append_polygon(c, {c.low, {c.high.x, c.low.y}, c.high, {c.low.x, c.high.y}}); }
+void append_box(PlaneCase& c) { append_polygon(c, {c.low, {c.high.x(), c.low.y()}, c.high, {c.low.x(), c.high.y()}}); }
 
 std::function<Vec2(double)> line(Vec2 p, Vec2 q) {
   return [p, q](double t) { return lerp(p, q, t); };
@@ -28,7 +28,7 @@ std::function<Vec2(double)> line(Vec2 p, Vec2 q) {
 std::function<Vec2(double)> circle(Vec2 centre, double r, bool hole) {
   return [=](double t) {
     const double a = 2 * pi * t;
-    return Vec2{centre.x + r * std::cos(a), centre.y + (hole ? -r : r) * std::sin(a)};
+    return Vec2{centre.x() + r * std::cos(a), centre.y() + (hole ? -r : r) * std::sin(a)};
   };
 }
 
@@ -58,7 +58,7 @@ std::vector<Vec2> unit_points(const PlaneCase& c, const std::function<Vec2(doubl
 PlaneCase with_polar_sides(PlaneCase c) {
   // (0, 0) and (0, 2 pi) are one point of space.
   auto& v = c.domain.vertices;
-  v = {{c.low.x, c.low.y}, {c.high.x, c.low.y}, {c.high.x, c.high.y}, {c.low.x, c.high.y}};
+  v = {{c.low.x(), c.low.y()}, {c.high.x(), c.low.y()}, {c.high.x(), c.high.y()}, {c.low.x(), c.high.y()}};
   append_curve(c, line(v[0], v[1]), PlaneEdgeKind::boundary, 0, 1);
   append_curve(c, line(v[1], v[2]), PlaneEdgeKind::boundary, 1, 2);
   append_curve(c, line(v[2], v[3]), PlaneEdgeKind::boundary, 2, 3);
@@ -69,9 +69,9 @@ PlaneCase with_polar_sides(PlaneCase c) {
 }  // namespace
 
 Metric2 true_metric(const PlaneCase& c, Vec2 uv) {
-  const double e = 1e-5 * (c.high.x - c.low.x), f = 1e-5 * (c.high.y - c.low.y);
-  const Vec3 su = (0.5 / e) * (c.surface({uv.x + e, uv.y}) - c.surface({uv.x - e, uv.y}));
-  const Vec3 sv = (0.5 / f) * (c.surface({uv.x, uv.y + f}) - c.surface({uv.x, uv.y - f}));
+  const double e = 1e-5 * (c.high.x() - c.low.x()), f = 1e-5 * (c.high.y() - c.low.y());
+  const Vec3 su = (0.5 / e) * (c.surface({uv.x() + e, uv.y()}) - c.surface({uv.x() - e, uv.y()}));
+  const Vec3 sv = (0.5 / f) * (c.surface({uv.x(), uv.y() + f}) - c.surface({uv.x(), uv.y() - f}));
   return induced_metric(su, sv, c.size(uv));
 }
 
@@ -100,7 +100,7 @@ int append_curve(PlaneCase& c, const std::function<Vec2(double)>& curve, PlaneEd
   const std::vector<Vec2> points = unit_points(c, curve);
   const int rank = c.domain.edges.empty() ? 0 : c.domain.edges.back().curve + 1;
   int a = start < 0 ? add(curve(0)) : start, segment = 0;
-  for (const Vec2 p : points) {
+  for (const Vec2& p : points) {
     const int b = add(p);
     c.domain.edges.push_back({a, b, kind, rank, segment++});
     a = b;
@@ -127,13 +127,13 @@ void append_polygon(PlaneCase& c, const std::vector<Vec2>& corners) {
 }
 
 PlaneCase flat_square(double h) {
-  PlaneCase c = make("flat square", {0, 0}, {1, 1}, h, [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  PlaneCase c = make("flat square", {0, 0}, {1, 1}, h, [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; });
   append_box(c);
   return c;
 }
 
 PlaneCase paraboloid(double h) {
-  PlaneCase c = make("paraboloid", {-2.5, -2.5}, {2.5, 2.5}, h, [](Vec2 p) { return Vec3{p.x, p.y, 0.5 * dot(p, p)}; });
+  PlaneCase c = make("paraboloid", {-2.5, -2.5}, {2.5, 2.5}, h, [](Vec2 p) { return Vec3{p.x(), p.y(), 0.5 * dot(p, p)}; });
   append_box(c);
   return c;
 }
@@ -141,7 +141,7 @@ PlaneCase paraboloid(double h) {
 PlaneCase hemisphere(double h) {
   PlaneCase c = make("hemisphere", {-1, -1}, {1, 1}, h, [](Vec2 p) {
     const double d = 1 + dot(p, p);
-    return Vec3{2 * p.x / d, 2 * p.y / d, (2 - d) / d};
+    return Vec3{2 * p.x() / d, 2 * p.y() / d, (2 - d) / d};
   });
   append_closed_curve(c, circle({0, 0}, 1, false));
   return c;
@@ -149,8 +149,8 @@ PlaneCase hemisphere(double h) {
 
 PlaneCase torus_patch(double h) {
   PlaneCase c = make("torus patch", {0, 0}, {pi, pi}, h, [](Vec2 p) {
-    const double r = 2 + std::cos(p.y);
-    return Vec3{r * std::cos(p.x), r * std::sin(p.x), std::sin(p.y)};
+    const double r = 2 + std::cos(p.y());
+    return Vec3{r * std::cos(p.x()), r * std::sin(p.x()), std::sin(p.y())};
   });
   append_box(c);
   return c;
@@ -159,7 +159,7 @@ PlaneCase torus_patch(double h) {
 PlaneCase swirl(double h, double turns) {
   PlaneCase c = make("swirl", {-1, -1}, {1, 1}, h, [turns](Vec2 p) {
     const double r2 = dot(p, p), g = turns * (1 - r2) * (1 - r2), x = std::cos(g), y = std::sin(g);
-    return Vec3{x * p.x - y * p.y, y * p.x + x * p.y, 0.3 * r2};
+    return Vec3{x * p.x() - y * p.y(), y * p.x() + x * p.y(), 0.3 * r2};
   });
   append_closed_curve(c, circle({0, 0}, 1, false));
   return c;
@@ -167,7 +167,7 @@ PlaneCase swirl(double h, double turns) {
 
 PlaneCase stretched(double h) {
   PlaneCase c = make("stretched", {0, 0}, {1, 50}, h, [](Vec2 p) {
-    const double u = p.x, w = p.y / 50;
+    const double u = p.x(), w = p.y() / 50;
     return Vec3{u + 0.8 * u * u * u + 0.7 * w, w + 0.3 * w * w, 0.3 * std::sin(2 * u) * std::cos(2 * w)};
   });
   append_box(c);
@@ -176,7 +176,7 @@ PlaneCase stretched(double h) {
 
 PlaneCase size_field(double h) {
   PlaneCase c = make("size field", {-2, -2}, {2, 2}, h, [](Vec2 p) {
-    return Vec3{p.x, p.y, 0.25 * std::sin(p.x) * std::cos(p.y)};
+    return Vec3{p.x(), p.y(), 0.25 * std::sin(p.x()) * std::cos(p.y())};
   });
   c.size = [h](Vec2 p) {
     const double ring = norm(p) - 1.2, d = std::sqrt(ring * ring + 1e-4);
@@ -188,7 +188,7 @@ PlaneCase size_field(double h) {
 
 PlaneCase holes(double h) {
   PlaneCase c = make("holes", {-1, -1}, {1, 1}, h, [](Vec2 p) {
-    return Vec3{p.x, p.y, 0.3 * std::sin(2 * p.x) * std::sin(2 * p.y)};
+    return Vec3{p.x(), p.y(), 0.3 * std::sin(2 * p.x()) * std::sin(2 * p.y())};
   });
   append_box(c);
   append_closed_curve(c, circle({0.1, 0.1}, 0.35, true));
@@ -201,7 +201,7 @@ PlaneCase holes(double h) {
 }
 
 PlaneCase star(double h) {
-  PlaneCase c = make("star", {-1, -1}, {1, 1}, h, [](Vec2 p) { return Vec3{p.x, p.y, 0.2 * (p.x * p.x - p.y * p.y)}; });
+  PlaneCase c = make("star", {-1, -1}, {1, 1}, h, [](Vec2 p) { return Vec3{p.x(), p.y(), 0.2 * (p.x() * p.x() - p.y() * p.y())}; });
   std::vector<Vec2> corners;
   for (int i = 0; i < 10; ++i) {
     const double r = i % 2 == 1 ? 0.32 : 0.98, a = pi * i / 5;
@@ -214,7 +214,7 @@ PlaneCase star(double h) {
 
 PlaneCase internal_curves(double h) {
   PlaneCase c = make("internal curves", {-1, -1}, {1, 1}, h, [](Vec2 p) {
-    return Vec3{p.x, p.y, 0.2 * std::cos(2 * p.x + p.y)};
+    return Vec3{p.x(), p.y(), 0.2 * std::cos(2 * p.x() + p.y())};
   });
   append_box(c);
   // A curve from corner to corner (vertex 0 is the corner (-1, -1)), a free arc and two points.
@@ -243,17 +243,17 @@ PlaneCase polar_disc(double h) { return polar_cone(h, 0.5 * pi); }
 PlaneCase polar_cone(double h, double half_angle) {
   const double s = std::sin(half_angle), k = std::cos(half_angle);
   return with_polar_sides(make("polar cone", {0, 0}, {1, 2 * pi}, h, [s, k](Vec2 p) {
-    return Vec3{s * p.x * std::cos(p.y), s * p.x * std::sin(p.y), k * p.x};
+    return Vec3{s * p.x() * std::cos(p.y()), s * p.x() * std::sin(p.y()), k * p.x()};
   }));
 }
 
 PlaneCase sphere_two_poles(double h) {
   PlaneCase c = make("sphere", {-0.5 * pi, 0}, {0.5 * pi, 2 * pi}, h, [](Vec2 p) {
-    const double r = std::cos(p.x);
-    return Vec3{r * std::cos(p.y), r * std::sin(p.y), std::sin(p.x)};
+    const double r = std::cos(p.x());
+    return Vec3{r * std::cos(p.y()), r * std::sin(p.y()), std::sin(p.x())};
   });
   auto& v = c.domain.vertices;
-  v = {{c.low.x, c.low.y}, {c.high.x, c.low.y}, {c.high.x, c.high.y}, {c.low.x, c.high.y}};
+  v = {{c.low.x(), c.low.y()}, {c.high.x(), c.low.y()}, {c.high.x(), c.high.y()}, {c.low.x(), c.high.y()}};
   append_curve(c, line(v[0], v[1]), PlaneEdgeKind::boundary, 0, 1);
   c.domain.edges.push_back({1, 2, PlaneEdgeKind::degenerate, 1, 0, 3});
   append_curve(c, line(v[2], v[3]), PlaneEdgeKind::boundary, 2, 3);

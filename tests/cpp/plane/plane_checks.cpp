@@ -61,8 +61,8 @@ std::vector<std::string> find_plane_defects(const PlaneDomain& domain, const Pla
     const auto& v = mesh.triangles[t];
     const Vec2 a = mesh.vertices[v[0]], b = mesh.vertices[v[1]], c = mesh.vertices[v[2]];
     if (orientation(a, b, c) <= 0) defects.push_back("triangle " + std::to_string(t) + " is not counterclockwise");
-    area += (static_cast<long double>(b.x) - a.x) * (static_cast<long double>(c.y) - a.y) -
-            (static_cast<long double>(b.y) - a.y) * (static_cast<long double>(c.x) - a.x);
+    area += (static_cast<long double>(b.x()) - a.x()) * (static_cast<long double>(c.y()) - a.y()) -
+            (static_cast<long double>(b.y()) - a.y()) * (static_cast<long double>(c.x()) - a.x());
     for (int i = 0; i < 3; ++i)
       if (!half_edges.emplace(Edge{v[i], v[(i + 1) % 3]}, static_cast<int>(t)).second)
         defects.push_back("edge " + name({v[i], v[(i + 1) % 3]}) + " is in two triangles in the same direction");
@@ -79,8 +79,8 @@ std::vector<std::string> find_plane_defects(const PlaneDomain& domain, const Pla
     boundary.insert({e.a, e.b});
     if (!left || right) defects.push_back("boundary edge " + name({e.a, e.b}) + " is missing or has two sides");
     const Vec2 a = domain.vertices[e.a], b = domain.vertices[e.b], o = domain.vertices[0];
-    const long double p = (static_cast<long double>(a.x) - o.x) * (static_cast<long double>(b.y) - o.y),
-                      q = (static_cast<long double>(a.y) - o.y) * (static_cast<long double>(b.x) - o.x);
+    const long double p = (static_cast<long double>(a.x()) - o.x()) * (static_cast<long double>(b.y()) - o.y()),
+                      q = (static_cast<long double>(a.y()) - o.y()) * (static_cast<long double>(b.x()) - o.x());
     polygon += p - q;
     scale += std::abs(p) + std::abs(q);
   }

@@ -124,7 +124,7 @@ TEST(Graded, QualityAtSlope011) {
 // Sizes far below the box's: places of vertices must be as exact as their coordinates.
 TEST(Graded, QualityWhereSizesAreAMillionthOfTheBox) {
   constexpr double h0 = 1e-7, slope = 0.11;
-  constexpr Vec2 centre{0.53, 0.41};
+  const Vec2 centre{0.53, 0.41};
   PlaneCase c = flat_square(0.1);
   c.size = [=](Vec2 p) { return std::min(0.1, h0 + slope * norm(p - centre)); };
   Monitor monitor;

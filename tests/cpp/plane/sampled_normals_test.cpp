@@ -12,27 +12,27 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 Vec3 on_sphere(Vec2 angles) {
-  return {std::cos(angles.x) * std::cos(angles.y), std::sin(angles.x) * std::cos(angles.y), std::sin(angles.y)};
+  return {std::cos(angles.x()) * std::cos(angles.y()), std::sin(angles.x()) * std::cos(angles.y()), std::sin(angles.y())};
 }
 
 /// Largest error, in degrees, on an octant of a sphere, but for the 10 degrees at its pole, that is sampled n times a
 /// side and whose parameters are its angles times `scale`.
 double error_of(int n, Vec2 scale) {
-  const Vec2 top{90 * degree * scale.x, 80 * degree * scale.y};
-  const auto angles = [scale](Vec2 uv) { return Vec2{uv.x / scale.x, uv.y / scale.y}; };
+  const Vec2 top{90 * degree * scale.x(), 80 * degree * scale.y()};
+  const auto angles = [scale](Vec2 uv) { return Vec2{uv.x() / scale.x(), uv.y() / scale.y()}; };
   const MetricSampler metric = [&](std::span<const Vec2> uv, std::span<Metric2> m) {
     for (std::size_t k = 0; k < uv.size(); ++k) {
-      const double c = std::cos(angles(uv[k]).y) / scale.x, unit = 0.2;
-      m[k] = {c * c / (unit * unit), 0, 1 / (scale.y * scale.y * unit * unit)};
+      const double c = std::cos(angles(uv[k]).y()) / scale.x(), unit = 0.2;
+      m[k] = {c * c / (unit * unit), 0, 1 / (scale.y() * scale.y() * unit * unit)};
     }
   };
   Monitor monitor;
-  const SampledDomain domain{{{0, 0}, {top.x, 0}, top, {0, top.y}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+  const SampledDomain domain{{{0, 0}, {top.x(), 0}, top, {0, top.y()}}, {{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
   const ControlSpace space = ControlSpace::build(domain, metric, {}, monitor);
   SampledNormals normals;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) {
-      const Vec2 uv{top.x * i / n, top.y * j / n};
+      const Vec2 uv{top.x() * i / n, top.y() * j / n};
       normals.add(uv, 7.0 * on_sphere(angles(uv)));
     }
   EXPECT_TRUE(normals.differ());
@@ -41,7 +41,7 @@ double error_of(int n, Vec2 scale) {
   constexpr int places = 57;
   for (int i = 0; i <= places; ++i)
     for (int j = 0; j <= places; ++j) {
-      const Vec2 uv{top.x * i / places, top.y * j / places};
+      const Vec2 uv{top.x() * i / places, top.y() * j / places};
       const Vec3 found = normals.at(uv);
       EXPECT_NEAR(norm(found), 1, 1e-12);
       largest = std::max(largest, norm(found - on_sphere(angles(uv))) / degree);

@@ -33,7 +33,7 @@ std::vector<Vec2> star(int n, Vec2 centre, double r0, double r1, std::mt19937_64
   std::vector<Vec2> loop;
   for (int i = 0; i < n; ++i) {
     const double t = 6.283185307179586 * i / n, r = radius(random);
-    loop.push_back({centre.x + r * std::cos(t), centre.y + r * std::sin(t)});
+    loop.push_back({centre.x() + r * std::cos(t), centre.y() + r * std::sin(t)});
   }
   return loop;
 }
@@ -43,10 +43,10 @@ int position(const Polygon& polygon, Vec2 p) {
   bool inside = false;
   for (const auto& [i, j] : polygon.edges) {
     Vec2 a = polygon.vertices[i], b = polygon.vertices[j];
-    if (a.y > b.y) std::swap(a, b);
+    if (a.y() > b.y()) std::swap(a, b);
     const int s = orientation(a, b, p);
-    if (s == 0 && p.y >= a.y && p.y <= b.y && p.x >= std::min(a.x, b.x) && p.x <= std::max(a.x, b.x)) return 0;
-    if (a.y <= p.y && p.y < b.y && s > 0) inside = !inside;
+    if (s == 0 && p.y() >= a.y() && p.y() <= b.y() && p.x() >= std::min(a.x(), b.x()) && p.x() <= std::max(a.x(), b.x())) return 0;
+    if (a.y() <= p.y() && p.y() < b.y() && s > 0) inside = !inside;
   }
   return inside ? 1 : -1;
 }
@@ -68,7 +68,7 @@ TEST(PolygonLocator, AgreesWithTheDefinitionOnDegenerateIntegerPolygons) {
     for (int i = -2; i <= 2 * size; ++i)
       for (int j = -2; j <= 2 * size; ++j) {
         const Vec2 p{0.5 * i, 0.5 * j};
-        ASSERT_EQ(locator.contains(p), position(polygon, p) >= 0) << trial << ' ' << p.x << ' ' << p.y;
+        ASSERT_EQ(locator.contains(p), position(polygon, p) >= 0) << trial << ' ' << p.x() << ' ' << p.y();
       }
   }
 }
@@ -85,10 +85,10 @@ TEST(PolygonLocator, AgreesWithTheDefinitionOnAStarWithHolesAndIslands) {
   for (int i = 0; i < 3000; ++i) {
     const double w = unit(random);
     const auto& [a, b] = polygon.edges[random() % polygon.edges.size()];
-    for (const Vec2 p : {Vec2{11 * unit(random), 11 * unit(random)}, Vec2{4 + 2e-6 * unit(random), 2e-6 * unit(random)},
+    for (const Vec2& p : {Vec2{11 * unit(random), 11 * unit(random)}, Vec2{4 + 2e-6 * unit(random), 2e-6 * unit(random)},
                          lerp(polygon.vertices[a], polygon.vertices[b], w),
-                         Vec2{polygon.vertices[a].x, polygon.vertices[b].y}, polygon.vertices[a]})
-      ASSERT_EQ(locator.contains(p), position(polygon, p) >= 0) << p.x << ' ' << p.y;
+                         Vec2{polygon.vertices[a].x(), polygon.vertices[b].y()}, polygon.vertices[a]})
+      ASSERT_EQ(locator.contains(p), position(polygon, p) >= 0) << p.x() << ' ' << p.y();
   }
   EXPECT_TRUE(locator.contains({0, 0}));
   EXPECT_FALSE(locator.contains({-3, 2.5}));
@@ -142,12 +142,12 @@ TEST(PolygonLocator, IsExactAtHugeTinyAndOffsetCoordinates) {
   std::vector<Vec2> loop;
   for (int i = 0; i < 40; ++i) loop.push_back({on_lattice(), on_lattice()});
   for (const double scale : {0x1p1019, 0x1p-1074, 0x1p-500, 1.0})
-    for (const Vec2 offset : {Vec2{0, 0}, Vec2{0x1p50, -0x1p49}}) {
-      if (scale == 0x1p1019 && offset.x != 0) continue;
+    for (const Vec2& offset : {Vec2{0, 0}, Vec2{0x1p50, -0x1p49}}) {
+      if (scale == 0x1p1019 && offset.x() != 0) continue;
       Polygon polygon, moved;
       polygon.add_loop(loop);
       std::vector<Vec2> image;
-      for (const Vec2 p : loop) image.push_back(scale * (p + offset));
+      for (const Vec2& p : loop) image.push_back(scale * (p + offset));
       moved.add_loop(image);
       const PolygonLocator locator(moved.vertices, moved.edges);
       for (int i = 0; i < 16; ++i)
@@ -188,11 +188,11 @@ TEST(EdgeGrid, ListsEveryEdgeInEveryCellThatItMeets) {
         for (int e = 0; e < static_cast<int>(polygon.edges.size()); ++e) {
           // Separating axes: the two of the box and the edge's normal.
           const Vec2 a = polygon.vertices[polygon.edges[e].first], b = polygon.vertices[polygon.edges[e].second];
-          if (std::max(a.x, b.x) < low.x || std::min(a.x, b.x) > high.x || std::max(a.y, b.y) < low.y ||
-              std::min(a.y, b.y) > high.y)
+          if (std::max(a.x(), b.x()) < low.x() || std::min(a.x(), b.x()) > high.x() || std::max(a.y(), b.y()) < low.y() ||
+              std::min(a.y(), b.y()) > high.y())
             continue;
-          const int s0 = orientation(a, b, low), s1 = orientation(a, b, high), s2 = orientation(a, b, {low.x, high.y}),
-                    s3 = orientation(a, b, {high.x, low.y});
+          const int s0 = orientation(a, b, low), s1 = orientation(a, b, high), s2 = orientation(a, b, {low.x(), high.y()}),
+                    s3 = orientation(a, b, {high.x(), low.y()});
           if (s0 == s1 && s1 == s2 && s2 == s3 && s0 != 0) continue;
           ASSERT_EQ(listed.count(e), 1U) << e;
         }

@@ -78,11 +78,11 @@ TEST(Orientation, IsExactWhenDifferencesRound) {
     const auto coordinate = [&](int bits) { return std::ldexp(std::floor(std::ldexp(unit(random), bits)), -60); };
     const Vec2 a{coordinate(20), coordinate(20)};
     const Vec2 b{coordinate(60), coordinate(60)};
-    Vec2 c{0.5 * b.x, 0.5 * b.y};
-    if (i % 2 == 0) c = {std::nextafter(c.x, 1), c.y};
-    c = {std::ldexp(std::floor(std::ldexp(c.x, 60)), -60), std::ldexp(std::floor(std::ldexp(c.y, 60)), -60)};
-    const Integer ax = units(a.x) - units(c.x), ay = units(a.y) - units(c.y);
-    const Integer bx = units(b.x) - units(c.x), by = units(b.y) - units(c.y);
+    Vec2 c{0.5 * b.x(), 0.5 * b.y()};
+    if (i % 2 == 0) c = {std::nextafter(c.x(), 1), c.y()};
+    c = {std::ldexp(std::floor(std::ldexp(c.x(), 60)), -60), std::ldexp(std::floor(std::ldexp(c.y(), 60)), -60)};
+    const Integer ax = units(a.x()) - units(c.x()), ay = units(a.y()) - units(c.y());
+    const Integer bx = units(b.x()) - units(c.x()), by = units(b.y()) - units(c.y());
     const int expected = sign(ax * by - ay * bx);
     zeros += expected == 0;
     ASSERT_EQ(orientation(a, b, c), expected) << i;
@@ -106,7 +106,7 @@ TEST(Orientation, PermutationsAndTranslationsKeepTheSign) {
   for (int i = 0; i < 5000; ++i) {
     const Vec2 a{unit(random), unit(random)}, b{unit(random), unit(random)};
     const double w = 0.25 * (i % 9);
-    const Vec2 c{a.x + w * (b.x - a.x), a.y + w * (b.y - a.y)};  // rounded: any sign
+    const Vec2 c{a.x() + w * (b.x() - a.x()), a.y() + w * (b.y() - a.y())};  // rounded: any sign
     const int s = orientation(a, b, c);
     ASSERT_EQ(s, orientation(b, c, a));
     ASSERT_EQ(s, orientation(c, a, b));
@@ -119,8 +119,8 @@ TEST(Orientation, PermutationsAndTranslationsKeepTheSign) {
   for (int i = 0; i < 5000; ++i) {
     const auto coordinate = [&] { return std::ldexp(static_cast<double>(random() >> 34), -30); };
     const Vec2 a{coordinate(), coordinate()}, b{coordinate(), coordinate()}, t{0x1p20, -0x1p21};
-    const Vec2 c{std::ldexp(std::floor(0x1p30 * (0.5 * (a.x + b.x))), -30), 0.5 * (a.y + b.y)};
-    if (c.y + t.y - t.y != c.y) continue;
+    const Vec2 c{std::ldexp(std::floor(0x1p30 * (0.5 * (a.x() + b.x()))), -30), 0.5 * (a.y() + b.y())};
+    if (c.y() + t.y() - t.y() != c.y()) continue;
     ASSERT_EQ(orientation(a, b, c), orientation(a + t, b + t, c + t));
   }
 }
@@ -205,13 +205,13 @@ TEST(Predicates, ScalingByPowersOfTwoKeepsTheSignOfMixedMagnitudes) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> unit(-1, 1);
   const auto coordinate = [&] { return std::ldexp(unit(random), -static_cast<int>(random() % 60)); };
-  const auto times = [](Vec2 p, int e) { return Vec2{std::ldexp(p.x, e), std::ldexp(p.y, e)}; };
+  const auto times = [](Vec2 p, int e) { return Vec2{std::ldexp(p.x(), e), std::ldexp(p.y(), e)}; };
   for (int i = 0; i < 2000; ++i) {
     const Vec2 a{coordinate(), coordinate()}, b{coordinate(), coordinate()};
     const double w = unit(random);
     const Vec2 c = lerp(a, b, w);                                    // nearly collinear
-    const Vec2 d{c.x - (b.y - a.y) * 0.5, c.y + (b.x - a.x) * 0.5};  // somewhere
-    const Vec2 e{a.x + b.x - d.x, a.y + b.y - d.y};                  // a d b e is nearly a rectangle when w is 1/2
+    const Vec2 d{c.x() - (b.y() - a.y()) * 0.5, c.y() + (b.x() - a.x()) * 0.5};  // somewhere
+    const Vec2 e{a.x() + b.x() - d.x(), a.y() + b.y() - d.y()};                  // a d b e is nearly a rectangle when w is 1/2
     for (const int k : {-800, 900}) {
       ASSERT_EQ(orientation(a, b, c), orientation(times(a, k), times(b, k), times(c, k))) << i;
       ASSERT_EQ(in_circle(a, d, b, e), in_circle(times(a, k), times(d, k), times(b, k), times(e, k))) << i;

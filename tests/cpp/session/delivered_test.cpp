@@ -228,7 +228,7 @@ TEST_F(SessionDelivered, SphereInThePlaneHasNoValuesForFlattenedTriangles) {
   AnalyticCad sphere;
   constexpr double pi = std::numbers::pi;
   sphere.faces[4] = {[](Vec2 p) {
-                       const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+                       const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
                        return SurfaceJet{{cu * cv, su * cv, sv},  {-su * cv, cu * cv, 0}, {-cu * sv, -su * sv, cv},
                                          {-cu * cv, -su * cv, 0}, {su * sv, -cu * sv, 0}, {-cu * cv, -su * cv, -sv}};
                      },
@@ -245,7 +245,7 @@ TEST_F(SessionDelivered, SphereInThePlaneHasNoValuesForFlattenedTriangles) {
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = session.mesh().vertices[d.edges.vertices[e][0]], q = session.mesh().vertices[d.edges.vertices[e][1]];
     const double arc = 2 * std::asin(norm(q - p) / 2) / 0.2;
-    const bool at_pole = std::max(std::abs(p.z), std::abs(q.z)) > 1 - 1e-12;
+    const bool at_pole = std::max(std::abs(p.z()), std::abs(q.z())) > 1 - 1e-12;
     EXPECT_NEAR(d[Kind::length].values[e], arc, at_pole ? 1e-9 : 0.05);
   }
   EXPECT_GE(d[Kind::metric_quality].spread.min, 0.5);
@@ -318,7 +318,7 @@ TEST_F(SessionDelivered, ErrorsAreToldAndLoseNothing) {
   const auto sound = cad->faces[1].at;
   cad->faces[1].at = [sound](Vec2 p) {
     SurfaceJet jet = sound(p);
-    jet.s.x = std::nan("");
+    jet.s.x() = std::nan("");
     return jet;
   };
   try {

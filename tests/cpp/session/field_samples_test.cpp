@@ -22,7 +22,7 @@ class PartlyThere : public testing::AnalyticCad {
     AnalyticCad::surface(face, want, uv, out);
     asked += uv.size();
     for (std::size_t i = 0; i < uv.size(); ++i)
-      if (!there_(uv[i])) out[i].s.x = out[i].su.x = std::nan("");
+      if (!there_(uv[i])) out[i].s.x() = out[i].su.x() = std::nan("");
   }
   std::size_t asked = 0;
 
@@ -56,7 +56,7 @@ TEST(FieldSampler, AsksAHostThatFailsEverywhereAtFewPlaces) {
   PartlyThere host([](Vec2) { return false; });
   const Sampled found = sample(host, n);
   EXPECT_EQ(found.failures, n * n);
-  for (const SurfaceJet& jet : found.jets) ASSERT_TRUE(std::isnan(jet.s.x) && std::isnan(jet.su.y));
+  for (const SurfaceJet& jet : found.jets) ASSERT_TRUE(std::isnan(jet.s.x()) && std::isnan(jet.su.y()));
   // In batches all of them, one by one not a tenth: each such call costs an exception.
   EXPECT_LT(host.asked, 1.4 * n * n);
 }
@@ -70,8 +70,8 @@ TEST(FieldSampler, TellsEveryPlaceWhereAHostFails) {
   for (std::size_t k = 0; k < found.uv.size(); ++k) {
     failing += there(found.uv[k]) ? 0 : 1;
     // Half of a batch of rows before the first place that is found may hold others.
-    if (found.uv[k].y <= 0.7) continue;
-    ASSERT_EQ(std::isnan(found.jets[k].s.x), !there(found.uv[k])) << k;
+    if (found.uv[k].y() <= 0.7) continue;
+    ASSERT_EQ(std::isnan(found.jets[k].s.x()), !there(found.uv[k])) << k;
   }
   EXPECT_NEAR(static_cast<double>(found.failures), static_cast<double>(failing), 2.0 * n);
 }

@@ -90,8 +90,8 @@ std::string sentence_of(Action&& action) {
 // (u, v) of each pixel from the attributes of the file alone, as a reader would compute it.
 Vec2 uv_of(const ExrImage& image, int column, int row) {
   const Imath::V2d low = image.pair_attribute("uv.low"), high = image.pair_attribute("uv.high");
-  return {low.x + (column + 0.5) * (high.x - low.x) / image.width,
-          high.y - (row + 0.5) * (high.y - low.y) / image.height};
+  return {low.x() + (column + 0.5) * (high.x() - low.x()) / image.width,
+          high.y() - (row + 0.5) * (high.y() - low.y()) / image.height};
 }
 
 template <typename Body>
@@ -184,8 +184,8 @@ TEST(Fields, HaveTheChannelsAndAttributesThatAreDocumented) {
   EXPECT_EQ(image.text_attribute("face.status"), "meshed");
   EXPECT_EQ(image.text_attribute("rows").substr(0, 27), "v falls from row to row: th");
   EXPECT_FALSE(image.text_attribute("carreau.version").empty());
-  EXPECT_NEAR(image.pair_attribute("uv.low").x, -1, 1e-12);
-  EXPECT_NEAR(image.pair_attribute("uv.high").x, 1, 1e-12);
+  EXPECT_NEAR(image.pair_attribute("uv.low").x(), -1, 1e-12);
+  EXPECT_NEAR(image.pair_attribute("uv.high").x(), 1, 1e-12);
 }
 
 TEST(Fields, OfASphereAreItsClosedForms) {
@@ -197,15 +197,15 @@ TEST(Fields, OfASphereAreItsClosedForms) {
   const int inside = for_each_inside(image, [&](int i, int j, Vec2 p) {
     const auto at = [&](const char* name) { return static_cast<double>(image.at(name, i, j)); };
     const double d = 1 + dot(p, p), conformal = 4 / (d * d);
-    ASSERT_NEAR(at("position.x"), 2 * p.x / d, single);
-    ASSERT_NEAR(at("position.y"), 2 * p.y / d, single);
+    ASSERT_NEAR(at("position.x"), 2 * p.x() / d, single);
+    ASSERT_NEAR(at("position.y"), 2 * p.y() / d, single);
     ASSERT_NEAR(at("position.z"), (2 - d) / d, single);
     ASSERT_NEAR(at("induced.e"), conformal, 4 * single);
     ASSERT_NEAR(at("induced.f"), 0, single);
     ASSERT_NEAR(at("induced.g"), conformal, 4 * single);
     // Su x Sv points out of the sphere, which bends away from it.
-    ASSERT_NEAR(at("normal.x"), 2 * p.x / d, single);
-    ASSERT_NEAR(at("normal.y"), 2 * p.y / d, single);
+    ASSERT_NEAR(at("normal.x"), 2 * p.x() / d, single);
+    ASSERT_NEAR(at("normal.y"), 2 * p.y() / d, single);
     ASSERT_NEAR(at("normal.z"), (2 - d) / d, single);
     ASSERT_NEAR(at("curvature.k1"), -1, single);
     ASSERT_NEAR(at("curvature.k2"), -1, single);
@@ -235,9 +235,9 @@ TEST(Fields, OfAParaboloidAreItsClosedForms) {
     ASSERT_NEAR(at("curvature.k1"), parallel, single);
     ASSERT_NEAR(at("curvature.k2"), meridian, single);
     ASSERT_NEAR(at("size.h"), 2 * std::sin(8 * pi / 180) / parallel, 2 * single);
-    ASSERT_NEAR(at("induced.e"), 1 + p.x * p.x, 5 * single);
-    ASSERT_NEAR(at("induced.f"), p.x * p.y, 5 * single);
-    ASSERT_NEAR(at("induced.g"), 1 + p.y * p.y, 5 * single);
+    ASSERT_NEAR(at("induced.e"), 1 + p.x() * p.x(), 5 * single);
+    ASSERT_NEAR(at("induced.f"), p.x() * p.y(), 5 * single);
+    ASSERT_NEAR(at("induced.g"), 1 + p.y() * p.y(), 5 * single);
     ASSERT_NEAR(at("normal.z"), 1 / std::sqrt(w), single);
   });
   EXPECT_EQ(inside, 64 * 50);
@@ -253,7 +253,7 @@ TEST(Fields, OfAnAnisotropicMeshHaveTwoSizesAndADirection) {
   const ExrImage image = run.image(40, 40);
   int across = 0, along = 0;
   for_each_inside(image, [&](int i, int j, Vec2 p) {
-    const double small = 0.7, big = std::abs((2 + 0.7 * std::cos(p.y)) / std::cos(p.y));  // radii of curvature
+    const double small = 0.7, big = std::abs((2 + 0.7 * std::cos(p.y())) / std::cos(p.y()));  // radii of curvature
     const auto at = [&](const char* name) { return static_cast<double>(image.at(name, i, j)); };
     ASSERT_LE(at("size.h1"), at("size.h2"));
     ASSERT_NEAR(at("size.h"), std::sqrt(at("size.h1") * at("size.h2")), 2 * single);
@@ -315,7 +315,7 @@ TEST(Fields, MaskCountsTheAreaOfTheDomain) {
     ASSERT_EQ(image.real.size(), 1U);
     const Imath::V2d box = image.pair_attribute("uv.high") - image.pair_attribute("uv.low");
     const int inside = for_each_inside(image, [](int, int, Vec2) {});
-    EXPECT_NEAR(inside * box.x * box.y / (side * side), area, 2.0 / side) << side;
+    EXPECT_NEAR(inside * box.x() * box.y() / (side * side), area, 2.0 / side) << side;
   }
 }
 
@@ -386,8 +386,8 @@ TEST(Fields, PreviewShowsTheDomainAndTheSidesOfTriangles) {
     const Vec2 a = face.uv[t[0]], b = face.uv[t[1]], c = face.uv[t[2]];
     const auto green = [&](Vec2 p) {
       const Imath::V2d low = image.pair_attribute("uv.low"), high = image.pair_attribute("uv.high");
-      return image.at("G", static_cast<int>((p.x - low.x) / (high.x - low.x) * 300),
-                      static_cast<int>((high.y - p.y) / (high.y - low.y) * 300));
+      return image.at("G", static_cast<int>((p.x() - low.x()) / (high.x() - low.x()) * 300),
+                      static_cast<int>((high.y() - p.y()) / (high.y() - low.y()) * 300));
     };
     const Vec2 centre = (1.0 / 3) * (a + b + c), middle = 0.5 * (a + b);
     if (norm(centre) > 0.8 || norm(middle) > 0.8) continue;
@@ -418,11 +418,11 @@ class StrictCad : public AnalyticCad {
   StrictCad() : AnalyticCad(testing::hemisphere()) {
     size_on_surface = [this](int, Vec2 p) {
       look_at(p);
-      return std::optional<double>(0.1 + 0.05 * p.x);
+      return std::optional<double>(0.1 + 0.05 * p.x());
     };
   }
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
-    for (const Vec2 p : uv) look_at(p);
+    for (const Vec2& p : uv) look_at(p);
     AnalyticCad::surface(face, want, uv, out);
   }
   int wrong = 0;
@@ -546,7 +546,7 @@ class BrokenCad : public AnalyticCad {
   void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
     AnalyticCad::surface(face, want, uv, out);
     for (std::size_t i = 0; i < uv.size(); ++i)
-      if (broken && norm(uv[i]) < 1) out[i].s.x = std::nan("");
+      if (broken && norm(uv[i]) < 1) out[i].s.x() = std::nan("");
   }
   bool broken = true;
 };
@@ -563,7 +563,7 @@ TEST(Fields, OfAHostThatFailsShowWhere) {
     ASSERT_EQ(std::isnan(image.at("position.x", i, j)), norm(p) < 1);
     failing += norm(p) < 1;
     // What the host does give is there.
-    ASSERT_NEAR(image.at("induced.f", i, j), p.x * p.y, 5 * single);
+    ASSERT_NEAR(image.at("induced.f", i, j), p.x() * p.y(), 5 * single);
     ASSERT_TRUE(std::isnan(image.at("target.m11", i, j)));
     ASSERT_EQ(image.integer.at("triangle")[static_cast<std::size_t>(100 * j + i)], no_triangle);
   });
@@ -588,7 +588,7 @@ class OpenCad : public BrokenCad {
   OpenCad() : BrokenCad(testing::paraboloid()) { broken = false; }
   CurveJet curve(int face, int ic, unsigned want, double t) override {
     CurveJet jet = AnalyticCad::curve(face, ic, want, t);
-    if (ic == 3 && t > 0.8) jet.c.x = std::nan("");
+    if (ic == 3 && t > 0.8) jet.c.x() = std::nan("");
     return jet;
   }
 };
@@ -626,7 +626,7 @@ TEST(Fields, OfOneFaceThatFailedShowItsDomainAndWhy) {
   EXPECT_GT(inside, 500);
   EXPECT_LT(inside, 3000);
   for_each_inside(images[1], [&](int i, int j, Vec2 p) {
-    ASSERT_NEAR(images[1].at("position.x", i, j), p.x, single * 5);
+    ASSERT_NEAR(images[1].at("position.x", i, j), p.x(), single * 5);
     ASSERT_NEAR(images[1].at("size.h", i, j), 0.5, single);
   });
 }
@@ -637,11 +637,11 @@ TEST(Fields, NeedNoMesh) {
   EXPECT_EQ(run.image(20, 20).at("size.h", 10, 10), 0.25F);
   EXPECT_FALSE(run.session->has_mesh());
   // Of a host that answers in one half only nothing is made up.
-  run.cad->size_on_surface = [](int, Vec2 p) { return p.x < 0 ? std::optional<double>(0.1) : std::nullopt; };
+  run.cad->size_on_surface = [](int, Vec2 p) { return p.x() < 0 ? std::optional<double>(0.1) : std::nullopt; };
   run.session->parameters().set("hphy_flag", 2);
   const ExrImage raw = run.image(40, 40);
   for_each_inside(raw, [&](int i, int j, Vec2 p) {
-    if (p.x < 0)
+    if (p.x() < 0)
       ASSERT_EQ(raw.at("size.h", i, j), 0.1F);
     else
       ASSERT_TRUE(std::isnan(raw.at("size.h", i, j)));

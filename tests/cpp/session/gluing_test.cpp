@@ -33,7 +33,7 @@ class GluingRecorder final : public Monitor {
 
 /// A plane polygon, counterclockwise, lifted to z.
 AnalyticFace polygon(const std::vector<Vec2>& corners, double z) {
-  AnalyticFace face{[z](Vec2 p) { return SurfaceJet{{p.x, p.y, z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, {}};
+  AnalyticFace face{[z](Vec2 p) { return SurfaceJet{{p.x(), p.y(), z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, {}};
   for (std::size_t i = 0; i < corners.size(); ++i)
     face.curves.push_back(testing::segment(corners[i], corners[(i + 1) % corners.size()]));
   return face;
@@ -210,8 +210,8 @@ TEST(Gluing, ClosesACylinderWhoseLidStartsElsewhere) {
   for (const double eps : {1e-3, 1e-7}) {
     AnalyticCad cad;
     cad.faces[1] = {[](Vec2 p) {
-                      const double c = std::cos(p.x), s = std::sin(p.x);
-                      return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+                      const double c = std::cos(p.x()), s = std::sin(p.x());
+                      return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
                     },
                     testing::rectangle({0, 0}, {two_pi, 1})};
     cad.faces[2] = polygon({{0, 0}}, 1);

@@ -28,7 +28,7 @@ AnalyticCad row() {
   AnalyticCad cad;
   for (int f = 1; f <= squares; ++f)
     cad.faces[f] = {[](Vec2 p) {
-                      return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                      return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                     },
                     testing::rectangle({f - 1.0, 0}, {f + 0.0, 1})};
   return cad;
@@ -45,7 +45,7 @@ void fail_on_a_curve(AnalyticCad& cad, int face) {
 void fail_inside(AnalyticCad& cad, int face) {
   const auto sound = cad.faces[face].at;
   cad.faces[face].at = [=](Vec2 p) {
-    if (p.x > face - 0.9 && p.x < face - 0.1 && p.y > 0.1 && p.y < 0.9)
+    if (p.x() > face - 0.9 && p.x() < face - 0.1 && p.y() > 0.1 && p.y() < 0.9)
       throw CallbackError(Where{.face = face, .uv = p}, "it fails inside");
     return sound(p);
   };

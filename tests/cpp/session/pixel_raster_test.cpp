@@ -31,7 +31,7 @@ PlaneSegments circle(Vec2 centre, double radius, int corners) {
 double area_of_mask(const PlaneSegments& loops, const PixelGrid& grid) {
   std::vector<std::uint8_t> mask(static_cast<std::size_t>(grid.width * grid.height));
   DomainRaster(loops, grid).mask(0, grid.height, mask);
-  return std::accumulate(mask.begin(), mask.end(), 0.0) * grid.pixel().x * grid.pixel().y;
+  return std::accumulate(mask.begin(), mask.end(), 0.0) * grid.pixel().x() * grid.pixel().y();
 }
 
 // A ring: the area of an outer polygon without that of a hole; the error of counting pixels falls with their size.
@@ -39,7 +39,7 @@ TEST(DomainRaster, MaskHasTheAreaOfTheDomain) {
   const int corners = 400;
   PlaneSegments ring = circle({0.1, 0.2}, 1, corners);
   const PlaneSegments hole = circle({0, 0}, 0.5, corners);
-  for (const Vec2 p : hole.vertices) ring.vertices.push_back(p);
+  for (const Vec2& p : hole.vertices) ring.vertices.push_back(p);
   for (const auto& [a, b] : hole.segments) ring.segments.emplace_back(b + corners, a + corners);
   const double exact =
       (1 - 0.25) * corners / 2.0 * std::sin(2 * std::numbers::pi / corners);  // of the polygons, not of the circles

@@ -79,7 +79,7 @@ TEST(TriangleSearch, FindsWhatAllTrianglesTogetherSay) {
 
 TEST(BackgroundField, IsLinearInTheTriangleThatHoldsThePoint) {
   BackgroundMesh mesh = grid(7, flat, 2);
-  for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(1 + 2 * p.x + 3 * p.y);
+  for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(1 + 2 * p.x() + 3 * p.y());
   BackgroundField field(mesh);
   EXPECT_FALSE(field.needs_position());
   std::mt19937_64 random(1);
@@ -88,7 +88,7 @@ TEST(BackgroundField, IsLinearInTheTriangleThatHoldsThePoint) {
     const Vec2 p{number(random), number(random)};
     const Prescription h = field.on_surface(k, p, {});
     ASSERT_EQ(h.kind, Prescription::Kind::size);
-    EXPECT_NEAR(h.size, 1 + 2 * p.x + 3 * p.y, 1e-13);
+    EXPECT_NEAR(h.size, 1 + 2 * p.x() + 3 * p.y(), 1e-13);
   }
   EXPECT_EQ(field.report(), (BackgroundReport{.asked = 1000, .outside = 0, .farthest = 0}));
   EXPECT_EQ(field.at_point(1, {}).kind, Prescription::Kind::none);
@@ -96,7 +96,7 @@ TEST(BackgroundField, IsLinearInTheTriangleThatHoldsThePoint) {
 
 TEST(BackgroundField, PointsOutsideTakeTheNearestValueAndAreCounted) {
   BackgroundMesh mesh = grid(4, flat, 2);
-  for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(1 + p.x);
+  for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(1 + p.x());
   BackgroundField field(mesh);
   EXPECT_DOUBLE_EQ(field.on_surface(1, {3, 0.3}, {}).size, 2);
   EXPECT_DOUBLE_EQ(field.on_surface(1, {0.4, -2.5}, {}).size, 1.4);
@@ -111,14 +111,14 @@ TEST(BackgroundField, PointsOutsideTakeTheNearestValueAndAreCounted) {
 
 TEST(BackgroundField, OfASurfaceInSpaceIsFoundAtItsNearestPoint) {
   BackgroundMesh mesh = grid(24, sphere);
-  for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(2 + p.z);
+  for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(2 + p.z());
   BackgroundField field(mesh);
   EXPECT_TRUE(field.needs_position());
   for (int i = 1; i < 50; ++i)
     for (int j = 1; j < 50; ++j) {
       const Vec3 p = sphere(i / 50.0, j / 50.0);
       // Triangles of size d lie d^2 / 8 below the sphere, d = 0.14 at most.
-      EXPECT_NEAR(field.on_surface(1, {}, p).size, 2 + p.z, 0.004);
+      EXPECT_NEAR(field.on_surface(1, {}, p).size, 2 + p.z(), 0.004);
     }
   EXPECT_EQ(field.report().outside, 0) << "the bow of the surface is no distance outside";
   EXPECT_NEAR(field.at_point(7, {0, 0, 5}).size, 2 + std::sin(1), 1e-12);
@@ -146,8 +146,8 @@ TEST(BackgroundField, MetricsOfAPlaneAndOfSpaceKeepTheirPrincipalDirections) {
   // The same eigenvectors everywhere: sizes along them vary linearly (RR-2818 sec. 4.3.2).
   const double c = std::cos(0.3), s = std::sin(0.3);
   BackgroundMesh mesh = grid(3, flat, 2);
-  for (const Vec3 p : mesh.vertices) {
-    const double h1 = 1 + p.x, h2 = 0.01 * (1 + p.y);
+  for (const Vec3& p : mesh.vertices) {
+    const double h1 = 1 + p.x(), h2 = 0.01 * (1 + p.y());
     mesh.values.space.push_back(
         compose(Eigen3{{1 / (h2 * h2), 1 / (h1 * h1), 0.25}, {{{-s, c, 0}, {c, s, 0}, {0, 0, 1}}}}));
   }
@@ -159,7 +159,7 @@ TEST(BackgroundField, MetricsOfAPlaneAndOfSpaceKeepTheirPrincipalDirections) {
   EXPECT_NEAR(1 / length(at.space, {0, 0, 1}), 2, 1e-9);
 
   mesh.values.space.clear();
-  for (const Vec3 p : mesh.vertices) mesh.values.parameter.push_back({1 / ((1 + p.x) * (1 + p.x)), 0, 4});
+  for (const Vec3& p : mesh.vertices) mesh.values.parameter.push_back({1 / ((1 + p.x()) * (1 + p.x())), 0, 4});
   BackgroundField plane(mesh);
   const Prescription in_plane = plane.on_surface(1, {0.45, 0.7}, {});
   ASSERT_EQ(in_plane.kind, Prescription::Kind::parameter);
@@ -201,23 +201,23 @@ TEST(BackgroundField, OfASessionsMeshIsLookedUpInEachParameterPlane) {
 
 TEST(BackgroundField, SteepPlacesAreWhereTheFieldJumps) {
   BackgroundMesh mesh = grid(10, flat, 2);
-  for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(p.x < 0.45 ? 1 : 5);
+  for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(p.x() < 0.45 ? 1 : 5);
   const BackgroundField field(mesh);
   const std::vector<Vec2> places = field.steep_places(1);
   EXPECT_EQ(places.size(), 22u);
-  for (const Vec2 p : places) EXPECT_NEAR(p.x, 0.45, 0.0501);
+  for (const Vec2& p : places) EXPECT_NEAR(p.x(), 0.45, 0.0501);
   for (double& h : mesh.values.sizes) h = h > 1 ? 1.4 : h;
   EXPECT_TRUE(BackgroundField(mesh).steep_places(1).empty());
 }
 
 TEST(BackgroundField, SteepPlacesOfSpaceAreWhereItChangesWithinAUnitEdge) {
   BackgroundMesh mesh = grid(10, flat);
-  for (const Vec3 p : mesh.vertices) mesh.values.sizes.push_back(p.x < 0.45 ? 1 : 1.4);
+  for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(p.x() < 0.45 ? 1 : 1.4);
   const BackgroundField field(mesh);
   EXPECT_TRUE(field.steep_places(1).empty());
   EXPECT_EQ(field.steep_in_space().size(), 22u);
   for (const SteepPlace& place : field.steep_in_space()) {
-    EXPECT_NEAR(place.at.x, 0.45, 0.0501);
+    EXPECT_NEAR(place.at.x(), 0.45, 0.0501);
     EXPECT_NEAR(place.reach, 0.1 * std::sqrt(2), 1e-12);
   }
   for (double& h : mesh.values.sizes) h = h > 1 ? 1.02 : h;  // grows by 1.22 on a unit edge, of ten of the mesh
@@ -236,7 +236,7 @@ TEST(BackgroundField, RefusesWhatItCannotUse) {
   mesh.triangles[1][2] = 4;
   EXPECT_EQ(sentence_of(mesh), "the background mesh: triangle 1 (from 0) names vertex 4, but there are 4");
   mesh = sound;
-  mesh.vertices[2].y = std::nan("");
+  mesh.vertices[2].y() = std::nan("");
   EXPECT_EQ(sentence_of(mesh), "the background mesh: vertex 2 (from 0) has a coordinate that is not finite");
   mesh = sound;
   mesh.values.sizes.pop_back();

@@ -44,19 +44,19 @@ inline Loop polygon(const Loop& corners, int n) {
   return loop;
 }
 
-inline Loop rectangle(Vec2 low, Vec2 high, int n) { return polygon({low, {high.x, low.y}, high, {low.x, high.y}}, n); }
+inline Loop rectangle(Vec2 low, Vec2 high, int n) { return polygon({low, {high.x(), low.y()}, high, {low.x(), high.y()}}, n); }
 
 inline Loop circle(Vec2 centre, double radius, int n) {
   Loop loop;
   for (int i = 0; i < n; ++i)
-    loop.push_back({centre.x + radius * std::cos(2 * pi * i / n), centre.y + radius * std::sin(2 * pi * i / n)});
+    loop.push_back({centre.x() + radius * std::cos(2 * pi * i / n), centre.y() + radius * std::sin(2 * pi * i / n)});
   return loop;
 }
 
 inline int edges_along(double length, double h) { return std::max(2, static_cast<int>(std::ceil(length / h))); }
 
 /// z = (u^2 + v^2) / 2 on [-2.5, 2.5]^2.
-inline Metric2 paraboloid_metric(Vec2 p, double h) { return induced_metric({1, 0, p.x}, {0, 1, p.y}, h); }
+inline Metric2 paraboloid_metric(Vec2 p, double h) { return induced_metric({1, 0, p.x()}, {0, 1, p.y()}, h); }
 inline Field paraboloid(double h) {
   return {"paraboloid", domain_of({rectangle({-2.5, -2.5}, {2.5, 2.5}, edges_along(7.5, h))}),
           [h](Vec2 p) { return paraboloid_metric(p, h); }};
@@ -73,7 +73,7 @@ inline Field paraboloid_on_l_shape(double h) {
 }
 inline Field wavy_plate_with_holes(double h) {
   const auto metric = [h](Vec2 p) {
-    const double u = 0.6 * std::cos(2 * p.x) * std::sin(2 * p.y), v = 0.6 * std::sin(2 * p.x) * std::cos(2 * p.y);
+    const double u = 0.6 * std::cos(2 * p.x()) * std::sin(2 * p.y()), v = 0.6 * std::sin(2 * p.x()) * std::cos(2 * p.y());
     return induced_metric({1, 0, u}, {0, 1, v}, h);
   };
   return {"wavy plate with holes",
@@ -91,14 +91,14 @@ inline Field hemisphere(double h) {
 }
 inline Field torus(double h) {
   return {"torus", domain_of({rectangle({0, 0}, {2 * pi, 2 * pi}, edges_along(2 * pi, h))}), [h](Vec2 p) {
-            const double r = 2 + std::cos(p.y);
+            const double r = 2 + std::cos(p.y());
             return Metric2{r * r / (h * h), 0, 1 / (h * h)};
           }};
 }
 /// Half axes 1, 1, 2; the size is 2 sin(angle) times the smallest radius of curvature.
 inline Field ellipsoid_by_curvature(double angle) {
   return {"ellipsoid, sizes by curvature", domain_of({rectangle({0, -1.2}, {2 * pi, 1.2}, 60)}), [angle](Vec2 p) {
-            const double c = std::cos(p.y), s = std::sin(p.y), e = c * c, g = s * s + 4 * c * c;
+            const double c = std::cos(p.y()), s = std::sin(p.y()), e = c * c, g = s * s + 4 * c * c;
             const double curvature = std::max(2 / std::pow(g, 1.5), 2 / std::sqrt(g));
             const double h = 2 * std::sin(angle) / curvature;
             return Metric2{e / (h * h), 0, g / (h * h)};
@@ -110,14 +110,14 @@ inline Field swirl(double turn, double h) {
             // S = R(g) p, 0.3 r^2 with g = turn (1 - r^2)^2: dS = R (dp + dg J p).
             const double r2 = dot(p, p);
             const Vec2 dg = -4 * turn * (1 - r2) * p;
-            const Vec3 su{1 - dg.x * p.y, dg.x * p.x, 0.6 * p.x}, sv{-dg.y * p.y, 1 + dg.y * p.x, 0.6 * p.y};
+            const Vec3 su{1 - dg.x() * p.y(), dg.x() * p.x(), 0.6 * p.x()}, sv{-dg.y() * p.y(), 1 + dg.y() * p.x(), 0.6 * p.y()};
             return induced_metric(su, sv, h);
           }};
 }
 /// Unit sphere in longitude and latitude, up to the pole: the upper side is a point.
 inline Field sphere_with_pole(double h) {
   return {"sphere with a pole", domain_of({rectangle({0, -1}, {2 * pi, pi / 2}, edges_along(2 * pi, h))}), [h](Vec2 p) {
-            const double c = std::cos(p.y);
+            const double c = std::cos(p.y());
             return Metric2{c * c / (h * h), 0, 1 / (h * h)};
           }};
 }
@@ -125,7 +125,7 @@ inline Field sphere_with_pole(double h) {
 inline Field sphere_by_projection(double h) {
   return {"sphere by projection", domain_of({circle({0, 0}, 0.95, edges_along(2 * pi, h))}), [h](Vec2 p) {
             const double z = std::sqrt(1 - dot(p, p));
-            return induced_metric({1, 0, -p.x / z}, {0, 1, -p.y / z}, h);
+            return induced_metric({1, 0, -p.x() / z}, {0, 1, -p.y() / z}, h);
           }};
 }
 /// Sizes from 0.1 scale along a sharp ring to scale, with slope 2.6 scale.
@@ -133,7 +133,7 @@ inline Field ring(double scale) {
   return {"sharp ring", domain_of({rectangle({-2, -2}, {2, 2}, edges_along(4, scale))}), [scale](Vec2 p) {
             const double d = std::hypot(norm(p) - 1.2, 0.01);
             const double h = scale * std::min(1.0, 0.1 + 2.6 * (d - 0.01));
-            const double u = 0.25 * std::cos(p.x) * std::cos(p.y), v = -0.25 * std::sin(p.x) * std::sin(p.y);
+            const double u = 0.25 * std::cos(p.x()) * std::cos(p.y()), v = -0.25 * std::sin(p.x()) * std::sin(p.y());
             return induced_metric({1, 0, u}, {0, 1, v}, h);
           }};
 }

@@ -32,7 +32,7 @@ ControlSpace build(const Field& field, const ControlSpaceOptions& options = {}) 
 
 TEST(ControlSpaceLimits, AThinSliverNeedsNoNodeInside) {
   const auto metric = [](Vec2 p) {
-    const double s = 1 + p.x;
+    const double s = 1 + p.x();
     return Metric2{1e4 * s, 1e3, 1e4};
   };
   for (const double width : {1e-2, 1e-5, 1e-9}) {
@@ -48,11 +48,11 @@ TEST(ControlSpaceLimits, AThinSliverNeedsNoNodeInside) {
 TEST(ControlSpaceLimits, TinyDomainsTakeFewSamples) {
   for (const double h : {1.0, 1e-1, 1e3}) {
     const Field field{"triangle", fields::domain_of({{{0, 0}, {1, 0}, {0, 1}}}), [h](Vec2 p) {
-                        return Metric2{(1 + p.x) / (h * h), 0, 1 / (h * h)};
+                        return Metric2{(1 + p.x()) / (h * h), 0, 1 / (h * h)};
                       }};
     const ControlSpace space = build(field);
     EXPECT_LT(space.samples(), 300u);
-    for (const Vec2 p : {Vec2{0.3, 0.3}, Vec2{0.01, 0.9}, Vec2{0, 0}, Vec2{0.5, 0.5}})
+    for (const Vec2& p : {Vec2{0.3, 0.3}, Vec2{0.01, 0.9}, Vec2{0, 0}, Vec2{0.5, 0.5}})
       EXPECT_LT(length_error(space.at(p), field.metric(p)), 0.01) << h;
   }
 }
@@ -62,12 +62,12 @@ TEST(ControlSpaceLimits, SidesThatWaverByRoundingAreSides) {
   for (std::size_t k = 0; k < field.domain.vertices.size(); ++k) {
     Vec2& p = field.domain.vertices[k];
     const double wave = 1 + 4e-16 * static_cast<double>(k % 3);
-    p = {p.x * wave, p.y * wave};
+    p = {p.x() * wave, p.y() * wave};
   }
   const ControlSpace space = build(field);
   EXPECT_LT(space.samples(), 1000u);
   for (double t = -2.5; t <= 2.5; t += 0.01)
-    for (const Vec2 p : {Vec2{t, -2.5}, Vec2{2.5, t}, Vec2{t, 2.49}})
+    for (const Vec2& p : {Vec2{t, -2.5}, Vec2{2.5, t}, Vec2{t, 2.49}})
       EXPECT_LT(length_error(space.at(p), field.metric(p)), 2e-3) << t;
 }
 
@@ -90,19 +90,19 @@ TEST(ControlSpaceLimits, SidesThatWaverByRoundingAreSampledLikeSides) {
   const Vec2 low{0.1, -0.7}, high{0.9, 0.3};
   const int n = 60;
   const auto metric = [](Vec2 p) {
-    const double h = 0.02 + 0.1 * (p.x + p.y) * (p.x + p.y);
+    const double h = 0.02 + 0.1 * (p.x() + p.y()) * (p.x() + p.y());
     return Metric2{1 / (h * h), 0, 1 / (h * h)};
   };
   const Field straight{"straight sides", fields::domain_of({fields::rectangle(low, high, n)}), metric};
   Field wavering{"sides by lerp", straight.domain, metric};
-  const Vec2 corners[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+  const Vec2 corners[] = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   std::size_t off = 0;
   for (std::size_t k = 0; k < wavering.domain.vertices.size(); ++k) {
     const Vec2 a = corners[k / n], b = corners[(k / n + 1) % 4];
     const double t = static_cast<double>(k % n) / n;
     Vec2& p = wavering.domain.vertices[k];
-    p = {(1 - t) * a.x + t * b.x, (1 - t) * a.y + t * b.y};
-    if (p.x != low.x && p.x != high.x && p.y != low.y && p.y != high.y) ++off;
+    p = {(1 - t) * a.x() + t * b.x(), (1 - t) * a.y() + t * b.y()};
+    if (p.x() != low.x() && p.x() != high.x() && p.y() != low.y() && p.y() != high.y()) ++off;
   }
   ASSERT_GT(off, static_cast<std::size_t>(n / 4));
   const std::vector<Vec2> expected = asked_at(straight), found = asked_at(wavering);
@@ -115,8 +115,8 @@ TEST(ControlSpaceLimits, SidesThatWaverByRoundingAreSampledLikeSides) {
 
 TEST(ControlSpaceLimits, AspectRatiosUpToAMillionAreKept) {
   const Field field{"aspect", fields::domain_of({fields::rectangle({0, 0}, {1, 1}, 20)}), [](Vec2 p) {
-                      const double s = 1 + p.x * p.y;
-                      return Metric2{100 * s * s * 1e12, 0.3 * s * 1e8, 100 * (1 + 0.2 * std::sin(3 * p.x))};
+                      const double s = 1 + p.x() * p.y();
+                      return Metric2{100 * s * s * 1e12, 0.3 * s * 1e8, 100 * (1 + 0.2 * std::sin(3 * p.x()))};
                     }};
   ControlSpaceOptions options;
   options.max_samples = 20'000;
@@ -157,7 +157,7 @@ TEST(ControlSpaceLimits, ASamplerThatIsDegenerateEverywhereGivesADefiniteField) 
 TEST(ControlSpaceLimits, NoiseAndJumpsCostAtMostTheSamplesAllowed) {
   // Different at every point, so that no refinement helps; sizes about a thousandth of the box.
   const Field noise{"noise", fields::domain_of({fields::rectangle({0, 0}, {1, 1}, 500)}), [](Vec2 p) {
-                      const double x = std::sin(12345.6 * p.x + 54321.0 * p.y) * 1e4;
+                      const double x = std::sin(12345.6 * p.x() + 54321.0 * p.y()) * 1e4;
                       const double h = 0.001 * (1 + 0.5 * (x - std::floor(x)));
                       return Metric2{1 / (h * h), 0, 1 / (h * h)};
                     }};
@@ -170,7 +170,7 @@ TEST(ControlSpaceLimits, NoiseAndJumpsCostAtMostTheSamplesAllowed) {
     EXPECT_GT(accurate_determinant(space.at({0.123, 0.456})), 0);
   }
   const Field jump{"jump", fields::domain_of({fields::rectangle({0, 0}, {1, 1}, 50)}), [](Vec2 p) {
-                     const double h = p.x + p.y > 1.0 ? 0.02 : 0.1;
+                     const double h = p.x() + p.y() > 1.0 ? 0.02 : 0.1;
                      return Metric2{1 / (h * h), 0, 1 / (h * h)};
                    }};
   const ControlSpace space = build(jump);

@@ -43,9 +43,9 @@ class Points {
  public:
   explicit Points(const SampledDomain& domain) : locator_(domain.vertices, domain.edges) {
     low_ = high_ = domain.vertices[0];
-    for (const Vec2 p : domain.vertices) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+    for (const Vec2& p : domain.vertices) {
+      low_ = {std::min(low_.x(), p.x()), std::min(low_.y(), p.y())};
+      high_ = {std::max(high_.x(), p.x()), std::max(high_.y(), p.y())};
     }
   }
   Vec2 inside() {
@@ -54,7 +54,7 @@ class Points {
       if (locator_.contains(p)) return p;
     }
   }
-  Vec2 in_box() { return {low_.x + unit_(engine_) * (high_.x - low_.x), low_.y + unit_(engine_) * (high_.y - low_.y)}; }
+  Vec2 in_box() { return {low_.x() + unit_(engine_) * (high_.x() - low_.x()), low_.y() + unit_(engine_) * (high_.y() - low_.y())}; }
   [[nodiscard]] Vec2 extent() const { return high_ - low_; }
   Vec2 direction() {
     const double a = 2 * fields::pi * unit_(engine_);
@@ -65,8 +65,8 @@ class Points {
     const Metric2 s = square_root(m);
     const double det = accurate_determinant(s);
     const Vec2 x = direction();
-    const Vec2 d{(s.c * x.x - s.b * x.y) / det, (s.a * x.y - s.b * x.x) / det};
-    const double share = std::max(std::abs(d.x) / width().x, std::abs(d.y) / width().y);
+    const Vec2 d{(s.c * x.x() - s.b * x.y()) / det, (s.a * x.y() - s.b * x.x()) / det};
+    const double share = std::max(std::abs(d.x()) / width().x(), std::abs(d.y()) / width().y());
     return share > 1 ? (1 / share) * d : d;
   }
   [[nodiscard]] Vec2 width() const { return high_ - low_; }
@@ -165,7 +165,7 @@ TEST(ControlSpace, ErrorsFollowTheTolerance) {
 // them.
 TEST(ControlSpace, BiquadraticRootsAreExact) {
   const Field field{"biquadratic root", fields::domain_of({fields::rectangle({-1, 2}, {3, 5}, 40)}), [](Vec2 p) {
-                      const double u = p.x, v = p.y;
+                      const double u = p.x(), v = p.y();
                       return square({100 + u * u - v * v * u, 0, 25 + 0.2 * u * u * v * v});
                     }};
   const ControlSpace space = build(field);
@@ -192,14 +192,14 @@ TEST(ControlSpace, SlopesAreThoseOfTheMetric) {
       EXPECT_NEAR(s.metric.c, m.c, 1e-12 * scale);
       const Vec2 d = 1e-6 * points.extent();
       const auto difference = [&](Vec2 e) { return space.at(p + e) + -1.0 * space.at(p + -1.0 * e); };
-      const Metric2 u = difference({d.x, 0}), v = difference({0, d.y});
+      const Metric2 u = difference({d.x(), 0}), v = difference({0, d.y()});
       const auto far = [&](Metric2 told, double step, Metric2 seen) {
         const double most =
             1e-4 * std::abs(2 * step) * (std::abs(told.a) + std::abs(told.b) + std::abs(told.c)) + 1e-8 * scale;
         const Metric2 off = seen + -2 * step * told;
         return std::abs(off.a) + std::abs(off.b) + std::abs(off.c) > most;
       };
-      if (far(s.by_u, d.x, u) || far(s.by_v, d.y, v)) ++jumps;  // the border of a leaf, or of the box, in between
+      if (far(s.by_u, d.x(), u) || far(s.by_v, d.y(), v)) ++jumps;  // the border of a leaf, or of the box, in between
     }
     EXPECT_LE(jumps, 4) << field.name;
   }
@@ -237,7 +237,7 @@ TEST(ControlSpace, SizesMayVaryAThousandfold) {
 
 // Three edges wide, in a field that is constant elsewhere.
 TEST(ControlSpace, ASmallSpotIsNotMissed) {
-  for (const Vec2 centre : {Vec2{0.37, 0.61}, Vec2{0.52, 0.48}, Vec2{0.11, 0.87}}) {
+  for (const Vec2& centre : {Vec2{0.37, 0.61}, Vec2{0.52, 0.48}, Vec2{0.11, 0.87}}) {
     const Field field{"spot", fields::domain_of({fields::rectangle({0, 0}, {1, 1}, 50)}), [centre](Vec2 p) {
                         const Vec2 d = (1 / 0.03) * (p - centre);
                         const double h = 0.02 * (1 - 0.5 * std::exp(-dot(d, d)));
@@ -288,9 +288,9 @@ TEST(ControlSpace, IsDefiniteEverywhereInTheBoxAndTakesTheNearestValueOutside) {
       ASSERT_TRUE(m.a > 0 && m.c > 0 && accurate_determinant(m) > 0) << field.name;
     }
     const Vec2 low = points.low(), high = points.high();
-    EXPECT_EQ(space.at({low.x - 1, low.y - 7}), space.at(low));
-    EXPECT_EQ(space.at({high.x + 1, 0.3}), space.at({high.x, 0.3}));
-    EXPECT_EQ(space.at({0.3, 1e300}), space.at({0.3, high.y}));
+    EXPECT_EQ(space.at({low.x() - 1, low.y() - 7}), space.at(low));
+    EXPECT_EQ(space.at({high.x() + 1, 0.3}), space.at({high.x(), 0.3}));
+    EXPECT_EQ(space.at({0.3, 1e300}), space.at({0.3, high.y()}));
   }
 }
 
@@ -313,16 +313,16 @@ TEST(ControlSpace, FollowsAStretchedParametrisationBitForBit) {
   const Field field = fields::hemisphere(0.1);
   const double x = std::ldexp(1, -20), y = std::ldexp(1, 20);
   Field stretched{"stretched", field.domain, [&](Vec2 p) {
-                    const Metric2 m = field.metric({p.x / x, p.y / y});
+                    const Metric2 m = field.metric({p.x() / x, p.y() / y});
                     return Metric2{m.a / (x * x), m.b / (x * y), m.c / (y * y)};
                   }};
-  for (Vec2& p : stretched.domain.vertices) p = {p.x * x, p.y * y};
+  for (Vec2& p : stretched.domain.vertices) p = {p.x() * x, p.y() * y};
   const ControlSpace one = build(field), two = build(stretched);
   EXPECT_EQ(one.samples(), two.samples());
   Points points(field.domain);
   for (int k = 0; k < 2000; ++k) {
     const Vec2 p = points.in_box();
-    const Metric2 m = one.at(p), n = two.at({p.x * x, p.y * y});
+    const Metric2 m = one.at(p), n = two.at({p.x() * x, p.y() * y});
     ASSERT_EQ(m, (Metric2{n.a * x * x, n.b * x * y, n.c * y * y}));
   }
 }

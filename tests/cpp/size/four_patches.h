@@ -60,7 +60,7 @@ struct FourPatches {
       cad.curves[{face.ref, ic}] = reversed ? segment(end, {0, 0}) : segment({0, 0}, end);
       curve.uses.push_back({f, ic - 1, reversed});
     }
-    topology.points.push_back({10 + curve.ref, {end.x, end.y, 0}, {static_cast<int>(topology.curves.size())}});
+    topology.points.push_back({10 + curve.ref, {end.x(), end.y(), 0}, {static_cast<int>(topology.curves.size())}});
     topology.curves.push_back(curve);
   }
 

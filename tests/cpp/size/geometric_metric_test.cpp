@@ -104,8 +104,8 @@ TEST(DirectedSizes, CylinderPlaneSphereAndPole) {
     ASSERT_TRUE(cylinder);
     EXPECT_NEAR(cylinder->h1, geometric_size(rule, 3), 1e-12);
     EXPECT_EQ(cylinder->h2, infinity);
-    EXPECT_NEAR(std::abs(cylinder->w2.z), 1, 1e-12);
-    EXPECT_NEAR(cylinder->w1.z, 0, 1e-12);
+    EXPECT_NEAR(std::abs(cylinder->w2.z()), 1, 1e-12);
+    EXPECT_NEAR(cylinder->w1.z(), 0, 1e-12);
     const auto plane = geometric_sizes(rule, SurfaceJet{{}, {1, 0, 0}, {1, 2, 0}, {}, {}, {}});
     ASSERT_TRUE(plane);
     EXPECT_EQ(plane->h1, infinity);
@@ -191,7 +191,7 @@ TEST(DirectedSizes, Inflection) {
   ASSERT_TRUE(sizes);
   EXPECT_EQ(sizes->h2, infinity);
   EXPECT_NEAR(sizes->h1, 2 * std::sin(8 * pi / 180), 1e-14);
-  EXPECT_NEAR(std::abs(sizes->w1.y), 1, 1e-14);
+  EXPECT_NEAR(std::abs(sizes->w1.y()), 1, 1e-14);
 }
 
 }  // namespace

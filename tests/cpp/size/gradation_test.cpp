@@ -55,13 +55,13 @@ class Builder {
  public:
   void add(const PlaneMesh& mesh, const Map& map, double turned = 1) {
     const int first = static_cast<int>(graph.places.size());
-    for (const Vec2 p : mesh.vertices) {
+    for (const Vec2& p : mesh.vertices) {
       const Vec3 x = map(p);
-      const auto key = std::tuple{std::llround(x.x * 1e7), std::llround(x.y * 1e7), std::llround(x.z * 1e7)};
+      const auto key = std::tuple{std::llround(x.x() * 1e7), std::llround(x.y() * 1e7), std::llround(x.z() * 1e7)};
       const auto [at, fresh] = vertex_at_.emplace(key, static_cast<int>(graph.xyz.size()));
       if (fresh) graph.xyz.push_back(x);
       constexpr double d = 1e-5;
-      const Vec3 su = map({p.x + d, p.y}) - map({p.x - d, p.y}), sv = map({p.x, p.y + d}) - map({p.x, p.y - d});
+      const Vec3 su = map({p.x() + d, p.y()}) - map({p.x() - d, p.y()}), sv = map({p.x(), p.y() + d}) - map({p.x(), p.y() - d});
       const Vec3 n = cross(su, sv);
       graph.places.push_back({at->second, (turned / norm(n)) * n});
     }
@@ -103,11 +103,11 @@ TEST(Gradation, LinearLawIsTheCorrectionOfBorouchakiHechtAndFrey) {
 }
 
 TEST(Gradation, ConeOnAPlane) {
-  const Map plane = [](Vec2 p) { return Vec3{p.x, p.y, 0}; };
+  const Map plane = [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; };
   for (const double h : {0.1, 0.03}) {
     Builder b;
     b.add(rectangle(1, 1, h), plane);
-    for (const Vec3 at : {Vec3{0, 0, 0}, Vec3{0.5, 0.5, 0}, Vec3{0.3, 1, 0}}) {
+    for (const Vec3& at : {Vec3{0, 0, 0}, Vec3{0.5, 0.5, 0}, Vec3{0.3, 1, 0}}) {
       const int source = b.nearest(at);
       const Vec3 s = b.graph.xyz[source];
       EXPECT_LT(cone_error(b.graph, source, 1e-3, std::log(1.3), [&](Vec3 x) { return norm(x - s); }), 0.002);
@@ -122,7 +122,7 @@ TEST(Gradation, ConeOnATriangulationOfVaryingSize) {
                  return 0.01 + 0.1 * norm(p - Vec2{0.3, 0.4});
                }),
         [](Vec2 p) {
-          return Vec3{p.x, p.y, 0};
+          return Vec3{p.x(), p.y(), 0};
         });
   const int source = b.nearest({0.3, 0.4, 0});
   const Vec3 s = b.graph.xyz[source];
@@ -131,12 +131,12 @@ TEST(Gradation, ConeOnATriangulationOfVaryingSize) {
 
 TEST(Gradation, RidgeBetweenTwoSourcesAndPlaneWaveFromALine) {
   Builder b;
-  b.add(rectangle(1, 1, 0.04), [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  b.add(rectangle(1, 1, 0.04), [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; });
   Monitor monitor;
   // A side of the square and its opposite corner.
   std::vector<double> h(b.graph.xyz.size(), unknown);
   for (std::size_t v = 0; v < h.size(); ++v)
-    if (b.graph.xyz[v].x == 0) h[v] = 0.02 + 0.1 * b.graph.xyz[v].y;
+    if (b.graph.xyz[v].x() == 0) h[v] = 0.02 + 0.1 * b.graph.xyz[v].y();
   const int corner = b.nearest({1, 1, 0});
   h[corner] = 0.03;
   const double slope = std::log(1.3), climb = 0.1 / slope;
@@ -144,22 +144,22 @@ TEST(Gradation, RidgeBetweenTwoSourcesAndPlaneWaveFromALine) {
   for (std::size_t v = 0; v < h.size(); ++v) {
     const Vec3 x = b.graph.xyz[v];
     // The plane wave of the side leaves it at the angle whose cosine along the side is 0.1 / slope.
-    const double foot = std::clamp(x.y - x.x * climb / std::sqrt(1 - climb * climb), 0., 1.);
+    const double foot = std::clamp(x.y() - x.x() * climb / std::sqrt(1 - climb * climb), 0., 1.);
     const double from_side = 0.02 + 0.1 * foot + slope * norm(x - Vec3{0, foot, 0});
     const double exact = std::min(from_side, 0.03 + slope * norm(x - Vec3{1, 1, 0}));
-    EXPECT_NEAR(graded[v].h / exact, 1, 0.02) << x.x << ' ' << x.y;
+    EXPECT_NEAR(graded[v].h / exact, 1, 0.02) << x.x() << ' ' << x.y();
   }
 }
 
 TEST(Gradation, ConeAcrossTheSeamOfACylinder) {
   Builder b;
-  b.add(rectangle(2 * pi, 3, 0.15), [](Vec2 p) { return Vec3{std::cos(p.x), std::sin(p.x), p.y}; });
+  b.add(rectangle(2 * pi, 3, 0.15), [](Vec2 p) { return Vec3{std::cos(p.x()), std::sin(p.x()), p.y()}; });
   const int source = b.nearest({std::cos(0.4), std::sin(0.4), 1.2});
   const Vec3 s = b.graph.xyz[source];
-  const double turn = std::atan2(s.y, s.x);
+  const double turn = std::atan2(s.y(), s.x());
   EXPECT_LT(
       cone_error(b.graph, source, 0.01, std::log(1.3),
-                 [&](Vec3 x) { return std::hypot(std::remainder(std::atan2(x.y, x.x) - turn, 2 * pi), x.z - s.z); }),
+                 [&](Vec3 x) { return std::hypot(std::remainder(std::atan2(x.y(), x.x()) - turn, 2 * pi), x.z() - s.z()); }),
       0.02);
 }
 
@@ -169,20 +169,20 @@ TEST(Gradation, ConeAcrossACreaseWhateverTheSidesOfTheFaces) {
     for (const double turned : {1., -1.}) {
       Builder b;
       const PlaneMesh square = rectangle(1, 1, 0.07);
-      b.add(square, [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+      b.add(square, [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; });
       b.add(
           square,
           [angle](Vec2 p) {
-            return Vec3{1 + p.x * std::cos(angle), p.y, p.x * std::sin(angle)};
+            return Vec3{1 + p.x() * std::cos(angle), p.y(), p.x() * std::sin(angle)};
           },
           turned);
       const int source = b.nearest({0.6, 0.2, 0});
       const Vec3 s = b.graph.xyz[source];
       EXPECT_LT(cone_error(b.graph, source, 0.01, std::log(1.3),
                            [&](Vec3 x) {
-                             const double beyond = std::hypot(x.x - 1, x.z);
-                             const bool second = x.z > 1e-9;
-                             return std::hypot((second ? 1 + beyond : x.x) - s.x, x.y - s.y);
+                             const double beyond = std::hypot(x.x() - 1, x.z());
+                             const bool second = x.z() > 1e-9;
+                             return std::hypot((second ? 1 + beyond : x.x()) - s.x(), x.y() - s.y());
                            }),
                 0.02)
           << angle << ' ' << turned;
@@ -200,15 +200,15 @@ TEST(Gradation, ConeOnASphereOfTwoPatches) {
     for (const double side : {1., -1.})
       b.add(mesh, [side](Vec2 p) {
         const double k = 2 / (1 + dot(p, p));
-        return Vec3{k * p.x, k * p.y, side * (k - 1)};
+        return Vec3{k * p.x(), k * p.y(), side * (k - 1)};
       });
-    for (const Vec3 at : {Vec3{0, 0, 1}, Vec3{0.8, 0, 0.6}, Vec3{0, 1, 0}}) {
+    for (const Vec3& at : {Vec3{0, 0, 1}, Vec3{0.8, 0, 0.6}, Vec3{0, 1, 0}}) {
       const int source = b.nearest(at);
       const Vec3 s = b.graph.xyz[source];
       EXPECT_LT(cone_error(b.graph, source, 0.01, std::log(1.3),
                            [&](Vec3 x) { return 2 * std::asin(std::min(1., norm(x - s) / 2)); }),
                 0.02)
-          << h << ' ' << at.x << ' ' << at.z;
+          << h << ' ' << at.x() << ' ' << at.z();
     }
   }
 }
@@ -219,7 +219,7 @@ TEST(Gradation, PathsGoAroundAHole) {
   b.add(meshed({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0.52}, {0.8, 0.52}, {0.8, 0.48}, {0, 0.48}},
                {20, 20, 20, 10, 16, 1, 16, 10}, [](Vec2) { return 0.05; }),
         [](Vec2 p) {
-          return Vec3{p.x, p.y, 0};
+          return Vec3{p.x(), p.y(), 0};
         });
   std::vector<double> h(b.graph.xyz.size(), unknown);
   const int source = b.nearest({0, 0, 0}), target = b.nearest({0, 1, 0});
@@ -232,7 +232,7 @@ TEST(Gradation, PathsGoAroundAHole) {
 
 TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
   Builder b;
-  b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x, p.y, 0.3 * std::sin(4 * p.x) * p.y}; });
+  b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x(), p.y(), 0.3 * std::sin(4 * p.x()) * p.y()}; });
   std::vector<double> h(b.graph.xyz.size());
   std::uint64_t state = 12345;
   for (double& x : h) {
@@ -267,7 +267,7 @@ TEST(Gradation, NeverRaisesASizeAndBoundsEveryEdge) {
 // Sizes along edges, from both ends: what is lowered by next to nothing while it waits goes on to its neighbours too.
 TEST(Gradation, ByDirectionNoEdgeIsSteeper) {
   Builder b;
-  b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x, p.y, 0.3 * std::sin(4 * p.x) * p.y}; });
+  b.add(rectangle(1, 1, 0.03), [](Vec2 p) { return Vec3{p.x(), p.y(), 0.3 * std::sin(4 * p.x()) * p.y()}; });
   std::uint64_t state = 12345;
   const auto random = [&state] {
     state = state * 6364136223846793005u + 1442695040888963407u;
@@ -308,7 +308,7 @@ TEST(Gradation, ByDirectionItHoldsAcrossAStrip) {
   for (std::int32_t i = 0; i < 5; ++i)
     face.triangles.insert(face.triangles.end(), {{i, i + 1, i + 6}, {i + 1, i + 7, i + 6}});
   Monitor monitor;
-  b.add({face.uv, face.triangles}, [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  b.add({face.uv, face.triangles}, [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; });
   face.xyz = b.graph.xyz;
   std::vector<TangentMetric> sizes(12, {{1, 0, 0}, {0, 1, 0}, 4, 4});
   sizes[3].h1 = 1, sizes[3].h2 = 1;
@@ -327,7 +327,7 @@ TEST(Gradation, ByDirectionItHoldsAcrossAStrip) {
 
 TEST(Gradation, DoesNotDependOnTheOrderOfTriangles) {
   Builder b;
-  b.add(rectangle(1, 1, 0.05), [](Vec2 p) { return Vec3{p.x, p.y, 0}; });
+  b.add(rectangle(1, 1, 0.05), [](Vec2 p) { return Vec3{p.x(), p.y(), 0}; });
   std::vector<double> h(b.graph.xyz.size());
   for (std::size_t v = 0; v < h.size(); ++v) h[v] = 0.01 + 0.5 * std::abs(std::sin(40. * static_cast<double>(v * v)));
   Monitor monitor;
@@ -373,7 +373,7 @@ SampledField sheared_grid(const std::function<double(Vec2)>& h) {
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
       const Vec2 uv{1.0 * i / n, 1.0 * j / n};
-      const double size = h({uv.x + 0.5 * uv.y, 2 * uv.y});
+      const double size = h({uv.x() + 0.5 * uv.y(), 2 * uv.y()});
       field.samples.push_back({uv, (1 / (size * size)) * form, form});
     }
   for (int j = 0; j < n; ++j)
@@ -386,7 +386,7 @@ SampledField sheared_grid(const std::function<double(Vec2)>& h) {
 }
 
 double size_of(const SampledField::Sample& s) { return std::sqrt(s.form.a / s.metric.a); }
-Vec2 place_of(const SampledField::Sample& s) { return {s.uv.x + 0.5 * s.uv.y, 2 * s.uv.y}; }
+Vec2 place_of(const SampledField::Sample& s) { return {s.uv.x() + 0.5 * s.uv.y(), 2 * s.uv.y()}; }
 
 TEST(BoundSlopes, NoPairIsSteeperAndNothingIsSmallerThanItMustBe) {
   // Two small places: cones that meet in a ridge.
@@ -432,7 +432,7 @@ SampledField directed_grid(const std::function<Vec2(Vec2)>& sizes, const std::fu
   for (auto& s : field.samples) {
     const Vec2 x = place_of(s), h = sizes(x);
     const double c = std::cos(angle(x)), t = std::sin(angle(x));
-    const TangentMetric m{{c, t, 0}, {-t, c, 0}, h.x, h.y};
+    const TangentMetric m{{c, t, 0}, {-t, c, 0}, h.x(), h.y()};
     SurfaceJet jet;
     jet.su = {1, 0, 0}, jet.sv = {0.5, 2, 0};
     s.metric = metric_of(jet, m);
@@ -450,21 +450,21 @@ TEST(BoundSlopesByDirection, ALayerGrowsInBothDirectionsByItsOwnMetric) {
   constexpr double slope = 0.3, across = 0.05, along = 0.2;
   SampledField field = directed_grid(
       [](Vec2 x) {
-        return x.y < 1e-9 ? Vec2{along, across} : Vec2{10, 10};
+        return x.y() < 1e-9 ? Vec2{along, across} : Vec2{10, 10};
       },
       [](Vec2) { return 0; });
   Monitor monitor;
   bound_slopes_by_direction(field, slope, monitor);
   for (const auto& s : field.samples) {
-    const double h = across + slope * place_of(s).y;
+    const double h = across + slope * place_of(s).y();
     const TangentMetric m = sizes_at(s);
-    EXPECT_NEAR(m.along({0, 1, 0}) / h, 1, 0.02) << place_of(s).y;
-    EXPECT_NEAR(m.along({1, 0, 0}) / (along / across * h), 1, 0.02) << place_of(s).y;
+    EXPECT_NEAR(m.along({0, 1, 0}) / h, 1, 0.02) << place_of(s).y();
+    EXPECT_NEAR(m.along({1, 0, 0}) / (along / across * h), 1, 0.02) << place_of(s).y();
   }
 }
 
 TEST(BoundSlopesByDirection, WhatObeysIsLeftAsItIs) {
-  const auto growing = [](Vec2 x) { return (1 + 6 * x.y) * Vec2{0.2, 0.05}; };
+  const auto growing = [](Vec2 x) { return (1 + 6 * x.y()) * Vec2{0.2, 0.05}; };
   SampledField field = directed_grid(growing, [](Vec2) { return 0; });
   const SampledField before = field;
   Monitor monitor;
@@ -474,7 +474,7 @@ TEST(BoundSlopesByDirection, WhatObeysIsLeftAsItIs) {
 
 // Samples that turn by any angle from one to the next do not shrink each other without end.
 TEST(BoundSlopesByDirection, NoSizeIsSmallerThanTheSmallestAndDirectionsStay) {
-  const auto wild = [](Vec2 x) { return 1e3 * std::sin(1e3 * (x.x + 3 * x.y)); };
+  const auto wild = [](Vec2 x) { return 1e3 * std::sin(1e3 * (x.x() + 3 * x.y())); };
   SampledField field = directed_grid([&](Vec2 x) { return Vec2{0.02 + 0.001 * std::abs(wild(x)), 0.9}; }, wild);
   const SampledField before = field;
   double smallest = 1;

@@ -36,7 +36,7 @@ Metric2 metric_at(SizeRules& rules, AnalyticCad& cad, int face, Vec2 uv) {
 }
 
 /// Size along a direction of the parameter plane.
-double size_along(Metric2 m, const SurfaceJet& jet, Vec2 d) { return norm(d.x * jet.su + d.y * jet.sv) / length(m, d); }
+double size_along(Metric2 m, const SurfaceJet& jet, Vec2 d) { return norm(d.x() * jet.su + d.y() * jet.sv) / length(m, d); }
 
 void expect_near(Metric2 m, Metric2 expected, double tolerance) {
   const double scale = std::abs(expected.a) + std::abs(expected.c);
@@ -129,11 +129,11 @@ TEST(GeometricMetrics, AreInvariantUnderReparametrisationRotationAndScale) {
   const double a = 0.6, b = -0.4, c = 0.3, d = 0.8, angle = 0.7, scale = 4;
   const auto moved = [&](Vec3 v) {
     return scale *
-           Vec3{std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z};
+           Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.z()};
   };
   const Surface plain = paraboloid();
   const Surface other{[&](Vec2 q) {
-    const SurfaceJet j = plain.jet({a * q.x + b * q.y, c * q.x + d * q.y});
+    const SurfaceJet j = plain.jet({a * q.x() + b * q.y(), c * q.x() + d * q.y()});
     SurfaceJet k;
     k.s = moved(j.s);
     k.su = moved(a * j.su + c * j.sv);
@@ -151,8 +151,8 @@ TEST(GeometricMetrics, AreInvariantUnderReparametrisationRotationAndScale) {
     SizeRules first = s.rules(p);
     for (double* length : {&p.hgeomin, &p.hgeomax, &p.eps_chord}) *length *= scale;
     SizeRules second = t.rules(p);
-    for (const Vec2 q : {Vec2{0.3, 0.2}, Vec2{-0.7, 0.5}, Vec2{0.9, 0.9}}) {
-      const Metric2 m = metric_at(first, s.cad, 0, {a * q.x + b * q.y, c * q.x + d * q.y});
+    for (const Vec2& q : {Vec2{0.3, 0.2}, Vec2{-0.7, 0.5}, Vec2{0.9, 0.9}}) {
+      const Metric2 m = metric_at(first, s.cad, 0, {a * q.x() + b * q.y(), c * q.x() + d * q.y()});
       const Metric2 expected{m.a * a * a + 2 * m.b * a * c + m.c * c * c,
                              m.a * a * b + m.b * (a * d + b * c) + m.c * c * d,
                              m.a * b * b + 2 * m.b * b * d + m.c * d * d};
@@ -251,7 +251,7 @@ TEST(Sources, WhereNobodyAnswersTheSizeIsTheDefaultOrInterpolated) {
   FourPatches s;
   s.cad.hphys = [](int, Vec2) { return std::optional<double>(); };
   FieldSource source;
-  source.surface = [](int, Vec2 uv, Vec3) { return uv.x > 0.5 ? Prescription::of_space(slanted) : Prescription{}; };
+  source.surface = [](int, Vec2 uv, Vec3) { return uv.x() > 0.5 ? Prescription::of_space(slanted) : Prescription{}; };
   SizeParameters p = parameters(1, 0);
   p.sources = {&source};
   SizeRules rules = s.rules(p);

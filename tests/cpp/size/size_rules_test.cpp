@@ -153,13 +153,13 @@ TEST(SizeRules, NamesTheRoutineOfAnAnswerThatIsNoNumber) {
 
 TEST(SizeRules, SurfacesFallBackToTheInterfaces) {
   FourPatches s;
-  s.cad.hphys = [](int, Vec2 p) { return p.x > 0 ? std::optional<double>(0.3) : std::nullopt; };
+  s.cad.hphys = [](int, Vec2 p) { return p.x() > 0 ? std::optional<double>(0.3) : std::nullopt; };
   SizeRules rules = s.rules(parameters(2, 0));
   const Vec2 uv[] = {{0.5, 0.5}, {-0.5, 0.5}, {-2, 0}};
   const SurfaceJet jets[3] = {};
   double h[3] = {};
   rules.on_surface(
-      0, uv, jets, [](Vec2 p) { return p.x < -1 ? 1e9 : 0.2; }, h);
+      0, uv, jets, [](Vec2 p) { return p.x() < -1 ? 1e9 : 0.2; }, h);
   EXPECT_EQ(h[0], 0.3);
   EXPECT_EQ(h[1], 0.2);
   EXPECT_EQ(h[2], 0.94);
@@ -307,7 +307,7 @@ TEST(SmallestRadius, AgreesWithClosedForms) {
   EXPECT_NEAR(*smallest_radius(cylinder(0.5).jet({1, 7})), 0.5, 1e-14);
   EXPECT_EQ(*smallest_radius(flat().jet({1, 7})), infinity);
   // Paraboloid: curvatures 1 / (1 + r^2)^(3/2) along the radius, 1 / (1 + r^2)^(1/2) across.
-  for (const Vec2 p : {Vec2{0, 0}, Vec2{1, 0.5}, Vec2{-2, 2.5}}) {
+  for (const Vec2& p : {Vec2{0, 0}, Vec2{1, 0.5}, Vec2{-2, 2.5}}) {
     EXPECT_NEAR(*smallest_radius(paraboloid().jet(p)), std::sqrt(1 + dot(p, p)), 1e-13);
   }
 }

@@ -25,7 +25,7 @@ Triangles ring(int n, Vec2 extent, std::mt19937& random) {
     for (int i = 0; i <= n; ++i) {
       const double r = 0.3 + 0.7 * (j + (j > 0 && j < n ? shift(random) : 0)) / n;
       const double angle = 1.5 * std::numbers::pi * (i + (i > 0 && i < n ? shift(random) : 0)) / n;
-      mesh.vertices.push_back({extent.x * r * std::cos(angle), extent.y * r * std::sin(angle)});
+      mesh.vertices.push_back({extent.x() * r * std::cos(angle), extent.y() * r * std::sin(angle)});
     }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
@@ -42,16 +42,16 @@ struct Scale {
   Vec2 low, by;
   explicit Scale(const Triangles& mesh) : low(mesh.vertices.front()) {
     Vec2 length;
-    for (const Vec2 p : mesh.vertices) low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    for (const Vec2& p : mesh.vertices) low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
     for (const auto& t : mesh.triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const Vec2 d = mesh.vertices[t[(i + 1) % 3]] - mesh.vertices[t[i]];
-        length = length + Vec2{std::abs(d.x), std::abs(d.y)};
+        length = length + Vec2{std::abs(d.x()), std::abs(d.y())};
       }
     const double edges = 3 * static_cast<double>(mesh.triangles.size());
-    by = {edges / length.x, edges / length.y};
+    by = {edges / length.x(), edges / length.y()};
   }
-  [[nodiscard]] Vec3 operator()(Vec2 p) const { return {(p.x - low.x) * by.x, (p.y - low.y) * by.y, 0}; }
+  [[nodiscard]] Vec3 operator()(Vec2 p) const { return {(p.x() - low.x()) * by.x(), (p.y() - low.y()) * by.y(), 0}; }
 };
 
 NearestOnMesh nearest_of_all(const Triangles& mesh, const Scale& scaled, Vec2 p) {
@@ -80,10 +80,10 @@ TEST_P(TriangleTreePlaces, AreThoseOfTheNearestTriangle) {
     std::uniform_real_distribution<double> anywhere(-1.1, 1.1);
     int inside = 0;
     for (int k = 0; k < 1500; ++k) {
-      const Vec2 p{extent.x * anywhere(random), extent.y * anywhere(random)};
+      const Vec2 p{extent.x() * anywhere(random), extent.y() * anywhere(random)};
       const TrianglePlace found = tree.find(p);
       const NearestOnMesh all = nearest_of_all(mesh, scaled, p);
-      ASSERT_EQ(found.triangle, all.triangle) << n << ": " << p.x << ' ' << p.y;
+      ASSERT_EQ(found.triangle, all.triangle) << n << ": " << p.x() << ' ' << p.y();
       ASSERT_EQ(found.weight, all.weight);
       inside += found.inside ? 1 : 0;
     }

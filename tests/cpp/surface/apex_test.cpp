@@ -16,7 +16,7 @@ constexpr double pi = std::numbers::pi, hgeomin = 0.05;
 AnalyticCad cone() {
   return one_face(
       [](Vec2 p) {
-        const double c = std::cos(p.x), s = std::sin(p.x), v = p.y;
+        const double c = std::cos(p.x()), s = std::sin(p.x()), v = p.y();
         return SurfaceJet{{v * c, v * s, v}, {-v * s, v * c, 0}, {c, s, 1}, {-v * c, -v * s, 0}, {-s, c, 0}, {}};
       },
       rectangle({0, 0}, {2 * pi, 1}));

@@ -19,7 +19,7 @@ namespace {
 using testing::AnalyticCad;
 using testing::segment;
 
-SurfaceJet plane(Vec2 p, double z) { return {{p.x, p.y, z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet plane(Vec2 p, double z) { return {{p.x(), p.y(), z}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 
 AnalyticCad square(double z = 0) {
   AnalyticCad cad;
@@ -140,8 +140,8 @@ TEST(BadModels, CurveWithoutLength) {
 TEST(BadModels, PeriodThatIsNotOne) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    const double c = std::cos(p.x), s = std::sin(p.x);
-                    return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+                    const double c = std::cos(p.x()), s = std::sin(p.x());
+                    return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {6, 1})};
   Model model = testing::unglued(cad);
@@ -157,7 +157,7 @@ TEST(BadModels, PeriodThatIsNotOne) {
 TEST(BadModels, SurfaceThatJumps) {
   AnalyticCad cad = square();
   cad.faces[2] = {[](Vec2 p) {
-                    return plane({p.x + 2, p.y}, p.x > 0.37 && p.x < 0.61 && p.y > 0.37 && p.y < 0.61 ? 1e6 : 0);
+                    return plane({p.x() + 2, p.y()}, p.x() > 0.37 && p.x() < 0.61 && p.y() > 0.37 && p.y() < 0.61 ? 1e6 : 0);
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   const Outcome outcome = try_mesh(cad, testing::unglued(cad), 0.1);
@@ -170,7 +170,7 @@ TEST(BadModels, SurfaceThatJumps) {
 TEST(BadModels, SurfaceThatJumpsByAFewEdges) {
   AnalyticCad cad = square();
   cad.faces[2] = {[](Vec2 p) {
-                    return plane({p.x + 2, p.y}, p.x > 0.6500123 ? 0.25 : 0);
+                    return plane({p.x() + 2, p.y()}, p.x() > 0.6500123 ? 0.25 : 0);
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   for (const double size : {0.025, 0.05}) {
@@ -182,9 +182,9 @@ TEST(BadModels, SurfaceThatJumpsByAFewEdges) {
 
 // Steps in many places, from a host without derivatives: differences across a step promise triangles without end.
 TEST(BadModels, SurfaceThatJumpsInManyPlaces) {
-  const auto stairs = [](Vec2 p) { return 0.05 * std::floor(20 * p.x); };
-  const auto both = [](Vec2 p) { return 0.02 * (std::floor(50 * p.x) + std::floor(50 * p.y)); };
-  const auto chequers = [](Vec2 p) { return 0.2 * std::fmod(std::floor(10 * p.x) + std::floor(10 * p.y), 2); };
+  const auto stairs = [](Vec2 p) { return 0.05 * std::floor(20 * p.x()); };
+  const auto both = [](Vec2 p) { return 0.02 * (std::floor(50 * p.x()) + std::floor(50 * p.y())); };
+  const auto chequers = [](Vec2 p) { return 0.2 * std::fmod(std::floor(10 * p.x()) + std::floor(10 * p.y()), 2); };
   for (const std::function<double(Vec2)>& height : {std::function<double(Vec2)>(stairs), {both}, {chequers}}) {
     auto cad = std::make_unique<AnalyticCad>(square());
     cad->faces[1].at = [=](Vec2 p) { return plane(p, height(p)); };
@@ -209,8 +209,8 @@ TEST(BadModels, SurfaceThatJumpsInManyPlaces) {
 TEST(BadModels, DerivativesThatVanishOnABorderAreNoJump) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    const double dd = 600 * std::pow(p.x, 23), d = dd * p.x / 24;
-                    return SurfaceJet{{d * p.x / 25, p.y, 0}, {d, 0, 0}, {0, 1, 0}, {dd, 0, 0}, {}, {}};
+                    const double dd = 600 * std::pow(p.x(), 23), d = dd * p.x() / 24;
+                    return SurfaceJet{{d * p.x() / 25, p.y(), 0}, {d, 0, 0}, {0, 1, 0}, {dd, 0, 0}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   const Outcome outcome = try_mesh(cad, testing::unglued(cad), 0.01);
@@ -222,7 +222,7 @@ TEST(BadModels, DerivativesThatVanishOnABorderAreNoJump) {
 TEST(BadModels, SurfaceWithoutArea) {
   AnalyticCad cad = square();
   cad.faces[2] = {[](Vec2 p) {
-                    return SurfaceJet{{p.x + p.y, 3, 0}, {1, 0, 0}, {1, 0, 0}, {}, {}, {}};
+                    return SurfaceJet{{p.x() + p.y(), 3, 0}, {1, 0, 0}, {1, 0, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   const Outcome outcome = try_mesh(cad, testing::unglued(cad));
@@ -234,7 +234,7 @@ TEST(BadModels, SurfaceThatIsOnePointInside) {
   AnalyticCad cad;
   cad.faces[2] = {
       [](Vec2 p) {
-        const double c = std::cos(p.x), s = std::sin(p.x), v = p.y;
+        const double c = std::cos(p.x()), s = std::sin(p.x()), v = p.y();
         return SurfaceJet{{v * c, v * s, 2 * v}, {-v * s, v * c, 0}, {c, s, 2}, {-v * c, -v * s, 0}, {-s, c, 0}, {}};
       },
       testing::rectangle({0, -1}, {2 * std::numbers::pi, 1})};

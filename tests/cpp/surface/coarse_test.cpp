@@ -62,12 +62,12 @@ TEST(Coarse, TorusOfOnePatchIsClosedAtAllSizes) {
 
 SurfaceJet plane_jet(Vec2 p, double z) {
   SurfaceJet j;
-  j.s = {p.x, p.y, z * (1 - p.x * p.x) * (1 - p.y * p.y)};
-  j.su = {1, 0, -2 * z * p.x * (1 - p.y * p.y)};
-  j.sv = {0, 1, -2 * z * p.y * (1 - p.x * p.x)};
-  j.suu = {0, 0, -2 * z * (1 - p.y * p.y)};
-  j.suv = {0, 0, 4 * z * p.x * p.y};
-  j.svv = {0, 0, -2 * z * (1 - p.x * p.x)};
+  j.s = {p.x(), p.y(), z * (1 - p.x() * p.x()) * (1 - p.y() * p.y())};
+  j.su = {1, 0, -2 * z * p.x() * (1 - p.y() * p.y())};
+  j.sv = {0, 1, -2 * z * p.y() * (1 - p.x() * p.x())};
+  j.suu = {0, 0, -2 * z * (1 - p.y() * p.y())};
+  j.suv = {0, 0, 4 * z * p.x() * p.y()};
+  j.svv = {0, 0, -2 * z * (1 - p.x() * p.x())};
   return j;
 }
 
@@ -76,7 +76,7 @@ TEST(Coarse, TwoSheetsOverOneSquareEncloseAVolume) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) { return plane_jet(p, 0.5); }, testing::rectangle({-1, -1}, {1, 1})};
   const auto below = [](Vec2 p) {
-    SurfaceJet j = plane_jet({p.y, p.x}, -0.5);
+    SurfaceJet j = plane_jet({p.y(), p.x()}, -0.5);
     std::swap(j.su, j.sv), std::swap(j.suu, j.svv);
     return j;
   };
@@ -116,9 +116,9 @@ TEST(Coarse, CrescentIsNotTurnedInsideOut) {
 }
 
 SurfaceJet helicoid_jet(Vec2 p) {
-  const double c = std::cos(p.x), s = std::sin(p.x), r = 3 - p.y;
+  const double c = std::cos(p.x()), s = std::sin(p.x()), r = 3 - p.y();
   SurfaceJet j;
-  j.s = {r * c, r * s, 0.16 * p.x};
+  j.s = {r * c, r * s, 0.16 * p.x()};
   j.su = {-r * s, r * c, 0.16};
   j.sv = {-c, -s, 0};
   j.suu = {-r * c, -r * s, 0};

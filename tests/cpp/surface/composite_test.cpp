@@ -200,7 +200,7 @@ TEST(Cone, HasAtLeastThreeTrianglesAtItsApex) {
   for (const double size : {0.7, 0.3, 0.1, 0.03}) {
     AnalyticCad cad;  // u the angle, v from the apex
     cad.faces[1] = {[](Vec2 p) {
-                      const double c = std::cos(p.x), s = std::sin(p.x), v = p.y;
+                      const double c = std::cos(p.x()), s = std::sin(p.x()), v = p.y();
                       return SurfaceJet{{v * c, v * s, 2 * v}, {-v * s, v * c, 0}, {c, s, 2},
                                         {-v * c, -v * s, 0},   {-s, c, 0},         {0, 0, 0}};
                     },
@@ -223,7 +223,7 @@ TEST(Cone, IsNotCutAcross) {
   for (double slope = 0.8; slope < 6; slope *= 1.09) {
     AnalyticCad cad;  // u the angle, v from the apex
     cad.faces[1] = {[slope](Vec2 p) {
-                      const double c = std::cos(p.x), s = std::sin(p.x), v = p.y;
+                      const double c = std::cos(p.x()), s = std::sin(p.x()), v = p.y();
                       return SurfaceJet{{v * c, v * s, slope * v}, {-v * s, v * c, 0}, {c, s, slope},
                                         {-v * c, -v * s, 0},       {-s, c, 0},         {0, 0, 0}};
                     },
@@ -236,7 +236,7 @@ TEST(Cone, IsNotCutAcross) {
         const Vec3 a = run.mesh.vertices[t[0]], b = run.mesh.vertices[t[1]], c = run.mesh.vertices[t[2]];
         const Vec3 middle = (1.0 / 3) * (a + b + c), n = cross(b - a, c - a);
         // Outwards: the surface's normal is (slope cos u, slope sin u, -1).
-        EXPECT_GT(slope * (n.x * middle.x + n.y * middle.y) - n.z * std::hypot(middle.x, middle.y), 0);
+        EXPECT_GT(slope * (n.x() * middle.x() + n.y() * middle.y()) - n.z() * std::hypot(middle.x(), middle.y()), 0);
       }
     }
   }
@@ -267,8 +267,8 @@ AnalyticCad slanted_cylinder(double unit) {
   };
   const double around = 2 * std::numbers::pi, end = 3 * unit;
   cad.faces[1] = {[unit](Vec2 p) {
-                    const double c = unit * std::cos(p.y), s = unit * std::sin(p.y);
-                    return SurfaceJet{{c, s, p.x}, {0, 0, 1}, {-s, c, 0}, {}, {}, {-c, -s, 0}};
+                    const double c = unit * std::cos(p.y()), s = unit * std::sin(p.y());
+                    return SurfaceJet{{c, s, p.x()}, {0, 0, 1}, {-s, c, 0}, {}, {}, {-c, -s, 0}};
                   },
                   {testing::segment({0, 0}, {end, 0}),
                    {{0, 1}, slanted},

@@ -19,7 +19,7 @@ AnalyticCad whole_ellipsoid(Vec3 axes) {
 AnalyticCad hyperboloid() {
   return one_face(
       [](Vec2 p) {
-        const double c = std::cos(p.x), s = std::sin(p.x), ch = std::cosh(p.y), sh = std::sinh(p.y);
+        const double c = std::cos(p.x()), s = std::sin(p.x()), ch = std::cosh(p.y()), sh = std::sinh(p.y());
         return SurfaceJet{{ch * c, ch * s, sh},  {-ch * s, ch * c, 0}, {sh * c, sh * s, ch},
                           {-ch * c, -ch * s, 0}, {-sh * s, sh * c, 0}, {ch * c, ch * s, sh}};
       },
@@ -30,9 +30,9 @@ AnalyticCad hyperboloid() {
 AnalyticCad wave() {
   return one_face(
       [](Vec2 p) {
-        const double a = 0.4, s = std::sin(2 * p.x), c = std::cos(2 * p.x), t = std::sin(3 * p.y),
-                     d = std::cos(3 * p.y);
-        return SurfaceJet{{p.x, p.y, a * s * d},  {1, 0, 2 * a * c * d},  {0, 1, -3 * a * s * t},
+        const double a = 0.4, s = std::sin(2 * p.x()), c = std::cos(2 * p.x()), t = std::sin(3 * p.y()),
+                     d = std::cos(3 * p.y());
+        return SurfaceJet{{p.x(), p.y(), a * s * d},  {1, 0, 2 * a * c * d},  {0, 1, -3 * a * s * t},
                           {0, 0, -4 * a * s * d}, {0, 0, -6 * a * c * t}, {0, 0, -9 * a * s * d}};
       },
       rectangle({0, 0}, {2 * pi, 2 * pi}));
@@ -58,10 +58,10 @@ void expect_unit(const AnalyticCad& cad, const char* rule, double gradation, dou
 const Vec3 half_axes[] = {{1, 1, 10}, {1, 2, 2}, {1, 5, 5}, {1, 10, 10}, {1, 2, 5}, {1, 3, 10}};
 
 TEST(CurvedSurfaces, WholeEllipsoidsHaveUnitMeshes) {
-  for (const Vec3 axes : half_axes)
+  for (const Vec3& axes : half_axes)
     for (const char* rule : {"angle", "chord"})
       for (const double gradation : {0.0, 1.3}) {
-        SCOPED_TRACE("1, " + std::to_string(axes.y) + ", " + std::to_string(axes.z));
+        SCOPED_TRACE("1, " + std::to_string(axes.y()) + ", " + std::to_string(axes.z()));
         expect_unit(whole_ellipsoid(axes), rule, gradation, 0.97);
       }
 }

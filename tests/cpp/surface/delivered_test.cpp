@@ -40,22 +40,22 @@ AnalyticCad one_face(std::function<SurfaceJet(Vec2)> at) {
   cad.faces[1] = {std::move(at), {}};
   return cad;
 }
-SurfaceJet plane_jet(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet plane_jet(Vec2 p) { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 SurfaceJet cylinder_jet(Vec2 p, double r) {
-  const double c = std::cos(p.x), s = std::sin(p.x);
-  return {{r * c, r * s, p.y}, {-r * s, r * c, 0}, {0, 0, 1}, {-r * c, -r * s, 0}, {}, {}};
+  const double c = std::cos(p.x()), s = std::sin(p.x());
+  return {{r * c, r * s, p.y()}, {-r * s, r * c, 0}, {0, 0, 1}, {-r * c, -r * s, 0}, {}, {}};
 }
 /// Longitude, latitude.
 SurfaceJet sphere_jet(Vec2 p, double r) {
-  const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+  const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
   return {r * Vec3{cu * cv, su * cv, sv},  r * Vec3{-su * cv, cu * cv, 0}, r * Vec3{-cu * sv, -su * sv, cv},
           r * Vec3{-cu * cv, -su * cv, 0}, r * Vec3{su * sv, -cu * sv, 0}, r * Vec3{-cu * cv, -su * cv, -sv}};
 }
 /// The unit sphere seen from its centre: (u, v, 1) / |(u, v, 1)|.
 SurfaceJet gnomonic_jet(Vec2 p) {
-  const double n = std::sqrt(1 + p.x * p.x + p.y * p.y), n3 = n * n * n;
-  const Vec3 q{p.x, p.y, 1};
-  return {(1 / n) * q, (1 / n) * Vec3{1, 0, 0} - (p.x / n3) * q, (1 / n) * Vec3{0, 1, 0} - (p.y / n3) * q, {}, {}, {}};
+  const double n = std::sqrt(1 + p.x() * p.x() + p.y() * p.y()), n3 = n * n * n;
+  const Vec3 q{p.x(), p.y(), 1};
+  return {(1 / n) * q, (1 / n) * Vec3{1, 0, 0} - (p.x() / n3) * q, (1 / n) * Vec3{0, 1, 0} - (p.y() / n3) * q, {}, {}, {}};
 }
 
 struct Case {
@@ -72,7 +72,7 @@ SurfaceMesh single(AnalyticCad& cad, std::array<Vec2, 3> uv) {
   SurfaceMesh mesh;
   FaceMesh face;
   face.ref = 1;
-  for (const Vec2 p : uv) {
+  for (const Vec2& p : uv) {
     face.uv.push_back(p);
     face.vertex.push_back(static_cast<std::int32_t>(mesh.vertices.size()));
     mesh.vertices.push_back(surface_at(cad, 1, want_position, p).s);
@@ -140,7 +140,7 @@ TEST(DeliveredPlane, QuadratureHasItsOrder) {
       run.mesh = single(run.cad, {{{0, 0}, {1, 0}, {0, 1}}});
       DeliveredOptions options;
       options.gauss_points = n;
-      const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return 1 / (1 + std::pow(p.x, degree)); }), options);
+      const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return 1 / (1 + std::pow(p.x(), degree)); }), options);
       const double error = std::abs(d[Kind::length].values[0] - (1 + 1.0 / (degree + 1)));
       if (degree < 2 * n) {
         EXPECT_LT(error, 1e-14) << n << " points, degree " << degree;
@@ -157,13 +157,13 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {5, 1}, 10, 1}});
   DeliveredOptions options;
   options.gradation_limit = 1.25;
-  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.x; }), options);
+  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.x(); }), options);
   int along = 0;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
-    if (p.y != q.y) continue;
+    if (p.y() != q.y()) continue;
     ++along;
-    EXPECT_NEAR(d[Kind::length].values[e], std::abs(std::log((a + b * q.x) / (a + b * p.x))) / b, 1e-6);
+    EXPECT_NEAR(d[Kind::length].values[e], std::abs(std::log((a + b * q.x()) / (a + b * p.x()))) / b, 1e-6);
     EXPECT_NEAR(d[Kind::gradation].values[e], std::exp(b), 1e-6);
   }
   EXPECT_EQ(along, 20);
@@ -185,14 +185,14 @@ TEST(DeliveredPlane, GradationsBetweenTwoCurvesAreForced) {
   for (std::int32_t v = 0; v < 22; ++v) loop.vertices.push_back(v);
   const auto before = [&](std::int32_t v, std::int32_t w) {  // counterclockwise around the middle
     const Vec3 p = run.mesh.vertices[v], q = run.mesh.vertices[w];
-    return std::atan2(p.y - 0.5, p.x - 2.5) < std::atan2(q.y - 0.5, q.x - 2.5);
+    return std::atan2(p.y() - 0.5, p.x() - 2.5) < std::atan2(q.y() - 0.5, q.x() - 2.5);
   };
   std::sort(loop.vertices.begin(), loop.vertices.end(), before);
   loop.vertices.push_back(loop.vertices.front());
   run.mesh.curves.push_back(loop);
   DeliveredOptions options;
   options.gradation_limit = 1.25;
-  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.y; }), options);
+  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.y(); }), options);
   EXPECT_EQ(d[Kind::gradation].beyond, 11);
   EXPECT_EQ(d[Kind::gradation].forced, 9);
   const auto said = describe(d).not_met;
@@ -206,11 +206,11 @@ TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
   Case run{one_face(plane_jet), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {0.03, 1}, 3, 1}});
   const auto size = [](double x) { return std::pow(1.1, 100 * x); };
-  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return size(p.x); }), {});
+  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return size(p.x()); }), {});
   int along = 0;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
-    if (p.y != q.y) continue;
+    if (p.y() != q.y()) continue;
     ++along;
     EXPECT_NEAR(d[Kind::gradation].values[e], std::pow(1.1, 10), 1e-12);
   }
@@ -220,9 +220,9 @@ TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
 TEST(DeliveredPlane, AnisotropicMetricIsThatOfTheStretchedTriangle) {
   // Sizes 2 along a direction and 0.1 across: the quality is Q2 of the image, and edges compare through it.
   const double angle = 0.4, h1 = 2, h2 = 0.1;
-  const Vec2 x{std::cos(angle), std::sin(angle)}, y{-x.y, x.x};
-  const Metric2 m{x.x * x.x / (h1 * h1) + y.x * y.x / (h2 * h2), x.x * x.y / (h1 * h1) + y.x * y.y / (h2 * h2),
-                  x.y * x.y / (h1 * h1) + y.y * y.y / (h2 * h2)};
+  const Vec2 x{std::cos(angle), std::sin(angle)}, y{-x.y(), x.x()};
+  const Metric2 m{x.x() * x.x() / (h1 * h1) + y.x() * y.x() / (h2 * h2), x.x() * x.y() / (h1 * h1) + y.x() * y.y() / (h2 * h2),
+                  x.y() * x.y() / (h1 * h1) + y.y() * y.y() / (h2 * h2)};
   const auto image = [&](Vec2 p) { return Vec3{dot(p, x) / h1, dot(p, y) / h2, 0}; };
   const PrescribedMetric prescribed{
       want_first, [m](int, auto, auto, std::span<Metric2> metric) { std::fill(metric.begin(), metric.end(), m); }};
@@ -248,9 +248,9 @@ TEST(DeliveredSphere, EquilateralTriangleHasItsClosedForms) {
     for (int i = 0; i < 3; ++i) uv[i] = {r * std::cos(2 * pi * i / 3), r * std::sin(2 * pi * i / 3)};
     run.mesh = single(run.cad, uv);
     const Vec3 a = run.mesh.vertices[0], b = run.mesh.vertices[1];
-    const double chord = norm(b - a), radius = std::hypot(a.x, a.y);
+    const double chord = norm(b - a), radius = std::hypot(a.x(), a.y());
     DeliveredOptions options;
-    const double edge_angle = degrees(std::asin(chord / 2)), deviation = 1 - a.z;
+    const double edge_angle = degrees(std::asin(chord / 2)), deviation = 1 - a.z();
     for (const bool met : {true, false}) {
       options.edge_angle_limit = edge_angle * (met ? 1 + 1e-12 : 1 - 1e-6);
       options.deviation_limit = deviation * (met ? 1 + 1e-12 : 1 - 1e-6);
@@ -306,7 +306,7 @@ TEST(DeliveredSphere, WholeSphereWithSeamAndPoles) {
   EXPECT_EQ(d[Kind::length_ratio].spread.count, static_cast<std::int64_t>(run.mesh.vertices.size()));
   // All edges of a pole are as long.
   const auto pole =
-      std::min_element(run.mesh.vertices.begin(), run.mesh.vertices.end(), [](Vec3 p, Vec3 q) { return p.z < q.z; });
+      std::min_element(run.mesh.vertices.begin(), run.mesh.vertices.end(), [](Vec3 p, Vec3 q) { return p.z() < q.z(); });
   EXPECT_NEAR(d[Kind::length_ratio].values[pole - run.mesh.vertices.begin()], 1, 1e-9);
   // The sphere is farthest from a triangle above the centre of its circle: no sample is farther, whichever of the
   // triangle and its neighbours it lies above; the normal is farthest off at the vertices.
@@ -346,8 +346,8 @@ void keep_ends_of_apex(FaceMesh& face, std::int32_t first, std::int32_t columns)
 TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
   const double height = 2;
   Case run{one_face([=](Vec2 p) {
-             const double c = std::cos(p.x), s = std::sin(p.x);
-             return SurfaceJet{{p.y * c, p.y * s, height * p.y}, {-p.y * s, p.y * c, 0}, {c, s, height}, {}, {}, {}};
+             const double c = std::cos(p.x()), s = std::sin(p.x());
+             return SurfaceJet{{p.y() * c, p.y() * s, height * p.y()}, {-p.y() * s, p.y() * c, 0}, {c, s, height}, {}, {}, {}};
            }),
            {},
            {}};
@@ -375,10 +375,10 @@ TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
 TEST(DeliveredEllipsoid, EdgesToAPoleAreMeridians) {
   const Vec3 axes{1, 5, 5};
   const auto jet = [=](Vec2 p) {
-    const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
-    return SurfaceJet{{axes.x * cu * cv, axes.y * su * cv, axes.z * sv},
-                      {-axes.x * su * cv, axes.y * cu * cv, 0},
-                      {-axes.x * cu * sv, -axes.y * su * sv, axes.z * cv},
+    const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
+    return SurfaceJet{{axes.x() * cu * cv, axes.y() * su * cv, axes.z() * sv},
+                      {-axes.x() * su * cv, axes.y() * cu * cv, 0},
+                      {-axes.x() * cu * sv, -axes.y() * su * sv, axes.z() * cv},
                       {},
                       {},
                       {}};
@@ -392,11 +392,11 @@ TEST(DeliveredEllipsoid, EdgesToAPoleAreMeridians) {
   int at_poles = 0;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
-    const Vec3 pole = std::abs(p.z) > std::abs(q.z) ? p : q, other = std::abs(p.z) > std::abs(q.z) ? q : p;
-    if (std::hypot(pole.x, pole.y) > 1e-9) continue;
+    const Vec3 pole = std::abs(p.z()) > std::abs(q.z()) ? p : q, other = std::abs(p.z()) > std::abs(q.z()) ? q : p;
+    if (std::hypot(pole.x(), pole.y()) > 1e-9) continue;
     ++at_poles;
     // Simpson's rule on the meridian.
-    const double u = std::atan2(other.y / axes.y, other.x / axes.x), step = pi / rows, from = pi / 2 - step;
+    const double u = std::atan2(other.y() / axes.y(), other.x() / axes.x()), step = pi / rows, from = pi / 2 - step;
     double length = 0;
     for (const auto& [s, weight] : {std::pair{0.0, 1.0}, std::pair{0.5, 4.0}, std::pair{1.0, 1.0}})
       length += weight / 6 * step * norm(jet({u, from + s * step}).sv);
@@ -429,7 +429,7 @@ TEST(DeliveredCylinder, AnglesAndDeviationsAreThoseOfTheChord) {
   EXPECT_EQ(run.mesh.vertices.size(), static_cast<std::size_t>(5 * columns));  // the seam is closed
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
-    const double height = std::abs(q.z - p.z), across = std::hypot(q.x - p.x, q.y - p.y) > 1e-9 ? 1 : 0;
+    const double height = std::abs(q.z() - p.z()), across = std::hypot(q.x() - p.x(), q.y() - p.y()) > 1e-9 ? 1 : 0;
     const double own = across * chord;
     EXPECT_NEAR(d[Kind::edge_angle].values[e], degrees(std::asin(own * std::sin(step / 2) / std::hypot(own, height))),
                 1e-10);
@@ -446,7 +446,7 @@ TEST(DeliveredTorus, LengthsConvergeWithTheirOrder) {
   const auto error = [](int n, int cells) {
     Case run{one_face([](Vec2 p) { return testing::torus_jet(p, 2, 0.7); }), {}, {}};
     run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {1, 2}, cells, cells}});
-    const PrescribedMetric prescribed = isotropic([](int, Vec2 p) { return 0.1 * (1.5 + std::sin(p.x + 2 * p.y)); });
+    const PrescribedMetric prescribed = isotropic([](int, Vec2 p) { return 0.1 * (1.5 + std::sin(p.x() + 2 * p.y())); });
     DeliveredOptions few, many;
     few.gauss_points = n, many.gauss_points = 20;
     const std::vector<double> p = run.measure(prescribed, few)[Kind::length].values,
@@ -466,9 +466,9 @@ TEST(DeliveredFaces, EdgeBetweenFacesHasTheLargerAngleAndOneLength) {
   // Half a cylinder and a flat lid on it: to the lid the arc's chords are flat, to the cylinder they are not.
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    return SurfaceJet{{p.y * std::cos(p.x), p.y * std::sin(p.x), 0},
-                                      {-p.y * std::sin(p.x), p.y * std::cos(p.x), 0},
-                                      {std::cos(p.x), std::sin(p.x), 0},
+                    return SurfaceJet{{p.y() * std::cos(p.x()), p.y() * std::sin(p.x()), 0},
+                                      {-p.y() * std::sin(p.x()), p.y() * std::cos(p.x()), 0},
+                                      {std::cos(p.x()), std::sin(p.x()), 0},
                                       {},
                                       {},
                                       {}};

@@ -29,7 +29,7 @@ struct Ellipsoid {
 
   Ellipsoid() {
     model.faces.push_back({.ref = 1, .curves = {}, .points = {}});
-    for (const Vec2 p : {Vec2{0, -pi / 2}, Vec2{2 * pi, -pi / 2}, Vec2{2 * pi, pi / 2}, Vec2{0, pi / 2}})
+    for (const Vec2& p : {Vec2{0, -pi / 2}, Vec2{2 * pi, -pi / 2}, Vec2{2 * pi, pi / 2}, Vec2{0, pi / 2}})
       plane.vertices.push_back(p);
     for (int i = 0; i < 4; ++i) plane.edges.push_back({.a = i, .b = (i + 1) % 4});
   }

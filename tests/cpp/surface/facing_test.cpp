@@ -14,14 +14,14 @@ using testing::AnalyticCad;
 constexpr double pi = std::numbers::pi;
 
 testing::AnalyticFace plate(Vec3 o, Vec3 x, Vec3 y) {
-  return {[=](Vec2 p) { return SurfaceJet{o + p.x * x + p.y * y, x, y, {}, {}, {}}; },
+  return {[=](Vec2 p) { return SurfaceJet{o + p.x() * x + p.y() * y, x, y, {}, {}, {}}; },
           testing::rectangle({0, 0}, {1, 1})};
 }
 
 testing::AnalyticFace tube(double radius, double length) {
   return {[=](Vec2 p) {
-            const double c = radius * std::cos(p.x), s = radius * std::sin(p.x);
-            return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+            const double c = radius * std::cos(p.x()), s = radius * std::sin(p.x());
+            return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
           },
           testing::rectangle({0, 0}, {2 * pi, length})};
 }
@@ -93,17 +93,17 @@ TEST(Facing, ASmallPlateAboveALargeOne) {
   cad.faces[2] = plate({-0.1, -0.1, 0.06}, {0.2, 0, 0}, {0, 0.2, 0});
   const FacingRun run(std::move(cad), 3, 0.5);
   expect_sizes(run.sizes(1), 0.02, 0.01);
-  const auto below = [](Vec3 x) { return std::max(std::abs(x.x), std::abs(x.y)) < 0.1; };
+  const auto below = [](Vec3 x) { return std::max(std::abs(x.x()), std::abs(x.y())) < 0.1; };
   // Between two feet, which are two sizes apart, it grows from both by at most a factor of 1.3.
   EXPECT_GE(run.sizes(0, below)[0], 0.99 * 0.02);
   EXPECT_LE(run.sizes(0, below)[1], 1.3 * 0.02);
   // And from there it grows as the gradation has it.
-  const auto away = [](Vec3 x) { return x.y == 0 && std::abs(x.x - 0.6) < 0.4; };
+  const auto away = [](Vec3 x) { return x.y() == 0 && std::abs(x.x() - 0.6) < 0.4; };
   const SurfaceMesh& mesh = run.session.mesh();
   for (const int v : mesh.faces[0].vertex) {
     const Vec3 x = mesh.vertices[v];
-    if (!away(x) || x.z != 0) continue;
-    EXPECT_NEAR(run.session.vertex_sizes()[v], 0.02 + std::log(1.3) * (x.x - 0.1), 0.02);
+    if (!away(x) || x.z() != 0) continue;
+    EXPECT_NEAR(run.session.vertex_sizes()[v], 0.02 + std::log(1.3) * (x.x() - 0.1), 0.02);
   }
 }
 
@@ -151,7 +151,7 @@ TEST(Facing, WhereSizesDifferByDirection) {
     p.set("hgeomin", 1e-3);
     p.set("hgeomax", 0.5);
   });
-  const auto inside = [](Vec3 x) { return x.z > 0 && x.z < 2; };
+  const auto inside = [](Vec3 x) { return x.z() > 0 && x.z() < 2; };
   for (const std::size_t face : {0, 1}) expect_sizes(run.sizes(face, inside), gap / 3, 0.02);
 }
 

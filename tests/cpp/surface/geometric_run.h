@@ -20,8 +20,8 @@ inline AnalyticCad one_face(std::function<SurfaceJet(Vec2)> at, std::vector<Anal
 
 /// Half axes a, b, c; u longitude, v latitude.
 inline SurfaceJet ellipsoid_jet(Vec2 p, Vec3 axes) {
-  const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
-  const auto scaled = [&](double x, double y, double z) { return Vec3{axes.x * x, axes.y * y, axes.z * z}; };
+  const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
+  const auto scaled = [&](double x, double y, double z) { return Vec3{axes.x() * x, axes.y() * y, axes.z() * z}; };
   return {scaled(cu * cv, su * cv, sv),  scaled(-su * cv, cu * cv, 0), scaled(-cu * sv, -su * sv, cv),
           scaled(-cu * cv, -su * cv, 0), scaled(su * sv, -cu * sv, 0), scaled(-cu * cv, -su * cv, -sv)};
 }

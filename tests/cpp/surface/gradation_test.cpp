@@ -44,7 +44,7 @@ struct GradedRun {
 AnalyticCad square(double side) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                    return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {side, side})};
   return cad;
@@ -107,13 +107,13 @@ TEST(GradedModel, OneSmallPointOnAPlaneMakesACone) {
 TEST(GradedModel, AFieldThatObeysIsLeftAsItIs) {
   for (const double beta : {0., 1.3, 2.}) {
     AnalyticCad cad = square(3);
-    const auto size = [](Vec2 p) { return 0.01 + 0.011 * (1 + std::sin(3 * p.x) * std::sin(2 * p.y)); };
+    const auto size = [](Vec2 p) { return 0.01 + 0.011 * (1 + std::sin(3 * p.x()) * std::sin(2 * p.y())); };
     cad.size_on_surface = [size](int, Vec2 p) { return size(p); };
     const GradedRun run(std::move(cad), beta);
     expect_graded(
         run,
         [&](Vec3 x) {
-          return size({x.x, x.y});
+          return size({x.x(), x.y()});
         },
         beta == 0 ? 2 : beta, 0.001);
     EXPECT_EQ(run.session->report().gradation_rounds, beta == 0 ? 0 : 1);
@@ -131,7 +131,7 @@ AnalyticCad sphere() {
   AnalyticCad cad;
   cad.faces[1] = {
       [](Vec2 p) {
-        const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+        const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
         return SurfaceJet{{cv * cu, cv * su, sv}, {-cv * su, cv * cu, 0}, {-sv * cu, -sv * su, cv}, {}, {}, {}};
       },
       testing::rectangle({0, -pi / 2}, {2 * pi, pi / 2})};
@@ -142,7 +142,7 @@ AnalyticCad cylinder() {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
                     return SurfaceJet{
-                        {std::cos(p.x), std::sin(p.x), p.y}, {-std::sin(p.x), std::cos(p.x), 0}, {0, 0, 1}, {}, {}, {}};
+                        {std::cos(p.x()), std::sin(p.x()), p.y()}, {-std::sin(p.x()), std::cos(p.x()), 0}, {0, 0, 1}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {2 * pi, 3})};
   return cad;
@@ -152,7 +152,7 @@ AnalyticCad cylinder() {
 AnalyticCad fold() {
   AnalyticCad cad = square(1);
   cad.faces[2] = {[](Vec2 p) {
-                    return SurfaceJet{{1, p.x, 2 * p.y}, {0, 1, 0}, {0, 0, 2}, {}, {}, {}};
+                    return SurfaceJet{{1, p.x(), 2 * p.y()}, {0, 1, 0}, {0, 0, 2}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {1, 0.5})};
   return cad;
@@ -161,7 +161,7 @@ AnalyticCad fold() {
 AnalyticCad two_squares() {
   AnalyticCad cad = square(1);
   cad.faces[2] = {[](Vec2 p) {
-                    return SurfaceJet{{1 + p.y, p.x, 0}, {0, 1, 0}, {1, 0, 0}, {}, {}, {}};
+                    return SurfaceJet{{1 + p.y(), p.x(), 0}, {0, 1, 0}, {1, 0, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   return cad;
@@ -182,10 +182,10 @@ TEST_P(PointSource, SizesGrowWithTheDistanceAlongTheSurface) {
 
 INSTANTIATE_TEST_SUITE_P(
     Surfaces, PointSource,
-    ::testing::Values(Source{"sphere", sphere, [](Vec3 x) { return std::acos(std::clamp(-x.z, -1., 1.)); }},
-                      Source{"cylinder", cylinder, [](Vec3 x) { return std::hypot(std::atan2(x.y, x.x), x.z); }},
-                      Source{"fold", fold, [](Vec3 x) { return std::hypot(x.x + x.z, x.y); }},
-                      Source{"two_squares", two_squares, [](Vec3 x) { return std::hypot(x.x, x.y); }}),
+    ::testing::Values(Source{"sphere", sphere, [](Vec3 x) { return std::acos(std::clamp(-x.z(), -1., 1.)); }},
+                      Source{"cylinder", cylinder, [](Vec3 x) { return std::hypot(std::atan2(x.y(), x.x()), x.z()); }},
+                      Source{"fold", fold, [](Vec3 x) { return std::hypot(x.x() + x.z(), x.y()); }},
+                      Source{"two_squares", two_squares, [](Vec3 x) { return std::hypot(x.x(), x.y()); }}),
     [](const auto& instance) { return std::string(instance.param.name); });
 
 TEST(GradedModel, SizesOfPatchesThatJumpAreJoined) {
@@ -194,7 +194,7 @@ TEST(GradedModel, SizesOfPatchesThatJumpAreJoined) {
     cad.size_on_surface = [](int face, Vec2) { return face == 1 ? 0.02 : 1.; };
     const GradedRun run(std::move(cad), beta);
     expect_graded(
-        run, [&](Vec3 x) { return 0.02 + std::log(beta) * std::max(0., x.x - 1); }, beta, 0.02);
+        run, [&](Vec3 x) { return 0.02 + std::log(beta) * std::max(0., x.x() - 1); }, beta, 0.02);
   }
 }
 
@@ -205,7 +205,7 @@ TEST(GradedModel, ASmallCurveIsLeftGently) {
     cad.size_on_curve = [](int, int ic, double) { return ic == 1 ? 0.01 : 1.; };
     const GradedRun run(std::move(cad), beta);
     expect_graded(
-        run, [&](Vec3 x) { return 0.01 + std::log(beta) * x.y; }, beta, 0.02);
+        run, [&](Vec3 x) { return 0.01 + std::log(beta) * x.y(); }, beta, 0.02);
   }
 }
 
@@ -224,7 +224,7 @@ double steepest_in_control_spaces(AnalyticCad& cad, CompositeOptions options, do
     const FaceMesh& face = result.mesh.faces[f];
     const ControlSpace& space = *result.spaces[f];
     std::vector<double> h;
-    for (const Vec2 uv : face.uv) h.push_back(isotropic_size(surface_at(cad, face.ref, want_first, uv), space.at(uv)));
+    for (const Vec2& uv : face.uv) h.push_back(isotropic_size(surface_at(cad, face.ref, want_first, uv), space.at(uv)));
     for (const auto& t : face.triangles)
       for (int i = 0; i < 3; ++i) {
         const int a = t[i], b = t[(i + 1) % 3];
@@ -260,7 +260,7 @@ CompositeOptions curvature(double beta) {
 // A band with sharp sides through a face: no sample knows where they are.
 AnalyticCad band() {
   AnalyticCad cad = square(1);
-  cad.size_on_surface = [](int, Vec2 p) { return std::abs(p.x - 0.3 - 0.3 * p.y * p.y) < 0.05 ? 0.01 : 1; };
+  cad.size_on_surface = [](int, Vec2 p) { return std::abs(p.x() - 0.3 - 0.3 * p.y() * p.y()) < 0.05 ? 0.01 : 1; };
   return cad;
 }
 
@@ -339,7 +339,7 @@ Anisotropic measure_directions(AnalyticCad& cad, CompositeOptions options, Space
         const Vec2 d = face.uv[q] - face.uv[p];
         const double l = field_length([&](Vec2 x) { return space.at(x); }, face.uv[p], face.uv[q], 0.1);
         const auto along = [&](int v, Vec2 e) {
-          return norm(e.x * jets[v].su + e.y * jets[v].sv) / length(space.at(face.uv[v]), e);
+          return norm(e.x() * jets[v].su + e.y() * jets[v].sv) / length(space.at(face.uv[v]), e);
         };
         const auto gradation = [&](double h1, double h2) { return std::pow(std::max(h1 / h2, h2 / h1), 1 / l); };
         const Vec3 chord = jets[q].s - jets[p].s;
@@ -375,7 +375,7 @@ TEST(GradedMetrics, ALayerGrowsInBothDirections) {
   for (const double beta : {1.1, 1.3, 2.}) {
     AnalyticCad cad = square(2);
     SpaceMetric source([](Vec3 x) {
-      return x.y < 1e-9 ? metric_of_sizes({0, 1, 0}, 0.01, 0.1) : isotropic_metric3(1);
+      return x.y() < 1e-9 ? metric_of_sizes({0, 1, 0}, 0.01, 0.1) : isotropic_metric3(1);
     });
     CompositeResult result;
     const Anisotropic a = measure_directions(cad, host_sizes(beta), &source, &result);
@@ -384,8 +384,8 @@ TEST(GradedMetrics, ALayerGrowsInBothDirections) {
     double error = 0;
     for (std::size_t v = 0; v < result.vertex_size.size(); ++v) {
       const Vec3 x = result.mesh.vertices[v];
-      if (x.x == 0 || x.x == 2 || x.y == 0 || x.y == 2) continue;  // sizes along the border
-      const double across = std::min(1., 0.01 + std::log(beta) * x.y), along = std::min(1., 10 * across);
+      if (x.x() == 0 || x.x() == 2 || x.y() == 0 || x.y() == 2) continue;  // sizes along the border
+      const double across = std::min(1., 0.01 + std::log(beta) * x.y()), along = std::min(1., 10 * across);
       error = std::max(error, std::abs(result.vertex_size[v] / std::sqrt(across * along) - 1));
     }
     EXPECT_LE(error, 0.1);  // where a size stops growing
@@ -412,9 +412,9 @@ TEST(GradedMetrics, CurvatureOfWaves) {
     for (const double beta : {1.1, 1.3, 2.}) {
       AnalyticCad cad;
       cad.faces[1] = {[](Vec2 p) {
-                        const double a = 0.4, s = std::sin(2 * p.x), c = std::cos(2 * p.x), t = std::sin(3 * p.y),
-                                     d = std::cos(3 * p.y);
-                        return SurfaceJet{{p.x, p.y, a * s * d},  {1, 0, 2 * a * c * d},  {0, 1, -3 * a * s * t},
+                        const double a = 0.4, s = std::sin(2 * p.x()), c = std::cos(2 * p.x()), t = std::sin(3 * p.y()),
+                                     d = std::cos(3 * p.y());
+                        return SurfaceJet{{p.x(), p.y(), a * s * d},  {1, 0, 2 * a * c * d},  {0, 1, -3 * a * s * t},
                                           {0, 0, -4 * a * s * d}, {0, 0, -6 * a * c * t}, {0, 0, -9 * a * s * d}};
                       },
                       testing::rectangle({0, 0}, {2 * pi, 2 * pi})};
@@ -434,8 +434,8 @@ TEST(GradedMetrics, CurvatureOfWaves) {
 TEST(GradedMetrics, BentParametersAreNoGradation) {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    const double c = std::cos(p.x), s = std::sin(p.x);
-                    return SurfaceJet{{p.y * c, p.y * s, 0}, {-p.y * s, p.y * c, 0}, {c, s, 0}, {}, {}, {}};
+                    const double c = std::cos(p.x()), s = std::sin(p.x());
+                    return SurfaceJet{{p.y() * c, p.y() * s, 0}, {-p.y() * s, p.y() * c, 0}, {c, s, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0.3}, {pi / 2, 1.5})};
   SpaceMetric source([](Vec3) { return metric_of_sizes({1, 0, 0}, 0.03, 0.15); });
@@ -563,7 +563,7 @@ TEST(Proximity, NarrowZonesHoldTheLayersAskedFor) {
       double narrowest = 1, widest = 0;
       for (std::size_t v = 0; v < h.size(); ++v) {
         const Vec3 x = mesh.vertices[v];
-        if (std::abs(x.x - 2) < 0.05 && std::abs(x.y) > radius - 1e-9)
+        if (std::abs(x.x() - 2) < 0.05 && std::abs(x.y()) > radius - 1e-9)
           narrowest = std::min(narrowest, h[v]), widest = std::max(widest, h[v]);
       }
       if (std::getenv("CARREAU_TEST_VERBOSE") != nullptr)
@@ -594,7 +594,7 @@ TEST(Proximity, WedgesEndInATriangle) {
     // As wide as it is one wanted edge from the tip, less what is between two vertices of the graph.
     EXPECT_GE(*std::min_element(h.begin(), h.end()), 0.7 * wanted * opening / layers) << degrees;
     for (std::size_t v = 0; v < h.size(); ++v) {
-      const double x = mesh.vertices[v].x;
+      const double x = mesh.vertices[v].x();
       if (x < 2 * wanted || x > 1 - 2.5 * opening) continue;  // the blunt end has corners, too
       EXPECT_LE(h[v], 1.1 * std::min(wanted, x * opening / layers)) << degrees << " at x = " << x;
     }

@@ -25,7 +25,7 @@ inline SurfaceMesh grid_mesh(AnalyticCad& cad, std::span<const Grid> grids) {
   const auto vertex_at = [&](Vec3 p) {
     const auto cell = [](double x) { return std::llround(x * 1e9); };
     const auto [it, is_new] =
-        known.try_emplace({cell(p.x), cell(p.y), cell(p.z)}, static_cast<std::int32_t>(mesh.vertices.size()));
+        known.try_emplace({cell(p.x()), cell(p.y()), cell(p.z())}, static_cast<std::int32_t>(mesh.vertices.size()));
     if (is_new) mesh.vertices.push_back(p), mesh.vertex_ref.push_back(0);
     return it->second;
   };
@@ -36,7 +36,7 @@ inline SurfaceMesh grid_mesh(AnalyticCad& cad, std::span<const Grid> grids) {
     for (int j = 0; j <= grid.rows; ++j)
       for (int i = 0; i <= grid.columns; ++i) {
         const Vec2 size = grid.high - grid.low;
-        const Vec2 uv{grid.low.x + size.x * i / grid.columns, grid.low.y + size.y * j / grid.rows};
+        const Vec2 uv{grid.low.x() + size.x() * i / grid.columns, grid.low.y() + size.y() * j / grid.rows};
         face.uv.push_back(uv);
         face.vertex.push_back(vertex_at(surface_at(cad, grid.face, want_position, uv).s));
       }

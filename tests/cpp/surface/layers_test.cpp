@@ -15,7 +15,7 @@ namespace {
 using testing::AnalyticCad;
 constexpr double pi = std::numbers::pi;
 
-SurfaceJet plane(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet plane(Vec2 p) { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 
 std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, int layers, Monitor& monitor,
                                 double gradation = 1.4) {
@@ -79,9 +79,9 @@ void expect_layers_across_a_strip(double width, int layers, Ways ways) {
   Monitor monitor;
   const auto session = meshed(cad, 0.4, layers, monitor);
   // Away from the ends, whose corners join both sides.
-  const auto inside = [&](Vec3 p) { return p.x > 2 * width && p.x < 1 - 2 * width; };
-  const auto low = [&](Vec3 p) { return p.y == 0 && inside(p); };
-  const auto high = [&](Vec3 p) { return p.y > width - 1e-9 && inside(p); };
+  const auto inside = [&](Vec3 p) { return p.x() > 2 * width && p.x() < 1 - 2 * width; };
+  const auto low = [&](Vec3 p) { return p.y() == 0 && inside(p); };
+  const auto high = [&](Vec3 p) { return p.y() > width - 1e-9 && inside(p); };
   const auto way = [&](Vec3 p) { return ways == Ways::anywhere || inside(p); };
   EXPECT_GE(layers_between(session->mesh(), 0, low, high, way), layers);
 }
@@ -94,10 +94,10 @@ void expect_layers_around_a_hole(double gap, int layers, Ways ways) {
   cad.faces[1].curves.push_back(testing::arc({0, 0}, 1 - gap, pi, 0));
   Monitor monitor;
   const auto session = meshed(cad, 0.5, layers, monitor);
-  const auto on_hole = [&](Vec3 p) { return std::hypot(p.x, p.y) < 1 - gap + 1e-9; };
-  const auto on_border = [](Vec3 p) { return std::abs(p.y) > 1 - 1e-9; };
+  const auto on_hole = [&](Vec3 p) { return std::hypot(p.x(), p.y()) < 1 - gap + 1e-9; };
+  const auto on_border = [](Vec3 p) { return std::abs(p.y()) > 1 - 1e-9; };
   // Within 30 degrees of where the gap is narrowest.
-  const auto way = [&](Vec3 p) { return ways == Ways::anywhere || std::abs(p.x) < (1 - gap) / 2; };
+  const auto way = [&](Vec3 p) { return ways == Ways::anywhere || std::abs(p.x()) < (1 - gap) / 2; };
   EXPECT_GE(layers_between(
                 session->mesh(), 0, [&](Vec3 p) { return on_hole(p) && way(p); }, on_border, way),
             layers);
@@ -117,8 +117,8 @@ TEST(Layers, AcrossTheEndsOfAStrip) {
       cad.faces[1] = {plane, testing::rectangle({0, 0}, {4, 0.05})};
       Monitor monitor;
       const auto session = meshed(cad, 0.5, layers, monitor, gradation);
-      const auto low = [](Vec3 p) { return p.y == 0; };
-      const auto high = [](Vec3 p) { return p.y > 0.05 - 1e-9; };
+      const auto low = [](Vec3 p) { return p.y() == 0; };
+      const auto high = [](Vec3 p) { return p.y() > 0.05 - 1e-9; };
       EXPECT_GE(layers_between(session->mesh(), 0, low, high), layers);
     }
 }
@@ -146,10 +146,10 @@ TEST(Layers, BetweenTwoCommonCurves) {
       cad.faces[3] = {plane, testing::rectangle({0, width}, {1, 1})};
       Monitor monitor;
       const auto session = meshed(cad, 0.3, layers, monitor);
-      const auto inside = [&](Vec3 p) { return p.x > 2 * width && p.x < 1 - 2 * width; };
+      const auto inside = [&](Vec3 p) { return p.x() > 2 * width && p.x() < 1 - 2 * width; };
       EXPECT_GE(layers_between(
-                    session->mesh(), 1, [&](Vec3 p) { return p.y == 0 && inside(p); },
-                    [&](Vec3 p) { return p.y > width - 1e-9 && inside(p); }),
+                    session->mesh(), 1, [&](Vec3 p) { return p.y() == 0 && inside(p); },
+                    [&](Vec3 p) { return p.y() > width - 1e-9 && inside(p); }),
                 layers);
     }
 }

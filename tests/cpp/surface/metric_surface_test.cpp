@@ -201,7 +201,7 @@ TEST(Anisotropy, SavesTriangles) {
 AnalyticCad transformed(const AnalyticCad& from, double scale, double angle) {
   const auto moved = [=](Vec3 v) {
     return scale *
-           Vec3{std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z};
+           Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.z()};
   };
   AnalyticCad cad = from;
   for (auto& [ref, face] : cad.faces)
@@ -263,7 +263,7 @@ void expect_unit(const Delivered& delivered) {
 
 // Sizes h1 along horizontal circles, h2 across them.
 TEST(Source, AFieldOfMetricsOfSpaceGovernsASurface) {
-  const auto field = [](Vec3 p) { return metric_of_sizes({-p.y, p.x, 0.1}, 0.03 + 0.05 * p.z * p.z, 0.3); };
+  const auto field = [](Vec3 p) { return metric_of_sizes({-p.y(), p.x(), 0.1}, 0.03 + 0.05 * p.z() * p.z(), 0.3); };
   const auto source = testing::field_of_space([&](Vec3 p) { return Prescription::of_space(field(p)); });
   Prescribed run(testing::torus_patch(4, 1), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
   expect_unit(run.measure(field));
@@ -275,7 +275,7 @@ TEST(Source, EdgesAtCornersAreMeasuredAlongTheirOwnCurve) {
   const auto source = testing::field_of_space([&](Vec3 p) { return Prescription::of_space(field(p)); });
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                    return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {2, 1.5})};
   Prescribed run(std::move(cad), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
@@ -299,20 +299,20 @@ TEST(Source, TheTeapotUnderOneMetricOfSpace) {
 
 // Half of the surface has a metric, the rest takes hphydef (hphy_flag 1) or what the curves around have (2).
 TEST(Source, AnswersInOnePlaceAndNotInAnother) {
-  const auto field = [](Vec3 p) { return metric_of_sizes({-p.y, p.x, 0.1}, 0.05, 0.2); };
+  const auto field = [](Vec3 p) { return metric_of_sizes({-p.y(), p.x(), 0.1}, 0.05, 0.2); };
   const auto source =
-      testing::field_of_space([&](Vec3 p) { return p.x > p.y ? Prescription::of_space(field(p)) : Prescription{}; });
+      testing::field_of_space([&](Vec3 p) { return p.x() > p.y() ? Prescription::of_space(field(p)) : Prescription{}; });
   for (const int hphy_flag : {1, 2}) {
     Prescribed run(testing::torus_patch(4, 1), source, {{"hphymin", 1e-3}, {"hphymax", 10.}, {"hphydef", 0.1}},
                    hphy_flag);
-    const Delivered delivered = run.measure([&](Vec3 p) { return p.x > p.y ? field(p) : isotropic_metric3(0.1); });
+    const Delivered delivered = run.measure([&](Vec3 p) { return p.x() > p.y() ? field(p) : isotropic_metric3(0.1); });
     std::size_t answered = 0, in_range = 0;
     const auto& edges = delivered.edges.vertices;
     const auto& lengths = delivered[DeliveredKind::length].values;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Vec3 p = run.session.mesh().vertices[edges[e][0]], q = run.session.mesh().vertices[edges[e][1]];
       // Away from the jump; with interpolation the other half is not known in closed form.
-      if (std::min(p.x - p.y, q.x - q.y) < 0.5 && (hphy_flag == 2 || std::max(p.x - p.y, q.x - q.y) > -0.5)) continue;
+      if (std::min(p.x() - p.y(), q.x() - q.y()) < 0.5 && (hphy_flag == 2 || std::max(p.x() - p.y(), q.x() - q.y()) > -0.5)) continue;
       ++answered;
       in_range += lengths[e] >= std::numbers::sqrt2 / 2 && lengths[e] <= std::numbers::sqrt2 ? 1 : 0;
     }
@@ -325,15 +325,15 @@ TEST(Source, AnswersInOnePlaceAndNotInAnother) {
 TEST(Source, SeamsAndPolesStayConformingUnderLongSizes) {
   AnalyticCad cone;
   cone.faces[1] = {[](Vec2 p) {
-                     const double c = std::cos(p.x), s = std::sin(p.x);
-                     return SurfaceJet{{p.y * c, p.y * s, 2 * p.y}, {-p.y * s, p.y * c, 0}, {c, s, 2}, {}, {}, {}};
+                     const double c = std::cos(p.x()), s = std::sin(p.x());
+                     return SurfaceJet{{p.y() * c, p.y() * s, 2 * p.y()}, {-p.y() * s, p.y() * c, 0}, {c, s, 2}, {}, {}, {}};
                    },
                    testing::rectangle({0, 0}, {2 * std::numbers::pi, 1})};
   AnalyticCad tube = testing::fillet(0.1, 3);
   tube.faces[1].curves = testing::rectangle({0, 0}, {2 * std::numbers::pi, 3});
   for (const double round : {0.1, 0.2, 0.3, 0.5, 1., 3.}) {
     const auto source = testing::field_of_space([&](Vec3 p) {
-      return Prescription::of_space(metric_of_sizes({-p.y, p.x, 1e-6}, round, 0.05));
+      return Prescription::of_space(metric_of_sizes({-p.y(), p.x(), 1e-6}, round, 0.05));
     });
     for (const bool closed : {true, false}) {
       Prescribed run(closed ? cone : tube, source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
@@ -352,23 +352,23 @@ TEST(Source, VerticesReportTheSizeInTheMean) {
   const auto source = testing::field_of_space([&](Vec3) { return Prescription::of_space(m); });
   AnalyticCad square;
   square.faces[1] = {[](Vec2 p) {
-                       return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                       return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                      },
                      testing::rectangle({0, 0}, {3, 3})};
   const Prescribed run(std::move(square), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
   const SurfaceMesh& mesh = run.session.mesh();
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 p = mesh.vertices[v];
-    const bool inside = p.x > 0 && p.x < 3 && p.y > 0 && p.y < 3;
-    const bool corner = (p.x <= 0 || p.x >= 3) && (p.y <= 0 || p.y >= 3);
-    const double expected = inside ? std::sqrt(0.1 * 0.5) : corner || p.y <= 0 || p.y >= 3 ? 0.1 : 0.5;
-    EXPECT_NEAR(run.session.vertex_sizes()[v], expected, 1e-9) << p.x << ' ' << p.y;
+    const bool inside = p.x() > 0 && p.x() < 3 && p.y() > 0 && p.y() < 3;
+    const bool corner = (p.x() <= 0 || p.x() >= 3) && (p.y() <= 0 || p.y() >= 3);
+    const double expected = inside ? std::sqrt(0.1 * 0.5) : corner || p.y() <= 0 || p.y() >= 3 ? 0.1 : 0.5;
+    EXPECT_NEAR(run.session.vertex_sizes()[v], expected, 1e-9) << p.x() << ' ' << p.y();
   }
 }
 
 // A source of sizes alone makes the mesh that the host's sizes make, within the last digits of its callbacks.
 TEST(Source, OfSizesIsAsGoodAsTheHostsOwn) {
-  const auto size = [](Vec3 p) { return 0.05 + 0.05 * p.z; };
+  const auto size = [](Vec3 p) { return 0.05 + 0.05 * p.z(); };
   auto own = testing::paraboloid();
   own.size_on_surface = [&](int, Vec2 uv) { return std::optional(size(testing::paraboloid_jet(uv).s)); };
   Monitor monitor;
@@ -405,14 +405,14 @@ TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
 TEST(Source, DipsThatNoSampleHitsAreMeshed) {
   AnalyticCad square;
   square.faces[1] = {[](Vec2 p) {
-                       return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                       return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                      },
                      testing::rectangle({0, 0}, {1, 1})};
   int corrections = 0;
   for (int i = 1; i <= 4; ++i) {
     const Vec2 place{std::fmod(0.618034 * i, 1) * 0.8 + 0.1, std::fmod(0.414214 * i, 1) * 0.8 + 0.1};
     const auto size = [place](Vec3 p) {
-      const Vec2 d = (1 / 0.0015) * (Vec2{p.x, p.y} - place);
+      const Vec2 d = (1 / 0.0015) * (Vec2{p.x(), p.y()} - place);
       return 0.002 * (1 - 0.75 * std::exp(-0.5 * dot(d, d)));
     };
     const auto source = testing::field_of_space([&](Vec3 p) { return Prescription::of_size(size(p)); });
@@ -427,7 +427,7 @@ TEST(Source, ClosePairsOfCurvesAreRefinedUnderMetricsToo) {
   // A strip of width 0.02 under a size of 0.3: CheckCloseEdges refines its long sides.
   AnalyticCad strip;
   strip.faces[1] = {[](Vec2 p) {
-                      return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                      return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                     },
                     testing::rectangle({0, 0}, {3, 0.02})};
   Monitor monitor;

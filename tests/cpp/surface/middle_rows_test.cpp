@@ -25,8 +25,8 @@ struct Across {
 
 /// Unit normal of the torus of the larger radius `radius` at a place on it.
 Vec3 torus_normal(Vec3 p, double radius) {
-  const double r = std::hypot(p.x, p.y);
-  const Vec3 n{p.x * (1 - radius / r), p.y * (1 - radius / r), p.z};
+  const double r = std::hypot(p.x(), p.y());
+  const Vec3 n{p.x() * (1 - radius / r), p.y() * (1 - radius / r), p.z()};
   return (1 / norm(n)) * n;
 }
 
@@ -62,7 +62,7 @@ Across measured(double radius, double size, bool trials) {
     // Distance to the torus, of the middle of the edge.
     const Vec3 middle = 0.5 * (mesh.vertices[edge.first] + mesh.vertices[edge.second]);
     all.deviation =
-        std::max(all.deviation, std::abs(std::hypot(std::hypot(middle.x, middle.y) - radius, middle.z) - 1));
+        std::max(all.deviation, std::abs(std::hypot(std::hypot(middle.x(), middle.y()) - radius, middle.z()) - 1));
   }
   return all;
 }

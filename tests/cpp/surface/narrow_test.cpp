@@ -28,7 +28,7 @@ AnalyticFace plane_face(const std::vector<Vec3>& corners) {
   for (std::size_t i = 1; i < corners.size(); ++i)
     if (norm(corners[i] - o) > norm(corners[far] - o)) far = i;
   const Vec3 x = (1 / norm(corners[far] - o)) * (corners[far] - o), y = cross(n, x);
-  AnalyticFace face{[=](Vec2 p) { return SurfaceJet{o + p.x * x + p.y * y, x, y, {}, {}, {}}; }, {}};
+  AnalyticFace face{[=](Vec2 p) { return SurfaceJet{o + p.x() * x + p.y() * y, x, y, {}, {}, {}}; }, {}};
   const auto uv = [=](Vec3 p) { return Vec2{dot(p - o, x), dot(p - o, y)}; };
   for (std::size_t i = 0; i < corners.size(); ++i)
     face.curves.push_back(testing::segment(uv(corners[i]), uv(corners[(i + 1) % corners.size()])));
@@ -51,7 +51,7 @@ AnalyticCad prism(const std::vector<Vec2>& polygon) {
   const int n = static_cast<int>(polygon.size());
   std::vector<Vec3> points;
   for (const double y : {0.0, 1.0})
-    for (const Vec2 p : polygon) points.push_back({p.x, y, p.y});
+    for (const Vec2& p : polygon) points.push_back({p.x(), y, p.y()});
   std::vector<std::vector<int>> faces;
   for (int i = 0; i < n; ++i) faces.push_back({i, n + i, n + (i + 1) % n, (i + 1) % n});
   std::vector<int> front, back;
@@ -70,14 +70,14 @@ double area_of(const std::vector<Vec2>& polygon) {
 AnalyticFace disc(double radius, double z, double from, bool up) {
   const double sign = up ? 1 : -1;
   return {[=](Vec2 p) {
-            return SurfaceJet{{p.x, sign * p.y, z}, {1, 0, 0}, {0, sign, 0}, {}, {}, {}};
+            return SurfaceJet{{p.x(), sign * p.y(), z}, {1, 0, 0}, {0, sign, 0}, {}, {}, {}};
           },
           {testing::arc({0, 0}, radius, sign * from, sign * from + 2 * pi)}};
 }
 AnalyticFace cylinder(double radius, double low, double high, double from) {
   return {[=](Vec2 p) {
-            const double c = radius * std::cos(p.x), s = radius * std::sin(p.x);
-            return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+            const double c = radius * std::cos(p.x()), s = radius * std::sin(p.x());
+            return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
           },
           testing::rectangle({from, low}, {from + 2 * pi, high})};
 }
@@ -400,7 +400,7 @@ TEST(Spikes, AreLeftOut) {
       SCOPED_TRACE(size);
       AnalyticCad cad;
       cad.faces[1] = {[](Vec2 p) {
-                        return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                        return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                       },
                       testing::rectangle({0, 0}, {1, 1})};
       std::vector<AnalyticCurve>& curves = cad.faces[1].curves;

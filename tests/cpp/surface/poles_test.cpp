@@ -20,10 +20,10 @@ constexpr double pi = std::numbers::pi;
 
 /// Half axes a; longitude u, latitude v.
 SurfaceJet ellipsoid_jet(Vec2 p, Vec3 a) {
-  const double cu = std::cos(p.x), su = std::sin(p.x), cv = std::cos(p.y), sv = std::sin(p.y);
+  const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
   SurfaceJet j{{cv * cu, cv * su, sv},  {-cv * su, cv * cu, 0}, {-sv * cu, -sv * su, cv},
                {-cv * cu, -cv * su, 0}, {sv * su, -sv * cu, 0}, {-cv * cu, -cv * su, -sv}};
-  for (Vec3* v : {&j.s, &j.su, &j.sv, &j.suu, &j.suv, &j.svv}) *v = {a.x * v->x, a.y * v->y, a.z * v->z};
+  for (Vec3* v : {&j.s, &j.su, &j.sv, &j.suu, &j.suv, &j.svv}) *v = {a.x() * v->x(), a.y() * v->y(), a.z() * v->z()};
   return j;
 }
 AnalyticCad ellipsoid(Vec3 a, double phase) {
@@ -52,13 +52,13 @@ AnalyticCad sphere_trimmed_across_its_seam(double hole) {
 AnalyticCad cone(double height, double phase) {
   AnalyticCad cad;
   cad.faces[1] = {[height](Vec2 p) {
-                    const double c = std::cos(p.x), s = std::sin(p.x), r = 1 - p.y;
-                    return SurfaceJet{{r * c, r * s, height * p.y}, {-r * s, r * c, 0}, {-c, -s, height},
+                    const double c = std::cos(p.x()), s = std::sin(p.x()), r = 1 - p.y();
+                    return SurfaceJet{{r * c, r * s, height * p.y()}, {-r * s, r * c, 0}, {-c, -s, height},
                                       {-r * c, -r * s, 0},          {s, -c, 0},         {}};
                   },
                   testing::rectangle({0, 0}, {2 * pi, 1})};
   cad.faces[2] = {[](Vec2 p) {
-                    return SurfaceJet{{p.x, -p.y, 0}, {1, 0, 0}, {0, -1, 0}, {}, {}, {}};
+                    return SurfaceJet{{p.x(), -p.y(), 0}, {1, 0, 0}, {0, -1, 0}, {}, {}, {}};
                   },
                   {testing::arc({0, 0}, 1, phase, phase + 2 * pi)}};
   return cad;
@@ -77,9 +77,9 @@ AnalyticCad eighth_of_a_ball() {
                                                        segment({0, 1}, {0, 0})};
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) { return ellipsoid_jet(p, {1, 1, 1}); }, testing::rectangle({0, 0}, {pi / 2, pi / 2})};
-  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{p.y, p.x, 0}, {0, 1, 0}, {1, 0, 0}, {}, {}, {}}; }, quarter};
-  cad.faces[3] = {[](Vec2 p) { return SurfaceJet{{0, p.y, p.x}, {0, 0, 1}, {0, 1, 0}, {}, {}, {}}; }, quarter};
-  cad.faces[4] = {[](Vec2 p) { return SurfaceJet{{p.x, 0, p.y}, {1, 0, 0}, {0, 0, 1}, {}, {}, {}}; }, quarter};
+  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{p.y(), p.x(), 0}, {0, 1, 0}, {1, 0, 0}, {}, {}, {}}; }, quarter};
+  cad.faces[3] = {[](Vec2 p) { return SurfaceJet{{0, p.y(), p.x()}, {0, 0, 1}, {0, 1, 0}, {}, {}, {}}; }, quarter};
+  cad.faces[4] = {[](Vec2 p) { return SurfaceJet{{p.x(), 0, p.y()}, {1, 0, 0}, {0, 0, 1}, {}, {}, {}}; }, quarter};
   return cad;
 }
 
@@ -109,7 +109,7 @@ void sweep(const AnalyticCad& cad, double diag, long euler, double volume, doubl
     const FlatMesh mesh = session.exported();
     const QualitySummary q = summarise_quality(mesh);
     EXPECT_EQ(static_cast<long>(q.vertices) - static_cast<long>(q.edges) + static_cast<long>(q.triangles), euler);
-    for (const Vec3 pole : poles) EXPECT_GE(fan_at(mesh, pole), 3);
+    for (const Vec3& pole : poles) EXPECT_GE(fan_at(mesh, pole), 3);
     EXPECT_GT(q.q2.min, 0.02);  // at coarse sizes a small hole stands in triangles four times its own edges
     double enclosed = 0;
     for (const auto& t : mesh.triangles)

@@ -17,7 +17,7 @@ namespace {
 using testing::AnalyticCad;
 constexpr double pi = std::numbers::pi;
 
-SurfaceJet flat(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet flat(Vec2 p) { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 
 std::unique_ptr<Session> meshed(const AnalyticCad& cad, const Model& model, int passes, Monitor& monitor) {
   auto session = std::make_unique<Session>(monitor);
@@ -47,8 +47,8 @@ std::vector<testing::AnalyticCurve> with_hole(std::vector<testing::AnalyticCurve
 }
 
 std::vector<testing::AnalyticCurve> rectangular_hole(Vec2 low, Vec2 high) {
-  return {testing::segment(low, {low.x, high.y}), testing::segment({low.x, high.y}, high),
-          testing::segment(high, {high.x, low.y}), testing::segment({high.x, low.y}, low)};
+  return {testing::segment(low, {low.x(), high.y()}), testing::segment({low.x(), high.y()}, high),
+          testing::segment(high, {high.x(), low.y()}), testing::segment({high.x(), low.y()}, low)};
 }
 
 // A hole lies on the side that face 2 shares with face 1: its edges cross however short they are.
@@ -73,8 +73,8 @@ TEST(Refinement, BordersWithTheOutsideBetweenThemAreNoNarrowZone) {
     SCOPED_TRACE(gap);
     AnalyticCad tube, plane;
     tube.faces[1] = {[](Vec2 p) {
-                       const double c = std::cos(p.x), s = std::sin(p.x);
-                       return SurfaceJet{{c, s, p.y}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+                       const double c = std::cos(p.x()), s = std::sin(p.x());
+                       return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
                      },
                      testing::rectangle({gap, 0}, {2 * pi - gap, 2})};
     plane.faces[1] = {flat,
@@ -89,7 +89,7 @@ TEST(Refinement, BordersWithTheOutsideBetweenThemAreNoNarrowZone) {
     const auto on_slit = [&](int passes) {
       const FlatMesh mesh = meshed(plane, two_loops, passes, monitor)->exported();
       return std::count_if(mesh.vertices.begin(), mesh.vertices.end(),
-                           [&](Vec3 p) { return 0.4 < p.x && p.x < 0.6 && (p.y == 0.5 || p.y == 0.5 + gap); });
+                           [&](Vec3 p) { return 0.4 < p.x() && p.x() < 0.6 && (p.y() == 0.5 || p.y() == 0.5 + gap); });
     };
     EXPECT_GE(on_slit(0), 2);
     EXPECT_EQ(on_slit(20), on_slit(0));
@@ -123,7 +123,7 @@ class Turning : public PrescriptionSource {
  private:
   static Prescription of(int face) {
     Vec3 is_long{0, 0, 0};
-    (face == 1 ? is_long.x : face == 2 ? is_long.y : is_long.z) = 1;
+    (face == 1 ? is_long.x() : face == 2 ? is_long.y() : is_long.z()) = 1;
     return Prescription::of_space(metric_of_sizes(is_long, 0.2, 0.02));
   }
 };
@@ -131,9 +131,9 @@ class Turning : public PrescriptionSource {
 TEST(Refinement, BalanceOfEdgesAtACornerEndsWhereverMetricsTurn) {
   AnalyticCad cad;
   const auto sides = testing::rectangle({0, 0}, {1, 1});
-  cad.faces[1] = {[](Vec2 p) { return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, sides};
-  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{0, p.x, p.y}, {0, 1, 0}, {0, 0, 1}, {}, {}, {}}; }, sides};
-  cad.faces[3] = {[](Vec2 p) { return SurfaceJet{{p.y, 0, p.x}, {0, 0, 1}, {1, 0, 0}, {}, {}, {}}; }, sides};
+  cad.faces[1] = {[](Vec2 p) { return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }, sides};
+  cad.faces[2] = {[](Vec2 p) { return SurfaceJet{{0, p.x(), p.y()}, {0, 1, 0}, {0, 0, 1}, {}, {}, {}}; }, sides};
+  cad.faces[3] = {[](Vec2 p) { return SurfaceJet{{p.y(), 0, p.x()}, {0, 0, 1}, {1, 0, 0}, {}, {}, {}}; }, sides};
   Monitor monitor;
   Session session(monitor);
   session.set_cad(std::make_shared<AnalyticCad>(cad));

@@ -13,11 +13,11 @@ namespace {
 
 using testing::AnalyticCad;
 
-SurfaceJet flat(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet flat(Vec2 p) { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 
 // z = x y / 4
 SurfaceJet saddle(Vec2 p) {
-  return {{p.x, p.y, p.x * p.y / 4}, {1, 0, p.y / 4}, {0, 1, p.x / 4}, {}, {0, 0, 0.25}, {}};
+  return {{p.x(), p.y(), p.x() * p.y() / 4}, {1, 0, p.y() / 4}, {0, 1, p.x() / 4}, {}, {0, 0, 0.25}, {}};
 }
 
 /// A square of 10, its lower side in `pieces` curves.
@@ -96,7 +96,7 @@ TEST(ShortEdges, WithoutThemNothingChanges) {
   const auto positions = [&](double ratio) {
     std::vector<double> all;
     const auto session = meshed(comb(saddle, 12), 0.8, ratio, monitor);
-    for (const auto& v : session->mesh().vertices) all.insert(all.end(), {v.x, v.y, v.z});
+    for (const auto& v : session->mesh().vertices) all.insert(all.end(), {v.x(), v.y(), v.z()});
     return all;
   };
   EXPECT_EQ(positions(0), positions(1.2));

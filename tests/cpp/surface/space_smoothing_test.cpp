@@ -17,8 +17,8 @@ constexpr double degree = std::numbers::pi / 180;
 /// A sector of a saddle, of radius 1.5, whose apex is a side of the parameter plane; uneven in angle and in radius.
 AnalyticCad sector(double opening) {
   const auto jet = [opening](Vec2 p) {
-    const double r = p.y + p.y * p.y / 2, dr = 1 + p.y, w = opening * (p.x + p.x * p.x) / 2;
-    const double dw = opening * (1 + 2 * p.x) / 2, c = std::cos(w), s = std::sin(w), c2 = std::cos(2 * w);
+    const double r = p.y() + p.y() * p.y() / 2, dr = 1 + p.y(), w = opening * (p.x() + p.x() * p.x()) / 2;
+    const double dw = opening * (1 + 2 * p.x()) / 2, c = std::cos(w), s = std::sin(w), c2 = std::cos(2 * w);
     const double s2 = std::sin(2 * w), ddw = opening, ddr = 1;
     SurfaceJet j;
     j.s = {r * c, r * s, 0.2 * r * r * c2};

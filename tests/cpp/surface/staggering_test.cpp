@@ -15,10 +15,10 @@ namespace {
 using testing::AnalyticCad;
 constexpr double pi = std::numbers::pi;
 
-SurfaceJet flat(Vec2 p) { return {{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
+SurfaceJet flat(Vec2 p) { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; }
 SurfaceJet round(Vec2 p) {
-  const double c = std::cos(p.x), s = std::sin(p.x);
-  return {{2 * c, 2 * s, p.y}, {-2 * s, 2 * c, 0}, {0, 0, 1}, {-2 * c, -2 * s, 0}, {}, {}};
+  const double c = std::cos(p.x()), s = std::sin(p.x());
+  return {{2 * c, 2 * s, p.y()}, {-2 * s, 2 * c, 0}, {0, 0, 1}, {-2 * c, -2 * s, 0}, {}, {}};
 }
 
 AnalyticCad patch(SurfaceJet (*surface)(Vec2), std::vector<testing::AnalyticCurve> curves) {
@@ -73,7 +73,7 @@ TEST(Staggering, WideFacesAndSharpCornersStayAsTheyAre) {
     const auto positions = [&](int stagger) {
       std::vector<double> all;
       const auto session = meshed(cad, 0.5, stagger, monitor);
-      for (const Vec3 p : session->mesh().vertices) all.insert(all.end(), {p.x, p.y, p.z});
+      for (const Vec3& p : session->mesh().vertices) all.insert(all.end(), {p.x(), p.y(), p.z()});
       return all;
     };
     EXPECT_EQ(positions(0), positions(1));

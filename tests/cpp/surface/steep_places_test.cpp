@@ -45,8 +45,8 @@ BackgroundMesh lifted_grid(const Patch& patch) {
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i)
       mesh.vertices.push_back(patch
-                                  .at({std::lerp(patch.low.x, patch.high.x, i / double(nx)),
-                                       std::lerp(patch.low.y, patch.high.y, j / double(ny))})
+                                  .at({std::lerp(patch.low.x(), patch.high.x(), i / double(nx)),
+                                       std::lerp(patch.low.y(), patch.high.y(), j / double(ny))})
                                   .s);
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) {
@@ -133,7 +133,7 @@ std::shared_ptr<AnalyticCad> two_squares() {
   auto cad = std::make_shared<AnalyticCad>();
   for (const int face : {1, 2})
     cad->faces[face] = {[face](Vec2 p) {
-                          return SurfaceJet{{p.x + face - 1, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                          return SurfaceJet{{p.x() + face - 1, p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                         },
                         testing::rectangle({0, 0}, {1, 1})};
   return cad;
@@ -144,7 +144,7 @@ std::shared_ptr<AnalyticCad> two_squares() {
 // whose edges are two sizes long, they may exceed the cone.
 TEST(SteepPlaces, SizesGrowFromSpotsInAllFaces) {
   constexpr double gradation = 1.3, narrow = 0.02;
-  const Patch plane{"plane", [](Vec2 p) { return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; },
+  const Patch plane{"plane", [](Vec2 p) { return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; },
                     {0, 0},  {2, 1},
                     100,     50};
   for (const double y : {0.23, 0.37, 0.49, 0.66, 0.78}) {
@@ -171,9 +171,9 @@ TEST(SteepPlaces, SizesGrowFromSpotsInAllFaces) {
     double steepest = 0;
     for (std::size_t v = 0; v < session.mesh().vertices.size(); ++v) {
       const Vec3 x = session.mesh().vertices[v];
-      if (x.x < 1) continue;
+      if (x.x() < 1) continue;
       double away = std::numeric_limits<double>::infinity();
-      for (const Vec3 s : spot) away = std::min(away, norm(x - s));
+      for (const Vec3& s : spot) away = std::min(away, norm(x - s));
       steepest = std::max(steepest, session.vertex_sizes()[v] / std::min(coarse, fine + std::log(gradation) * away));
     }
     EXPECT_LE(steepest, gradation * gradation) << y;

@@ -74,9 +74,9 @@ Made make(int threads, bool reentrant, bool geometric) {
 void expect_same(const Made& a, const Made& b) {
   ASSERT_EQ(a.mesh.vertices.size(), b.mesh.vertices.size());
   for (std::size_t i = 0; i < a.mesh.vertices.size(); ++i) {
-    ASSERT_EQ(a.mesh.vertices[i].x, b.mesh.vertices[i].x);
-    ASSERT_EQ(a.mesh.vertices[i].y, b.mesh.vertices[i].y);
-    ASSERT_EQ(a.mesh.vertices[i].z, b.mesh.vertices[i].z);
+    ASSERT_EQ(a.mesh.vertices[i].x(), b.mesh.vertices[i].x());
+    ASSERT_EQ(a.mesh.vertices[i].y(), b.mesh.vertices[i].y());
+    ASSERT_EQ(a.mesh.vertices[i].z(), b.mesh.vertices[i].z());
   }
   EXPECT_EQ(a.sizes, b.sizes);
   ASSERT_EQ(a.mesh.faces.size(), b.mesh.faces.size());

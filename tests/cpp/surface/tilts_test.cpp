@@ -26,13 +26,13 @@ constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::
 // ---- the bound ----
 
 SurfaceJet cylinder_jet(Vec2 p, double radius) {
-  const double c = std::cos(p.x), s = std::sin(p.x);
+  const double c = std::cos(p.x()), s = std::sin(p.x());
   return {
-      {radius * c, radius * s, p.y}, {-radius * s, radius * c, 0}, {0, 0, 1}, {-radius * c, -radius * s, 0}, {}, {}};
+      {radius * c, radius * s, p.y()}, {-radius * s, radius * c, 0}, {0, 0, 1}, {-radius * c, -radius * s, 0}, {}, {}};
 }
 SurfaceJet polar_jet(Vec2 p) {
-  const double c = std::cos(p.y), s = std::sin(p.y);
-  return {{p.x * c, p.x * s, 0}, {c, s, 0}, {-p.x * s, p.x * c, 0}, {}, {-s, c, 0}, {-p.x * c, -p.x * s, 0}};
+  const double c = std::cos(p.y()), s = std::sin(p.y());
+  return {{p.x() * c, p.x() * s, 0}, {c, s, 0}, {-p.x() * s, p.x() * c, 0}, {}, {-s, c, 0}, {-p.x() * c, -p.x() * s, 0}};
 }
 double bounded(const SurfaceJet& jet, Vec3 short_way, Vec3 long_way, double h1, double h2, double tilt) {
   TangentMetric sizes{short_way, long_way, h1, h2};
@@ -119,15 +119,15 @@ struct Turning {
     auto cad = std::make_shared<AnalyticCad>();
     cad->faces[1] = {
         [at](Vec2 p) {
-          const auto f = at(p.x, p.y);
-          return SurfaceJet{{p.x, p.y, f[0]}, {1, 0, f[1]}, {0, 1, f[2]}, {0, 0, f[3]}, {0, 0, f[4]}, {0, 0, f[5]}};
+          const auto f = at(p.x(), p.y());
+          return SurfaceJet{{p.x(), p.y(), f[0]}, {1, 0, f[1]}, {0, 1, f[2]}, {0, 0, f[3]}, {0, 0, f[4]}, {0, 0, f[5]}};
         },
         rectangle({-1, -1}, {1, 1})};
     session.set_cad(cad);
     session.set_model(unglued(*cad));
     session.set_metric_callbacks(std::make_shared<testing::FieldSource>(testing::field_of_space([at, h, ratio](Vec3 p) {
-      const auto f = at(p.x, p.y);
-      const double a = p.x + 2 * p.y, c = std::cos(a), s = std::sin(a);
+      const auto f = at(p.x(), p.y());
+      const double a = p.x() + 2 * p.y(), c = std::cos(a), s = std::sin(a);
       return Prescription::of_space(metric_of_sizes({c, s, c * f[1] + s * f[2]}, h, ratio * h));
     })));
     session.parameters().set("hphymin", h / 10);

@@ -19,7 +19,7 @@ AnalyticCad tongue(double l, double r) {
   constexpr double pi = std::numbers::pi;
   const double upper = 4 * r;
   AnalyticCad cad;
-  const auto plane = [](Vec2 p) { return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
+  const auto plane = [](Vec2 p) { return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
   const Vec2 left{-r, l - r}, bottom{-r, -1}, right{1, -1}, top{1, upper};
   cad.faces[1] = {plane,
                   {segment(left, bottom), segment(bottom, right), segment(right, top), segment(top, {upper, upper}),

@@ -41,9 +41,9 @@ struct Step {
 
 /// S(x(u), y(v)) of a quarter of a cylinder of radius 1 and height 1.
 SurfaceJet quarter(const Step& x, const Step& y, Vec2 p) {
-  const double a = pi / 2 * x.at(p.x), a1 = pi / 2 * x.first(p.x), a2 = pi / 2 * x.second(p.x);
-  const Vec3 r{std::cos(a), std::sin(a), 0}, t{-r.y, r.x, 0};
-  return {{r.x, r.y, y.at(p.y)}, a1 * t, {0, 0, y.first(p.y)}, a2 * t + (-a1 * a1) * r, {}, {0, 0, y.second(p.y)}};
+  const double a = pi / 2 * x.at(p.x()), a1 = pi / 2 * x.first(p.x()), a2 = pi / 2 * x.second(p.x());
+  const Vec3 r{std::cos(a), std::sin(a), 0}, t{-r.y(), r.x(), 0};
+  return {{r.x(), r.y(), y.at(p.y())}, a1 * t, {0, 0, y.first(p.y())}, a2 * t + (-a1 * a1) * r, {}, {0, 0, y.second(p.y())}};
 }
 AnalyticCad quarter_of(const Step& x, const Step& y) {
   AnalyticCad cad;
@@ -99,7 +99,7 @@ TEST(UnevenParameters, SizesByPlaceAndGradation) {
   const Step fast{0.437, 1e-6};
   const auto triangles = [](const Step& x, double gradation) {
     AnalyticCad cad = quarter_of(x, linear);
-    cad.size_on_surface = [x](int, Vec2 p) { return std::optional(0.03 + 0.1 * std::abs(x.at(p.x) - 0.5)); };
+    cad.size_on_surface = [x](int, Vec2 p) { return std::optional(0.03 + 0.1 * std::abs(x.at(p.x()) - 0.5)); };
     Monitor monitor;
     auto session = testing::session_of_size(cad, 0.05, monitor);
     session->parameters().set("hphy_flag", 2);
@@ -121,7 +121,7 @@ TEST(UnevenParameters, NeighboursAndImposedPoints) {
   AnalyticCad cad = quarter_of({0.437, 1e-6}, linear);
   cad.faces[2] = {
       [](Vec2 p) {
-        return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+        return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
       },
       {testing::arc({0, 0}, 1, 0, pi / 2), testing::segment({0, 1}, {0, 0}), testing::segment({0, 0}, {1, 0})}};
   Monitor monitor;
@@ -150,7 +150,7 @@ SurfaceJet rational(double large, Vec2 p) {
     const double s = 1 - t;
     return std::array<double, 4>{-3 * s * s, 3 * s * s - 6 * s * t, 6 * s * t - 3 * t * t, 3 * t * t};
   };
-  const auto b = basis(p.x), c = basis(p.y), b1 = slope(p.x), c1 = slope(p.y);
+  const auto b = basis(p.x()), c = basis(p.y()), b1 = slope(p.x()), c1 = slope(p.y());
   double w = 0, wu = 0, wv = 0;
   Vec3 s{}, su{}, sv{};
   for (std::size_t i = 0; i < 4; ++i)
@@ -181,7 +181,7 @@ TEST(UnevenParameters, ExtremeWeights) {
   for (std::size_t i = 0; i < cells; ++i)
     for (std::size_t j = 0; j < cells; ++j) {
       const Vec3 a = grid[i * (cells + 1) + j], c = grid[(i + 1) * (cells + 1) + j + 1];
-      for (const Vec3 b : {grid[(i + 1) * (cells + 1) + j], grid[i * (cells + 1) + j + 1]})
+      for (const Vec3& b : {grid[(i + 1) * (cells + 1) + j], grid[i * (cells + 1) + j + 1]})
         area += 0.5 * norm(cross(b - a, c - a));
     }
   AnalyticCad cad;
@@ -205,8 +205,8 @@ TEST(UnevenParameters, FastAlongASlantedLine) {
   AnalyticCad cad;
   const Step step{0.437, 1e-7};
   cad.faces[1] = {[=](Vec2 p) {
-                    const double u = p.x + 0.2 * (p.y - 0.5), x = step.first(u);
-                    return SurfaceJet{{step.at(u), p.y, 0}, {x, 0, 0}, {0.2 * x, 1, 0}, {}, {}, {}};
+                    const double u = p.x() + 0.2 * (p.y() - 0.5), x = step.first(u);
+                    return SurfaceJet{{step.at(u), p.y(), 0}, {x, 0, 0}, {0.2 * x, 1, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   Monitor monitor;

@@ -14,8 +14,8 @@ constexpr double pi = std::numbers::pi;
 AnalyticCad graph(std::function<std::array<double, 6>(double, double)> f, Vec2 low, Vec2 high) {
   return one_face(
       [f = std::move(f)](Vec2 p) {
-        const auto [z, x, y, xx, xy, yy] = f(p.x, p.y);
-        return SurfaceJet{{p.x, p.y, z}, {1, 0, x}, {0, 1, y}, {0, 0, xx}, {0, 0, xy}, {0, 0, yy}};
+        const auto [z, x, y, xx, xy, yy] = f(p.x(), p.y());
+        return SurfaceJet{{p.x(), p.y(), z}, {1, 0, x}, {0, 1, y}, {0, 0, xx}, {0, 0, xy}, {0, 0, yy}};
       },
       rectangle(low, high));
 }
@@ -62,7 +62,7 @@ void expect_upright(const GeometricRun& run, const AnalyticCad& cad) {
     const Vec2 centre = (1. / 3) * (face.uv[t[0]] + face.uv[t[1]] + face.uv[t[2]]);
     const auto normal = unit_normal(cad.faces.at(1).at(centre));
     ASSERT_TRUE(normal);
-    ASSERT_GT(dot(cross(p[1] - p[0], p[2] - p[0]), *normal), 0) << "at " << centre.x << ", " << centre.y;
+    ASSERT_GT(dot(cross(p[1] - p[0], p[2] - p[0]), *normal), 0) << "at " << centre.x() << ", " << centre.y();
   }
 }
 
@@ -109,8 +109,8 @@ TEST(Guaranteed, NothingIsDividedBelowTheSmallestSize) {
       SCOPED_TRACE(::testing::Message() << smallest << ", gradation " << gradation);
       const GeometricRun run(one_face(
                                  [](Vec2 p) {
-                                   const double c = std::cos(p.x), s = std::sin(p.x), r = 1 - p.y + 1e-12;
-                                   return SurfaceJet{{r * c, r * s, 3 * p.y}, {-r * s, r * c, 0}, {-c, -s, 3},
+                                   const double c = std::cos(p.x()), s = std::sin(p.x()), r = 1 - p.y() + 1e-12;
+                                   return SurfaceJet{{r * c, r * s, 3 * p.y()}, {-r * s, r * c, 0}, {-c, -s, 3},
                                                      {-r * c, -r * s, 0},     {s, -c, 0},         {}};
                                  },
                                  rectangle({0, 0}, {2 * pi, 1})),

@@ -42,7 +42,7 @@ struct Meshed {
     for (const auto& t : mesh.triangles)
       for (int i = 0; i < 3; ++i) {
         const Vec3 p = mesh.vertices[t[i]], q = mesh.vertices[t[(i + 1) % 3]];
-        most = std::max(most, norm(q - p) / std::sqrt(size({p.x, p.y}) * size({q.x, q.y})));
+        most = std::max(most, norm(q - p) / std::sqrt(size({p.x(), p.y()}) * size({q.x(), q.y()})));
       }
     return most;
   }
@@ -63,12 +63,12 @@ AnalyticCad bump(Vec2 place) {
                     constexpr double w = 0.0015, height = 0.003;
                     const Vec2 d = (1 / w) * (p - place);
                     const double z = height * std::exp(-0.5 * dot(d, d)), k = 1 / w;
-                    return SurfaceJet{{p.x, p.y, z},
-                                      {1, 0, -z * d.x * k},
-                                      {0, 1, -z * d.y * k},
-                                      {0, 0, z * (d.x * d.x - 1) * k * k},
-                                      {0, 0, z * d.x * d.y * k * k},
-                                      {0, 0, z * (d.y * d.y - 1) * k * k}};
+                    return SurfaceJet{{p.x(), p.y(), z},
+                                      {1, 0, -z * d.x() * k},
+                                      {0, 1, -z * d.y() * k},
+                                      {0, 0, z * (d.x() * d.x() - 1) * k * k},
+                                      {0, 0, z * d.x() * d.y() * k * k},
+                                      {0, 0, z * (d.y() * d.y() - 1) * k * k}};
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   return cad;
@@ -77,7 +77,7 @@ AnalyticCad bump(Vec2 place) {
 AnalyticCad plane() {
   AnalyticCad cad;
   cad.faces[1] = {[](Vec2 p) {
-                    return SurfaceJet{{p.x, p.y, 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
+                    return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}};
                   },
                   testing::rectangle({0, 0}, {1, 1})};
   return cad;
@@ -85,17 +85,17 @@ AnalyticCad plane() {
 
 TEST(Verification, BumpsThatNoSampleHitsAreMeshedAtTheirSize) {
   int corrections = 0;
-  for (const Vec2 place : places()) {
+  for (const Vec2& place : places()) {
     const Meshed run(bump(place), {{"hphydef", 0.002}, {"hphymin", 0.0001}, {"hphymax", 1}});
     corrections += run.session->report().corrections;
-    EXPECT_LE(run.longest([](Vec2) { return 0.002; }), 1.6) << place.x << " " << place.y;
+    EXPECT_LE(run.longest([](Vec2) { return 0.002; }), 1.6) << place.x() << " " << place.y();
   }
   EXPECT_GE(corrections, 1);
 }
 
 TEST(Verification, DipsOfTheSizesThatNoSampleHitsAreMeshed) {
   int corrections = 0;
-  for (const Vec2 place : places()) {
+  for (const Vec2& place : places()) {
     const auto size = [place](Vec2 p) {
       const Vec2 d = (1 / 0.0015) * (p - place);
       return 0.002 * (1 - 0.75 * std::exp(-0.5 * dot(d, d)));
@@ -104,7 +104,7 @@ TEST(Verification, DipsOfTheSizesThatNoSampleHitsAreMeshed) {
     cad.size_on_surface = [size](int, Vec2 p) { return std::optional<double>(size(p)); };
     const Meshed run(std::move(cad), {{"hphy_flag", 2}, {"hphymin", 0.0001}, {"hphymax", 1}});
     corrections += run.session->report().corrections;
-    EXPECT_LE(run.longest(size), 1.6) << place.x << " " << place.y;
+    EXPECT_LE(run.longest(size), 1.6) << place.x() << " " << place.y();
   }
   EXPECT_GE(corrections, 1);
 }
@@ -122,7 +122,7 @@ TEST(Verification, WhatTheSamplesKnowCostsNothing) {
 }
 
 TEST(Verification, SizesAtVerticesAreTheHosts) {
-  const auto size = [](Vec2 p) { return 0.02 + 0.05 * p.x; };
+  const auto size = [](Vec2 p) { return 0.02 + 0.05 * p.x(); };
   AnalyticCad cad = plane();
   cad.size_on_surface = [size](int, Vec2 p) { return std::optional<double>(size(p)); };
   const Meshed run(std::move(cad), {{"hphy_flag", 2}, {"hphymin", 0.0001}, {"hphymax", 1}});
@@ -131,8 +131,8 @@ TEST(Verification, SizesAtVerticesAreTheHosts) {
   ASSERT_EQ(sizes.size(), mesh.vertices.size());
   std::size_t exact = 0;
   for (std::size_t v = 0; v < sizes.size(); ++v) {
-    EXPECT_NEAR(sizes[v], size({mesh.vertices[v].x, mesh.vertices[v].y}), 0.02 * sizes[v]);
-    exact += sizes[v] == size({mesh.vertices[v].x, mesh.vertices[v].y});
+    EXPECT_NEAR(sizes[v], size({mesh.vertices[v].x(), mesh.vertices[v].y()}), 0.02 * sizes[v]);
+    exact += sizes[v] == size({mesh.vertices[v].x(), mesh.vertices[v].y()});
   }
   EXPECT_GT(exact, sizes.size() / 2);
 }
