@@ -7,7 +7,7 @@
 #include <ctime>
 #include <random>
 
-#include "cpp/size/control_space_fields.h"
+#include "cpp/control_space/control_space_fields.h"
 #include "metric/metric2_algebra.h"
 #include "predicates/polygon_locator.h"
 

@@ -4,7 +4,7 @@ quality in the metric.
 
     apt-get install gmsh python3-gmsh python3-numpy freefem++
     cmake --preset bench && cmake --build --preset bench --target bench_metric
-    python3 tests/bench/compare_bamg.py build/bench/tests/cpp/plane/bench_metric [--sizes H,H..] [--ratio R] [--json FILE]
+    python3 tests/bench/compare_bamg.py build/bench/tests/bench/bench_metric [--sizes H,H..] [--ratio R] [--json FILE]
 
 The field is a layer along y = sin x on [0, 2 pi] x [-2, 2]: size h across, ratio h along, growing by 0.2 a unit of distance.
 Times are those of the processor, one thread: Gmsh's generate(2) after generate(1), the last of FreeFem++'s passes of adaptmesh
@@ -138,7 +138,7 @@ def show(h, who, row):
 
 def main():
     parser = argparse.ArgumentParser(description="Carreau, Gmsh's BAMG and FreeFem++'s adaptmesh in the same field")
-    parser.add_argument("bench", nargs="?", default=os.path.join(ROOT, "build/bench/tests/cpp/plane/bench_metric"),
+    parser.add_argument("bench", nargs="?", default=os.path.join(ROOT, "build/bench/tests/bench/bench_metric"),
                         help="the program bench_metric")
     parser.add_argument("--sizes", default="0.006,0.004,0.0027", help="sizes across the layer")
     parser.add_argument("--ratio", type=float, default=10)

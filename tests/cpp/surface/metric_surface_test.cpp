@@ -139,10 +139,10 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, UnitMesh,
 
 // ---- what was asked is kept ----
 
-class Guarantee : public ::testing::TestWithParam<UnitCase> {};
+class MetricGuarantee : public ::testing::TestWithParam<UnitCase> {};
 
 // A0: distance of at most eps0 for 99.5 % of the triangles, nowhere above 1.3 eps0, over three decades.
-TEST_P(Guarantee, OfTheDistance) {
+TEST_P(MetricGuarantee, OfTheDistance) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.anisotropic = false, .chord = eps, .guarantee = true});
     const Delivered delivered = run.measure();
@@ -154,7 +154,7 @@ TEST_P(Guarantee, OfTheDistance) {
 
 // By both principal radii too, with a gradation that keeps the long edges where a curvature vanishes (on top of the
 // torus) from reaching away from there.
-TEST_P(Guarantee, OfTheDistanceByDirection) {
+TEST_P(MetricGuarantee, OfTheDistanceByDirection) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.chord = eps, .guarantee = true, .gradation = 2});
     const Delivered delivered = run.measure();
@@ -165,7 +165,7 @@ TEST_P(Guarantee, OfTheDistanceByDirection) {
 }
 
 // A1: at most 8 degrees between an edge and the tangent planes at its ends for 99.5 % of the edges, nowhere above 10.
-TEST_P(Guarantee, OfTheAngle) {
+TEST_P(MetricGuarantee, OfTheAngle) {
   Meshed run(GetParam().make(), {.name = "angle", .anisotropic = false, .guarantee = true});
   const Delivered delivered = run.measure();
   const Delivery& angle = delivered[DeliveredKind::edge_angle];
@@ -174,7 +174,7 @@ TEST_P(Guarantee, OfTheAngle) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Surfaces, Guarantee,
+    Surfaces, MetricGuarantee,
     ::testing::Values(UnitCase{"hemisphere", testing::hemisphere, {}, 1},
                       UnitCase{"paraboloid", testing::paraboloid, {}, 1}, UnitCase{"torus", thick_torus, {}, 1},
                       UnitCase{"ellipsoid", [] { return testing::half_ellipsoid(4, 2, 1); }, {}, 1}),

@@ -16,7 +16,7 @@ PlaceKey triangle(const std::array<Vec2, 3>& p) {
 
 // A triangle is the same from each of its corners, and another one when it is turned over or one corner moves by the
 // last bit.
-TEST(Findings, KeysOfTrianglesDependOnPlacesAndTurn) {
+TEST(Memo, KeysOfTrianglesDependOnPlacesAndTurn) {
   const Vec2 a{0, 0}, b{1, 0}, c{0.5, 1};
   EXPECT_EQ(triangle({a, b, c}), triangle({b, c, a}));
   EXPECT_EQ(triangle({a, b, c}), triangle({c, a, b}));
@@ -25,14 +25,14 @@ TEST(Findings, KeysOfTrianglesDependOnPlacesAndTurn) {
 }
 
 // A diagonal is the same from both of its sides; the other one of the quadrilateral is not.
-TEST(Findings, KeysOfDiagonalsTellWhichOneItIs) {
+TEST(Memo, KeysOfDiagonalsTellWhichOneItIs) {
   const PlaceKey a = key_of_place({0, 0}), b = key_of_place({1, 1}), c = key_of_place({0, 1}), d = key_of_place({1, 0});
   EXPECT_EQ(key_of_diagonal(c, a, b, d), key_of_diagonal(d, b, a, c));
   EXPECT_NE(key_of_diagonal(c, a, b, d), key_of_diagonal(a, d, c, b));
 }
 
 // Coordinates of regular grids have few bits: all their triangles are told apart even so.
-TEST(Findings, TrianglesOfAGridHaveKeysOfTheirOwn) {
+TEST(Memo, TrianglesOfAGridHaveKeysOfTheirOwn) {
   constexpr int n = 64;
   std::set<PlaceKey> keys;
   for (int j = 0; j < n; ++j)
@@ -44,7 +44,7 @@ TEST(Findings, TrianglesOfAGridHaveKeysOfTheirOwn) {
   EXPECT_EQ(keys.size(), 4U * n * n);
 }
 
-TEST(Findings, WhatIsNotKnownIsNotFound) {
+TEST(Memo, WhatIsNotKnownIsNotFound) {
   Findings<double> findings;
   findings.open();
   const PlaceKey known = key_of_place({0.25, 0.5}), other = key_of_place({0.5, 0.25});

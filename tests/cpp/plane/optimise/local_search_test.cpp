@@ -41,7 +41,7 @@ PlaneCase ellipse(double h, double ratio) {
 }
 
 // Where sizes are the same everywhere, what is judged is the shape itself.
-TEST(Trials, RaiseTheWorstOfEllipses) {
+TEST(LocalSearch, RaiseTheWorstOfEllipses) {
   double sum = 0, sum_before = 0;
   int count = 0;
   for (const double ratio : {1., 0.8, 0.55})
@@ -81,7 +81,7 @@ PlaneCase strip(double h, double width) {
 }
 
 // A mean alone is made better by adding triangles that are not bad.
-TEST(Trials, LeaveNoMoreToWishForThanThereWas) {
+TEST(LocalSearch, LeaveNoMoreToWishForThanThereWas) {
   for (double h = 0.15; h > 0.02; h *= 0.97)
     for (const double width : {1.5, 1.8, 2.2, 3.0}) {
       SCOPED_TRACE(std::to_string(width) + " " + std::to_string(h));
@@ -91,7 +91,7 @@ TEST(Trials, LeaveNoMoreToWishForThanThereWas) {
 }
 
 // Imposed points, internal curves, holes, corners, poles: all stays as it must be.
-TEST(Trials, KeepWhatIsImposed) {
+TEST(LocalSearch, KeepWhatIsImposed) {
   struct Named {
     PlaneCase (*make)(double);
     double h;

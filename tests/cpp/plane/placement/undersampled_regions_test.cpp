@@ -38,9 +38,9 @@ ControlSpace space_of(const PlaneCase& c, const std::vector<Vec2>& suspects) {
       options, monitor);
 }
 
-class Deserts : public ::testing::TestWithParam<Vec2> {};
+class UndersampledRegions : public ::testing::TestWithParam<Vec2> {};
 
-TEST_P(Deserts, AreMeshed) {
+TEST_P(UndersampledRegions, AreMeshed) {
   const PlaneCase c = spotted(GetParam());
   const ControlSpace space = space_of(c, {GetParam() + Vec2{0.3 * radius, 0.2 * radius}});
   EXPECT_NEAR(1 / std::sqrt(space.at(GetParam()).a) / near_size, 1, 0.05);
@@ -66,10 +66,10 @@ TEST_P(Deserts, AreMeshed) {
   }
 }
 // One of them about a vertex that rows place.
-INSTANTIATE_TEST_SUITE_P(Places, Deserts,
+INSTANTIATE_TEST_SUITE_P(Places, UndersampledRegions,
                          ::testing::Values(Vec2{0.37, 0.41}, Vec2{0.5, 0.5}, Vec2{0.71, 0.22}, Vec2{0.13, 0.83}));
 
-TEST(Deserts, AreSquaresThatHoldTooFewVertices) {
+TEST(UndersampledRegions, AreSquaresThatHoldTooFewVertices) {
   const PlaneCase c = spotted({0.37, 0.41});
   const ControlSpace space = space_of(c, {{0.37, 0.41}});
   const std::vector<Vec2> none;

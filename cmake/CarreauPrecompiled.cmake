@@ -1,0 +1,32 @@
+# Precompiled headers, which halve the time of a build from nothing. They are those of others only, never our own: what
+# changes with every edit would build everything again. Sources include what they use all the same, and
+# -DCARREAU_PCH=OFF builds them so.
+include_guard()
+
+# ccache takes precompiled headers only when it is told to be sloppy.
+set(default ON)
+if("${CMAKE_CXX_COMPILER_LAUNCHER};${CMAKE_CXX_COMPILER}" MATCHES "ccache")
+  set(default OFF)
+endif()
+option(CARREAU_PCH "Precompile the headers of the standard library and of other libraries" ${default})
+
+set(CARREAU_STANDARD_HEADERS <algorithm> <array> <atomic> <bit> <cmath> <cstddef> <cstdint> <cstdio> <cstring> <deque>
+  <functional> <limits> <map> <memory> <numbers> <numeric> <optional> <set> <span> <stdexcept> <string> <string_view>
+  <utility> <variant> <vector>)
+# What every source of the engine includes.
+set(CARREAU_ENGINE_HEADERS ${CARREAU_STANDARD_HEADERS})
+
+# carreau_precompile(<target> <header>...)
+function(carreau_precompile target)
+  if(CARREAU_PCH)
+    list(TRANSFORM ARGN REPLACE "^(<.*>)$" "$<$<COMPILE_LANGUAGE:CXX>:\\1>" OUTPUT_VARIABLE headers)
+    target_precompile_headers(${target} PRIVATE ${headers})
+  endif()
+endfunction()
+
+# carreau_precompiled_as(<target> <owner>): <target> is compiled with the flags of <owner> and shares its headers.
+function(carreau_precompiled_as target owner)
+  if(CARREAU_PCH)
+    target_precompile_headers(${target} REUSE_FROM ${owner})
+  endif()
+endfunction()
