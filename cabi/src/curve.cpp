@@ -42,7 +42,7 @@ Split split(const carreau_curve& curve, int point_width, int metric_width) {
   const carreau::MetricCurve<V, M> measured(
       rows<V>(curve.points, curve.point_count, point_width, "curve->points"), abscissae,
       rows<M>(curve.metrics, curve.metric_count, metric_width, "curve->metrics"), static_cast<MetricLaw>(curve.law));
-  const carreau::CurveGradation gradation = measured.gradation(curve.lss != 0 ? curve.lss : 0.5);
+  const carreau::MetricLengthTable gradation = measured.gradation(curve.lss != 0 ? curve.lss : 0.5);
   return {carreau::split_equally(gradation, carreau::unit_edge_count(gradation.length())), gradation.length()};
 }
 

@@ -1,40 +1,39 @@
-#include "measure/delivered.h"
-
 #include <algorithm>
 
 #include "arguments.h"
 #include "guard.h"
+#include "measure/mesh_evaluation.h"
 
-using carreau::Delivered;
-using carreau::DeliveredEntity;
-using carreau::DeliveredKind;
-using carreau::DeliveredMeasure;
 using carreau::Delivery;
+using carreau::EvaluatedMeasure;
+using carreau::EvaluationEntity;
+using carreau::EvaluationKind;
 using carreau::InvalidArgument;
+using carreau::MeshEvaluation;
 using namespace carreau::abi;
 
-static_assert(int(DeliveredKind::length) == CARREAU_MEASURE_LENGTH);
-static_assert(int(DeliveredKind::edge_angle) == CARREAU_MEASURE_EDGE_ANGLE);
-static_assert(int(DeliveredKind::gradation) == CARREAU_MEASURE_GRADATION);
-static_assert(int(DeliveredKind::length_ratio) == CARREAU_MEASURE_LENGTH_RATIO);
-static_assert(int(DeliveredKind::q1) == CARREAU_MEASURE_Q1);
-static_assert(int(DeliveredKind::q2) == CARREAU_MEASURE_Q2);
-static_assert(int(DeliveredKind::metric_quality) == CARREAU_MEASURE_METRIC_QUALITY);
-static_assert(int(DeliveredKind::deviation) == CARREAU_MEASURE_A0);
-static_assert(int(DeliveredKind::angle) == CARREAU_MEASURE_A1);
-static_assert(int(DeliveredEntity::edge) == CARREAU_OF_EDGES);
-static_assert(int(DeliveredEntity::vertex) == CARREAU_OF_VERTICES);
-static_assert(int(DeliveredEntity::triangle) == CARREAU_OF_TRIANGLES);
+static_assert(int(EvaluationKind::length) == CARREAU_MEASURE_LENGTH);
+static_assert(int(EvaluationKind::edge_angle) == CARREAU_MEASURE_EDGE_ANGLE);
+static_assert(int(EvaluationKind::gradation) == CARREAU_MEASURE_GRADATION);
+static_assert(int(EvaluationKind::length_ratio) == CARREAU_MEASURE_LENGTH_RATIO);
+static_assert(int(EvaluationKind::q1) == CARREAU_MEASURE_Q1);
+static_assert(int(EvaluationKind::q2) == CARREAU_MEASURE_Q2);
+static_assert(int(EvaluationKind::metric_quality) == CARREAU_MEASURE_METRIC_QUALITY);
+static_assert(int(EvaluationKind::deviation) == CARREAU_MEASURE_A0);
+static_assert(int(EvaluationKind::angle) == CARREAU_MEASURE_A1);
+static_assert(int(EvaluationEntity::edge) == CARREAU_OF_EDGES);
+static_assert(int(EvaluationEntity::vertex) == CARREAU_OF_VERTICES);
+static_assert(int(EvaluationEntity::triangle) == CARREAU_OF_TRIANGLES);
 
 namespace {
 
-const Delivered& delivered_of(carreau_session& handle) {
+const MeshEvaluation& evaluation_of(carreau_session& handle) {
   if (!handle.session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
   handle.monitor.clear_stop();
   return handle.session.delivered();
 }
 
-const DeliveredMeasure& row_of(std::int32_t kind) {
+const EvaluatedMeasure& row_of(std::int32_t kind) {
   const auto table = carreau::delivered_measures();
   if (kind < 1 || std::size_t(kind) > table.size())
     throw InvalidArgument("there is no measure " + std::to_string(kind) + ": they are 1 to " +
@@ -43,8 +42,8 @@ const DeliveredMeasure& row_of(std::int32_t kind) {
 }
 
 const Delivery& delivery_of(carreau_session& handle, std::int32_t kind) {
-  const DeliveredMeasure& row = row_of(kind);  // a wrong kind must not cost a measure
-  return delivered_of(handle)[row.kind];
+  const EvaluatedMeasure& row = row_of(kind);  // a wrong kind must not cost a measure
+  return evaluation_of(handle)[row.kind];
 }
 
 }  // namespace
@@ -52,7 +51,7 @@ const Delivery& delivery_of(carreau_session& handle, std::int32_t kind) {
 carreau_status carreau_session_delivered(carreau_session* session, carreau_delivered* out_delivered) {
   return guarded(session, [&] {
     required(out_delivered, "out_delivered");
-    const Delivered& delivered = delivered_of(*session);
+    const MeshEvaluation& delivered = evaluation_of(*session);
     const carreau::DeliveredText text = carreau::describe(delivered);
     session->text.clear();
     for (const auto& lines : {text.summary, text.not_met})
@@ -79,7 +78,7 @@ carreau_status carreau_session_delivered(carreau_session* session, carreau_deliv
 carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind, carreau_measure* out_measure) {
   return guarded(session, [&] {
     required(out_measure, "out_measure");
-    const DeliveredMeasure& row = row_of(kind);
+    const EvaluatedMeasure& row = row_of(kind);
     const Delivery& one = delivery_of(*session, kind);
     carreau_measure result{};
     result.name = row.name;
@@ -121,7 +120,7 @@ carreau_status carreau_delivered_values(carreau_session* session, int32_t kind, 
 carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacity, int32_t* out_vertices,
                                        int32_t* out_curves) {
   return guarded(session, [&] {
-    const carreau::MeshEdges& edges = delivered_of(*session).edges;
+    const carreau::MeshEdges& edges = evaluation_of(*session).edges;
     check_capacity(capacity, edges.vertices.size(), "edges");
     const carreau::SurfaceMesh& mesh = session->session.mesh();
     for (std::size_t e = 0; e < edges.vertices.size(); ++e) {
@@ -136,7 +135,7 @@ carreau_status carreau_delivered_edges(carreau_session* session, int64_t capacit
 carreau_status carreau_delivered_triangle_edges(carreau_session* session, int64_t capacity, int32_t* out_edges) {
   return guarded(session, [&] {
     required(out_edges, "out_edges");
-    const carreau::MeshEdges& edges = delivered_of(*session).edges;
+    const carreau::MeshEdges& edges = evaluation_of(*session).edges;
     check_capacity(capacity, edges.of_triangle.size(), "triangles");
     std::int32_t* out = out_edges;
     for (const auto& sides : edges.of_triangle) out = std::copy(sides.begin(), sides.end(), out);
@@ -146,7 +145,7 @@ carreau_status carreau_delivered_triangle_edges(carreau_session* session, int64_
 carreau_status carreau_delivered_write(carreau_session* session, const char* path) {
   return guarded(session, [&] {
     required(path, "path");
-    delivered_of(*session);
+    evaluation_of(*session);
     session->session.write_delivered(path);
   });
 }

@@ -38,7 +38,7 @@ struct ControlSpaceOptions {
   std::size_t max_samples = 200'000;  ///< a bound; values below 200 count as 200
   /// Points of the domain where the field is known to hide something: around them cells are split down to half an edge
   /// of the mesh, whatever prediction says.
-  std::span<const Vec2> suspects = {};
+  std::span<const Vec2> probe_points = {};
 };
 
 /// The closed parameter domain in which sampling is allowed: discretised loops, any orientation.
@@ -97,7 +97,7 @@ class ControlSpace {
 
  private:
   friend class ControlSpaceWriter;
-  class DesertSearch;
+  class UndersampledSearch;
 
   /// S(s, t) = sum of c[3 m + n] s^n t^m for (s, t) in [-1, 1]^2, about the centre (x, y) in units of the table.
   struct Leaf {
@@ -112,7 +112,8 @@ class ControlSpace {
     double s, t;
   };
   [[nodiscard]] Place place(Vec2 uv) const noexcept {
-    const double x = within((uv.x() - low_.x()) * scale_.x(), last_.x()), y = within((uv.y() - low_.y()) * scale_.y(), last_.y());
+    const double x = within((uv.x() - low_.x()) * scale_.x(), last_.x()),
+                 y = within((uv.y() - low_.y()) * scale_.y(), last_.y());
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     std::int32_t cell = table_[static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i)];
     if (cell < 0) cell = descend(cell, x - i, y - j);

@@ -134,9 +134,9 @@ class Lattice {
   void set_sample(std::int32_t node, Metric2 root);
   [[nodiscard]] const Metric2& value(std::int32_t node) const noexcept { return nodes_[node].root; }
   /// Gives a node its last value, when all predictions have been made.
-  void settle(std::int32_t node, Metric2 root) noexcept {
+  void fix(std::int32_t node, Metric2 root) noexcept {
     nodes_[node].root = root;
-    nodes_[node].pass = settled;
+    nodes_[node].pass = fixed;
   }
   /// Whether value() tells something: a sample, a prediction since forget(), the last value.
   [[nodiscard]] bool known(std::int32_t node) const noexcept {
@@ -179,7 +179,7 @@ class Lattice {
   std::int32_t valued_node(GridPoint p);
 
  private:
-  static constexpr std::int32_t settled = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t fixed = std::numeric_limits<std::int32_t>::max();
   struct Node {
     Metric2 root{};  // a sample, or the prediction of pass `pass`
     std::int32_t pass = -1;

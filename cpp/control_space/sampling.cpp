@@ -55,8 +55,8 @@ constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 // Gradation leaves more kinks, and promises something of each.
 constexpr double most_graded_samples_per_vertex = 6;
 constexpr std::size_t least_of_max_samples = 1000;
-// Cells at suspects are split while they are wider than this, in edges of the mesh.
-constexpr double suspect_width = 0.5;
+// Cells at probe_points are split while they are wider than this, in edges of the mesh.
+constexpr double probe_width = 0.5;
 constexpr int most_looks = 24;
 
 }  // namespace
@@ -80,19 +80,20 @@ void ControlSpaceSampling::run() {
   for (std::size_t k = 0; k < s.vertices.size(); ++k) {
     border_->add(lattice_->position(domain_.vertices[s.vertices[k]]), root_of_boxed(s.metrics[k]));
     const Metric2 m = s.metrics[k];
-    keep_border(s.vertices[k], {m.a / (box_.x() * box_.x()), m.b / (box_.x() * box_.y()), m.c / (box_.y() * box_.y())}, k);
+    keep_border(s.vertices[k], {m.a / (box_.x() * box_.x()), m.b / (box_.x() * box_.y()), m.c / (box_.y() * box_.y())},
+                k);
     vertex_sampled_[s.vertices[k]] = 1;
   }
   sample_roots();
   std::vector<std::int32_t> active;
   for (std::int32_t c = 0; c < tree_->size(); ++c)
     if ((*tree_)[c].relevant) active.push_back(c);
-  settle(std::move(active));
-  look_at_suspects();
+  balance_cells(std::move(active));
+  look_at_probe_points();
 }
 
 // Tests leaves and splits what must be split, until nothing must.
-void ControlSpaceSampling::settle(std::vector<std::int32_t> active) {
+void ControlSpaceSampling::balance_cells(std::vector<std::int32_t> active) {
   while (!active.empty()) {
     test(active);
     estimate_vertices();
@@ -100,10 +101,10 @@ void ControlSpaceSampling::settle(std::vector<std::int32_t> active) {
   }
 }
 
-// A suspect counts by its own metric too: all that the leaf knows may lie around what it hides.
-void ControlSpaceSampling::look_at_suspects() {
+// A probe point counts by its own metric too: all that the leaf knows may lie around what it hides.
+void ControlSpaceSampling::look_at_probe_points() {
   std::vector<Vec2> uv;
-  for (const Vec2& p : options_.suspects)
+  for (const Vec2& p : options_.probe_points)
     if (locator_.contains(p)) uv.push_back(p);
   if (samples_left() < static_cast<double>(uv.size())) return;
   std::vector<Metric2> roots = ask(uv);
@@ -114,12 +115,12 @@ void ControlSpaceSampling::look_at_suspects() {
       const std::int32_t leaf = tree_->leaf_at(lattice_->unit_cell(uv[k]));
       if (leaf < 0 || !(*tree_)[leaf].relevant || !tree_->can_split(leaf)) continue;
       const double vertices = std::max((*tree_)[leaf].vertices, vertices_of((*tree_)[leaf], roots[k]));
-      if (std::sqrt(vertices * area_per_vertex) > suspect_width) cells.push_back(leaf);
+      if (std::sqrt(vertices * area_per_vertex) > probe_width) cells.push_back(leaf);
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     if (cells.empty() || samples_left() < worst_cost * static_cast<double>(cells.size())) return;
-    settle(refine(cells));
+    balance_cells(refine(cells));
   }
 }
 

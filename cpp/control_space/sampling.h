@@ -77,8 +77,8 @@ class ControlSpaceSampling {
   void sample_roots();
   [[nodiscard]] Metric2 expected_at(const TreeCell& cell, int k);
 
-  void settle(std::vector<std::int32_t> active);
-  void look_at_suspects();
+  void balance_cells(std::vector<std::int32_t> active);
+  void look_at_probe_points();
   [[nodiscard]] double samples_left() const noexcept {
     return static_cast<double>(options_.max_samples) - static_cast<double>(samples_);
   }

@@ -18,9 +18,9 @@ constexpr double triangles_per_vertex = 2;
 }  // namespace
 
 /// Goes through the squares that hold leaves, from small ones to those that hold them.
-class ControlSpace::DesertSearch {
+class ControlSpace::UndersampledSearch {
  public:
-  explicit DesertSearch(const ControlSpace& space) : space_(space), held_(space.leaves_.size(), 0) {}
+  explicit UndersampledSearch(const ControlSpace& space) : space_(space), held_(space.leaves_.size(), 0) {}
 
   void count(Vec2 uv) noexcept { ++held_[static_cast<std::size_t>(space_.place(uv).leaf - space_.leaves_.data())]; }
 
@@ -37,9 +37,9 @@ class ControlSpace::DesertSearch {
     int i, j, size;
   };
   struct Content {
-    double vertices = 0;      ///< of a unit mesh
-    double held = 0;          ///< of the mesh
-    bool has_desert = false;  ///< a part was found to be one
+    double vertices = 0;                   ///< of a unit mesh
+    double held = 0;                       ///< of the mesh
+    bool has_undersampled_region = false;  ///< a part was found to be one
   };
   struct Place {
     double density;  ///< squared, of a unit mesh
@@ -81,18 +81,18 @@ class ControlSpace::DesertSearch {
   static void add(Content& all, const Content& part) noexcept {
     all.vertices += part.vertices;
     all.held += part.held;
-    all.has_desert = all.has_desert || part.has_desert;
+    all.has_undersampled_region = all.has_undersampled_region || part.has_undersampled_region;
   }
   /// `first`: of its places.
   Content judged(Content content, std::size_t first) {
-    if (content.has_desert || content.vertices < crowd || content.held >= least_share * content.vertices)
+    if (content.has_undersampled_region || content.vertices < crowd || content.held >= least_share * content.vertices)
       return content;
     std::vector<Place> places(places_.begin() + static_cast<std::ptrdiff_t>(first), places_.end());
     std::stable_sort(places.begin(), places.end(),
                      [](const Place& p, const Place& q) { return p.density > q.density; });
     found_.emplace_back();
     for (const Place& place : places) found_.back().push_back(place.centre);
-    content.has_desert = true;
+    content.has_undersampled_region = true;
     return content;
   }
 
@@ -105,7 +105,7 @@ class ControlSpace::DesertSearch {
 std::vector<std::vector<Vec2>> ControlSpace::deserts(std::size_t count,
                                                      const std::function<Vec2(std::size_t)>& vertex) const {
   if (!(scale_.x() > 0) || !(scale_.y() > 0)) return {};  // constant()
-  DesertSearch search(*this);
+  UndersampledSearch search(*this);
   for (std::size_t v = 0; v < count; ++v) search.count(vertex(v));
   return search.run();
 }

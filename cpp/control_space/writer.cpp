@@ -132,12 +132,12 @@ void ControlSpaceWriter::set_values() {
     if (lattice_.inside(n)) {
       const detail::Prediction guess = sampling_.predictor().predict(cell, k);
       if (guess.order >= 3) {
-        lattice_.settle(n, sampling_.within_slopes(n, cell, guess.root));
+        lattice_.fix(n, sampling_.within_slopes(n, cell, guess.root));
         continue;
       }
     }
     const GridPoint p = lattice_.point(n);
-    lattice_.settle(n, sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size));
+    lattice_.fix(n, sampling_.border().fit({static_cast<double>(p.i), static_cast<double>(p.j)}, cell.size));
   }
 }
 
@@ -158,7 +158,7 @@ void ControlSpaceWriter::fill_outside() {
         continue;
       }
       for (const std::int32_t n : tree_[leaf].node)
-        if (!lattice_.known(n)) lattice_.settle(n, (1.0 / known) * sum);
+        if (!lattice_.known(n)) lattice_.fix(n, (1.0 / known) * sum);
     }
     if (later.size() == todo.size()) break;  // nothing is known anywhere: cannot happen after a sample
     todo.swap(later);
@@ -186,7 +186,7 @@ void ControlSpaceWriter::straighten_sides() {
       if (surely_definite(inner, a, b)) continue;
       const double least = least_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
       if (smaller_eigenvalue(inner) >= least) continue;
-      lattice_.settle(at, 0.5 * (mean + definite_between(mean, inner, least)));
+      lattice_.fix(at, 0.5 * (mean + definite_between(mean, inner, least)));
     }
   }
 }

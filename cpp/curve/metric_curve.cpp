@@ -77,7 +77,7 @@ M MetricCurve<V, M>::metric_at(double s) const {
 }
 
 template <typename V, typename M>
-CurveGradation MetricCurve<V, M>::gradation(double lss) const {
+MetricLengthTable MetricCurve<V, M>::gradation(double lss) const {
   // The speed jumps where the polyline turns, its slope where a metric is given: both end a trapezoid.
   std::vector<double> breaks(arc_.size() + s_.size());
   std::merge(arc_.begin(), arc_.end(), s_.begin(), s_.end(), breaks.begin());
@@ -95,7 +95,7 @@ CurveGradation MetricCurve<V, M>::gradation(double lss) const {
 
 template <typename V, typename M>
 std::vector<double> MetricCurve<V, M>::split(double lss) const {
-  const CurveGradation measured = gradation(lss);
+  const MetricLengthTable measured = gradation(lss);
   return split_equally(measured, unit_edge_count(measured.length()));
 }
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "curve/metric_gradation.h"
+#include "curve/metric_length_table.h"
 #include "metric/metric2.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
@@ -28,7 +28,7 @@ class MetricCurve {
   /// Interpolated between the two metrics around s (RR-2818 sec. 4.3.3).
   [[nodiscard]] M metric_at(double s) const;
   /// Length in the metric, and the points that finding it has cost.
-  [[nodiscard]] CurveGradation gradation(double lss = 0.5) const;
+  [[nodiscard]] MetricLengthTable gradation(double lss = 0.5) const;
   /// Abscissae of unit_edge_count() edges of equal metric length (algorithm (A) of RR-2818 sec. 4.1).
   [[nodiscard]] std::vector<double> split(double lss = 0.5) const;
 

@@ -142,14 +142,14 @@ class FieldWriter {
   }
 
   FieldDeviations deviations() {
-    if (delivered_ == nullptr && !unknown_) try {
-        delivered_ = &run_.delivered();
+    if (evaluation_ == nullptr && !unknown_) try {
+        evaluation_ = &run_.delivered();
       } catch (const CallbackError& error) {
         unknown_ = true;
         monitor_.message(Level::warning, std::string("the deviations are not known: ") + error.what());
       }
     if (unknown_) return {};
-    return {(*delivered_)[DeliveredKind::deviation].values, (*delivered_)[DeliveredKind::angle].values};
+    return {(*evaluation_)[EvaluationKind::deviation].values, (*evaluation_)[EvaluationKind::angle].values};
   }
 
   const FieldRun& run_;
@@ -159,7 +159,7 @@ class FieldWriter {
   std::optional<SizeRules> rules_;
   std::vector<std::size_t> faces_;             // to be written
   std::vector<std::uint32_t> first_triangle_;  // by face
-  const Delivered* delivered_ = nullptr;
+  const MeshEvaluation* evaluation_ = nullptr;
   bool unknown_ = false;  // the host failed while it was measured
 };
 

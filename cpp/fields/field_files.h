@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fields/fields.h"
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "surface/result.h"
 #include "surface/supports.h"
 
@@ -22,7 +22,7 @@ struct FieldRun {
   std::vector<ExrAttribute> parameters;  ///< that the mesh depends on, for each image
   double diag = 0;                       ///< 0: not known
   /// What the mesh delivered; called from the caller's thread, and only when deviations are wanted.
-  std::function<const Delivered&()> delivered = {};
+  std::function<const MeshEvaluation&()> delivered = {};
 };
 
 /// Diagonal of the box of all curves, from those of their points at which the host does not fail; 0 when there are

@@ -59,8 +59,8 @@ class Grading {
     while (!queue_.empty()) {
       const auto [h, v] = queue_.top();
       queue_.pop();
-      if (front_[v].settled || h != front_[v].h) continue;
-      front_[v].settled = true;
+      if (front_[v].accepted || h != front_[v].h) continue;
+      front_[v].accepted = true;
       leave(v);
       if (++done % vertices_between_checks == 0) monitor_.checkpoint();
     }
@@ -104,7 +104,7 @@ class Grading {
     Vec3 line;      // from the source, in the tangent plane of `place`
     int place = 0;  // in GradationGraph::places; -1: a vertex without place
     int source = 0;
-    bool settled = false;
+    bool accepted = false;
   };
 
   void collect_segments() {
@@ -150,7 +150,7 @@ class Grading {
   }
 
   void improve(int v, const Front& candidate) {
-    if (front_[v].settled || !(candidate.h < front_[v].h)) return;
+    if (front_[v].accepted || !(candidate.h < front_[v].h)) return;
     front_[v] = candidate;
     queue_.emplace(candidate.h, v);
   }
@@ -167,7 +167,7 @@ class Grading {
   }
 
   void along_edge(const Front& from, int v, int to) {
-    if (front_at(to).settled) return;
+    if (front_at(to).accepted) return;
     const Vec3 e = unrolled_edge(from.place, to);
     const Vec3 line = from.line + e;
     const double length = norm(line), edge = norm(e);
@@ -179,10 +179,10 @@ class Grading {
     improve(graph_.places[to].vertex, candidate);
   }
 
-  /// Plane wave through the edge between two settled vertices of a triangle (as in fast marching).
+  /// Plane wave through the edge between two accepted vertices of a triangle (as in fast marching).
   void through_triangle(const Front& from, int beside, int to) {
     const Front& other = front_at(beside);
-    if (!other.settled || front_at(to).settled || other.source == from.source) return;
+    if (!other.accepted || front_at(to).accepted || other.source == from.source) return;
     Vec3 line;
     if (!carry(graph_.places[beside].vertex, beside, line)) return;
     if (dot(from.line, line) < same_front * norm(from.line) * norm(line)) return;

@@ -29,7 +29,8 @@ struct GradedFace {
   /// By triangle: the prescribed sizes inside are what its corners promise, and count; elsewhere the corners alone
   /// do, because sizes that jump between samples obey no gradation.
   std::vector<std::uint8_t> smooth;
-  std::vector<Vec2> tips;  ///< vertices whose size is smaller than all around allow: points that control spaces miss
+  std::vector<Vec2>
+      size_minima;  ///< vertices whose size is smaller than all around allow: points that control spaces miss
   TriangleTree tree;
   /// By triangle: the third corners of those across its sides, in their order; -1: none. Filled by GradedField.
   std::vector<std::array<std::int32_t, 3>> beyond;
@@ -47,7 +48,9 @@ class GradedField {
   GradedField(double slope, std::vector<GradedFace> faces);
 
   [[nodiscard]] double slope() const noexcept { return slope_; }
-  [[nodiscard]] const std::vector<Vec2>& tips(int face) const { return faces_.at(static_cast<std::size_t>(face)).tips; }
+  [[nodiscard]] const std::vector<Vec2>& size_minima(int face) const {
+    return faces_.at(static_cast<std::size_t>(face)).size_minima;
+  }
   /// At (u, v) in a face, whose image is `xyz` and where the size `prescribed` is wanted (+infinity: anything).
   /// Logarithmic in the number of triangles. Outside the triangles, the nearest one.
   [[nodiscard]] double size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept;

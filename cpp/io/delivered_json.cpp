@@ -14,11 +14,11 @@ using Json = nlohmann::ordered_json;
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-const char* entity_name(DeliveredEntity entity) {
+const char* entity_name(EvaluationEntity entity) {
   switch (entity) {
-    case DeliveredEntity::edge:
+    case EvaluationEntity::edge:
       return "edge";
-    case DeliveredEntity::vertex:
+    case EvaluationEntity::vertex:
       return "vertex";
     default:
       return "triangle";
@@ -31,7 +31,7 @@ Json histogram(const Histogram& h) {
   return {{"bounds", bounds}, {"counts", h.count}};
 }
 
-Json measure(const DeliveredMeasure& row, const Delivery& one) {
+Json measure(const EvaluatedMeasure& row, const Delivery& one) {
   const Spread& s = one.spread;
   const auto value = [&](double x) { return s.count > 0 ? number(x) : Json(nullptr); };
   return {{"of", entity_name(row.entity)},
@@ -52,7 +52,7 @@ Json calls(const CallCounts& c) {
           {"curv1", c.curv1}, {"curv2", c.curv2}, {"sizes", c.sizes}};
 }
 
-Json mesh_counts(const SurfaceMesh& mesh, const Delivered& delivered) {
+Json mesh_counts(const SurfaceMesh& mesh, const MeshEvaluation& delivered) {
   const std::vector<WholeFace> all = whole_faces(mesh);
   const auto failed = std::count_if(all.begin(), all.end(),
                                     [](const WholeFace& each) { return each.face.status == FaceStatus::failed; });
@@ -66,9 +66,9 @@ Json mesh_counts(const SurfaceMesh& mesh, const Delivered& delivered) {
 
 }  // namespace
 
-std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const Delivered& delivered) {
+std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const MeshEvaluation& delivered) {
   Json measures = Json::object();
-  for (const DeliveredMeasure& row : delivered_measures()) measures[row.name] = measure(row, delivered[row.kind]);
+  for (const EvaluatedMeasure& row : delivered_measures()) measures[row.name] = measure(row, delivered[row.kind]);
   const Json json = {{"format", "carreau delivered 1"},
                      {"mesh", mesh_counts(mesh, delivered)},
                      {"diag", number(report.diag)},

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "surface/result.h"
 
 namespace carreau {
@@ -11,6 +11,6 @@ namespace carreau {
 /// One object, indented, ending with a newline; keys always the same and in the same order. A number that is not finite
 /// (a limit that was not asked, the mean of nothing) is null. Times, which differ from run to run, stand last, in
 /// "seconds".
-std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const Delivered& delivered);
+std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const MeshEvaluation& delivered);
 
 }  // namespace carreau

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "support/format.h"
 #include "support/short_number.h"
 
@@ -101,10 +101,10 @@ Spread spread_of(std::span<const double> values, std::span<const double> inner) 
   return spread;
 }
 
-std::span<const DeliveredMeasure> delivered_measures() {
-  using Kind = DeliveredKind;
-  using Entity = DeliveredEntity;
-  static constexpr std::array<DeliveredMeasure, delivered_kinds> table{{
+std::span<const EvaluatedMeasure> delivered_measures() {
+  using Kind = EvaluationKind;
+  using Entity = EvaluationEntity;
+  static constexpr std::array<EvaluatedMeasure, evaluation_kinds> table{{
       {Kind::length, Entity::edge, "metric_length", "metric length of edges"},
       {Kind::edge_angle, Entity::edge, "edge_angle", "angle of edges with tangent planes, degrees"},
       {Kind::gradation, Entity::edge, "gradation", "gradation of sizes along edges"},
@@ -118,28 +118,28 @@ std::span<const DeliveredMeasure> delivered_measures() {
   return table;
 }
 
-void summarise(Delivered& d) {
+void summarise(MeshEvaluation& d) {
   static constexpr std::array lengths{0.25, 0.5, short_limit, 0.9, 1.1, long_limit, 2.0, 4.0};
   static constexpr std::array shares{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
   static constexpr std::array angles{1.0, 2.0, 4.0, 8.0, 10.0, 16.0, 30.0, 60.0, 90.0};
   static constexpr std::array ratios{1.1, 1.2, 1.3, 1.5, 2.0, 3.0, 5.0};
-  for (const DeliveredMeasure& measure : delivered_measures()) {
+  for (const EvaluatedMeasure& measure : delivered_measures()) {
     Delivery& one = d[measure.kind];
     std::span<const double> bounds = shares;
     std::vector<double> powers;
     switch (measure.kind) {
-      case DeliveredKind::length:
+      case EvaluationKind::length:
         bounds = lengths;
         break;
-      case DeliveredKind::edge_angle:
-      case DeliveredKind::angle:
+      case EvaluationKind::edge_angle:
+      case EvaluationKind::angle:
         bounds = angles;
         break;
-      case DeliveredKind::gradation:
-      case DeliveredKind::length_ratio:
+      case EvaluationKind::gradation:
+      case EvaluationKind::length_ratio:
         bounds = ratios;
         break;
-      case DeliveredKind::deviation:
+      case EvaluationKind::deviation:
         powers = decades(one.values);
         bounds = powers;
         break;
@@ -147,31 +147,31 @@ void summarise(Delivered& d) {
         break;
     }
     one.spread = spread_of(one.values, bounds);
-    one.tolerance = measure.kind == DeliveredKind::gradation ? 0.02 : rounding;
+    one.tolerance = measure.kind == EvaluationKind::gradation ? 0.02 : rounding;
     one.beyond = std::count_if(one.values.begin(), one.values.end(), [&one](double x) { return one.exceeds(x); });
   }
-  const std::vector<double>& length = d[DeliveredKind::length].values;
+  const std::vector<double>& length = d[EvaluationKind::length].values;
   d.long_edges = count_above(length, long_limit);
   d.short_edges =
       std::count_if(length.begin(), length.end(), [](double l) { return l < short_limit / (1 + rounding); });
-  d.folded_triangles = count_above(d[DeliveredKind::angle].values, 90);
+  d.folded_triangles = count_above(d[EvaluationKind::angle].values, 90);
 }
 
-double Delivered::share_in_range() const noexcept {
-  const Delivery& length = (*this)[DeliveredKind::length];
+double MeshEvaluation::share_in_range() const noexcept {
+  const Delivery& length = (*this)[EvaluationKind::length];
   if (length.values.empty()) return 0;
   return 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(length.values.size());
 }
 
-DeliveredText describe(const Delivered& d) {
+DeliveredText describe(const MeshEvaluation& d) {
   DeliveredText text;
-  for (const DeliveredMeasure& measure : delivered_measures())
+  for (const EvaluatedMeasure& measure : delivered_measures())
     text.summary.push_back(line_of(measure.title, d[measure.kind].spread));
   const auto edges = static_cast<std::int64_t>(d.edges.vertices.size());
   if (const std::int64_t n = d.short_edges + d.long_edges; n > 0)
     text.not_met.push_back(part_of(n, edges, "edges") + " metric lengths outside [0.7071, 1.414]: " +
                            std::to_string(d.short_edges) + " are shorter, " + std::to_string(d.long_edges) + " longer");
-  const auto check = [&](DeliveredKind kind, const char* entities, const char* rule) {
+  const auto check = [&](EvaluationKind kind, const char* entities, const char* rule) {
     const Delivery& one = d[kind];
     if (one.beyond == 0) return;
     std::string said = part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
@@ -179,15 +179,15 @@ DeliveredText describe(const Delivered& d) {
                        short_number(one.spread.max);
     if (one.forced > 0)
       said += "; " + std::to_string(one.forced) +
-              (kind == DeliveredKind::edge_angle
+              (kind == EvaluationKind::edge_angle
                    ? " of them are as short as hgeomin lets edges be (" + short_number(one.shortest) + ")"
                    : std::string(" of them cross a face from curve to curve"));
     text.not_met.push_back(std::move(said));
   };
-  check(DeliveredKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
-  check(DeliveredKind::gradation, "edges", "a gradation of sizes of");
-  check(DeliveredKind::length_ratio, "vertices", "a ratio of the lengths of their edges of");
-  check(DeliveredKind::deviation, "triangles", "a distance from the surface of");
+  check(EvaluationKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
+  check(EvaluationKind::gradation, "edges", "a gradation of sizes of");
+  check(EvaluationKind::length_ratio, "vertices", "a ratio of the lengths of their edges of");
+  check(EvaluationKind::deviation, "triangles", "a distance from the surface of");
   if (d.folded_triangles > 0)
     text.not_met.push_back(
         part_of(d.folded_triangles, static_cast<std::int64_t>(d.edges.of_triangle.size()), "triangles") +

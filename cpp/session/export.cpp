@@ -196,7 +196,7 @@ struct FlatEdge {
 };
 
 // Replaces the edges by those of all triangles; one that a seam gives two places in (u, v) comes twice there.
-std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, const Delivered& delivered,
+std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, const MeshEvaluation& delivered,
                                     const FlatSources& sources) {
   std::vector<FlatEdge> all;
   for (std::size_t t = 0; t < flat.triangles.size(); ++t)
@@ -215,26 +215,26 @@ std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, con
   return all;
 }
 
-void add_delivered(FlatMesh& flat, const ExportSource& source, const FlatSources& sources, bool with_edges) {
-  const Delivered& delivered = *source.delivered;
+void add_evaluation(FlatMesh& flat, const ExportSource& source, const FlatSources& sources, bool with_edges) {
+  const MeshEvaluation& delivered = *source.delivered;
   std::vector<FlatEdge> edges;
   if (with_edges) edges = add_all_edges(flat, source.mesh, delivered, sources);
-  for (const DeliveredMeasure& row : delivered_measures()) {
+  for (const EvaluatedMeasure& row : delivered_measures()) {
     const bool known = std::any_of(flat.fields.begin(), flat.fields.end(),
                                    [&](const MeshField& field) { return field.name == row.name; });
-    if (known || (row.entity == DeliveredEntity::edge && !with_edges)) continue;
+    if (known || (row.entity == EvaluationEntity::edge && !with_edges)) continue;
     const std::vector<double>& values = delivered[row.kind].values;
     MeshField field{.name = row.name,
-                    .on_vertices = row.entity == DeliveredEntity::vertex,
+                    .on_vertices = row.entity == EvaluationEntity::vertex,
                     .components = 1,
                     .values = {},
                     .edge_values = {}};
-    if (row.entity == DeliveredEntity::vertex)
+    if (row.entity == EvaluationEntity::vertex)
       for (const std::int32_t v : sources.vertex) field.values.push_back(values[v]);
-    if (row.entity == DeliveredEntity::triangle)
+    if (row.entity == EvaluationEntity::triangle)
       for (const std::int64_t t : sources.triangle)
         field.values.push_back(t < 0 ? std::numeric_limits<double>::quiet_NaN() : values[t]);
-    if (row.entity == DeliveredEntity::edge)
+    if (row.entity == EvaluationEntity::edge)
       for (const FlatEdge& each : edges) field.edge_values.push_back(values[each.edge]);
     flat.fields.push_back(std::move(field));
   }
@@ -274,7 +274,7 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
     flat = appender.take();
   }
   if (!plane) add_fields(flat, source.vertex_size, sources);
-  if (source.delivered != nullptr) add_delivered(flat, source, sources, with_edges);
+  if (source.delivered != nullptr) add_evaluation(flat, source, sources, with_edges);
   return flat;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "mesh/flat_mesh.h"
 #include "model/model.h"
 #include "surface/result.h"
@@ -18,7 +18,7 @@ struct ExportSource {
   const std::vector<double>& vertex_size;
   const Model& model;
   const ModelSupports& supports;
-  const Delivered* delivered = nullptr;  ///< its values become fields; nullptr: none
+  const MeshEvaluation* delivered = nullptr;  ///< its values become fields; nullptr: none
 };
 
 /// `option` is "", allsurf3d, allsurf2d, onesurf3d, onesurf2d or smo3d; `face` the reference that onesurf* want;

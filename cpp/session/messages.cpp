@@ -66,7 +66,7 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
                                       short_text(r.seconds_lift) + ")");
 }
 
-void describe_delivered(const Delivered& delivered, Monitor& monitor) {
+void describe_evaluation(const MeshEvaluation& delivered, Monitor& monitor) {
   const DeliveredText text = describe(delivered);
   for (const std::string& line : text.summary) monitor.message(Level::summary, line);
   for (const std::string& sentence : text.not_met) monitor.message(Level::warning, sentence);

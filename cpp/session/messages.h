@@ -1,7 +1,7 @@
 // What a session says before and after a run. Private to session/.
 #pragma once
 
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "model/model.h"
 #include "support/monitor.h"
 #include "surface/result.h"
@@ -16,6 +16,6 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
 void describe_result(const CompositeResult& result, int threads, Monitor& monitor);
 
 /// Histograms as a summary, and a warning for each prescription that is not met.
-void describe_delivered(const Delivered& delivered, Monitor& monitor);
+void describe_evaluation(const MeshEvaluation& delivered, Monitor& monitor);
 
 }  // namespace carreau

@@ -11,7 +11,7 @@
 #include "io/files.h"
 #include "io/mesh_files.h"
 #include "io/pardom.h"
-#include "measure/delivered_composite.h"
+#include "measure/composite_evaluation.h"
 #include "session/adaptation.h"
 #include "session/derivatives.h"
 #include "session/export.h"
@@ -59,7 +59,7 @@ struct Session::State {
   bool has_mesh = false;
   Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
   bool last_failed = false;                        // the last make_mesh() has thrown
-  std::optional<Delivered> delivered;              // of `result`
+  std::optional<MeshEvaluation> delivered;         // of `result`
   std::vector<Interface> interfaces;               // of `result`
 
   /// The host first.
@@ -137,11 +137,11 @@ void write_glued(const Model& model, std::vector<std::string>& remarks) {
   }
 }
 
-Delivered measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
+MeshEvaluation measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
   CheckedCad whole_cad(*meshed.cad);
   PartCad cad(whole_cad, parts_of(meshed.model));
   set_parameter_boxes(meshed.model, meshed.supports, cad);
-  return measure_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
+  return evaluate_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
 }
 
 }  // namespace
@@ -256,8 +256,7 @@ void Session::make_mesh_of(Model& known) {
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, s.background);
   options.size.sources = s.sources(background.get());
-  for (PrescriptionSource* source : options.size.sources)
-    source->begin_run(options.size.law);
+  for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
   check_derivatives(model, supports, cad, options, leaves_out(s.parameters) ? &known : nullptr, s.monitor);
   Topology topology =
@@ -282,7 +281,7 @@ void Session::make_mesh_of(Model& known) {
                 std::move(supports),
                 std::move(topology),
                 std::move(options)};
-  std::optional<Delivered> delivered;
+  std::optional<MeshEvaluation> delivered;
   if (s.parameters.integer("measure") != 0) delivered = measure(meshed, result, s.monitor);
   s.background_report = background_report;
   s.has_previous = s.has_mesh;
@@ -296,7 +295,7 @@ void Session::make_mesh_of(Model& known) {
   s.last_failed = false;
   describe_result(s.result, s.meshed.options.threads, s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
-  if (s.delivered) describe_delivered(*s.delivered, s.monitor);
+  if (s.delivered) describe_evaluation(*s.delivered, s.monitor);
   s.monitor.progress(Phase::idle, 0, 1);
 }
 
@@ -313,8 +312,8 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   const double diag = s.result.report.diag;
   set_parameter_boxes(meshed.model, meshed.supports, cad);
   // Silently: who asks for pictures has not asked for a report.
-  std::optional<Delivered> measured;
-  const auto delivered_here = [&]() -> const Delivered& {
+  std::optional<MeshEvaluation> measured;
+  const auto evaluation_here = [&]() -> const MeshEvaluation& {
     if (s.delivered) return *s.delivered;
     if (!measured) measured = measure(meshed, s.result, s.monitor);
     return *measured;
@@ -326,7 +325,7 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
                      .size = meshed.options.size,
                      .parameters = field_attributes(s.meshed_parameters, diag),
                      .diag = diag,
-                     .delivered = delivered_here};
+                     .delivered = evaluation_here};
   if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
@@ -361,18 +360,17 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   run.parameters = field_attributes(parameters, run.diag);
   run.size = composite_options(parameters, run.diag).size;
   run.size.sources = s.sources(background.get());
-  for (PrescriptionSource* source : run.size.sources)
-    source->begin_run(run.size.law);
+  for (PrescriptionSource* source : run.size.sources) source->begin_run(run.size.law);
   if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
   return carreau::write_fields(run, path, options, cad, s.monitor);
 }
 
-const Delivered& Session::delivered() {
+const MeshEvaluation& Session::delivered() {
   State& s = *state_;
   (void)mesh();
   if (!s.delivered) {
     s.delivered = measure(s.meshed, s.result, s.monitor);
-    describe_delivered(*s.delivered, s.monitor);
+    describe_evaluation(*s.delivered, s.monitor);
     s.monitor.progress(Phase::idle, 0, 1);
   }
   return *s.delivered;
@@ -384,7 +382,7 @@ void Session::write_delivered(const std::string& path) {
   write_file(path, text);
 }
 
-FlatMesh Session::exported(const Delivered* delivered) const {
+FlatMesh Session::exported(const MeshEvaluation* delivered) const {
   const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports,
                             delivered};
   const Parameters& p = state_->parameters;
@@ -401,7 +399,7 @@ void Session::write(const std::string& path) {
     return;
   }
   const MeshFormat format = mesh_format_of(path);
-  const Delivered* measures = nullptr;  // other formats have no place for them
+  const MeshEvaluation* measures = nullptr;  // other formats have no place for them
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);

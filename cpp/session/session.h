@@ -8,7 +8,7 @@
 
 #include "cad/cad.h"
 #include "fields/fields.h"
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 #include "metric/prescription.h"
@@ -70,13 +70,13 @@ class Session {
   /// What the last make_mesh() delivered, measured when first asked (or by make_mesh() when the parameter measure is
   /// 1), on the geometry and the sources of that run, which are asked again; messages say it for a person. Throws
   /// InvalidArgument before the first make_mesh(), and what callbacks throw.
-  const Delivered& delivered();
+  const MeshEvaluation& delivered();
   /// Writes delivered() as JSON.
   void write_delivered(const std::string& path);
 
   /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written; `delivered` adds its
   /// values as fields.
-  [[nodiscard]] FlatMesh exported(const Delivered* delivered = nullptr) const;
+  [[nodiscard]] FlatMesh exported(const MeshEvaluation* delivered = nullptr) const;
   /// Writes exported() to a file; format by suffix. A .vtu holds what delivered() knows, when it was asked or the
   /// parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
   void write(const std::string& path);

@@ -103,10 +103,10 @@ class ThreadedRun {
   }
 
   void run() {
-    while (delivered_ < tasks_.size()) {
+    while (evaluation_ < tasks_.size()) {
       monitor_.checkpoint();
       deliver();
-      if (delivered_ == tasks_.size()) break;
+      if (evaluation_ == tasks_.size()) break;
       start_some();
       const std::size_t task = take_any();
       if (task != none) {
@@ -116,7 +116,7 @@ class ThreadedRun {
       std::unique_lock lock(mutex_);
       // The time is for checkpoints: a stop can be asked without notice.
       changed_.wait_for(lock, std::chrono::milliseconds(20),
-                        [this] { return !bound_.empty() || !free_.empty() || done_[delivered_] != 0; });
+                        [this] { return !bound_.empty() || !free_.empty() || done_[evaluation_] != 0; });
     }
   }
 
@@ -231,15 +231,15 @@ class ThreadedRun {
 
   /// Tells of the tasks that are finished, in order.
   void deliver() {
-    while (delivered_ < tasks_.size()) {
+    while (evaluation_ < tasks_.size()) {
       {
         const std::scoped_lock lock(mutex_);
-        if (done_[delivered_] == 0) return;
+        if (done_[evaluation_] == 0) return;
       }
-      monitors_[delivered_]->deliver();
-      if (errors_[delivered_]) std::rethrow_exception(errors_[delivered_]);
-      if (run_.on_finished) run_.on_finished(delivered_);
-      ++delivered_;
+      monitors_[evaluation_]->deliver();
+      if (errors_[evaluation_]) std::rethrow_exception(errors_[evaluation_]);
+      if (run_.on_finished) run_.on_finished(evaluation_);
+      ++evaluation_;
     }
   }
 
@@ -249,7 +249,7 @@ class ThreadedRun {
   Monitor& monitor_;
   std::vector<std::unique_ptr<TaskMonitor>> monitors_;
   std::atomic<std::size_t> first_failed_{none};
-  std::size_t delivered_ = 0;  // of the calling thread
+  std::size_t evaluation_ = 0;  // of the calling thread
 
   std::mutex mutex_;  // of what follows
   std::condition_variable changed_;

@@ -75,7 +75,7 @@ void find_narrow(CompositeRun& run) {
     if (!face.point || collapse) (face.point ? narrow.points : narrow.strips).push_back(std::move(face));
   if (collapse) keep_thin_bodies(run.curve_model, run.curves, narrow);
   if (!narrow.empty()) {
-    if (collapse) let_tips_vanish(run.curve_model, narrow);
+    if (collapse) let_end_caps_vanish(run.curve_model, narrow);
     match_sides(run.curve_model, narrow.strips, run.curves);
   }
   run.result.report.seconds_curves += seconds_since(start);

@@ -22,7 +22,7 @@ namespace {
 // Times that a patch is meshed again because the lift disagrees.
 constexpr int most_corrections = 3;
 // Times that it is because it has missed places of small sizes; each time those beside the ones found come to light.
-constexpr int most_resettlements = 6;
+constexpr int most_refills = 6;
 // A mesh that would become so many times larger has not missed a place: its sizes are damaged nearly everywhere.
 constexpr double most_growth = 1000;
 
@@ -49,11 +49,11 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
 constexpr std::size_t most_looked_at_first = 30;
 
 // Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
-constexpr double most_tilt = 0.5;
+constexpr double most_lean = 0.5;
 // Ratio by which sizes then grow from one edge to the next: where the curvature vanishes along a line they would jump.
 constexpr double gentle = 1.5;
 // A mesh that follows the surface may have so many times more triangles.
-constexpr double most_growth_upright = 64;
+constexpr double most_growth_bounded = 64;
 
 // A patch of less than this share of its extent squared is what rounding leaves of a line.
 constexpr double no_area = 1e-14;
@@ -104,16 +104,16 @@ void FaceJob::step(Monitor& monitor) {
 
 void FaceJob::sample(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
-  suspects_ = rules_->steep_places(input_.face);
+  probe_points_ = rules_->steep_places(input_.face);
   if (input_.limits.field != nullptr) {
-    const std::vector<Vec2> tips = input_.limits.field->tips(input_.face);
-    suspects_.insert(suspects_.end(), tips.begin(), tips.end());
+    const std::vector<Vec2>& minima = input_.limits.field->size_minima(input_.face);
+    probe_points_.insert(probe_points_.end(), minima.begin(), minima.end());
   }
   SampledFacts facts{.normals = options_.shape_trials ? &normals_ : nullptr,
                      .usual_speed = even_ ? 1. : 0.,
                      .most_uneven = most_uneven()};
   try {
-    space_ = sample_face(input_, *cad_, *rules_, suspects_, monitor, &facts);
+    space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor, &facts);
   } catch (const UnevenSpeed& speed) {
     even_out(speed, monitor);
     return;  // and the same step again
@@ -132,7 +132,7 @@ void FaceJob::mesh(Monitor& monitor) {
                              .shape_trials = options_.shape_trials,
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = most_triangles_,
-                             .deserts = deserts_},
+                             .deserts = undersampled_},
                             monitor);
   next_ = Step::lift;
 }
@@ -151,7 +151,7 @@ void FaceJob::lift(Monitor& monitor) {
   }
   // Samples at a jump promise triangles without end.
   refuse_jumps(most_looked_at_first, monitor);
-  const bool again = settle_deserts(places, monitor);
+  const bool again = refill_undersampled(places, monitor);
   if ((!places.empty() && corrections_ < most_corrections && sample_again(places, monitor)) || again) {
     next_ = Step::mesh;
     return;
@@ -160,18 +160,18 @@ void FaceJob::lift(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_lift);
   shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
   const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
-  const std::vector<int> suspects = refine_in_space(
+  const std::vector<int> doubtful = refine_in_space(
       input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
-  settle_tilts(suspects, monitor);
+  check_agreement(doubtful, monitor);
 }
 
 // Where triangles lean, the patch is meshed again in bounded rounds, and the best mesh stays.
-void FaceJob::settle_tilts(const std::vector<int>& suspects, Monitor& monitor) {
-  const Tilts tilts = measure_tilts(input_, *cad_, suspects, *mesh_, monitor);
-  if (upright_rounds_ == 0) prescribed_ = tilts;
-  if (!best_ || tilts.better_than(best_->tilts))
-    best_.emplace(Upright{std::move(*mesh_), std::move(*space_), tilts, upright_rounds_ > 0});
-  const bool again = best_->tilts.wrong() && rules_->uses_metrics() && !input_.one_size && sample_upright(monitor);
+void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor) {
+  const SurfaceAgreement agreement = measure_agreement(input_, *cad_, doubtful, *mesh_, monitor);
+  if (bounded_rounds_ == 0) prescribed_ = agreement;
+  if (!best_ || agreement.better_than(best_->agreement))
+    best_.emplace(Attempt{std::move(*mesh_), std::move(*space_), agreement, bounded_rounds_ > 0});
+  const bool again = best_->agreement.wrong() && rules_->uses_metrics() && !input_.one_size && sample_bounded(monitor);
   if (again)
     next_ = Step::mesh;
   else
@@ -180,20 +180,20 @@ void FaceJob::settle_tilts(const std::vector<int>& suspects, Monitor& monitor) {
 
 // First long sizes are bounded by the curvature along them; then they also grow gently: where it vanishes along a line
 // they would jump. False: there is nothing more to try.
-bool FaceJob::sample_upright(Monitor& monitor) {
-  if (++upright_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
-  input_.limits.tilt = most_tilt;
-  if (upright_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
+bool FaceJob::sample_bounded(Monitor& monitor) {
+  if (++bounded_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
+  input_.limits.tilt = most_lean;
+  if (bounded_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
   const Stopwatch watch(report_.seconds_sampling);
-  space_ = sample_face(input_, *cad_, *rules_, suspects_, monitor);
-  const double most = most_growth_upright * static_cast<double>(best_->mesh.plane.triangles.size());
+  space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor);
+  const double most = most_growth_bounded * static_cast<double>(best_->mesh.plane.triangles.size());
   return space_->measure() <= std::min(most, static_cast<double>(most_triangles_));
 }
 
 // False: there is none.
 bool FaceJob::take_best(Monitor& monitor) {
   if (!best_) return false;
-  const Tilts tilts = best_->tilts;
+  const SurfaceAgreement agreement = best_->agreement;
   const bool bounded = best_->bounded;
   mesh_ = std::move(best_->mesh);
   space_ = std::move(best_->space);
@@ -201,9 +201,9 @@ bool FaceJob::take_best(Monitor& monitor) {
   next_ = Step::none;
   if (bounded)
     add_remark("with the sizes prescribed: " + prescribed_.text() + "; long sizes are bounded by the curvature" +
-               (tilts.wrong() ? ", and still " + tilts.text() : ""));
-  else if (tilts.wrong())
-    add_remark(tilts.text());
+               (agreement.wrong() ? ", and still " + agreement.text() : ""));
+  else if (agreement.wrong())
+    add_remark(agreement.text());
   if (even_) return_to_host(monitor);
   return true;
 }
@@ -259,26 +259,26 @@ void FaceJob::return_to_host(Monitor& monitor) {
 }
 
 // Whether the mesh has missed places that the control space rightly knows. Others are added to `places`.
-bool FaceJob::settle_deserts(std::vector<Vec2>& places, Monitor& monitor) {
+bool FaceJob::refill_undersampled(std::vector<Vec2>& places, Monitor& monitor) {
   const std::size_t vertices = mesh_->plane.vertices.size();
-  if (resettlements_ == most_resettlements || vertices <= vertices_when_settled_ || input_.constant_size) return false;
+  if (refills_ == most_refills || vertices <= vertices_when_refilled_ || input_.constant_size) return false;
   if (space_->measure() > most_growth * static_cast<double>(mesh_->plane.triangles.size())) return false;
   const Stopwatch watch(report_.seconds_lift);
-  Deserts found = find_deserts(input_, *space_, *cad_, *rules_, *mesh_, monitor);
+  UndersampledRegions found = find_undersampled(input_, *space_, *cad_, *rules_, *mesh_, monitor);
   places.insert(places.end(), found.mistaken.begin(), found.mistaken.end());
   if (found.confirmed.empty()) return false;
-  ++resettlements_;
-  vertices_when_settled_ = vertices;  // deserts that cannot be settled are left alone
-  std::move(found.confirmed.begin(), found.confirmed.end(), std::back_inserter(deserts_));
+  ++refills_;
+  vertices_when_refilled_ = vertices;  // regions that cannot be refilled are left alone
+  std::move(found.confirmed.begin(), found.confirmed.end(), std::back_inserter(undersampled_));
   return true;
 }
 
 // What the vertices have found is sampled; whether that was news.
 bool FaceJob::sample_again(const std::vector<Vec2>& places, Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
-  suspects_.insert(suspects_.end(), places.begin(), places.end());
+  probe_points_.insert(probe_points_.end(), places.begin(), places.end());
   SampledFacts facts;
-  ControlSpace finer = sample_face(input_, *cad_, *rules_, suspects_, monitor, &facts);
+  ControlSpace finer = sample_face(input_, *cad_, *rules_, probe_points_, monitor, &facts);
   if (!differ_at(places, *space_, finer)) return false;
   input_.one_size = facts.isotropic;
   refuse_beyond_limit(finer.measure());

@@ -53,11 +53,11 @@ class FaceJob final : public SteppedTask {
   void lift(Monitor& monitor);
   void refuse_unsound(Monitor& monitor) const;
   void refuse_jumps(std::size_t most, Monitor& monitor) const;
-  void settle_tilts(const std::vector<int>& suspects, Monitor& monitor);
-  [[nodiscard]] bool sample_upright(Monitor& monitor);
+  void check_agreement(const std::vector<int>& doubtful, Monitor& monitor);
+  [[nodiscard]] bool sample_bounded(Monitor& monitor);
   bool take_best(Monitor& monitor);
   void add_remark(const std::string& what);
-  bool settle_deserts(std::vector<Vec2>& places, Monitor& monitor);
+  bool refill_undersampled(std::vector<Vec2>& places, Monitor& monitor);
   bool sample_again(const std::vector<Vec2>& places, Monitor& monitor);
   void refuse_beyond_limit(double expected) const;
   void even_out(const UnevenSpeed& speed, Monitor& monitor);
@@ -85,24 +85,24 @@ class FaceJob final : public SteppedTask {
   double given_slope_;
   std::int64_t most_triangles_ = 0;
   Step next_ = Step::sample;
-  int corrections_ = 0, resettlements_ = 0;
-  std::size_t vertices_when_settled_ = 0;
-  std::vector<std::vector<Vec2>> deserts_;  // that meshes so far have missed
-  std::vector<Vec2> suspects_;
+  int corrections_ = 0, refills_ = 0;
+  std::size_t vertices_when_refilled_ = 0;
+  std::vector<std::vector<Vec2>> undersampled_;  // that meshes so far have missed
+  std::vector<Vec2> probe_points_;
   std::unique_ptr<Even> even_;  // null: the host's parameters will do
   bool evened_out_ = false;     // once is enough
   std::optional<ControlSpace> space_;
   SampledNormals normals_;
   /// The best mesh so far, while another one is tried.
-  struct Upright {
+  struct Attempt {
     PatchMesh mesh;
     ControlSpace space;
-    Tilts tilts;
+    SurfaceAgreement agreement;
     bool bounded = false;  // by SizeLimits::tilt
   };
-  std::optional<Upright> best_;
-  Tilts prescribed_;        // of the mesh of the sizes prescribed
-  int upright_rounds_ = 0;  // that had them bounded
+  std::optional<Attempt> best_;
+  SurfaceAgreement prescribed_;  // of the mesh of the sizes prescribed
+  int bounded_rounds_ = 0;       // that had them bounded
   std::optional<PatchMesh> mesh_;
   std::string failure_, remark_;
   CompositeReport report_;

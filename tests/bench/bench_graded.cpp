@@ -16,11 +16,11 @@ void run(const NamedSurface& surface, const NamedField& field, double slope, dou
   const GradedRun made(surface, field.size, slope, triangles);
   const CompositeReport& r = made.session->report();
   const QualitySummary q = summarise_quality(made.session->exported());
-  const Delivered& d = made.session->delivered();
+  const MeshEvaluation& d = made.session->delivered();
   std::printf(
       "%-10s %-8s %.2f h %.5f %6zu: length %.4f fit %.5f (%lld short, %lld long) Q2 %.5f p1 %.4f min %.3f six %.4f; "
       "%.3f s sampling %.3f plane %.3f\n",
-      surface.name, field.name, slope, made.h, q.triangles, d[DeliveredKind::length].spread.mean, d.share_in_range(),
+      surface.name, field.name, slope, made.h, q.triangles, d[EvaluationKind::length].spread.mean, d.share_in_range(),
       static_cast<long long>(d.short_edges), static_cast<long long>(d.long_edges), q.q2.mean, q.q2.p1, q.q2.min,
       q.degree6, made.seconds, r.seconds_sampling, r.seconds_plane);
   std::fflush(stdout);

@@ -11,7 +11,7 @@
 namespace abi_tests {
 namespace {
 
-carreau_delivered delivered_of(carreau_session* session) {
+carreau_delivered evaluation_of(carreau_session* session) {
   auto result = sized<carreau_delivered>();
   EXPECT_EQ(carreau_session_delivered(session, &result), CARREAU_OK) << carreau_last_error(session);
   return result;
@@ -35,7 +35,7 @@ TEST_F(SessionTest, MeasuresWhatWasDelivered) {
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const MeshData data = data_of(mesh());
   const std::int64_t surf0 = report().surf0_calls, calls = host.calls;
-  const carreau_delivered delivered = delivered_of(session);
+  const carreau_delivered delivered = evaluation_of(session);
   EXPECT_GT(host.calls, calls);
   EXPECT_EQ(report().surf0_calls, surf0);  // counted apart
   EXPECT_EQ(delivered.vertices, std::int64_t(data.vertex_count()));
@@ -79,7 +79,7 @@ TEST_F(SessionTest, EveryKindHasItsSpreadAndHistogram) {
   ASSERT_EQ(carreau_set_integer(session, "measure", 1), CARREAU_OK);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const std::int64_t calls = host.calls;
-  const carreau_delivered delivered = delivered_of(session);
+  const carreau_delivered delivered = evaluation_of(session);
   for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_A1; ++kind) {
     const carreau_measure m = measure_of(session, kind);
     const std::vector<double> values = values_of(session, kind);

@@ -179,10 +179,10 @@ void GradingRound::locate_samples(std::size_t f) {
 PlaneMesh GradingRound::mesh_face(const PatchInput& input) {
   const PlaneMesherOptions how{.frontal = options_.frontal, .max_triangles = options_.max_triangles};
   const PlaneDomain& domain = input.domain->plane;
-  std::vector<Vec2> suspects = rules_.steep_places(input.face);
+  std::vector<Vec2> probe_points = rules_.steep_places(input.face);
   std::vector<Vec2>& known = missed_[input.face];
-  suspects.insert(suspects.end(), known.begin(), known.end());
-  ControlSpace space = sample(input, suspects);
+  probe_points.insert(probe_points.end(), known.begin(), known.end());
+  ControlSpace space = sample(input, probe_points);
   PatchMesh mesh;
   mesh.plane = mesh_plane(domain, space, how, monitor_);
   if (rules_.steep_in_space().empty()) return std::move(mesh.plane);
@@ -190,14 +190,14 @@ PlaneMesh GradingRound::mesh_face(const PatchInput& input) {
   const std::vector<Vec2> missed = missed_steep_places(input, space, model_.cad, rules_, mesh, monitor_);
   if (missed.empty()) return std::move(mesh.plane);
   known.insert(known.end(), missed.begin(), missed.end());
-  suspects.insert(suspects.end(), missed.begin(), missed.end());
+  probe_points.insert(probe_points.end(), missed.begin(), missed.end());
   samples_[input.face].clear();
-  space = sample(input, suspects);
+  space = sample(input, probe_points);
   return mesh_plane(domain, space, how, monitor_);
 }
 
 // The graph's own control space; what the host says meanwhile is kept.
-ControlSpace GradingRound::sample(const PatchInput& input, std::span<const Vec2> suspects) {
+ControlSpace GradingRound::sample(const PatchInput& input, std::span<const Vec2> probe_points) {
   FaceMetric prescribed = unlimited_prescription_of(input, rules_, monitor_);
   std::vector<Sample>& samples = samples_[input.face];
   std::vector<SurfaceJet> jets;
@@ -216,7 +216,7 @@ ControlSpace GradingRound::sample(const PatchInput& input, std::span<const Vec2>
   ControlSpaceOptions options;
   options.tolerance = input.tolerance;
   options.thorough = true;
-  options.suspects = suspects;
+  options.probe_points = probe_points;
   return ControlSpace::build(sampled_domain(input.domain->plane), sampler, options, monitor_);
 }
 

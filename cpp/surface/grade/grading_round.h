@@ -55,12 +55,12 @@ class GradingRound {
   void find_rough(std::size_t f);
   static void widen_rough(GradedFace& face);
   PlaneMesh mesh_face(const PatchInput& input);
-  ControlSpace sample(const PatchInput& input, std::span<const Vec2> suspects);
+  ControlSpace sample(const PatchInput& input, std::span<const Vec2> probe_points);
   void keep_sample(Vec2 uv, const SurfaceJet& jet, Metric2 metric, std::vector<Sample>& samples) const;
   void evaluate(const PatchInput& input, GradedFace& face, std::size_t first);
   static void mend_normals(GradedFace& face, std::size_t);
   void add_triangles(const FaceDomain& domain, GradedFace& face, std::size_t first);
-  static void find_tips(GradedFace& face);
+  static void find_size_minima(GradedFace& face);
   GradedModel grade(const std::vector<SizeSamples>& raw);
   void bound_narrow_zones();
   void bound_facing_faces();

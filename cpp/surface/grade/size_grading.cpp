@@ -11,7 +11,7 @@ namespace carreau::detail {
 
 namespace {
 
-constexpr std::size_t most_tips = 50;
+constexpr std::size_t most_size_minima = 50;
 // Samples of a curve's sizes on each of its edges in the graph.
 constexpr int samples_per_edge = 4;
 
@@ -46,18 +46,18 @@ void GradingRound::widen_rough(GradedFace& face) {
 }
 
 // A vertex that is the source of all its neighbours.
-void GradingRound::find_tips(GradedFace& face) {
-  std::vector<char> tip(face.uv.size(), 1);
+void GradingRound::find_size_minima(GradedFace& face) {
+  std::vector<char> minimum(face.uv.size(), 1);
   for (const auto& t : face.triangles)
     for (int i = 0; i < 3; ++i)
       for (int k = 1; k < 3; ++k) {
         const std::int32_t v = t[i], w = t[(i + k) % 3];
         if (face.xyz[v] == face.xyz[w]) continue;  // a pole has several vertices
         const GradationFront& f = face.front[w];
-        if (dot(f.line, f.line) == 0 || f.source_h != face.h[v]) tip[v] = 0;
+        if (dot(f.line, f.line) == 0 || f.source_h != face.h[v]) minimum[v] = 0;
       }
-  for (std::size_t v = 0; v < tip.size() && face.tips.size() < most_tips; ++v)
-    if (tip[v] != 0) face.tips.push_back(face.uv[v]);
+  for (std::size_t v = 0; v < minimum.size() && face.size_minima.size() < most_size_minima; ++v)
+    if (minimum[v] != 0) face.size_minima.push_back(face.uv[v]);
 }
 
 GradedModel GradingRound::grade(const std::vector<SizeSamples>& raw) {
@@ -75,7 +75,7 @@ GradedModel GradingRound::grade(const std::vector<SizeSamples>& raw) {
       faces_[f].h.push_back(fronts.h[graph_.places[place_of_[f] + v].vertex]);
     }
     find_rough(f);
-    find_tips(faces_[f]);
+    find_size_minima(faces_[f]);
   }
   GradedModel result;
   result.triangles = graph_.triangles.size();

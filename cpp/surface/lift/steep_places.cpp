@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_places = 500;
 constexpr int most_steps = 8;
 // Steps shorter than this share of a place's reach are the last.
-constexpr double settled = 1e-3;
+constexpr double last_step = 1e-3;
 
 /// A place on its way to the surface.
 struct Foot {
@@ -74,7 +74,7 @@ class SteepPlaces {
   }
 
   // The mesh lies within the domain but for chords of its curves: places beside them are left where they leave it.
-  void settle(std::vector<Foot>& feet) {
+  void project(std::vector<Foot>& feet) {
     const SampledDomain domain = sampled_domain(input_.domain->plane);
     const PolygonLocator locator(domain.vertices, domain.edges);
     std::erase_if(feet, [&](const Foot& f) { return !locator.contains(f.uv); });
@@ -86,7 +86,7 @@ class SteepPlaces {
         Foot& f = feet[moving[first + i]];
         distance[moving[first + i]] = norm(f.at - jets[i].s);
         const Vec2 d = step_towards(jets[i], f.at);
-        f.moving = norm(d.x() * jets[i].su + d.y() * jets[i].sv) > settled * f.reach && locator.contains(f.uv + d);
+        f.moving = norm(d.x() * jets[i].su + d.y() * jets[i].sv) > last_step * f.reach && locator.contains(f.uv + d);
         if (f.moving) f.uv = f.uv + d;
       }
     };
@@ -118,7 +118,7 @@ std::vector<Vec2> missed_steep_places(const PatchInput& input, const ControlSpac
   SteepPlaces search(input, cad, mesh, monitor);
   std::vector<Foot> feet = search.begin(places);
   if (feet.empty()) return {};
-  search.settle(feet);
+  search.project(feet);
   FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<Vec2> missed, uv;
   for (const Foot& foot : feet) uv.push_back(foot.uv);

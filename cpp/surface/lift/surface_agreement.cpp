@@ -13,8 +13,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Area beyond that of the surface that is told. Unit meshes by curvature have some 1e-4.
 constexpr double notable = 0.05;
-// Least cosine of a triangle's normal and that of what it stands for: a little less than upright.
-constexpr double upright = 0.08;
+// Least cosine of a triangle's normal and that of what it stands for: a little less than least_cosine.
+constexpr double least_cosine = 0.08;
 // A triangle of (u, v) is looked at in this many parts along each side.
 constexpr int parts = 4;
 
@@ -80,41 +80,41 @@ double excess_by_corners(const PatchMesh& mesh) noexcept {
 
 }  // namespace
 
-bool Tilts::leans() const noexcept { return excess > notable; }
+bool SurfaceAgreement::leans() const noexcept { return excess > notable; }
 
-bool Tilts::better_than(const Tilts& other) const noexcept {
+bool SurfaceAgreement::better_than(const SurfaceAgreement& other) const noexcept {
   if (leans() != other.leans()) return other.leans();
   return turned < other.turned || (turned == other.turned && other.leans() && excess < other.excess);
 }
 
-std::string Tilts::text() const {
+std::string SurfaceAgreement::text() const {
   std::string text;
   if (turned > 0)
     text = std::to_string(turned) + (turned == 1 ? " triangle is" : " triangles are") +
-           " turned over or stand upright on the surface";
+           " turned over or stand least_cosine on the surface";
   if (!leans()) return text;
   return text + (text.empty() ? "" : ", and ") + "triangles lean: they have " +
          (excess < infinity ? format_number(std::round(100 * (1 + excess)) / 100) + " times " : "far more than ") +
          "the area of the surface";
 }
 
-Tilts measure_tilts(const PatchInput& input, Cad& cad, const std::vector<int>& suspects, const PatchMesh& mesh,
-                    Monitor& monitor) {
-  Tilts tilts;
+SurfaceAgreement measure_agreement(const PatchInput& input, Cad& cad, const std::vector<int>& doubtful,
+                                   const PatchMesh& mesh, Monitor& monitor) {
+  SurfaceAgreement agreement;
   Pieces pieces(input, cad, mesh);
-  for (const int t : suspects) {
+  for (const int t : doubtful) {
     const Vec3 n = normal_of(mesh, static_cast<std::size_t>(t)), m = pieces.over(t).vector;
-    if (!(dot(n, m) >= upright * norm(n) * norm(m))) ++tilts.turned;
+    if (!(dot(n, m) >= least_cosine * norm(n) * norm(m))) ++agreement.turned;
   }
-  if (!(excess_by_corners(mesh) > notable)) return tilts;
+  if (!(excess_by_corners(mesh) > notable)) return agreement;
   double area = 0, of_surface = 0;
   for (std::size_t t = 0; t < mesh.plane.triangles.size(); ++t) {
     if (t % 256 == 0) monitor.checkpoint();
     area += norm(normal_of(mesh, t)) / 2;
     of_surface += pieces.over(static_cast<int>(t)).area;
   }
-  tilts.excess = of_surface > 0 ? area / of_surface - 1 : 0;
-  return tilts;
+  agreement.excess = of_surface > 0 ? area / of_surface - 1 : 0;
+  return agreement;
 }
 
 }  // namespace carreau

@@ -10,8 +10,8 @@
 namespace carreau {
 
 /// What is wrong with a lifted patch.
-struct Tilts {
-  /// Triangles that turn their backs on the surface they stand for, or stand upright on it.
+struct SurfaceAgreement {
+  /// Triangles that turn their backs on the surface they stand for, or stand least_cosine on it.
   std::int64_t turned = 0;
   /// Area of the mesh over that of the surface, less 1. Chords make a mesh smaller, not larger: it is larger where long
   /// edges leave the surface by as much as their neighbours are away, and triangles stand on it like scales (Schwarz's
@@ -20,15 +20,15 @@ struct Tilts {
 
   [[nodiscard]] bool leans() const noexcept;
   [[nodiscard]] bool wrong() const noexcept { return turned > 0 || leans(); }
-  [[nodiscard]] bool better_than(const Tilts& other) const noexcept;
+  [[nodiscard]] bool better_than(const SurfaceAgreement& other) const noexcept;
   /// For a person, after the face; empty where nothing is wrong.
   [[nodiscard]] std::string text() const;
 };
 
-/// `suspects`: triangles that may be turned (refine_in_space). Where normals are known (mesh.normal) areas are compared
-/// with those of projections along them first. Sixteen evaluations for each suspect, and for each triangle where areas
-/// differ.
-Tilts measure_tilts(const PatchInput& input, Cad& cad, const std::vector<int>& suspects, const PatchMesh& mesh,
-                    Monitor& monitor);
+/// `doubtful`: triangles that may be turned (refine_in_space). Where normals are known (mesh.normal) areas are compared
+/// with those of projections along them first. Sixteen evaluations for each doubtful triangle, and for each triangle
+/// where areas differ.
+SurfaceAgreement measure_agreement(const PatchInput& input, Cad& cad, const std::vector<int>& doubtful,
+                                   const PatchMesh& mesh, Monitor& monitor);
 
 }  // namespace carreau

@@ -189,11 +189,11 @@ bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, cons
                      [&](Vec2 p) { return length_error(before.at(p), after.at(p)) > notable_change; });
 }
 
-Deserts find_deserts(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
-                     const PatchMesh& mesh, Monitor& monitor) {
+UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpace& space, Cad& cad,
+                                      const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor) {
   const std::vector<Vec2>& vertices = mesh.plane.vertices;
   auto missed = space.deserts(vertices.size(), [&](std::size_t v) { return vertices[v]; });
-  Deserts result;
+  UndersampledRegions result;
   if (missed.empty()) return result;
   const SampledDomain domain = sampled_domain(input.domain->plane);
   const PolygonLocator locator(domain.vertices, domain.edges);

@@ -29,15 +29,15 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
 
 /// What a mesh has missed (ControlSpace::deserts()).
-struct Deserts {
+struct UndersampledRegions {
   /// Those where the control space is right: to be handed to the plane mesher.
   std::vector<std::vector<Vec2>> confirmed;
   /// The places of others, where it is not: to be sampled again.
   std::vector<Vec2> mistaken;
 };
 /// Asks the prescribed metric at one place of each desert; at most 500.
-Deserts find_deserts(const PatchInput& input, const ControlSpace& space, Cad& cad, const SizeRules& rules,
-                     const PatchMesh& mesh, Monitor& monitor);
+UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpace& space, Cad& cad,
+                                      const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor);
 
 /// Sides of a domain may shrink to a point, places inside may not: where vertices inside coincide in space, triangles
 /// have no area. The sentence that says where; empty when there is no such place.

@@ -130,7 +130,7 @@ class Ladder {
   [[nodiscard]] Chain closing_chain(int end) const {
     const std::int32_t a = end == 0 ? side_[0].front() : side_[0].back();
     const std::int32_t b = end == 0 ? side_[1].front() : side_[1].back();
-    if (!narrow_.tip[end].empty()) return chain_of(narrow_.tip[end]);
+    if (!narrow_.end_cap[end].empty()) return chain_of(narrow_.end_cap[end]);
     return a == b ? Chain{a} : Chain{a, b};
   }
 

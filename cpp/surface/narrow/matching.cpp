@@ -19,7 +19,7 @@ constexpr double rounding = 1e-9;
 class SideMatcher {
  public:
   SideMatcher(const CurveModel& model, std::span<const NarrowFace> faces, std::vector<DiscreteCurve>& curves)
-      : model_(model), faces_(faces), curves_(curves), settled_(curves.size(), 0), changed_(curves.size(), 0) {}
+      : model_(model), faces_(faces), curves_(curves), placed_(curves.size(), 0), changed_(curves.size(), 0) {}
 
   void match_all() {
     for (const NarrowFace& narrow : faces_)
@@ -49,9 +49,9 @@ class SideMatcher {
     Vec3 xyz;
   };
 
-  [[nodiscard]] bool any_settled(const SideRuler& side) const {
+  [[nodiscard]] bool any_placed(const SideRuler& side) const {
     for (std::size_t p = 0; p < side.parts(); ++p)
-      if (settled_[side.curve(p)] != 0) return true;
+      if (placed_[side.curve(p)] != 0) return true;
     return false;
   }
 
@@ -115,10 +115,10 @@ class SideMatcher {
 
   void match(const NarrowFace& narrow) {
     SideRuler leader(model_, narrow.face, narrow.side[0]), follower(model_, narrow.face, narrow.side[1]);
-    if (any_settled(follower) && !any_settled(leader)) std::swap(leader, follower);
-    const bool free = !any_settled(follower);
+    if (any_placed(follower) && !any_placed(leader)) std::swap(leader, follower);
+    const bool free = !any_placed(follower);
     const Fractions stations = missing(narrow, corners(follower, narrow.ring), leader, corners(leader, narrow.ring));
-    if (any_settled(leader))
+    if (any_placed(leader))
       insert(missing(narrow, corners(follower, narrow.ring), leader, vertices(leader, narrow.ring)));
     else
       for (const auto& [curve, r] : stations) redistribute(curve, r);
@@ -131,7 +131,7 @@ class SideMatcher {
       }
     }
     for (const SideRuler* side : {&leader, &follower})
-      for (std::size_t p = 0; p < side->parts(); ++p) settled_[side->curve(p)] = 1;
+      for (std::size_t p = 0; p < side->parts(); ++p) placed_[side->curve(p)] = 1;
   }
 
   // A curve that must have vertices at some places gets as many edges between them as it had, of equal numbers.
@@ -169,7 +169,7 @@ class SideMatcher {
   const CurveModel& model_;
   std::span<const NarrowFace> faces_;
   std::vector<DiscreteCurve>& curves_;
-  std::vector<char> settled_, changed_;  // by curve
+  std::vector<char> placed_, changed_;  // by curve
 };
 
 }  // namespace

@@ -15,10 +15,10 @@ namespace carreau {
 namespace {
 
 // A round or bent end of a strip is longer than the strip is wide: half a circle has 1.57 times its diameter.
-constexpr double longest_tip = 2;
+constexpr double longest_end_cap = 2;
 // Sides are found by trying all pairs of ends: a face with more curves is not tried.
 constexpr std::size_t most_curves = 60;
-// Choices whose widths differ by less are equally near: the one with more curves in its tips is taken.
+// Choices whose widths differ by less are equally near: the one with more curves in its end_caps is taken.
 constexpr double same_width = 1e-3;
 
 // A face is without width where its surface, halfway between two uses of a curve, is no farther from them than this
@@ -125,34 +125,34 @@ class Finder {
     return false;
   }
 
-  struct Tip {
+  struct EndCap {
     std::size_t from, count;  // curves of the loop
   };
 
-  // All pairs of tips, a corner or a few short curves each; the nearest sides win.
+  // All pairs of end_caps, a corner or a few short curves each; the nearest sides win.
   bool cut_loop(const Side& loop, NarrowFace& narrow) const {
     const std::size_t n = loop.size();
-    std::vector<Tip> tips;
+    std::vector<EndCap> end_caps;
     for (std::size_t from = 0; from < n; ++from)
-      for (std::size_t count = 0; count + 2 <= n && length(loop, from, count) <= longest_tip * reach_; ++count)
-        tips.push_back({from, count});
+      for (std::size_t count = 0; count + 2 <= n && length(loop, from, count) <= longest_end_cap * reach_; ++count)
+        end_caps.push_back({from, count});
     double best = std::numeric_limits<double>::infinity();
-    std::size_t most_in_tips = 0;
-    for (std::size_t i = 0; i < tips.size(); ++i)
-      for (std::size_t j = i + 1; j < tips.size(); ++j) {
-        const Tip p = tips[i], q = tips[j];
+    std::size_t most_in_end_caps = 0;
+    for (std::size_t i = 0; i < end_caps.size(); ++i)
+      for (std::size_t j = i + 1; j < end_caps.size(); ++j) {
+        const EndCap p = end_caps[i], q = end_caps[j];
         if (q.from < p.from + p.count || q.from + q.count > p.from + n) continue;  // they overlap
         const std::size_t to_q = q.from - p.from - p.count, to_p = n - p.count - q.count - to_q;
         if (to_q == 0 || to_p == 0) continue;
         const Side one = part_of(loop, p.from + p.count, to_q), other = reversed(part_of(loop, q.from + q.count, to_p));
         const double width = hausdorff_distance(trace(one), trace(other), reach_);
         if (width > reach_ || width > best * (1 + same_width)) continue;
-        if (width > best * (1 - same_width) && p.count + q.count <= most_in_tips) continue;
+        if (width > best * (1 - same_width) && p.count + q.count <= most_in_end_caps) continue;
         best = width;
-        most_in_tips = p.count + q.count;
+        most_in_end_caps = p.count + q.count;
         narrow.width = width;
         narrow.side = {one, other};
-        narrow.tip = {reversed(part_of(loop, p.from, p.count)), part_of(loop, q.from, q.count)};
+        narrow.end_cap = {reversed(part_of(loop, p.from, p.count)), part_of(loop, q.from, q.count)};
       }
     // Sides that are one curve already (a seam) have nothing between them that could be matched.
     return best <= reach_ && !share_a_curve(narrow);
@@ -207,8 +207,8 @@ std::vector<int> vanishing_of(const CurveModel& model, const NarrowFace& narrow)
   const std::vector<int>& curve_of = model.topology.curve_of[narrow.face];
   if (narrow.point) return curve_of;
   std::vector<int> curves;
-  for (const Side& tip : narrow.tip)
-    for (const SidePart& part : tip) curves.push_back(curve_of[part.curve]);
+  for (const Side& end_cap : narrow.end_cap)
+    for (const SidePart& part : end_cap) curves.push_back(curve_of[part.curve]);
   return curves;
 }
 
@@ -271,7 +271,7 @@ std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<Di
   return folded;
 }
 
-void let_tips_vanish(const CurveModel& model, NarrowModel& narrow) {
+void let_end_caps_vanish(const CurveModel& model, NarrowModel& narrow) {
   std::vector<char>& gone = narrow.vanishing.curve;
   for (;;) {
     gone.assign(model.topology.curves.size(), 0);

@@ -28,7 +28,7 @@ struct NarrowFace {
   bool point = false;             ///< no longer than wide: all of it is near a point; it has no sides
   std::array<Side, 2> side = {};  ///< both run the same way
   /// What joins their starts and their ends, from side[0] to side[1]; empty where they meet.
-  std::array<Side, 2> tip = {};
+  std::array<Side, 2> end_cap = {};
 };
 
 /// Faces narrower than `ratio` times the smallest size on their curves: one loop that two of its corners or short
@@ -41,7 +41,7 @@ std::vector<NarrowFace> find_narrow_faces(const CurveModel& model, const std::ve
 struct NarrowModel {
   std::vector<NarrowFace> strips;  ///< with two sides
   std::vector<NarrowFace> points;  ///< near a point
-  /// The tips of strips and all curves of points, when their faces are to collapse.
+  /// The end_caps of strips and all curves of points, when their faces are to collapse.
   VanishingCurves vanishing;
   std::vector<int> folded;  ///< faces without width (find_folded_faces()): nothing is meshed there, whatever is asked
 
@@ -55,7 +55,7 @@ std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<Di
 
 /// Fills `vanishing`. A face whose curves are a whole loop of another one, a small hole, is left out of the lists: the
 /// hole would vanish with it.
-void let_tips_vanish(const CurveModel& model, NarrowModel& narrow);
+void let_end_caps_vanish(const CurveModel& model, NarrowModel& narrow);
 
 /// Gives the two sides of each face vertices at the same places: those of one side are carried to the other one, ends
 /// of curves to both.

@@ -85,7 +85,7 @@ class Refiner {
               edges_to_split_for_bulges(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle);
           found.edges.insert(found.edges.end(), bulging.begin(), bulging.end());
           if (!found.ask_metric) return;
-          for (const SpaceStrip& strip : found.strips)
+          for (const Strip& strip : found.strips)
             if (lies_between(curve_model_, f, *result_.domain[f], strip)) found.edges.push_back(strip.edge);
           const std::vector<int> close =
               edges_to_split_for_closeness(result_.domain[f]->plane, space_of(f, monitor), options_.coef_rectangle);
@@ -114,7 +114,7 @@ class Refiner {
   /// What a check says of one face.
   struct Found {
     std::vector<int> edges = {};  // to be split
-    std::vector<SpaceStrip> strips = {};
+    std::vector<Strip> strips = {};
     bool ask_metric = false;
   };
 
@@ -284,7 +284,7 @@ class Refiner {
 
   [[nodiscard]] Found look_for_closeness(int f) const {
     if (!may_be_narrow(f)) return {};
-    return {.strips = strips_in_space(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle),
+    return {.strips = find_strips(curve_model_, curves_, f, *result_.domain[f], options_.coef_rectangle),
             .ask_metric = true};
   }
 

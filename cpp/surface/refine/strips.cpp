@@ -13,7 +13,7 @@ namespace carreau {
 namespace {
 
 // Curves that leave a corner at less than this slope are its tip.
-constexpr double bluntest_tip = 0.1;
+constexpr double bluntest_corner = 0.1;
 
 class StripsInSpace {
  public:
@@ -25,8 +25,8 @@ class StripsInSpace {
         domain_(domain),
         xyz_(positions_on_curves(domain, curves, model.topology)) {}
 
-  [[nodiscard]] std::vector<SpaceStrip> find(double coef) const {
-    std::vector<SpaceStrip> strips;
+  [[nodiscard]] std::vector<Strip> find(double coef) const {
+    std::vector<Strip> strips;
     if (xyz_.size() < domain_.origin.size()) return strips;  // imposed points
     const PlaneDomain& plane = domain_.plane;
     const NearVertices near(xyz_);
@@ -60,10 +60,10 @@ class StripsInSpace {
     if (d > bulge) return false;
     const double height = 4 * s * (1 - s) * bulge, between = d + height;
     if (d > height && dot(middle_of(edge) - lerp(a, b, 0.5), xyz_[v] - lerp(a, b, s)) > 0) return false;
-    const auto is_tip = [&](int end) {
-      return domain_.origin[end].corner >= 0 && between < bluntest_tip * norm(xyz_[v] - xyz_[end]);
+    const auto is_sharp_corner = [&](int end) {
+      return domain_.origin[end].corner >= 0 && between < bluntest_corner * norm(xyz_[v] - xyz_[end]);
     };
-    return !is_tip(edge.a) && !is_tip(edge.b);
+    return !is_sharp_corner(edge.a) && !is_sharp_corner(edge.b);
   }
 
   [[nodiscard]] Vec3 middle_of(const PlaneEdge& edge) const {
@@ -98,12 +98,12 @@ class StripsInSpace {
 
 }  // namespace
 
-std::vector<SpaceStrip> strips_in_space(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
-                                        const FaceDomain& domain, double coef) {
+std::vector<Strip> find_strips(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
+                               const FaceDomain& domain, double coef) {
   return StripsInSpace(model, curves, face, domain).find(coef);
 }
 
-bool lies_between(const CurveModel& model, int face, const FaceDomain& domain, const SpaceStrip& strip) {
+bool lies_between(const CurveModel& model, int face, const FaceDomain& domain, const Strip& strip) {
   const std::vector<Vec2>& uv = domain.plane.vertices;
   const PlaneEdge& edge = domain.plane.edges[strip.edge];
   const auto at = [&](Vec2 p) { return surface_at(model.cad, model.model.faces[face].ref, want_position, p).s; };

@@ -9,7 +9,7 @@
 namespace carreau {
 
 /// An edge, a vertex close to it in space, and the point halfway between them in (u, v), which is in the domain.
-struct SpaceStrip {
+struct Strip {
   int edge = -1, vertex = -1;  ///< of the face's plane domain
   Vec2 middle;
 };
@@ -18,11 +18,11 @@ struct SpaceStrip {
 /// that is no wider than its long edges bulge, the chord of an edge passes by vertices of the other side. What is near
 /// a corner where curves meet is left to the check in the metric, which knows angles; away from it, bulges are as
 /// elsewhere. Costs no callback.
-std::vector<SpaceStrip> strips_in_space(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
-                                        const FaceDomain& domain, double coef);
+std::vector<Strip> find_strips(const CurveModel& model, const std::vector<DiscreteCurve>& curves, int face,
+                               const FaceDomain& domain, double coef);
 
 /// Whether a strip is one of the face. The two borders of a slit, or of a seam that is two curves, are close in space
 /// with the outside or the whole surface between them: no number of cuts would part them. Four points of the surface.
-bool lies_between(const CurveModel& model, int face, const FaceDomain& domain, const SpaceStrip& strip);
+bool lies_between(const CurveModel& model, int face, const FaceDomain& domain, const Strip& strip);
 
 }  // namespace carreau

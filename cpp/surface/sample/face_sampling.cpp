@@ -47,7 +47,7 @@ void SpeedWatch::find_usual(std::span<const SurfaceJet> jets) {
   usual_u2_ = usual_square(u2), usual_v2_ = usual_square(v2);
 }
 
-ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
+ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
                          Monitor& monitor, SampledFacts* facts) {
   FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<SurfaceJet> jets;
@@ -67,7 +67,7 @@ ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rul
     }
   };
   ControlSpaceOptions space_options;
-  space_options.suspects = suspects;
+  space_options.probe_points = probe_points;
   space_options.tolerance = std::max(input.tolerance, rules.source_accuracy());
   const SampledDomain domain = sampled_domain(input.domain->plane);
   if (input.slope > 0)

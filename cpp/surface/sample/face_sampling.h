@@ -44,8 +44,9 @@ class SpeedWatch {
   double most2_, usual_u2_, usual_v2_;
 };
 
-/// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `suspects`: see ControlSpaceOptions.
-ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> suspects,
+/// Samples the metric of a face (FaceMetric) over its domain, within input.limits. `probe_points`: see
+/// ControlSpaceOptions.
+ControlSpace sample_face(const PatchInput& input, Cad& cad, const SizeRules& rules, std::span<const Vec2> probe_points,
                          Monitor& monitor, SampledFacts* facts = nullptr);
 
 /// Sizes in the mean, sqrt(h1 h2), that FaceMetric prescribes within input.limits.

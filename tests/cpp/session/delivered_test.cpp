@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AnalyticCad;
 using Json = nlohmann::ordered_json;
-using Kind = DeliveredKind;
+using Kind = EvaluationKind;
 
 struct Messages : Monitor {
   std::vector<std::pair<Level, std::string>> all;
@@ -72,7 +72,7 @@ TEST_F(SessionDelivered, IsMeasuredOnceWhenAsked) {
   session.make_mesh();
   const CallCounts run = session.report().calls, before = cad->calls;
   EXPECT_EQ(monitor.count(Level::summary, "deviation A0"), 0);
-  const Delivered& d = session.delivered();
+  const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(monitor.count(Level::summary, "deviation A0"), 1);
   EXPECT_EQ(d.calls.surf0, cad->calls.surf0 - before.surf0);
   EXPECT_GT(d.calls.surf0, 0);
@@ -89,7 +89,7 @@ TEST_F(SessionDelivered, IsMeasuredOnceWhenAsked) {
   // Another mesh is measured anew. Uniform on a smooth patch: as it is asked.
   session.parameters().set("hphydef", 0.05);
   session.make_mesh();
-  const Delivered& fine = session.delivered();
+  const MeshEvaluation& fine = session.delivered();
   EXPECT_NEAR(static_cast<double>(fine.edges.vertices.size()) / edges, 16, 1);
   EXPECT_NEAR(fine[Kind::length].spread.mean, 1, 0.01);
   EXPECT_GE(fine.share_in_range(), 0.999);
@@ -141,7 +141,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2",
                                             "metric_quality", "A0", "A1"}));
-  const Delivered& d = session.delivered();
+  const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(json["measures"]["metric_length"]["mean"].get<double>(), d[Kind::length].spread.mean);
   EXPECT_EQ(json["measures"]["A0"]["max"].get<double>(), d[Kind::deviation].spread.max);
   EXPECT_EQ(json["mesh"]["triangles"].get<std::size_t>(), session.mesh().triangle_count());
@@ -153,7 +153,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
 }
 
 TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
-  Delivered nothing;
+  MeshEvaluation nothing;
   nothing[Kind::deviation].values = {std::nan(""), std::numeric_limits<double>::infinity()};
   summarise(nothing);
   const Json json = Json::parse(delivered_json({}, {}, nothing));
@@ -171,7 +171,7 @@ TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndSaid) {
   p.set("hgeo_flag", 1);
   p.set("angle_mesh", 8.0);
   session.make_mesh();
-  const Delivered& d = session.delivered();
+  const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(d[Kind::edge_angle].limit, 8);
   std::int64_t above = 0;
   for (const double angle : d[Kind::edge_angle].values) above += angle > 8;
@@ -193,7 +193,7 @@ TEST_F(SessionDelivered, APrescriptionThatIsNotMetIsCountedAndSaid) {
 TEST_F(SessionDelivered, FieldsOfTheExportAreItsValues) {
   session.parameters().set("flag", 1);
   session.make_mesh();
-  const Delivered& d = session.delivered();
+  const MeshEvaluation& d = session.delivered();
   const FlatMesh flat = session.exported(&d);
   const auto field = [&](const FlatMesh& mesh, const std::string& name) -> const MeshField& {
     for (const MeshField& f : mesh.fields)
@@ -228,7 +228,8 @@ TEST_F(SessionDelivered, SphereInThePlaneHasNoValuesForFlattenedTriangles) {
   AnalyticCad sphere;
   constexpr double pi = std::numbers::pi;
   sphere.faces[4] = {[](Vec2 p) {
-                       const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()), sv = std::sin(p.y());
+                       const double cu = std::cos(p.x()), su = std::sin(p.x()), cv = std::cos(p.y()),
+                                    sv = std::sin(p.y());
                        return SurfaceJet{{cu * cv, su * cv, sv},  {-su * cv, cu * cv, 0}, {-cu * sv, -su * sv, cv},
                                          {-cu * cv, -su * cv, 0}, {su * sv, -cu * sv, 0}, {-cu * cv, -su * cv, -sv}};
                      },
@@ -237,7 +238,7 @@ TEST_F(SessionDelivered, SphereInThePlaneHasNoValuesForFlattenedTriangles) {
   session.make_mesh();
   const FaceMesh& face = session.mesh().faces[0];
   ASSERT_FALSE(face.flattened.empty());
-  const Delivered& d = session.delivered();
+  const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(d.folded_triangles, 0);
   EXPECT_EQ(2 * d.edges.vertices.size(), 3 * face.triangles.size());
   EXPECT_GE(d.share_in_range(), 0.99);

@@ -8,7 +8,7 @@ namespace carreau {
 namespace {
 
 using namespace testing;
-using Kind = DeliveredKind;
+using Kind = EvaluationKind;
 constexpr double pi = std::numbers::pi;
 
 AnalyticCad whole_ellipsoid(Vec3 axes) {
@@ -32,8 +32,8 @@ AnalyticCad wave() {
       [](Vec2 p) {
         const double a = 0.4, s = std::sin(2 * p.x()), c = std::cos(2 * p.x()), t = std::sin(3 * p.y()),
                      d = std::cos(3 * p.y());
-        return SurfaceJet{{p.x(), p.y(), a * s * d},  {1, 0, 2 * a * c * d},  {0, 1, -3 * a * s * t},
-                          {0, 0, -4 * a * s * d}, {0, 0, -6 * a * c * t}, {0, 0, -9 * a * s * d}};
+        return SurfaceJet{{p.x(), p.y(), a * s * d}, {1, 0, 2 * a * c * d},  {0, 1, -3 * a * s * t},
+                          {0, 0, -4 * a * s * d},    {0, 0, -6 * a * c * t}, {0, 0, -9 * a * s * d}};
       },
       rectangle({0, 0}, {2 * pi, 2 * pi}));
 }
@@ -47,7 +47,7 @@ void expect_unit(const AnalyticCad& cad, const char* rule, double gradation, dou
     p.set("geo_guarantee", 0);
     p.set("gradation", gradation);
   });
-  const Delivered& d = run.session->delivered();
+  const MeshEvaluation& d = run.session->delivered();
   EXPECT_GE(d.share_in_range(), share_in_range);
   EXPECT_GE(d[Kind::metric_quality].spread.mean, 0.93);
   EXPECT_GE(d[Kind::metric_quality].spread.min, 0.2);

@@ -10,7 +10,7 @@ namespace carreau {
 namespace {
 
 using namespace testing;
-using Kind = DeliveredKind;
+using Kind = EvaluationKind;
 constexpr double pi = std::numbers::pi;
 
 double share_within(const std::vector<double>& values, double limit) {
@@ -33,7 +33,7 @@ class Guarantee : public ::testing::TestWithParam<Surface> {};
 TEST_P(Guarantee, AngleOfEdges) {
   for (const double angle : {8.0, 4.0, 2.0}) {
     const GeometricRun run(GetParam().make(), [&](Parameters& p) { p.set("angle_mesh", angle); });
-    const Delivered& d = run.session->delivered();
+    const MeshEvaluation& d = run.session->delivered();
     const Delivery& edges = d[Kind::edge_angle];
     SCOPED_TRACE(known(edges, angle));
     EXPECT_EQ(edges.limit, angle);
@@ -48,7 +48,7 @@ TEST_P(Guarantee, NormalsAsPredicted) {
   // HDR eq. 4.26: where two edges at an angle alpha make at most eps1 with the tangent plane, the normal of the
   // triangle is off by at most phi, sin(phi) = sin(eps1) sqrt(2 + 2 |cos(alpha)|) / sin(alpha).
   const GeometricRun run(GetParam().make(), [](Parameters& p) { p.set("angle_mesh", 8.0); });
-  const Delivered& d = run.session->delivered();
+  const MeshEvaluation& d = run.session->delivered();
   const SurfaceMesh& mesh = run.session->mesh();
   const FaceMesh& face = mesh.faces[0];
   for (std::size_t t = 0; t < face.triangles.size(); ++t) {
@@ -71,7 +71,7 @@ TEST_P(Guarantee, DistanceOverThreeDecades) {
       p.set("geo_rule", "chord");
       p.set("eps_chord", eps);
     });
-    const Delivered& d = run.session->delivered();
+    const MeshEvaluation& d = run.session->delivered();
     const Delivery& a0 = d[Kind::deviation];
     SCOPED_TRACE(known(a0, eps));
     EXPECT_EQ(a0.limit, eps);
@@ -88,7 +88,7 @@ TEST_P(Guarantee, BothAtOnce) {
     p.set("geo_rule", "both");
     p.set("eps_chord", eps);
   });
-  const Delivered& d = run.session->delivered();
+  const MeshEvaluation& d = run.session->delivered();
   SCOPED_TRACE(known(d[Kind::deviation], eps));
   EXPECT_GE(share_within(d[Kind::deviation].values, eps), 0.995);
   EXPECT_LE(d[Kind::deviation].spread.max, 1.3 * eps);
@@ -104,7 +104,7 @@ void expect_distance_by_direction(AnalyticCad cad, double gradation) {
     p.set("eps_chord", eps);
     p.set("gradation", gradation);
   });
-  const Delivered& d = run.session->delivered();
+  const MeshEvaluation& d = run.session->delivered();
   SCOPED_TRACE(known(d[Kind::deviation], eps));
   EXPECT_GE(share_within(d[Kind::deviation].values, eps), 0.995);
   EXPECT_LE(d[Kind::deviation].spread.max, 1.3 * eps);
@@ -127,7 +127,7 @@ TEST_P(Guarantee, MeshesByBothRadiiAreUnit) {
         p.set("geo_guarantee", 0);
         p.set("gradation", gradation);
       });
-      const Delivered& d = run.session->delivered();
+      const MeshEvaluation& d = run.session->delivered();
       SCOPED_TRACE(std::string(rule) + ", gradation " + std::to_string(gradation));
       EXPECT_GE(d.share_in_range(), 0.97);
       EXPECT_GE(d[Kind::metric_quality].spread.mean, 0.93);

@@ -10,8 +10,8 @@
 
 #include "common/analytic_cad.h"
 #include "common/field_source.h"
-#include "measure/delivered.h"
 #include "measure/mesh_edges.h"
+#include "measure/mesh_evaluation.h"
 #include "session/session.h"
 #include "size/geometric_metric.h"
 
@@ -69,7 +69,7 @@ struct Meshed {
   [[nodiscard]] std::size_t triangles() const { return session->mesh().triangle_count(); }
 
   /// Against the rule's own metric, in closed form from the jets; `most_stretched` is its largest ratio met.
-  Delivered measure(double* most_stretched = nullptr) {
+  MeshEvaluation measure(double* most_stretched = nullptr) {
     const GeometricRule by = rule.rule();
     PrescribedMetric prescribed;
     prescribed.wants = want_first | want_second;
@@ -87,10 +87,10 @@ struct Meshed {
         out[i] = term(sizes->w1, h1) + term(sizes->w2, h2);
       }
     };
-    DeliveredOptions options;
+    EvaluationOptions options;
     options.edge_angle_limit = rule.angle;
     options.deviation_limit = rule.chord;
-    return measure_delivered(session->mesh(), *cad, prescribed, options, monitor);
+    return evaluate_mesh(session->mesh(), *cad, prescribed, options, monitor);
   }
 };
 
@@ -113,12 +113,12 @@ TEST_P(UnitMesh, OfAnAnisotropicFieldByCurvature) {
   const UnitCase& c = GetParam();
   Meshed run(c.make(), c.rule);
   double stretched = 1;
-  const Delivered delivered = run.measure(&stretched);
+  const MeshEvaluation delivered = run.measure(&stretched);
   EXPECT_GE(stretched, 0.9 * c.stretched);
-  EXPECT_NEAR(delivered[DeliveredKind::length].spread.mean, 1, 0.02);
+  EXPECT_NEAR(delivered[EvaluationKind::length].spread.mean, 1, 0.02);
   EXPECT_GE(delivered.share_in_range(), 0.97);
-  EXPECT_GE(delivered[DeliveredKind::metric_quality].spread.mean, 0.93);
-  EXPECT_GE(delivered[DeliveredKind::metric_quality].spread.min, 0.2);
+  EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.mean, 0.93);
+  EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.min, 0.2);
 }
 
 AnalyticCad thin_torus() { return testing::torus_patch(100, 1); }
@@ -145,8 +145,8 @@ class MetricGuarantee : public ::testing::TestWithParam<UnitCase> {};
 TEST_P(MetricGuarantee, OfTheDistance) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.anisotropic = false, .chord = eps, .guarantee = true});
-    const Delivered delivered = run.measure();
-    const Delivery& deviation = delivered[DeliveredKind::deviation];
+    const MeshEvaluation delivered = run.measure();
+    const Delivery& deviation = delivered[EvaluationKind::deviation];
     EXPECT_GE(share_within(deviation), 0.995) << eps << ", " << run.triangles();
     EXPECT_LE(deviation.spread.max, 1.3 * eps) << run.triangles();
   }
@@ -157,8 +157,8 @@ TEST_P(MetricGuarantee, OfTheDistance) {
 TEST_P(MetricGuarantee, OfTheDistanceByDirection) {
   for (const double eps : {3e-2, 3e-3, 3e-4, 3e-5}) {
     Meshed run(GetParam().make(), {.chord = eps, .guarantee = true, .gradation = 2});
-    const Delivered delivered = run.measure();
-    const Delivery& deviation = delivered[DeliveredKind::deviation];
+    const MeshEvaluation delivered = run.measure();
+    const Delivery& deviation = delivered[EvaluationKind::deviation];
     EXPECT_GE(share_within(deviation), 0.995) << eps << ", " << run.triangles();
     EXPECT_LE(deviation.spread.max, 1.3 * eps) << run.triangles();
   }
@@ -167,8 +167,8 @@ TEST_P(MetricGuarantee, OfTheDistanceByDirection) {
 // A1: at most 8 degrees between an edge and the tangent planes at its ends for 99.5 % of the edges, nowhere above 10.
 TEST_P(MetricGuarantee, OfTheAngle) {
   Meshed run(GetParam().make(), {.name = "angle", .anisotropic = false, .guarantee = true});
-  const Delivered delivered = run.measure();
-  const Delivery& angle = delivered[DeliveredKind::edge_angle];
+  const MeshEvaluation delivered = run.measure();
+  const Delivery& angle = delivered[EvaluationKind::edge_angle];
   EXPECT_GE(share_within(angle), 0.995) << run.triangles();
   EXPECT_LE(angle.spread.max, 10);
 }
@@ -200,8 +200,8 @@ TEST(Anisotropy, SavesTriangles) {
 
 AnalyticCad transformed(const AnalyticCad& from, double scale, double angle) {
   const auto moved = [=](Vec3 v) {
-    return scale *
-           Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.z()};
+    return scale * Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(),
+                        std::sin(angle) * v.x() + std::cos(angle) * v.z()};
   };
   AnalyticCad cad = from;
   for (auto& [ref, face] : cad.faces)
@@ -244,21 +244,21 @@ struct Prescribed {
     session.make_mesh();
     EXPECT_EQ(find_defects(session.mesh()), std::vector<std::string>{});
   }
-  Delivered measure(const std::function<Metric3(Vec3)>& field) {
+  MeshEvaluation measure(const std::function<Metric3(Vec3)>& field) {
     PrescribedMetric prescribed;
     prescribed.wants = want_position | want_first;
     prescribed.at = [&](int, std::span<const Vec2>, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
       for (std::size_t i = 0; i < jets.size(); ++i) out[i] = induced_metric(jets[i].su, jets[i].sv, field(jets[i].s));
     };
-    return measure_delivered(session.mesh(), *cad, prescribed, {}, monitor);
+    return evaluate_mesh(session.mesh(), *cad, prescribed, {}, monitor);
   }
 };
 
-void expect_unit(const Delivered& delivered) {
-  EXPECT_NEAR(delivered[DeliveredKind::length].spread.mean, 1, 0.02);
+void expect_unit(const MeshEvaluation& delivered) {
+  EXPECT_NEAR(delivered[EvaluationKind::length].spread.mean, 1, 0.02);
   EXPECT_GE(delivered.share_in_range(), 0.97);
-  EXPECT_GE(delivered[DeliveredKind::metric_quality].spread.mean, 0.93);
-  EXPECT_GE(delivered[DeliveredKind::metric_quality].spread.min, 0.2);
+  EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.mean, 0.93);
+  EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.min, 0.2);
 }
 
 // Sizes h1 along horizontal circles, h2 across them.
@@ -279,40 +279,43 @@ TEST(Source, EdgesAtCornersAreMeasuredAlongTheirOwnCurve) {
                   },
                   testing::rectangle({0, 0}, {2, 1.5})};
   Prescribed run(std::move(cad), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
-  const Delivered exact = run.measure(field);
-  const Delivered& told = run.session.delivered();
+  const MeshEvaluation exact = run.measure(field);
+  const MeshEvaluation& told = run.session.delivered();
   ASSERT_EQ(told.edges.vertices, exact.edges.vertices);
-  const auto& lengths = exact[DeliveredKind::length].values;
+  const auto& lengths = exact[EvaluationKind::length].values;
   for (std::size_t e = 0; e < lengths.size(); ++e)
-    EXPECT_NEAR(told[DeliveredKind::length].values[e], lengths[e], 1e-6 * lengths[e]);
+    EXPECT_NEAR(told[EvaluationKind::length].values[e], lengths[e], 1e-6 * lengths[e]);
 }
 
 TEST(Source, TheTeapotUnderOneMetricOfSpace) {
   const Metric3 m = metric_of_sizes({1, 2, 3}, 0.3, 0.03);
   const auto source = testing::field_of_space([&](Vec3) { return Prescription::of_space(m); });
   Prescribed run(testing::teapot(), source, {{"hphymin", 1e-3}, {"hphymax", 10.}});
-  const Delivered delivered = run.measure([&](Vec3) { return m; });
-  EXPECT_NEAR(delivered[DeliveredKind::length].spread.mean, 1, 0.03);
+  const MeshEvaluation delivered = run.measure([&](Vec3) { return m; });
+  EXPECT_NEAR(delivered[EvaluationKind::length].spread.mean, 1, 0.03);
   EXPECT_GE(delivered.share_in_range(), 0.97);
-  EXPECT_GE(delivered[DeliveredKind::metric_quality].spread.mean, 0.93);
+  EXPECT_GE(delivered[EvaluationKind::metric_quality].spread.mean, 0.93);
 }
 
 // Half of the surface has a metric, the rest takes hphydef (hphy_flag 1) or what the curves around have (2).
 TEST(Source, AnswersInOnePlaceAndNotInAnother) {
   const auto field = [](Vec3 p) { return metric_of_sizes({-p.y(), p.x(), 0.1}, 0.05, 0.2); };
-  const auto source =
-      testing::field_of_space([&](Vec3 p) { return p.x() > p.y() ? Prescription::of_space(field(p)) : Prescription{}; });
+  const auto source = testing::field_of_space(
+      [&](Vec3 p) { return p.x() > p.y() ? Prescription::of_space(field(p)) : Prescription{}; });
   for (const int hphy_flag : {1, 2}) {
     Prescribed run(testing::torus_patch(4, 1), source, {{"hphymin", 1e-3}, {"hphymax", 10.}, {"hphydef", 0.1}},
                    hphy_flag);
-    const Delivered delivered = run.measure([&](Vec3 p) { return p.x() > p.y() ? field(p) : isotropic_metric3(0.1); });
+    const MeshEvaluation delivered =
+        run.measure([&](Vec3 p) { return p.x() > p.y() ? field(p) : isotropic_metric3(0.1); });
     std::size_t answered = 0, in_range = 0;
     const auto& edges = delivered.edges.vertices;
-    const auto& lengths = delivered[DeliveredKind::length].values;
+    const auto& lengths = delivered[EvaluationKind::length].values;
     for (std::size_t e = 0; e < edges.size(); ++e) {
       const Vec3 p = run.session.mesh().vertices[edges[e][0]], q = run.session.mesh().vertices[edges[e][1]];
       // Away from the jump; with interpolation the other half is not known in closed form.
-      if (std::min(p.x() - p.y(), q.x() - q.y()) < 0.5 && (hphy_flag == 2 || std::max(p.x() - p.y(), q.x() - q.y()) > -0.5)) continue;
+      if (std::min(p.x() - p.y(), q.x() - q.y()) < 0.5 &&
+          (hphy_flag == 2 || std::max(p.x() - p.y(), q.x() - q.y()) > -0.5))
+        continue;
       ++answered;
       in_range += lengths[e] >= std::numbers::sqrt2 / 2 && lengths[e] <= std::numbers::sqrt2 ? 1 : 0;
     }
@@ -324,11 +327,12 @@ TEST(Source, AnswersInOnePlaceAndNotInAnother) {
 // Sizes of a third of the way round a pole and more: rings would have one or two edges.
 TEST(Source, SeamsAndPolesStayConformingUnderLongSizes) {
   AnalyticCad cone;
-  cone.faces[1] = {[](Vec2 p) {
-                     const double c = std::cos(p.x()), s = std::sin(p.x());
-                     return SurfaceJet{{p.y() * c, p.y() * s, 2 * p.y()}, {-p.y() * s, p.y() * c, 0}, {c, s, 2}, {}, {}, {}};
-                   },
-                   testing::rectangle({0, 0}, {2 * std::numbers::pi, 1})};
+  cone.faces[1] = {
+      [](Vec2 p) {
+        const double c = std::cos(p.x()), s = std::sin(p.x());
+        return SurfaceJet{{p.y() * c, p.y() * s, 2 * p.y()}, {-p.y() * s, p.y() * c, 0}, {c, s, 2}, {}, {}, {}};
+      },
+      testing::rectangle({0, 0}, {2 * std::numbers::pi, 1})};
   AnalyticCad tube = testing::fillet(0.1, 3);
   tube.faces[1].curves = testing::rectangle({0, 0}, {2 * std::numbers::pi, 3});
   for (const double round : {0.1, 0.2, 0.3, 0.5, 1., 3.}) {
@@ -382,9 +386,9 @@ TEST(Source, OfSizesIsAsGoodAsTheHostsOwn) {
   Prescribed run(testing::paraboloid(), source, {{"hphymin", 0.001}});
   const auto count = static_cast<double>(by_host.mesh().triangle_count());
   EXPECT_NEAR(static_cast<double>(run.session.mesh().triangle_count()), count, 0.01 * count);
-  const Delivered delivered = run.measure([&](Vec3 p) { return isotropic_metric3(size(p)); });
+  const MeshEvaluation delivered = run.measure([&](Vec3 p) { return isotropic_metric3(size(p)); });
   EXPECT_GE(delivered.share_in_range(), 0.99);
-  EXPECT_GE(delivered[DeliveredKind::q2].spread.mean, 0.98);
+  EXPECT_GE(delivered[EvaluationKind::q2].spread.mean, 0.98);
 }
 
 // Edges of the rim's curves bend by more than a right angle; triangles beside them were halved until edges had a
@@ -394,10 +398,10 @@ TEST(Source, OfCoarseSizesLeavesTrianglesBesideCoarseCurvesAlone) {
     const double size = h;
     const auto source = testing::field_of_space([size](Vec3) { return Prescription::of_size(size); });
     Prescribed run(testing::teapot(), source, {{"hphymin", 1e-3}, {"hphymax", 10.}, {"gradation", gradation}});
-    const Delivered delivered = run.measure([size](Vec3) { return isotropic_metric3(size); });
-    EXPECT_GE(delivered[DeliveredKind::length].spread.min, 0.1) << h << ' ' << gradation;
-    EXPECT_GE(delivered[DeliveredKind::q2].spread.mean, 0.94) << h << ' ' << gradation;
-    EXPECT_GE(delivered[DeliveredKind::q2].spread.min, 0.35) << h << ' ' << gradation;
+    const MeshEvaluation delivered = run.measure([size](Vec3) { return isotropic_metric3(size); });
+    EXPECT_GE(delivered[EvaluationKind::length].spread.min, 0.1) << h << ' ' << gradation;
+    EXPECT_GE(delivered[EvaluationKind::q2].spread.mean, 0.94) << h << ' ' << gradation;
+    EXPECT_GE(delivered[EvaluationKind::q2].spread.min, 0.35) << h << ' ' << gradation;
   }
 }
 
@@ -418,7 +422,7 @@ TEST(Source, DipsThatNoSampleHitsAreMeshed) {
     const auto source = testing::field_of_space([&](Vec3 p) { return Prescription::of_size(size(p)); });
     Prescribed run(square, source, {{"hphymin", 0.0001}, {"hphymax", 1.}});
     corrections += run.session.report().corrections;
-    EXPECT_LE(run.measure([&](Vec3 p) { return isotropic_metric3(size(p)); })[DeliveredKind::length].spread.max, 1.6);
+    EXPECT_LE(run.measure([&](Vec3 p) { return isotropic_metric3(size(p)); })[EvaluationKind::length].spread.max, 1.6);
   }
   EXPECT_GE(corrections, 1);
 }

@@ -21,8 +21,8 @@ struct Asked {
 void expect_unit(const NamedSurface& surface, const NamedField& field, const Asked& asked) {
   const GradedRun run(surface, field.size, asked.slope, asked.triangles);
   EXPECT_EQ(find_defects(run.session->mesh()), std::vector<std::string>{});
-  const Delivered& delivered = run.session->delivered();
-  EXPECT_NEAR(delivered[DeliveredKind::length].spread.mean, 1, 0.01);
+  const MeshEvaluation& delivered = run.session->delivered();
+  EXPECT_NEAR(delivered[EvaluationKind::length].spread.mean, 1, 0.01);
   EXPECT_GE(delivered.share_in_range(), 0.998);
   EXPECT_EQ(delivered.folded_triangles, 0);
   const QualitySummary quality = summarise_quality(run.session->exported());

@@ -13,7 +13,7 @@
 #include "common/analytic_cad.h"
 #include "common/field_source.h"
 #include "gradation/metric_grading.h"
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "metric/metric3_algebra.h"
 #include "session/session.h"
 
@@ -32,7 +32,8 @@ SurfaceJet cylinder_jet(Vec2 p, double radius) {
 }
 SurfaceJet polar_jet(Vec2 p) {
   const double c = std::cos(p.y()), s = std::sin(p.y());
-  return {{p.x() * c, p.x() * s, 0}, {c, s, 0}, {-p.x() * s, p.x() * c, 0}, {}, {-s, c, 0}, {-p.x() * c, -p.x() * s, 0}};
+  return {{p.x() * c, p.x() * s, 0},  {c, s, 0}, {-p.x() * s, p.x() * c, 0}, {}, {-s, c, 0},
+          {-p.x() * c, -p.x() * s, 0}};
 }
 double bounded(const SurfaceJet& jet, Vec3 short_way, Vec3 long_way, double h1, double h2, double tilt) {
   TangentMetric sizes{short_way, long_way, h1, h2};

@@ -1,4 +1,4 @@
-#include "curve/metric_gradation.h"
+#include "curve/metric_length_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ class Measure {
       pending_.push_back({middle, f});
     }
   }
-  CurveGradation take() { return std::move(result_); }
+  MetricLengthTable take() { return std::move(result_); }
 
  private:
   struct Node {
@@ -103,12 +103,12 @@ class Measure {
   double lss_;
   std::size_t piece_ = 0;
   std::vector<Node> pending_;
-  CurveGradation result_;
+  MetricLengthTable result_;
 };
 
 }  // namespace
 
-double CurveGradation::metric_abscissa(double at) const noexcept {
+double MetricLengthTable::metric_abscissa(double at) const noexcept {
   if (at <= s.front()) return 0;
   if (at >= s.back()) return l.back();
   const auto i = static_cast<std::size_t>(std::upper_bound(s.begin(), s.end(), at) - s.begin()) - 1;
@@ -116,14 +116,14 @@ double CurveGradation::metric_abscissa(double at) const noexcept {
   return l[i] + d * (first[i] + (last[i] - first[i]) * d / (2 * (s[i + 1] - s[i])));
 }
 
-CurveGradation measure_curve(const PieceSpeed& speed, std::span<const double> breaks, double lss) {
+MetricLengthTable measure_curve(const PieceSpeed& speed, std::span<const double> breaks, double lss) {
   check_breaks(breaks, lss);
   Measure measure(speed, lss, breaks.front());
   for (std::size_t i = 0; i + 1 < breaks.size(); ++i) measure.add_piece(i, breaks[i + 1]);
   return measure.take();
 }
 
-std::vector<double> split_equally(const CurveGradation& gradation, int n) {
+std::vector<double> split_equally(const MetricLengthTable& gradation, int n) {
   if (n < 1) throw InvalidArgument("a curve has at least one edge; " + std::to_string(n) + " were asked for");
   const auto& [s, l, first, last] = gradation;
   return equal_parts(s, l, n, [&, &first = first, &last = last, &s = s](std::size_t i, double length) {
@@ -140,7 +140,7 @@ std::vector<double> split_by_metric(const std::function<double(double)>& speed, 
   constexpr int intervals = 8;
   std::vector<double> breaks;
   for (int i = 0; i <= intervals; ++i) breaks.push_back(total * i / intervals);
-  const CurveGradation gradation = measure_curve([&](std::size_t, double s) { return speed(s); }, breaks, lss);
+  const MetricLengthTable gradation = measure_curve([&](std::size_t, double s) { return speed(s); }, breaks, lss);
   return split_equally(gradation, unit_edge_count(gradation.length()));
 }
 

@@ -30,7 +30,7 @@ struct PrescribedMetric {
 };
 
 /// What is measured. Values are part of the C ABI.
-enum class DeliveredKind : int {
+enum class EvaluationKind : int {
   /// Of an edge: length in the prescribed metric of the image of its segment of (u, v), by Gauss quadrature; 1 is as
   /// prescribed.
   length = 1,
@@ -38,7 +38,8 @@ enum class DeliveredKind : int {
   /// ends are singular.
   edge_angle = 2,
   /// Of an edge: max(h1 / h2, h2 / h1)^(1 / length) with the sizes that are prescribed along its chord at its two ends
-  /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in DeliveredOptions::spaces
+  /// (Borouchaki, Hecht, Frey: H-shock of an edge), inside a face with those and the length in
+  /// EvaluationOptions::spaces
   /// where there are any. Edges shorter than a tenth of a unit are judged by the ratio of sizes alone, as if they were
   /// that long. NaN where an end is singular.
   gradation = 3,
@@ -57,22 +58,22 @@ enum class DeliveredKind : int {
   /// at its vertices; degrees, 0 to 180.
   angle = 9,
 };
-inline constexpr std::size_t delivered_kinds = 9;
+inline constexpr std::size_t evaluation_kinds = 9;
 
 /// Of what one value is measured. Values are part of the C ABI.
-enum class DeliveredEntity : int { edge = 1, vertex = 2, triangle = 3 };
+enum class EvaluationEntity : int { edge = 1, vertex = 2, triangle = 3 };
 
 /// A row of the table of kinds.
-struct DeliveredMeasure {
-  DeliveredKind kind;
-  DeliveredEntity entity;
+struct EvaluatedMeasure {
+  EvaluationKind kind;
+  EvaluationEntity entity;
   const char* name;   ///< as in files: "metric_length"
   const char* title;  ///< for a person, with the unit
 };
 /// All kinds, in the order of their values.
-std::span<const DeliveredMeasure> delivered_measures();
+std::span<const EvaluatedMeasure> delivered_measures();
 
-struct DeliveredOptions {
+struct EvaluationOptions {
   /// Points on each edge at which its length is integrated: exact up to degree 2 n - 1 in the speed.
   int gauss_points = 3;
   /// Prescriptions to be checked; infinity: none.
@@ -125,34 +126,34 @@ struct Delivery {
 };
 
 /// All measures; prescriptions that are not met are counted.
-struct Delivered {
+struct MeshEvaluation {
   MeshEdges edges;
-  std::array<Delivery, delivered_kinds> of_kind;
+  std::array<Delivery, evaluation_kinds> of_kind;
   std::int64_t short_edges = 0, long_edges = 0;  ///< length below 1 / sqrt(2), above sqrt(2)
   std::int64_t folded_triangles = 0;             ///< angle above 90 degrees
   CallCounts calls;                              ///< that the measure took
   double seconds = 0;
 
-  [[nodiscard]] const Delivery& operator[](DeliveredKind kind) const { return of_kind[static_cast<int>(kind) - 1]; }
-  [[nodiscard]] Delivery& operator[](DeliveredKind kind) { return of_kind[static_cast<int>(kind) - 1]; }
+  [[nodiscard]] const Delivery& operator[](EvaluationKind kind) const { return of_kind[static_cast<int>(kind) - 1]; }
+  [[nodiscard]] Delivery& operator[](EvaluationKind kind) { return of_kind[static_cast<int>(kind) - 1]; }
 
   /// Share of the edges with a length in [1 / sqrt(2), sqrt(2)].
   [[nodiscard]] double share_in_range() const noexcept;
 };
 
 /// Fills the spreads and counts from the values and limits.
-void summarise(Delivered& delivered);
+void summarise(MeshEvaluation& delivered);
 
 /// Measures a mesh on the surface that `cad` gives. About 24 evaluations a vertex: 1 of surf1 there, 9 of surf0 and
 /// surf1 on edges, 14 inside triangles. Throws what callbacks throw, and Cancelled.
-Delivered measure_delivered(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
-                            const DeliveredOptions& options, Monitor& monitor);
+MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
+                             const EvaluationOptions& options, Monitor& monitor);
 
 /// For a person.
 struct DeliveredText {
   /// One line a kind: its spread and its histogram; one sentence for each prescription that is not met.
   std::vector<std::string> summary, not_met;
 };
-DeliveredText describe(const Delivered& delivered);
+DeliveredText describe(const MeshEvaluation& delivered);
 
 }  // namespace carreau

@@ -1,4 +1,4 @@
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 
 #include <algorithm>
 #include <chrono>
@@ -76,7 +76,7 @@ class Sampler {
 
 class Measurement {
  public:
-  Measurement(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed, const DeliveredOptions& options,
+  Measurement(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed, const EvaluationOptions& options,
               Monitor& monitor)
       : mesh_(mesh),
         options_(options),
@@ -85,14 +85,14 @@ class Measurement {
         sampler_(cad, prescribed, monitor),
         edges_(result_.edges) {}
 
-  Delivered run() {
+  MeshEvaluation run() {
     edges_ = edges_of(mesh_);
     const std::size_t n = edges_.vertices.size(), m = edges_.of_triangle.size();
-    of(DeliveredKind::length).assign(n, 0);
-    of(DeliveredKind::edge_angle).assign(n, nan);
-    of(DeliveredKind::gradation).assign(n, nan);
-    for (const DeliveredKind kind : {DeliveredKind::q1, DeliveredKind::q2, DeliveredKind::metric_quality,
-                                     DeliveredKind::deviation, DeliveredKind::angle})
+    of(EvaluationKind::length).assign(n, 0);
+    of(EvaluationKind::edge_angle).assign(n, nan);
+    of(EvaluationKind::gradation).assign(n, nan);
+    for (const EvaluationKind kind : {EvaluationKind::q1, EvaluationKind::q2, EvaluationKind::metric_quality,
+                                      EvaluationKind::deviation, EvaluationKind::angle})
       of(kind).assign(m, 0);
     find_neighbours();
     above_.resize(n * gauss_.node.size());
@@ -111,8 +111,8 @@ class Measurement {
   }
 
  private:
-  std::vector<double>& of(DeliveredKind kind) { return result_[kind].values; }
-  void raise(DeliveredKind kind, std::size_t place, double value) {
+  std::vector<double>& of(EvaluationKind kind) { return result_[kind].values; }
+  void raise(EvaluationKind kind, std::size_t place, double value) {
     double& known = of(kind)[place];
     known = std::max(known, value);
   }
@@ -249,7 +249,7 @@ class Measurement {
                    if (const auto h = curve_sizes(o.edge, o.a))
                      speed = norm(d.x() * jet.su + d.y() * jet.sv) /
                              interpolate_size(options_.law, (*h)[0], (*h)[1], gauss_.node[k % n]);
-                   of(DeliveredKind::length)[o.edge] += gauss_.weight[k % n] * speed;
+                   of(EvaluationKind::length)[o.edge] += gauss_.weight[k % n] * speed;
                  });
     for (const Side& o : own)
       if (o.measured) set_gradation(o.edge, o.a, o.b);
@@ -258,7 +258,7 @@ class Measurement {
   void raise_edge_angle(std::int32_t edge, std::int32_t a, std::int32_t b) {
     const Vec3 d = position(b) - position(a);
     const double l = norm(d);
-    double& angle = of(DeliveredKind::edge_angle)[edge];
+    double& angle = of(EvaluationKind::edge_angle)[edge];
     for (const std::int32_t v : {a, b}) {
       if (!normal_[v] || !(l > 0)) continue;
       const double here = degrees(std::asin(std::min(1.0, std::abs(dot(d, *normal_[v])) / l)));
@@ -295,7 +295,7 @@ class Measurement {
     const Vec2 from = face_->uv[a], to = face_->uv[b];
     const Vec3 chord = position(b) - position(a);
     const Vec2 at_a = offset_along(a, chord), at_b = offset_along(b, chord);
-    double p = size_along(a, at_a), q = size_along(b, at_b), l = of(DeliveredKind::length)[edge];
+    double p = size_along(a, at_a), q = size_along(b, at_b), l = of(EvaluationKind::length)[edge];
     if (const auto h = curve_sizes(edge, a)) {
       p = (*h)[0], q = (*h)[1];
     } else if (const ControlSpace* space = governing_space()) {
@@ -303,7 +303,7 @@ class Measurement {
       l = field_length([space](Vec2 uv) { return space->at(uv); }, from, to, fine_length);
     }
     if (!(p > 0) || !(q > 0) || !(l > 0)) return;
-    of(DeliveredKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / std::max(l, shortest_way));
+    of(EvaluationKind::gradation)[edge] = std::pow(std::max(p / q, q / p), 1 / std::max(l, shortest_way));
   }
 
   void measure_triangles() {
@@ -322,7 +322,7 @@ class Measurement {
                    raise_deviation(place, jet.s);
                    raise_angle(place, p, unit_normal(jet));
                    // Area in the metric, in units of the triangle of (u, v).
-                   of(DeliveredKind::metric_quality)[place] +=
+                   of(EvaluationKind::metric_quality)[place] +=
                        rule[k % rule.size()].weight * std::sqrt(std::max(determinant(metric), 0.0));
                  });
     for (std::size_t t = 0; t < face_->triangles.size(); ++t) finish_quality(t);
@@ -347,30 +347,30 @@ class Measurement {
   }
 
   void raise_deviation(std::size_t place, Vec3 s) {
-    if (distance(s, place) > of(DeliveredKind::deviation)[place])
-      raise(DeliveredKind::deviation, place, distance_to_mesh(s, place));
+    if (distance(s, place) > of(EvaluationKind::deviation)[place])
+      raise(EvaluationKind::deviation, place, distance_to_mesh(s, place));
   }
 
   void raise_angle(std::size_t place, const std::array<Vec3, 3>& p, const std::optional<Vec3>& normal) {
     if (!normal) return;
     const Vec3 own = cross(p[1] - p[0], p[2] - p[0]);
-    raise(DeliveredKind::angle, place, degrees(angle_between(own, *normal)));
+    raise(EvaluationKind::angle, place, degrees(angle_between(own, *normal)));
   }
 
   void start_triangle(std::size_t t) {
     const std::array<Vec3, 3> p = corners(t);
-    of(DeliveredKind::q1)[first_ + t] = quality_q1(p[0], p[1], p[2]);
-    of(DeliveredKind::q2)[first_ + t] = quality_q2(p[0], p[1], p[2]);
+    of(EvaluationKind::q1)[first_ + t] = quality_q1(p[0], p[1], p[2]);
+    of(EvaluationKind::q2)[first_ + t] = quality_q2(p[0], p[1], p[2]);
     for (const std::int32_t v : face_->triangles[t]) raise_angle(first_ + t, p, normal_[v]);
   }
 
   void finish_quality(std::size_t t) {
     const auto& c = face_->triangles[t];
     std::array<double, 3> l{};
-    for (std::size_t i = 0; i < 3; ++i) l[i] = of(DeliveredKind::length)[edges_.of_triangle[first_ + t][i]];
+    for (std::size_t i = 0; i < 3; ++i) l[i] = of(EvaluationKind::length)[edges_.of_triangle[first_ + t][i]];
     const double squares = l[0] * l[0] + l[1] * l[1] + l[2] * l[2];
     double area = 0.5 * cross(face_->uv[c[1]] - face_->uv[c[0]], face_->uv[c[2]] - face_->uv[c[0]]);
-    double& quality = of(DeliveredKind::metric_quality)[first_ + t];
+    double& quality = of(EvaluationKind::metric_quality)[first_ + t];
     area *= quality;
     // At a pole the triangle of (u, v) is another one: that of the lengths stands for it (Heron's formula).
     if (!normal_[c[0]] || !normal_[c[1]] || !normal_[c[2]]) {
@@ -390,14 +390,14 @@ class Measurement {
       for (std::size_t k = edge * n; k < (edge + 1) * n; ++k) {
         double d = distance_to_mesh(above_[k], p);
         if (q >= 0 && d > 0) d = std::min(d, distance_to_mesh(above_[k], q));
-        raise(DeliveredKind::deviation, p, d);
-        if (q >= 0) raise(DeliveredKind::deviation, q, d);
+        raise(EvaluationKind::deviation, p, d);
+        if (q >= 0) raise(EvaluationKind::deviation, q, d);
       }
     }
   }
 
   void compare_lengths() {
-    std::vector<double>& ratio = of(DeliveredKind::length_ratio);
+    std::vector<double>& ratio = of(EvaluationKind::length_ratio);
     ratio.resize(mesh_.vertices.size());
     for (std::size_t v = 0; v < ratio.size(); ++v) ratio[v] = longest_[v] > 0 ? longest_[v] / shortest_[v] : nan;
   }
@@ -408,11 +408,11 @@ class Measurement {
   };
 
   const SurfaceMesh& mesh_;
-  const DeliveredOptions& options_;
+  const EvaluationOptions& options_;
   Monitor& monitor_;
   GaussRule gauss_;
   Sampler sampler_;
-  Delivered result_;
+  MeshEvaluation result_;
   MeshEdges& edges_;
   std::vector<std::array<std::int32_t, 3>> triangle_;  // vertices of the mesh
   std::vector<std::array<std::int32_t, 2>> beside_;    // by edge inside a face: its triangles, or -1
@@ -434,11 +434,11 @@ CallCounts difference(const CallCounts& p, const CallCounts& q) {
 
 // Of the edges beyond a limit: those that are as short as the smallest size lets them be, and those inside faces that
 // curves hold at both ends.
-void count_forced(const SurfaceMesh& mesh, const DeliveredOptions& options, Delivered& d) {
+void count_forced(const SurfaceMesh& mesh, const EvaluationOptions& options, MeshEvaluation& d) {
   std::vector<char> on_curve(mesh.vertices.size(), 0);
   for (const CurveMesh& curve : mesh.curves)
     for (const std::int32_t v : curve.vertices) on_curve[v] = 1;
-  Delivery &angle = d[DeliveredKind::edge_angle], &gradation = d[DeliveredKind::gradation];
+  Delivery &angle = d[EvaluationKind::edge_angle], &gradation = d[EvaluationKind::gradation];
   angle.shortest = options.shortest_for_angle;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const auto [a, b] = d.edges.vertices[e];
@@ -450,15 +450,15 @@ void count_forced(const SurfaceMesh& mesh, const DeliveredOptions& options, Deli
 
 }  // namespace
 
-Delivered measure_delivered(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
-                            const DeliveredOptions& options, Monitor& monitor) {
+MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
+                             const EvaluationOptions& options, Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   const CallCounts before = cad.counts();
-  Delivered d = Measurement(mesh, cad, prescribed, options, monitor).run();
-  d[DeliveredKind::edge_angle].limit = options.edge_angle_limit;
-  d[DeliveredKind::gradation].limit = options.gradation_limit;
-  d[DeliveredKind::length_ratio].limit = options.length_ratio_limit;
-  d[DeliveredKind::deviation].limit = options.deviation_limit;
+  MeshEvaluation d = Measurement(mesh, cad, prescribed, options, monitor).run();
+  d[EvaluationKind::edge_angle].limit = options.edge_angle_limit;
+  d[EvaluationKind::gradation].limit = options.gradation_limit;
+  d[EvaluationKind::length_ratio].limit = options.length_ratio_limit;
+  d[EvaluationKind::deviation].limit = options.deviation_limit;
   summarise(d);
   count_forced(mesh, options, d);
   d.calls = difference(cad.counts(), before);

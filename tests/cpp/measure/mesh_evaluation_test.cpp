@@ -1,5 +1,5 @@
 // Measures against closed forms, on meshes whose vertices are known.
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 using testing::AnalyticCad;
 using testing::Grid;
 using testing::grid_mesh;
-using Kind = DeliveredKind;
+using Kind = EvaluationKind;
 
 constexpr double pi = std::numbers::pi;
 double degrees(double radians) { return radians * 180 / pi; }
@@ -55,15 +55,16 @@ SurfaceJet sphere_jet(Vec2 p, double r) {
 SurfaceJet gnomonic_jet(Vec2 p) {
   const double n = std::sqrt(1 + p.x() * p.x() + p.y() * p.y()), n3 = n * n * n;
   const Vec3 q{p.x(), p.y(), 1};
-  return {(1 / n) * q, (1 / n) * Vec3{1, 0, 0} - (p.x() / n3) * q, (1 / n) * Vec3{0, 1, 0} - (p.y() / n3) * q, {}, {}, {}};
+  return {(1 / n) * q, (1 / n) * Vec3{1, 0, 0} - (p.x() / n3) * q, (1 / n) * Vec3{0, 1, 0} - (p.y() / n3) * q, {}, {},
+          {}};
 }
 
 struct Case {
   AnalyticCad cad;
   SurfaceMesh mesh;
   Monitor monitor;
-  Delivered measure(const PrescribedMetric& prescribed, const DeliveredOptions& options = {}) {
-    return measure_delivered(mesh, cad, prescribed, options, monitor);
+  MeshEvaluation measure(const PrescribedMetric& prescribed, const EvaluationOptions& options = {}) {
+    return evaluate_mesh(mesh, cad, prescribed, options, monitor);
   }
 };
 
@@ -113,7 +114,7 @@ TEST(DeliveredPlane, UniformLengthsAreExact) {
   Case run{one_face(plane_jet), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {4, 3}, 8, 5}});
   const double h = 0.3;
-  const Delivered d = run.measure(uniform(h));
+  const MeshEvaluation d = run.measure(uniform(h));
   ASSERT_EQ(d.edges.vertices.size(), 8U * 6 + 9 * 5 + 8 * 5);
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const auto [a, b] = d.edges.vertices[e];
@@ -138,9 +139,10 @@ TEST(DeliveredPlane, QuadratureHasItsOrder) {
     for (int degree = 0; degree <= 2 * n; ++degree) {
       Case run{one_face(plane_jet), {}, {}};
       run.mesh = single(run.cad, {{{0, 0}, {1, 0}, {0, 1}}});
-      DeliveredOptions options;
+      EvaluationOptions options;
       options.gauss_points = n;
-      const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return 1 / (1 + std::pow(p.x(), degree)); }), options);
+      const MeshEvaluation d =
+          run.measure(isotropic([=](int, Vec2 p) { return 1 / (1 + std::pow(p.x(), degree)); }), options);
       const double error = std::abs(d[Kind::length].values[0] - (1 + 1.0 / (degree + 1)));
       if (degree < 2 * n) {
         EXPECT_LT(error, 1e-14) << n << " points, degree " << degree;
@@ -155,9 +157,9 @@ TEST(DeliveredPlane, LinearSizeHasItsClosedForms) {
   const double a = 0.5, b = 0.26;
   Case run{one_face(plane_jet), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {5, 1}, 10, 1}});
-  DeliveredOptions options;
+  EvaluationOptions options;
   options.gradation_limit = 1.25;
-  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.x(); }), options);
+  const MeshEvaluation d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.x(); }), options);
   int along = 0;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
@@ -190,9 +192,9 @@ TEST(DeliveredPlane, GradationsBetweenTwoCurvesAreForced) {
   std::sort(loop.vertices.begin(), loop.vertices.end(), before);
   loop.vertices.push_back(loop.vertices.front());
   run.mesh.curves.push_back(loop);
-  DeliveredOptions options;
+  EvaluationOptions options;
   options.gradation_limit = 1.25;
-  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.y(); }), options);
+  const MeshEvaluation d = run.measure(isotropic([=](int, Vec2 p) { return a + b * p.y(); }), options);
   EXPECT_EQ(d[Kind::gradation].beyond, 11);
   EXPECT_EQ(d[Kind::gradation].forced, 9);
   const auto said = describe(d).not_met;
@@ -206,7 +208,7 @@ TEST(DeliveredPlane, GradationOfTinyEdgesIsThatOfATenthOfAUnit) {
   Case run{one_face(plane_jet), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {0.03, 1}, 3, 1}});
   const auto size = [](double x) { return std::pow(1.1, 100 * x); };
-  const Delivered d = run.measure(isotropic([=](int, Vec2 p) { return size(p.x()); }), {});
+  const MeshEvaluation d = run.measure(isotropic([=](int, Vec2 p) { return size(p.x()); }), {});
   int along = 0;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
@@ -221,7 +223,8 @@ TEST(DeliveredPlane, AnisotropicMetricIsThatOfTheStretchedTriangle) {
   // Sizes 2 along a direction and 0.1 across: the quality is Q2 of the image, and edges compare through it.
   const double angle = 0.4, h1 = 2, h2 = 0.1;
   const Vec2 x{std::cos(angle), std::sin(angle)}, y{-x.y(), x.x()};
-  const Metric2 m{x.x() * x.x() / (h1 * h1) + y.x() * y.x() / (h2 * h2), x.x() * x.y() / (h1 * h1) + y.x() * y.y() / (h2 * h2),
+  const Metric2 m{x.x() * x.x() / (h1 * h1) + y.x() * y.x() / (h2 * h2),
+                  x.x() * x.y() / (h1 * h1) + y.x() * y.y() / (h2 * h2),
                   x.y() * x.y() / (h1 * h1) + y.y() * y.y() / (h2 * h2)};
   const auto image = [&](Vec2 p) { return Vec3{dot(p, x) / h1, dot(p, y) / h2, 0}; };
   const PrescribedMetric prescribed{
@@ -231,7 +234,7 @@ TEST(DeliveredPlane, AnisotropicMetricIsThatOfTheStretchedTriangle) {
   for (const double more : {0.0, 0.3}) {
     const Vec2 b = h1 * (1 + more) * x, c = 0.5 * h1 * x + std::sqrt(0.75) * h2 * y;
     run.mesh = single(run.cad, {{{0, 0}, b, c}});
-    const Delivered d = run.measure(prescribed);
+    const MeshEvaluation d = run.measure(prescribed);
     EXPECT_NEAR(d[Kind::metric_quality].values[0], quality_q2(image({0, 0}), image(b), image(c)), 1e-12);
     EXPECT_NEAR(d[Kind::length].values[0], 1 + more, 1e-12);
     EXPECT_LT(d[Kind::q2].values[0], 0.15);
@@ -249,13 +252,13 @@ TEST(DeliveredSphere, EquilateralTriangleHasItsClosedForms) {
     run.mesh = single(run.cad, uv);
     const Vec3 a = run.mesh.vertices[0], b = run.mesh.vertices[1];
     const double chord = norm(b - a), radius = std::hypot(a.x(), a.y());
-    DeliveredOptions options;
+    EvaluationOptions options;
     const double edge_angle = degrees(std::asin(chord / 2)), deviation = 1 - a.z();
     for (const bool met : {true, false}) {
       options.edge_angle_limit = edge_angle * (met ? 1 + 1e-12 : 1 - 1e-6);
       options.deviation_limit = deviation * (met ? 1 + 1e-12 : 1 - 1e-6);
       options.gauss_points = 12;
-      const Delivered d = run.measure(uniform(chord), options);
+      const MeshEvaluation d = run.measure(uniform(chord), options);
       for (int e = 0; e < 3; ++e) {
         EXPECT_NEAR(d[Kind::edge_angle].values[e], edge_angle, 1e-10);
         EXPECT_NEAR(d[Kind::length].values[e], 2 * std::asin(chord / 2) / chord, 1e-12);
@@ -271,7 +274,7 @@ TEST(DeliveredSphere, EquilateralTriangleHasItsClosedForms) {
       EXPECT_EQ(describe(d).not_met.size(), met ? 0U : 2U);
       // The smallest size allows no shorter edges.
       options.shortest_for_angle = chord * (1 + 1e-12);
-      const Delivered coarse = run.measure(uniform(chord), options);
+      const MeshEvaluation coarse = run.measure(uniform(chord), options);
       EXPECT_EQ(coarse[Kind::edge_angle].beyond, met ? 0 : 3);
       EXPECT_EQ(coarse[Kind::edge_angle].forced, met ? 0 : 3);
       for (const std::string& sentence : describe(coarse).not_met)
@@ -291,7 +294,7 @@ TEST(DeliveredSphere, WholeSphereWithSeamAndPoles) {
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, -pi / 2}, {2 * pi, pi / 2}, columns, rows}});
   const std::size_t m = run.mesh.triangle_count();
   EXPECT_EQ(m, static_cast<std::size_t>(2 * columns * (rows - 1)));
-  const Delivered d = run.measure(uniform(0.8));
+  const MeshEvaluation d = run.measure(uniform(0.8));
   // Closed: three edges for two triangles, each once, and Euler's relation.
   EXPECT_EQ(2 * d.edges.vertices.size(), 3 * m);
   EXPECT_EQ(run.mesh.vertices.size() + m, d.edges.vertices.size() + 2);
@@ -305,8 +308,8 @@ TEST(DeliveredSphere, WholeSphereWithSeamAndPoles) {
   EXPECT_EQ(d[Kind::gradation].spread.count, static_cast<std::int64_t>(d.edges.vertices.size()) - at_poles);
   EXPECT_EQ(d[Kind::length_ratio].spread.count, static_cast<std::int64_t>(run.mesh.vertices.size()));
   // All edges of a pole are as long.
-  const auto pole =
-      std::min_element(run.mesh.vertices.begin(), run.mesh.vertices.end(), [](Vec3 p, Vec3 q) { return p.z() < q.z(); });
+  const auto pole = std::min_element(run.mesh.vertices.begin(), run.mesh.vertices.end(),
+                                     [](Vec3 p, Vec3 q) { return p.z() < q.z(); });
   EXPECT_NEAR(d[Kind::length_ratio].values[pole - run.mesh.vertices.begin()], 1, 1e-9);
   // The sphere is farthest from a triangle above the centre of its circle: no sample is farther, whichever of the
   // triangle and its neighbours it lies above; the normal is farthest off at the vertices.
@@ -347,14 +350,15 @@ TEST(DeliveredCone, TrianglesAtTheApexHaveTheNormalsOfTheirSectors) {
   const double height = 2;
   Case run{one_face([=](Vec2 p) {
              const double c = std::cos(p.x()), s = std::sin(p.x());
-             return SurfaceJet{{p.y() * c, p.y() * s, height * p.y()}, {-p.y() * s, p.y() * c, 0}, {c, s, height}, {}, {}, {}};
+             return SurfaceJet{
+                 {p.y() * c, p.y() * s, height * p.y()}, {-p.y() * s, p.y() * c, 0}, {c, s, height}, {}, {}, {}};
            }),
            {},
            {}};
   const int columns = 12;
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {2 * pi, 1}, columns, 6}});
   keep_ends_of_apex(run.mesh.faces[0], 0, columns);
-  const Delivered d = run.measure(uniform(0.3));
+  const MeshEvaluation d = run.measure(uniform(0.3));
   EXPECT_EQ(d.folded_triangles, 0);
   // A triangle between two generators: its plane holds the apex and their chord; normals are farthest off at the ends.
   const double cosine = std::cos(pi / columns), h2 = height * height;
@@ -388,7 +392,7 @@ TEST(DeliveredEllipsoid, EdgesToAPoleAreMeridians) {
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, -pi / 2}, {2 * pi, pi / 2}, columns, rows}});
   keep_ends_of_apex(run.mesh.faces[0], 0, columns);
   keep_ends_of_apex(run.mesh.faces[0], rows * (columns + 1), columns);
-  const Delivered d = run.measure(uniform(1));
+  const MeshEvaluation d = run.measure(uniform(1));
   int at_poles = 0;
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
@@ -410,7 +414,7 @@ TEST(DeliveredSphere, TrianglesTurnedAgainstTheSurfaceAreCounted) {
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {1, 1}, 8, 8}});
   auto& triangles = run.mesh.faces[0].triangles;
   for (std::size_t t = 0; t < 5; ++t) std::swap(triangles[7 * t][1], triangles[7 * t][2]);
-  const Delivered d = run.measure(uniform(0.15));
+  const MeshEvaluation d = run.measure(uniform(0.15));
   EXPECT_EQ(d.folded_triangles, 5);
   EXPECT_GT(d[Kind::angle].spread.max, 170);
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -425,7 +429,7 @@ TEST(DeliveredCylinder, AnglesAndDeviationsAreThoseOfTheChord) {
   const int columns = 18;
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {2 * pi, 3}, columns, 4}});
   const double step = 2 * pi / columns, chord = 2 * r * std::sin(step / 2);
-  const Delivered d = run.measure(uniform(0.7));
+  const MeshEvaluation d = run.measure(uniform(0.7));
   EXPECT_EQ(run.mesh.vertices.size(), static_cast<std::size_t>(5 * columns));  // the seam is closed
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const Vec3 p = run.mesh.vertices[d.edges.vertices[e][0]], q = run.mesh.vertices[d.edges.vertices[e][1]];
@@ -446,8 +450,9 @@ TEST(DeliveredTorus, LengthsConvergeWithTheirOrder) {
   const auto error = [](int n, int cells) {
     Case run{one_face([](Vec2 p) { return testing::torus_jet(p, 2, 0.7); }), {}, {}};
     run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {1, 2}, cells, cells}});
-    const PrescribedMetric prescribed = isotropic([](int, Vec2 p) { return 0.1 * (1.5 + std::sin(p.x() + 2 * p.y())); });
-    DeliveredOptions few, many;
+    const PrescribedMetric prescribed =
+        isotropic([](int, Vec2 p) { return 0.1 * (1.5 + std::sin(p.x() + 2 * p.y())); });
+    EvaluationOptions few, many;
     few.gauss_points = n, many.gauss_points = 20;
     const std::vector<double> p = run.measure(prescribed, few)[Kind::length].values,
                               q = run.measure(prescribed, many)[Kind::length].values;
@@ -488,10 +493,10 @@ TEST(DeliveredFaces, EdgeBetweenFacesHasTheLargerAngleAndOneLength) {
   // The faces prescribe 0.3, the curve 0.2 to 0.4 along it.
   std::vector<std::vector<double>> sizes(1);
   for (int i = 0; i <= columns; ++i) sizes[0].push_back(0.2 + 0.2 * i / columns);
-  DeliveredOptions options;
+  EvaluationOptions options;
   options.curve_size = sizes;
   options.gauss_points = 8;
-  const Delivered d = run.measure(uniform(0.3), options);
+  const MeshEvaluation d = run.measure(uniform(0.3), options);
   ASSERT_EQ(d.edges.segments.size(), static_cast<std::size_t>(columns));
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     if (d.edges.segment[e] < 0) continue;
@@ -519,7 +524,7 @@ TEST(DeliveredCalls, AreCountedApartAndAsTold) {
   Case run{one_face([](Vec2 p) { return testing::torus_jet(p, 2, 0.7); }), {}, {}};
   run.mesh = grid_mesh(run.cad, std::array{Grid{1, {0, 0}, {1, 1}, 20, 20}});
   const CallCounts before = run.cad.calls;
-  const Delivered d = run.measure(uniform(0.1));
+  const MeshEvaluation d = run.measure(uniform(0.1));
   EXPECT_EQ(d.calls.surf0 + before.surf0, run.cad.calls.surf0);
   EXPECT_EQ(d.calls.surf1 + before.surf1, run.cad.calls.surf1);
   const auto n = static_cast<std::int64_t>(run.mesh.vertices.size()),
@@ -559,8 +564,8 @@ TEST(SpreadOf, CountsEveryValueThatIsOne) {
 
 TEST(SpreadOf, NoMeshHasNothingToReport) {
   Case run{one_face(plane_jet), {}, {}};
-  const Delivered d = run.measure(uniform(1));
-  for (const DeliveredMeasure& measure : delivered_measures()) EXPECT_EQ(d[measure.kind].spread.count, 0);
+  const MeshEvaluation d = run.measure(uniform(1));
+  for (const EvaluatedMeasure& measure : delivered_measures()) EXPECT_EQ(d[measure.kind].spread.count, 0);
   EXPECT_EQ(d.share_in_range(), 0);
   EXPECT_TRUE(describe(d).not_met.empty());
 }

@@ -1,4 +1,4 @@
-#include "measure/delivered_composite.h"
+#include "measure/composite_evaluation.h"
 
 #include <memory>
 
@@ -6,8 +6,8 @@
 
 namespace carreau {
 
-Delivered measure_composite(const Model& model, const Topology& topology, Cad& cad, const CompositeOptions& options,
-                            const CompositeResult& result, Monitor& monitor) {
+MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, Cad& cad,
+                                  const CompositeOptions& options, const CompositeResult& result, Monitor& monitor) {
   SizeRules rules(model, topology, cad, options.size);
   // One face after the other is asked.
   std::unique_ptr<FaceMetric> prescribed;
@@ -22,7 +22,7 @@ Delivered measure_composite(const Model& model, const Topology& topology, Cad& c
         }
         prescribed->at(uv, jets, out);
       }};
-  DeliveredOptions measure;
+  EvaluationOptions measure;
   measure.curve_size = result.curve_size;
   measure.law = rules.law();
   const GeometricLimits geometric = geometric_limits(options.size);
@@ -34,7 +34,7 @@ Delivered measure_composite(const Model& model, const Topology& topology, Cad& c
     measure.spaces = result.spaces;
     measure.length_ratio_limit = adjacent_lengths * options.gradation;
   }
-  return measure_delivered(result.mesh, cad, metric, measure, monitor);
+  return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
 }
 
 }  // namespace carreau

@@ -10,7 +10,7 @@ namespace carreau {
 
 /// The gradation of a curve: points whose abscissa s (usual length) and metric abscissa l are both known. Between two
 /// of them the speed dl/ds is linear, so that l is a quadratic of s. k + 1 points, k intervals.
-struct CurveGradation {
+struct MetricLengthTable {
   std::vector<double> s, l;         ///< k + 1 each; s strictly ascending, l ascending from 0
   std::vector<double> first, last;  ///< speeds at the start and the end of each interval, k each
 
@@ -28,10 +28,10 @@ using PieceSpeed = std::function<double(std::size_t piece, double s)>;
 /// breaks[i] to breaks[i + 1] (strictly ascending). Each value of the speed is asked once a piece. Throws
 /// InvalidArgument when breaks or lss mean nothing or a speed is negative or not finite, LimitError beyond 20 million
 /// edges.
-CurveGradation measure_curve(const PieceSpeed& speed, std::span<const double> breaks, double lss);
+MetricLengthTable measure_curve(const PieceSpeed& speed, std::span<const double> breaks, double lss);
 
 /// The n + 1 usual abscissae that cut a curve into n >= 1 edges of equal metric length, found between the points of the
 /// gradation without another evaluation (RR-2818 sec. 4.6).
-std::vector<double> split_equally(const CurveGradation& gradation, int n);
+std::vector<double> split_equally(const MetricLengthTable& gradation, int n);
 
 }  // namespace carreau

@@ -1,7 +1,7 @@
 // What a run delivered, against what it was asked.
 #pragma once
 
-#include "measure/delivered.h"
+#include "measure/mesh_evaluation.h"
 #include "surface/options.h"
 #include "surface/result.h"
 #include "surface/sample/face_metric.h"
@@ -12,7 +12,7 @@ namespace carreau {
 /// prescribe: asked again, from the host and from sources. With a gradation
 /// "prescribed" is what it left. Where the geometry governs, its angle or distance is the limit of edges or triangles;
 /// the gradation is that of edges, 1.6 times it that of the lengths at a vertex.
-Delivered measure_composite(const Model& model, const Topology& topology, Cad& cad, const CompositeOptions& options,
-                            const CompositeResult& result, Monitor& monitor);
+MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, Cad& cad,
+                                  const CompositeOptions& options, const CompositeResult& result, Monitor& monitor);
 
 }  // namespace carreau
