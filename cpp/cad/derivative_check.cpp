@@ -48,7 +48,7 @@ struct Claim {
 /// `scale`: the size that a derivative of this order has when it matters.
 std::optional<Vec3> contradiction(const Claim& claim, Line& line, double range, double scale) {
   const auto value = [&](double offset) { return line.at(offset)[claim.slot]; };
-  const auto central = [&](double h) { return (0.5 / h) * (value(h) - value(-h)); };
+  const auto central = [&](double h) -> Vec3 { return (0.5 / h) * (value(h) - value(-h)); };
   const Vec3 first = central(coarse * range);
   const auto off = [&](Vec3 difference, double uncertainty) {
     const double size = std::max({norm(claim.given), norm(difference), negligible * scale});

@@ -173,7 +173,7 @@ CurveJet DifferenceCad::curve(int face, int ic, unsigned want, double t) {
     throw CallbackError(Where{.face = face, .curve_index = ic}, "the interval [" + format_number(interval.a) + ", " +
                                                                     format_number(interval.b) +
                                                                     "] is reversed, empty or not finite");
-  const auto difference = [&](int order, unsigned from, double relative) {
+  const auto difference = [&](int order, unsigned from, double relative) -> Vec2 {
     const DifferenceStep step = difference_step(t, interval.a, interval.b, relative);
     const Stencil stencil = stencil_of(order, step.side);
     Vec2 sum;

@@ -50,8 +50,9 @@ struct Part {
     q1 = quality_q1(a, b, c);
     q2 = quality_q2(a, b, c);
     area += 0.5 * double_area(a, b, c);
-    for (const auto& [p, q] : {std::pair{b - a, c - a}, std::pair{c - b, a - b}, std::pair{a - c, b - c}})
-      see({p, q, 0});
+    see({b - a, c - a, 0});
+    see({c - b, a - b, 0});
+    see({a - c, b - c, 0});
   }
   void see(Corner corner) {
     const double sine = norm(cross(corner.p, corner.q)), cosine = dot(corner.p, corner.q);

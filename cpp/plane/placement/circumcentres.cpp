@@ -26,7 +26,7 @@ double Filler::distance_at_middle(Vec2 p, Vec2 q) const { return length(field_.a
 
 Vec2 Filler::circumcentre(int t) const {
   const Triangle& T = mesh_.triangles[t];
-  const auto from_corner = [](Metric2 m, Vec2 u, Vec2 v) {
+  const auto from_corner = [](Metric2 m, Vec2 u, Vec2 v) -> Vec2 {
     const double uu = dot(m, u, u), vv = dot(m, v, v), uv = dot(m, u, v), det = 2 * (uu * vv - uv * uv);
     return (vv * (uu - uv) / det) * u + (uu * (vv - uv) / det) * v;
   };

@@ -125,7 +125,7 @@ std::vector<char> movable_curves(const CurveModel& model, const std::vector<Disc
       for (std::size_t i = 0; i < at[v].size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
           const PlaneEdge &p = domain->plane.edges[at[v][i]], &q = domain->plane.edges[at[v][j]];
-          const auto away = [&](const PlaneEdge& e) {
+          const auto away = [&](const PlaneEdge& e) -> Vec3 {
             return xyz[static_cast<std::size_t>(e.a) == v ? e.b : e.a] - xyz[v];
           };
           if (dot(away(p), away(q)) > sharp_cosine * norm(away(p)) * norm(away(q))) may[p.curve] = may[q.curve] = 0;

@@ -12,9 +12,11 @@
 
 namespace {
 
+using carreau::cross;
 using carreau::Metric2;
 using carreau::Metric3;
 using carreau::MetricLaw;
+using carreau::norm;
 using carreau::PlaneMetricCurve;
 using carreau::SpaceMetricCurve;
 using carreau::Vec2;

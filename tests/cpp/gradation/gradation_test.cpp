@@ -464,7 +464,7 @@ TEST(BoundSlopesByDirection, ALayerGrowsInBothDirectionsByItsOwnMetric) {
 }
 
 TEST(BoundSlopesByDirection, WhatObeysIsLeftAsItIs) {
-  const auto growing = [](Vec2 x) { return (1 + 6 * x.y()) * Vec2{0.2, 0.05}; };
+  const auto growing = [](Vec2 x) -> Vec2 { return (1 + 6 * x.y()) * Vec2{0.2, 0.05}; };
   SampledField field = directed_grid(growing, [](Vec2) { return 0; });
   const SampledField before = field;
   Monitor monitor;
