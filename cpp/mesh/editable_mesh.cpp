@@ -197,7 +197,9 @@ bool EditableMesh::is_sound(std::int32_t face, const Triangle& t, bool mixed, Ve
   return mixed ? dot(normal(face, t), replaced) > 0 : is_positive(face, t);
 }
 
-bool EditableMesh::is_convex(const Quad& q) const {
+bool EditableMesh::can_swap(const Quad& q) const {
+  const std::int32_t c = global(q.face, q.c), d = global(q.face, q.d);
+  if (c == d || triangles_on(c, d) > 0) return false;
   const bool mixed = q.mixed || is_mixed({q.face, q.t}) || is_mixed({q.face, q.u});
   const Vec3 replaced = mixed ? mean_normal(q.places()) : Vec3{0, 0, 0};
   const auto [first, second] = swapped(q);

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/surface_mesh.h"
 #include "mesh/plane_mesh.h"
+#include "mesh/surface_mesh.h"
 
 namespace carreau {
 
@@ -108,10 +108,9 @@ class EditableMesh {
   [[nodiscard]] static std::array<Triangle, 2> swapped(const Quad& q) noexcept {
     return {Triangle{q.a, q.d, q.c}, Triangle{q.d, q.b, q.c}};
   }
-  /// Both would be counterclockwise.
-  [[nodiscard]] bool is_convex(const Quad& q) const;
-  /// Exchanges the diagonal. False where a triangle would not be counterclockwise, or the new edge exists elsewhere;
-  /// then nothing is changed.
+  /// Both would be counterclockwise, and the new edge exists nowhere.
+  [[nodiscard]] bool can_swap(const Quad& q) const;
+  /// Exchanges the diagonal. False where it cannot; then nothing is changed.
   bool swap(const Quad& q);
 
   /// Whether all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.

@@ -33,11 +33,7 @@ void EditableMesh::add(std::int32_t face, const Triangle& t) {
 }
 
 bool EditableMesh::swap(const Quad& q) {
-  const auto [a, b, c, d] = corners(q);
-  const bool joined = std::ranges::any_of(fan(c), [&, d = d](Place p) {
-    return std::ranges::any_of(at(p), [&](std::int32_t k) { return global(p.face, k) == d; });
-  });
-  if (c == d || joined || !is_convex(q)) return false;
+  if (!can_swap(q)) return false;
   const bool mixed = q.mixed || is_mixed({q.face, q.t}) || is_mixed({q.face, q.u});
   const auto [first, second] = swapped(q);
   begin_edit();

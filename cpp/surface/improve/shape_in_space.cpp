@@ -19,7 +19,7 @@ constexpr int most_rounds = 4;
 void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
   if (!input.isotropic) return;
   const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, poor_quality);
-  swap_in_space(poor, mesh.plane, mesh.xyz, monitor);
+  swap_in_space(poor, input.domain->plane, mesh.plane, mesh.xyz, monitor);
 }
 
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor) {
@@ -30,7 +30,7 @@ void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, P
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<std::int32_t> now = smooth_in_space(region, input.ref, cad, mesh, monitor);
     moved.insert(moved.end(), now.begin(), now.end());
-    if (now.empty() || !swap_in_space(region, mesh.plane, mesh.xyz, monitor)) break;
+    if (now.empty() || !swap_in_space(region, input.domain->plane, mesh.plane, mesh.xyz, monitor)) break;
   }
   std::sort(moved.begin(), moved.end());
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
