@@ -167,6 +167,13 @@ std::optional<EditableMesh::Quad> EditableMesh::quad(Place p, int side) const {
   return {};
 }
 
+std::optional<EditableMesh::Quad> EditableMesh::quad_between(Vertex a, std::int32_t b) const {
+  for (const Place p : fan(global(a)))
+    for (int i = 0; i < 3; ++i)
+      if (p.face == a.face && at(p)[i] == a.local && at(p)[(i + 1) % 3] == b) return quad(p, i);
+  return {};
+}
+
 std::array<std::int32_t, 4> EditableMesh::corners(const Quad& q) const {
   return {global(q.face, q.a), global(q.face, q.b), global(q.face, q.c), global(q.face, q.d)};
 }

@@ -93,6 +93,8 @@ class EditableMesh {
   /// On side `side` of a triangle, if that is not imposed, has two triangles in the face, and the four vertices are
   /// known.
   [[nodiscard]] std::optional<Quad> quad(Place p, int side) const;
+  /// The same on the edge from a to the local vertex b of its face.
+  [[nodiscard]] std::optional<Quad> quad_between(Vertex a, std::int32_t b) const;
   /// The vertices a, b, c, d.
   [[nodiscard]] std::array<std::int32_t, 4> corners(const Quad& q) const;
 
