@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "metric/metric2.h"
@@ -27,24 +29,41 @@ class Budget {
   std::int64_t left_ = 0;
 };
 
+/// How rings are looked at: as they were found, the same more than once; or in ascending order, each once, if it is
+/// still bad when the ring begins.
+struct Rings {
+  bool ascending = false;
+  int most = std::numeric_limits<int>::max();
+};
+
 /// Looks at `first` one after another; where `is_bad(x)` and `change(x)` could do something (true), what `around(x)`
-/// lists is looked at in its turn, after all that is waiting: so changes spread ring by ring. Ends when nothing waits
-/// or the budget is spent. Returns all that was listed and is still bad, ascending, each once.
+/// lists is of the next ring, which is looked at when all of this one has been. Ends when a ring is empty, after the
+/// most rings, or when the budget is spent. Returns all in these rings that is still bad, ascending, each once.
 template <typename IsBad, typename Change, typename Around>
-std::vector<std::int32_t> improve_ring_by_ring(std::vector<std::int32_t> first, const Budget& budget, Monitor& monitor,
-                                               const IsBad& is_bad, const Change& change, const Around& around) {
-  std::vector<std::int32_t>& all = first;
-  for (std::size_t k = 0; k < all.size() && !budget.is_spent(); ++k) {
-    monitor.checkpoint();
-    const std::int32_t x = all[k];
-    if (!is_bad(x) || !change(x)) continue;
-    const std::vector<std::int32_t> next = around(x);
-    all.insert(all.end(), next.begin(), next.end());
+std::vector<std::int32_t> improve_ring_by_ring(std::vector<std::int32_t> first, Rings rings, const Budget& budget,
+                                               Monitor& monitor, const IsBad& is_bad, const Change& change,
+                                               const Around& around) {
+  const auto sort_uniquely = [](std::vector<std::int32_t>& all) {
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  };
+  const auto is_good = [&](std::int32_t x) { return !is_bad(x); };
+  std::vector<std::int32_t> met, ring = std::move(first);
+  for (int k = 0; k < rings.most && !ring.empty(); ++k) {
+    std::vector<std::int32_t> next;
+    for (const std::int32_t x : ring) {
+      monitor.checkpoint();
+      if (budget.is_spent() || is_good(x) || !change(x)) continue;
+      const std::vector<std::int32_t> more = around(x);
+      next.insert(next.end(), more.begin(), more.end());
+    }
+    met.insert(met.end(), ring.begin(), ring.end());
+    if (rings.ascending) sort_uniquely(next), std::erase_if(next, is_good);
+    ring = std::move(next);
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  std::erase_if(all, [&](std::int32_t x) { return !is_bad(x); });
-  return std::move(all);
+  sort_uniquely(met);
+  std::erase_if(met, is_good);
+  return met;
 }
 
 /// Up to `most` times: what `list()` names, in its order (worst first, if it is sorted so), goes through `improve(x)`.

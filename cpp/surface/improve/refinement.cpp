@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -14,40 +12,20 @@
 #include "mesh/local_search.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
-#include "surface/improve/cubic_offset.h"
+#include "surface/improve/corner_agreement.h"
+#include "surface/improve/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Least cosine of a triangle's normal and the surface's: a little less than upright.
-constexpr double upright = 0.08;
-// Triangles are looked at more closely below this cosine: at a corner the surface may be turned by 60 degrees on the
-// way to the middle of a coarse one.
-constexpr double suspicious = 0.5;
-// Edges divided for each triangle that was wrong to begin with; a bend needs two or three halvings. More are
-// a host whose surface is rough at every scale.
-constexpr std::size_t most_divisions = 32;
-// Times that a triangle was divided to make another: beside a chord so coarse that each triangle on it is turned over
-// divisions would go on until vertices coincide.
-constexpr std::uint8_t deepest = 12;
-// What exceeds an angle or a distance is not divided where a median would be shorter than this share of the shortest
-// edge that is divided.
-constexpr double shortest_median = 0.3;
-// The surface is not divided where it is farther from the middle of an edge than this many lengths: it jumps there.
-constexpr double farthest = 1;
+using namespace thresholds::refinement;
 
 class SpaceRefinement {
  public:
   SpaceRefinement(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
                   PatchMesh& mesh, Monitor& monitor)
-      : input_(input),
-        cad_(cad),
-        rules_(rules),
-        mesh_(mesh),
-        monitor_(monitor),
-        kept_(kept),
-        sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180) : infinity) {}
+      : input_(input), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), kept_(kept), agreement_(kept) {}
 
   std::vector<int> run() {
     std::vector<int> wrong = find_wrong();
@@ -59,7 +37,7 @@ class SpaceRefinement {
     depth_.assign(mesh_.plane.triangles.size(), 0);
     left_ = Budget(static_cast<std::int64_t>(most_divisions * wrong.size()));
     std::vector<int> still = improve_ring_by_ring(
-        wrong, left_, monitor_, [this](int t) { return !is_sound(t); }, [this](int t) { return mend(t); },
+        wrong, {}, left_, monitor_, [this](int t) { return !is_sound(t); }, [this](int t) { return mend(t); },
         [this](int t) {
           changed_.push_back(t);
           return std::exchange(changed_, {});
@@ -76,7 +54,6 @@ class SpaceRefinement {
  private:
   using Triangle = EditableMesh::Triangle;
   using Quad = EditableMesh::Quad;
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   [[nodiscard]] Triangle& triangle(int t) { return mesh_.plane.triangles[t]; }
   [[nodiscard]] Vec3 position(std::int32_t v) const { return mesh_.xyz[v]; }
@@ -115,7 +92,7 @@ class SpaceRefinement {
     const std::vector<Vec3>& normal = known_ ? mesh_.normal : around;
     std::vector<int> wrong;
     for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (suspect(triangles[t], normal) && !collapsed(triangles[t])) wrong.push_back(static_cast<int>(t));
+      if (is_doubtful(triangles[t], normal) && !collapsed(triangles[t])) wrong.push_back(static_cast<int>(t));
     return wrong;
   }
 
@@ -127,7 +104,7 @@ class SpaceRefinement {
     for (std::size_t v = 0; v < n; ++v) mesh_.normal[v] = unit_normal(jets[v]).value_or(Vec3{});
   }
 
-  [[nodiscard]] bool suspect(const Triangle& t, const std::vector<Vec3>& normal) const {
+  [[nodiscard]] bool is_doubtful(const Triangle& t, const std::vector<Vec3>& normal) const {
     const Vec3 n = normal_of(t);
     if (!known_) {
       // It is on the side of the minority at two corners or more.
@@ -135,7 +112,7 @@ class SpaceRefinement {
       const bool first = against(t[0]), second = against(t[1]);
       return first != second ? against(t[2]) : first;
     }
-    const double least = suspicious * suspicious * dot(n, n);
+    const double least = doubtful * doubtful * dot(n, n);
     for (const std::int32_t v : t) {
       const double along = dot(n, normal[v]), whole = dot(normal[v], normal[v]);
       if (whole > 0 && (!(along > 0) || along * along < least * whole)) return true;  // zero at singular vertices
@@ -143,21 +120,10 @@ class SpaceRefinement {
     return looks_far(t);
   }
 
-  // By the cubics that leave the ends of edges as the surface does, and by the middle of the patch that they bound:
-  // the mean of the six offsets of their control points.
   [[nodiscard]] bool looks_far(const Triangle& t) const {
     if (!kept_.any()) return false;
-    double middle = 0;
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t a = t[i], b = t[(i + 1) % 3];
-      const Vec3 e = position(b) - position(a);
-      const double p = dot(e, mesh_.normal[a]), q = -dot(e, mesh_.normal[b]), l = norm(e);
-      if (std::max(std::abs(p), std::abs(q)) > sine_ * l) return true;
-      for (const double s : along_edge)
-        if (std::abs(cubic_offset(s, p, q)) > kept_.deviation) return true;
-      middle += p + q;
-    }
-    return std::abs(middle) / 18 > kept_.deviation;
+    return agreement_.share({position(t[0]), position(t[1]), position(t[2])},
+                            {mesh_.normal[t[0]], mesh_.normal[t[1]], mesh_.normal[t[2]]}) > 1;
   }
 
   /// Beyond a side; none where that is imposed.
@@ -171,7 +137,7 @@ class SpaceRefinement {
   [[nodiscard]] bool is_sound(int t) {
     const Triangle c = triangle(t);
     if (collapsed(c)) return true;
-    if (!is_upright(c)) return false;
+    if (!agrees(c)) return false;
     if (!known_ || !looks_far(c)) return true;
     bool as_short_as_allowed = false;
     for (int i = 0; i < 3; ++i) {
@@ -190,7 +156,8 @@ class SpaceRefinement {
   [[nodiscard]] double excess(int t, std::int32_t a, std::int32_t b) {
     const Vec3 e = position(b) - position(a);
     double share = 0;
-    for (const std::int32_t v : {a, b}) share = std::max(share, std::abs(dot(e, mesh_.normal[v])) / (sine_ * norm(e)));
+    for (const std::int32_t v : {a, b})
+      share = std::max(share, std::abs(dot(e, mesh_.normal[v])) / (agreement_.sine() * norm(e)));
     if (!std::isfinite(kept_.deviation)) return share;
     for (const double s : along_edge) {
       const Vec2 uv = lerp(mesh_.plane.vertices[a], mesh_.plane.vertices[b], s);
@@ -212,7 +179,7 @@ class SpaceRefinement {
   }
 
   // The least cosine of the normals of a triangle and of the surface; without those at the corners in its centre alone.
-  [[nodiscard]] double uprightness(const Triangle& c) {
+  [[nodiscard]] double agreement(const Triangle& c) {
     const Vec3 n = normal_of(c);
     const double size = norm(n);
     if (!(size > 0)) return -1;
@@ -222,12 +189,12 @@ class SpaceRefinement {
     };
     if (known_)
       for (const std::int32_t v : c) compare(mesh_.normal[v]);
-    if (least < upright) return least;
+    if (least < least_agreement) return least;
     const auto& uv = mesh_.plane.vertices;
     compare(unit_normal(jet_at((1. / 3) * (uv[c[0]] + uv[c[1]] + uv[c[2]]))).value_or(Vec3{}));
     return least;
   }
-  [[nodiscard]] bool is_upright(const Triangle& c) { return uprightness(c) >= (known_ ? upright : 0); }
+  [[nodiscard]] bool agrees(const Triangle& c) { return agreement(c) >= (known_ ? least_agreement : 0); }
 
   // A division, or a swap, after which nothing else is to be looked at.
   bool mend(int t) {
@@ -236,16 +203,17 @@ class SpaceRefinement {
     return true;
   }
 
-  // The other diagonal of a quadrilateral, when both triangles are upright and seem near then. The best of three.
+  // The other diagonal of a quadrilateral, when both triangles agree with the surface and seem near then. The best of
+  // three.
   bool swap_one(int t) {
-    double best = upright;
+    double best = least_agreement;
     std::optional<Quad> found;
     for (int i = 0; i < 3; ++i) {
       const auto q = quad(t, i);
       if (!q || !editable_->can_swap(*q)) continue;
       const auto [first, second] = EditableMesh::swapped(*q);
       if (collapsed(first) || collapsed(second) || is_flat(first) || is_flat(second)) continue;
-      const double least = std::min(uprightness(first), uprightness(second));
+      const double least = std::min(agreement(first), agreement(second));
       if (least > best && !(known_ && (looks_far(first) || looks_far(second)))) best = least, found = q;
     }
     return found && editable_->swap(*found);
@@ -264,7 +232,7 @@ class SpaceRefinement {
   // come out than went in (Rivara's path of longest edges).
   bool divide(int t) {
     // Medians of triangles that are narrow already may be much shorter than halves.
-    const double least = is_upright(triangle(t)) ? shortest_median * kept_.shortest_divided : 0;
+    const double least = agrees(triangle(t)) ? shortest_median * kept_.shortest_divided : 0;
     std::optional<Quad> side = longest_side(t);
     while (side) {
       const auto next = longest_side(side->u);
@@ -306,7 +274,7 @@ class SpaceRefinement {
   PatchMesh& mesh_;
   Monitor& monitor_;
   GeometricLimits kept_;
-  double sine_;                // of the angle that is kept
+  KeptAgreement agreement_;
   bool with_normals_ = false;  // the mesh has them at all vertices
   bool known_ = false;         // they are compared with those of triangles
   std::optional<EditableMesh> editable_;
