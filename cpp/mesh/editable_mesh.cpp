@@ -200,7 +200,7 @@ bool EditableMesh::is_mixed(Place p) const {
   return mixed != nullptr && (*mixed)[p.triangle] != 0;
 }
 
-bool EditableMesh::is_sound(std::int32_t face, const Triangle& t, bool mixed, Vec3 replaced) const {
+bool EditableMesh::is_sound(std::int32_t face, const Triangle& t, bool mixed, const Vec3& replaced) const {
   return mixed ? dot(normal(face, t), replaced) > 0 : is_positive(face, t);
 }
 
@@ -213,14 +213,14 @@ bool EditableMesh::can_swap(const Quad& q) const {
   return is_sound(q.face, first, mixed, replaced) && is_sound(q.face, second, mixed, replaced);
 }
 
-bool EditableMesh::can_split(const Quad& q, Vec2 uv) const {
+bool EditableMesh::can_split(const Quad& q, const Vec2& uv) const {
   const std::vector<Vec2>& at = *faces_[q.face].uv;
   const auto is_left = [&](std::int32_t from, std::int32_t to) { return orientation(at[from], uv, at[to]) > 0; };
   return !q.mixed && !is_mixed({q.face, q.t}) && !is_mixed({q.face, q.u}) && is_left(q.a, q.c) && is_left(q.c, q.b) &&
          is_left(q.b, q.d) && is_left(q.d, q.a);
 }
 
-bool EditableMesh::can_move(Vertex v, Vec2 uv) const {
+bool EditableMesh::can_move(Vertex v, const Vec2& uv) const {
   const std::vector<Vec2>& all = *faces_[v.face].uv;
   const std::int32_t moved = v.local;
   return std::ranges::all_of(fan(global(v)), [&](Place p) {

@@ -116,14 +116,14 @@ class EditableMesh {
   bool swap(const Quad& q);
 
   /// Whether all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.
-  [[nodiscard]] bool can_split(const Quad& q, Vec2 uv) const;
+  [[nodiscard]] bool can_split(const Quad& q, const Vec2& uv) const;
   /// A new vertex on the edge, which is the last one of its face and of all. Tests nothing.
-  Vertex split(const Quad& q, Vec2 uv, Vec3 xyz, Split keeps = Split::at_a);
+  Vertex split(const Quad& q, const Vec2& uv, const Vec3& xyz, Split keeps = Split::at_a);
 
   /// Whether all triangles around stay counterclockwise when a vertex goes there.
-  [[nodiscard]] bool can_move(Vertex v, Vec2 uv) const;
+  [[nodiscard]] bool can_move(Vertex v, const Vec2& uv) const;
   /// Tests nothing.
-  void move(Vertex v, Vec2 uv, Vec3 xyz);
+  void move(Vertex v, const Vec2& uv, const Vec3& xyz);
 
   /// Whether `gone` can become one with its neighbour `kept`: topology stays (the link condition: Dey, Edelsbrunner,
   /// Guha, Nekhayev 1999), triangles stay counterclockwise, and no imposed edge vanishes but that between the two, when
@@ -184,7 +184,7 @@ class EditableMesh {
   void impose(std::int32_t v, std::int32_t w);
   void release(std::int32_t v, std::int32_t w);
   [[nodiscard]] bool is_mixed(Place p) const;
-  [[nodiscard]] bool is_sound(std::int32_t face, const Triangle& t, bool mixed, Vec3 replaced) const;
+  [[nodiscard]] bool is_sound(std::int32_t face, const Triangle& t, bool mixed, const Vec3& replaced) const;
 
   Edit& begin_edit();
   void put(Place p, const Triangle& t);

@@ -42,7 +42,7 @@ bool EditableMesh::swap(const Quad& q) {
   return true;
 }
 
-EditableMesh::Vertex EditableMesh::split(const Quad& q, Vec2 uv, Vec3 xyz, Split keeps) {
+EditableMesh::Vertex EditableMesh::split(const Quad& q, const Vec2& uv, const Vec3& xyz, Split keeps) {
   const Face& face = faces_[q.face];
   const auto m = static_cast<std::int32_t>(face.uv->size());
   Edit& edit = begin_edit();
@@ -64,7 +64,7 @@ EditableMesh::Vertex EditableMesh::split(const Quad& q, Vec2 uv, Vec3 xyz, Split
   return {q.face, m};
 }
 
-void EditableMesh::move(Vertex v, Vec2 uv, Vec3 xyz) {
+void EditableMesh::move(Vertex v, const Vec2& uv, const Vec3& xyz) {
   Edit& edit = begin_edit();
   edit.moved = true;
   edit.vertex = v;

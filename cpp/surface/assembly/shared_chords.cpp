@@ -179,7 +179,7 @@ class Separator {
     return chords;
   }
 
-  Vec3 lift(int f, Vec2 uv) { return surface_at(cad_, model_.faces[f].ref, want_position, uv).s; }
+  Vec3 lift(int f, const Vec2& uv) { return surface_at(cad_, model_.faces[f].ref, want_position, uv).s; }
 
   // The point of the chord in (u, v) that is as far from one end as from the other in space.
   void split_chord(const Chord& chord) {

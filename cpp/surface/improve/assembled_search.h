@@ -28,11 +28,11 @@ class AssembledSearch {
   /// Faces between sides that were matched have no control space, and stay.
   [[nodiscard]] bool has_space(std::int32_t face) const { return result_.spaces[face].has_value(); }
   /// Of the control space of the face.
-  [[nodiscard]] Metric2 metric(std::int32_t face, Vec2 uv) const { return result_.spaces[face]->at(uv); }
+  [[nodiscard]] Metric2 metric(std::int32_t face, const Vec2& uv) const { return result_.spaces[face]->at(uv); }
   /// Position and derivatives; one of the budget.
-  SurfaceJet ask(std::int32_t face, Vec2 uv);
+  SurfaceJet ask(std::int32_t face, const Vec2& uv);
   /// None of the triangles is turned much from `mean`, the mean normal of those that they replace.
-  [[nodiscard]] bool agree(std::span<const Place> places, Vec3 mean) const;
+  [[nodiscard]] bool agree(std::span<const Place> places, const Vec3& mean) const;
 
   /// The size of such a vertex is to be asked for.
   void note_changed(Vertex v) { changed_.push_back(v); }

@@ -9,11 +9,6 @@
 
 namespace carreau {
 
-/// Triangles of a better shape (Q2, HDR eq. 1.6, in space) are left as the metric made them.
-inline constexpr double good_quality = 0.8;
-/// Below, the worst shape counts whatever it costs the others.
-inline constexpr double poor_quality = 0.6;
-
 /// Q2 in space; 1 for triangles with two corners at one place: an apex of space is a side of the parameter plane, and
 /// what it makes flat will be removed.
 double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;

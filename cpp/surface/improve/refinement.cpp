@@ -61,13 +61,13 @@ class SpaceRefinement {
     return cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
   }
   // Two corners of one apex of space make a flat triangle that will be removed.
-  [[nodiscard]] static bool collapsed(Vec3 a, Vec3 b, Vec3 c) { return a == b || b == c || c == a; }
+  [[nodiscard]] static bool collapsed(const Vec3& a, const Vec3& b, const Vec3& c) { return a == b || b == c || c == a; }
   [[nodiscard]] bool collapsed(const Triangle& t) const {
     return collapsed(position(t[0]), position(t[1]), position(t[2]));
   }
 
   // Both ends of a seam and a vertex between them on a straight line of the surface have an area in (u, v) only.
-  [[nodiscard]] static bool is_flat(Vec3 a, Vec3 b, Vec3 c) {
+  [[nodiscard]] static bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c) {
     return !collapsed(a, b, c) && !(quality_q2(a, b, c) > flat_quality);
   }
   [[nodiscard]] bool is_flat(const Triangle& t) const {
@@ -129,7 +129,7 @@ class SpaceRefinement {
   /// Beyond a side; none where that is imposed.
   [[nodiscard]] std::optional<Quad> quad(int t, int side) const { return editable_->quad({0, t}, side); }
 
-  [[nodiscard]] SurfaceJet jet_at(Vec2 uv) {
+  [[nodiscard]] SurfaceJet jet_at(const Vec2& uv) {
     SurfaceJet jet;
     cad_.surface(input_.ref, want_position | want_first, {&uv, 1}, {&jet, 1});
     return jet;
@@ -167,7 +167,7 @@ class SpaceRefinement {
   }
 
   // From a triangle or those around it: the image of a triangle of (u, v) may reach beyond it.
-  [[nodiscard]] double deviation(int t, Vec3 s) {
+  [[nodiscard]] double deviation(int t, const Vec3& s) {
     const auto from = [&](int k) {
       const Triangle& c = triangle(k);
       return distance_to_triangle(s, position(c[0]), position(c[1]), position(c[2]));
@@ -184,7 +184,7 @@ class SpaceRefinement {
     const double size = norm(n);
     if (!(size > 0)) return -1;
     double least = 1;
-    const auto compare = [&](Vec3 m) {
+    const auto compare = [&](const Vec3& m) {
       if (dot(m, m) > 0) least = std::min(least, dot(n, m) / size);
     };
     if (known_)

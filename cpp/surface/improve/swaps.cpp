@@ -5,18 +5,14 @@
 
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
+#include "surface/improve/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// A swap must gain this much, so that no pair of swaps undoes each other for ever.
-constexpr double least_gain = 1e-6;
-// Cosine of the angle to the nearer of the two old triangles that a new one must keep: across a tube or around an apex
-// of three edges the best shape is the cross-section.
-constexpr double least_agreement = 0.7;
-// A fan of n triangles in a narrow wedge is undone in n passes; nearly all patches need two or three.
-constexpr int most_passes = 100;
+using namespace thresholds::swaps;
+using thresholds::shape::poor;
 
 class Swapper {
  public:
@@ -26,7 +22,7 @@ class Swapper {
   bool run(Monitor& monitor) {
     const auto list = [this] {
       for (const std::int32_t t : region_.triangles()) touched_[t] = 0;
-      return region_.below(poor_quality);
+      return region_.below(poor);
     };
     return improve_in_passes(most_passes, monitor, list, [this](std::int32_t t) { return improve(t); });
   }
@@ -86,7 +82,7 @@ class Swapper {
 
 bool swap_in_space(const BadRegion& region, const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
                    Monitor& monitor) {
-  if (region.below(poor_quality).empty()) return false;
+  if (region.below(poor).empty()) return false;
   EditableMesh editable(domain, mesh, xyz, region.triangles());
   return Swapper(region, editable, xyz, mesh.triangles.size()).run(monitor);
 }

@@ -34,14 +34,14 @@ constexpr double least_speed = 0.02;
 constexpr double shortest = 1e-7;
 
 /// One parameter: 0 is u, 1 is v.
-double of(Vec2 p, int axis) noexcept { return axis == 0 ? p.x() : p.y(); }
+double of(const Vec2& p, int axis) noexcept { return axis == 0 ? p.x() : p.y(); }
 Vec2 point(int axis, double along, double across) noexcept {
   return axis == 0 ? Vec2{along, across} : Vec2{across, along};
 }
 
 class Evener {
  public:
-  Evener(int ref, Cad& cad, const SampledDomain& domain, Vec2 at, Monitor& monitor)
+  Evener(int ref, Cad& cad, const SampledDomain& domain, const Vec2& at, Monitor& monitor)
       : ref_(ref), cad_(cad), locator_(domain.vertices, domain.edges), at_(at), monitor_(monitor) {
     for (int axis = 0; axis < 2; ++axis) {
       for (const auto& [a, b] : domain.edges) boundary_[axis].push_back(of(domain.vertices[a], axis));
@@ -230,7 +230,7 @@ Metric2 scaled(Metric2 m, double x, double y) noexcept { return {m.a * x * x, m.
 
 }  // namespace
 
-std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, Vec2 at,
+std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, const Vec2& at,
                                                  Monitor& monitor) {
   return Evener(ref, cad, domain, at, monitor).run();
 }

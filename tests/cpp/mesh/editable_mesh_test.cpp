@@ -415,7 +415,7 @@ TEST(EditableMesh, WhereAskedEdgesBetweenFacesAreEditedLikeOthers) {
       const std::int32_t v = mesh.curves[c].vertices[k];
       if (k > 0) imposed.push_back({mesh.curves[c].vertices[k - 1], v});
       const Vec3 p = mesh.vertices[v];
-      if ((p.x == 0 || p.x == 2) && (p.y == 0 || p.y == 1)) corners.push_back(v);
+      if ((p.x() == 0 || p.x() == 2) && (p.y() == 0 || p.y() == 1)) corners.push_back(v);
     }
   EditableMesh editable({{&joined.uv, &joined.triangles, &joined.vertex, &joined.mixed}}, joined.xyz, imposed, corners);
   const std::vector<std::int32_t>& between = mesh.curves[2].vertices;
@@ -458,7 +458,7 @@ TEST(EditableMesh, APatchInThePlaneKeepsItsDomain) {
   PlaneMesh mesh{domain.vertices, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
   mesh.vertices.push_back({0.5, 0.4});
   std::vector<Vec3> xyz;
-  for (const Vec2& p : mesh.vertices) xyz.push_back({p.x, p.y, p.x * p.y});
+  for (const Vec2& p : mesh.vertices) xyz.push_back({p.x(), p.y(), p.x() * p.y()});
   EditableMesh editable(domain, mesh, xyz);
   for (std::int32_t t = 0; t < 4; ++t) EXPECT_FALSE(editable.quad({0, t}, 0)) << "a side of the domain";
   for (std::int32_t v = 0; v < 4; ++v) EXPECT_FALSE(editable.inside(v));
