@@ -183,6 +183,21 @@ void edit_somewhere(SurfaceMesh& mesh, EditableMesh& editable, Dice& dice, Count
   }
 }
 
+TEST(EditableMesh, KnowsWhatIsAroundCentresAndWhatMayMove) {
+  SurfaceMesh mesh = two_faces(4);
+  const std::vector<std::int32_t> centre{20};  // in the middle of the first face, whose vertices are nine a row
+  const EditableMesh local(mesh, centre, 1);
+  EXPECT_EQ(local.ring(20), (std::vector<std::int32_t>{10, 11, 19, 21, 29, 30}));
+  EXPECT_EQ(local.fan(20).size(), 6U);
+  EXPECT_FALSE(local.is_known(0));
+  ASSERT_TRUE(local.inside(20));
+  EXPECT_FALSE(local.inside(10)) << "its own neighbours are not known";
+  const EditableMesh all(mesh, centre, 8);
+  EXPECT_TRUE(all.inside(10));
+  EXPECT_FALSE(all.inside(1)) << "it is on the border";
+  EXPECT_FALSE(all.inside(13)) << "it is between the faces";
+}
+
 TEST(EditableMesh, RandomEditsKeepTopologyImposedEdgesAndAdjacency) {
   Counts counts;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
