@@ -247,7 +247,7 @@ void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {
 
 void FaceJob::return_to_host(Monitor& monitor) {
   const PlaneDomain& host = even_->host_domain->plane;
-  const std::size_t turned = carreau::return_to_host(host, even_->map, *mesh_);
+  const std::size_t turned = carreau::return_to_host(host, even_->map, *mesh_, monitor);
   if (input_.slope > 0)
     space_.reset();  // sizes along edges are judged by what governed
   else

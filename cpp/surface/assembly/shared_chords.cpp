@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "mesh/editable_mesh.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -73,6 +74,7 @@ class Separator {
       }
       if (added_ == before) break;
     }
+    editable_.clear();
     split_equal_triangles();
     return added_;
   }
@@ -177,17 +179,7 @@ class Separator {
     return chords;
   }
 
-  std::int32_t add_vertex(int f, Vec2 uv, Vec3 xyz, double size) {
-    PatchMesh& patch = *patches_[f];
-    patch.plane.vertices.push_back(uv);
-    patch.xyz.push_back(xyz);
-    patch.size.push_back(size);
-    changed_[f] = true;
-    ++added_;
-    return static_cast<std::int32_t>(patch.plane.vertices.size()) - 1;
-  }
-
-  Vec3 lift(int f, Vec2 uv) { return surface_at(cad_, model_.faces[f].ref, want_position, uv).s; }
+  Vec3 lift(int f, const Vec2& uv) { return surface_at(cad_, model_.faces[f].ref, want_position, uv).s; }
 
   // The point of the chord in (u, v) that is as far from one end as from the other in space.
   void split_chord(const Chord& chord) {
@@ -205,33 +197,23 @@ class Separator {
       at = (low + high) / 2;
       xyz = lift(f, lerp(p, q, at));
     }
-    const std::int32_t middle = add_vertex(f, lerp(p, q, at), xyz, (patch.size[a] + patch.size[b]) / 2);
-    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) split_beside(f, from, to, middle);
+    EditableMesh& mesh = editable(f);
+    const auto quad = mesh.quad_between({0, a}, b);
+    if (!quad) return;
+    mesh.split(*quad, lerp(p, q, at), xyz, EditableMesh::Split::at_start);
+    count_vertex(f, (patch.size[a] + patch.size[b]) / 2);
   }
 
-  // The triangle on the left of from -> to.
-  void split_beside(int f, std::int32_t from, std::int32_t to, std::int32_t middle) {
-    auto& triangles = patches_[f]->plane.triangles;
-    std::map<Local, std::size_t>& left_of = triangles_of(f);
-    const auto it = left_of.find({from, to});
-    if (it == left_of.end()) return;
-    const std::size_t t = it->second, other = triangles.size();
-    const std::int32_t apex = triangles[t][0] + triangles[t][1] + triangles[t][2] - from - to;
-    triangles[t] = {from, middle, apex};
-    triangles.push_back({middle, to, apex});
-    left_of.erase(it);
-    left_of[{from, middle}] = left_of[{middle, apex}] = t;
-    left_of[{middle, to}] = left_of[{to, apex}] = left_of[{apex, middle}] = other;
+  void count_vertex(int f, double size) {
+    patches_[f]->size.push_back(size);
+    changed_[f] = true;
+    ++added_;
   }
 
-  // Directed edges of a patch; made when the first chord of the patch is split.
-  std::map<Local, std::size_t>& triangles_of(int f) {
-    std::map<Local, std::size_t>& left_of = left_of_[f];
-    if (!left_of.empty()) return left_of;
-    const auto& triangles = patches_[f]->plane.triangles;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) left_of[{triangles[t][i], triangles[t][(i + 1) % 3]}] = t;
-    return left_of;
+  // Made when the first chord of the patch is split.
+  EditableMesh& editable(int f) {
+    PatchMesh& patch = *patches_[f];
+    return editable_.try_emplace(f, domains_.domain[f]->plane, patch.plane, patch.xyz).first->second;
   }
 
   // Faces of three edges each, back to back.
@@ -268,7 +250,10 @@ class Separator {
     const auto [a, b, c] = patch.plane.triangles[t];
     const Vec2 uv = (1.0 / 3) * (patch.plane.vertices[a] + patch.plane.vertices[b] + patch.plane.vertices[c]);
     const double size = (patch.size[a] + patch.size[b] + patch.size[c]) / 3;
-    const std::int32_t middle = add_vertex(f, uv, lift(f, uv), size);
+    const auto middle = static_cast<std::int32_t>(patch.xyz.size());
+    patch.plane.vertices.push_back(uv);
+    patch.xyz.push_back(lift(f, uv));
+    count_vertex(f, size);
     patch.plane.triangles[t] = {a, b, middle};
     patch.plane.triangles.push_back({b, c, middle});
     patch.plane.triangles.push_back({c, a, middle});
@@ -282,11 +267,11 @@ class Separator {
   std::vector<std::optional<PatchMesh>>& patches_;
   int threads_;
   Monitor& monitor_;
-  std::vector<std::int64_t> first_;                      // [curve]: number of its vertex 0
-  std::vector<std::vector<std::int64_t>> identity_;      // [face][local vertex on a curve]
-  std::vector<std::vector<bool>> several_;               // [face][local vertex on a curve]: there twice in this face
-  std::vector<std::int32_t> on_curves_;                  // [face]: its local vertices on curves, the first ones
-  std::map<int, std::map<Local, std::size_t>> left_of_;  // [face][directed edge]: the triangle on its left
+  std::vector<std::int64_t> first_;                  // [curve]: number of its vertex 0
+  std::vector<std::vector<std::int64_t>> identity_;  // [face][local vertex on a curve]
+  std::vector<std::vector<bool>> several_;           // [face][local vertex on a curve]: there twice in this face
+  std::vector<std::int32_t> on_curves_;              // [face]: its local vertices on curves, the first ones
+  std::map<int, EditableMesh> editable_;             // [face]
   std::vector<Key> curve_edges_;
   std::vector<Chord> chords_;
   std::vector<bool> changed_;  // [face]: in this pass

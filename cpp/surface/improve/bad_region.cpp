@@ -12,6 +12,12 @@ double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::
   return quality_q2(a, b, c);
 }
 
+Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& t, const std::vector<Vec3>& xyz) noexcept {
+  const Vec3 n = cross(xyz[t[1]] - xyz[t[0]], xyz[t[2]] - xyz[t[0]]);
+  const double l = norm(n);
+  return l > 0 ? (1 / l) * n : Vec3{0, 0, 0};
+}
+
 BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound)
     : mesh_(mesh), xyz_(xyz) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -27,8 +33,6 @@ BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std
     }
   }
   std::fill_n(movable_.begin(), domain.vertices.size(), 0);
-  for (const PlaneEdge& e : domain.edges) imposed_.push_back({std::min(e.a, e.b), std::max(e.a, e.b)});
-  std::sort(imposed_.begin(), imposed_.end());
 }
 
 void BadRegion::mark_corners(const std::vector<std::int32_t>& triangles, std::vector<char>& marked) const {
@@ -48,10 +52,6 @@ std::vector<std::int32_t> BadRegion::below(double bound) const {
   for (const std::int32_t t : triangles_)
     if (is_below(bound, mesh_.triangles[t])) found.push_back(t);
   return found;
-}
-
-bool BadRegion::is_imposed(std::int32_t a, std::int32_t b) const {
-  return std::binary_search(imposed_.begin(), imposed_.end(), std::array{std::min(a, b), std::max(a, b)});
 }
 
 }  // namespace carreau

@@ -9,14 +9,12 @@
 
 namespace carreau {
 
-/// Triangles of a better shape (Q2, HDR eq. 1.6, in space) are left as the metric made them.
-inline constexpr double good_quality = 0.8;
-/// Below, the worst shape counts whatever it costs the others.
-inline constexpr double poor_quality = 0.6;
-
 /// Q2 in space; 1 for triangles with two corners at one place: an apex of space is a side of the parameter plane, and
 /// what it makes flat will be removed.
 double quality_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
+
+/// Of unit length; zero for triangles without area.
+Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& triangle, const std::vector<Vec3>& xyz) noexcept;
 
 /// The triangles of a patch near those that are bad. Only these may be changed by what improves shapes.
 class BadRegion {
@@ -31,7 +29,6 @@ class BadRegion {
   [[nodiscard]] std::vector<std::int32_t> below(double bound) const;
   /// Not imposed, and all triangles around are in the region.
   [[nodiscard]] bool may_move(std::int32_t vertex) const { return movable_[vertex] != 0; }
-  [[nodiscard]] bool is_imposed(std::int32_t a, std::int32_t b) const;
 
  private:
   using Triangle = std::array<std::int32_t, 3>;
@@ -42,8 +39,7 @@ class BadRegion {
   const PlaneMesh& mesh_;
   const std::vector<Vec3>& xyz_;
   std::vector<std::int32_t> triangles_;
-  std::vector<char> movable_;                         // by vertex
-  std::vector<std::array<std::int32_t, 2>> imposed_;  // the smaller vertex first; sorted
+  std::vector<char> movable_;  // by vertex
 };
 
 }  // namespace carreau

@@ -5,32 +5,26 @@
 #include "surface/improve/bad_region.h"
 #include "surface/improve/smoothing.h"
 #include "surface/improve/swaps.h"
+#include "surface/improve/thresholds.h"
 #include "surface/sample/face_sampling.h"
 
 namespace carreau {
 
-namespace {
-
-// Of swaps and moves in space, each of which makes room for the other.
-constexpr int most_rounds = 4;
-
-}  // namespace
-
 void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
   if (!input.isotropic) return;
-  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, poor_quality);
-  swap_in_space(poor, mesh.plane, mesh.xyz, monitor);
+  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::poor);
+  swap_in_space(poor, input.domain->plane, mesh.plane, mesh.xyz, monitor);
 }
 
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor) {
   if (!input.isotropic) return;
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, good_quality);
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::good);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<std::int32_t> now = smooth_in_space(region, input.ref, cad, mesh, monitor);
+  for (int round = 0; round < thresholds::shape::most_rounds; ++round) {
+    const std::vector<std::int32_t> now = smooth_in_space(region, input.domain->plane, input.ref, cad, mesh, monitor);
     moved.insert(moved.end(), now.begin(), now.end());
-    if (now.empty() || !swap_in_space(region, mesh.plane, mesh.xyz, monitor)) break;
+    if (now.empty() || !swap_in_space(region, input.domain->plane, mesh.plane, mesh.xyz, monitor)) break;
   }
   std::sort(moved.begin(), moved.end());
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());

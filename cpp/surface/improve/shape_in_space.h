@@ -6,7 +6,7 @@
 
 namespace carreau {
 
-/// Where sizes are isotropic: edges of the worst triangles (poor_quality) are swapped. Asks no host.
+/// Where sizes are isotropic: edges of the worst triangles (thresholds::shape::poor) are swapped. Asks no host.
 void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor);
 
 /// Where sizes are isotropic: vertices and edges of bad triangles (BadRegion) are moved and swapped for their shapes in

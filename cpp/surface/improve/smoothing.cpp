@@ -4,224 +4,192 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 
 #include "cad/fundamental_forms.h"
-#include "predicates/predicates.h"
+#include "mesh/editable_mesh.h"
+#include "mesh/local_search.h"
+#include "surface/improve/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr int most_passes = 12;
-// A move must raise the worst around a vertex by so much.
-constexpr double least_gain = 1e-3;
-// Steps of the search, in mean lengths of the edges around: from the first, halved down to the last.
-constexpr double first_step = 0.4, last_step = 0.01;
+using namespace thresholds::smoothing;
+using thresholds::shape::good;
+using thresholds::shape::poor;
+
 // Shares of a step that are tried on the surface itself: it bends away from the tangent plane.
 constexpr std::array<double, 3> shares{1, 0.5, 0.25};
-// Least cosine of a triangle's normal and the surface's at its corners, unless it was less before: around the apex of a
-// narrow cone, and across a bend, the best shapes are those of the cross-section.
-constexpr double least_agreement = 0.5;
 
 class SpaceSmoothing {
  public:
-  SpaceSmoothing(const BadRegion& region, int ref, Cad& cad, PatchMesh& mesh, Monitor& monitor)
-      : region_(region), ref_(ref), cad_(cad), mesh_(mesh), monitor_(monitor) {
-    rank_.assign(mesh.xyz.size(), -1);
-    for (const std::int32_t t : region.triangles())
-      for (const std::int32_t v : mesh.plane.triangles[t]) {
-        if (rank_[v] < 0) {
-          rank_[v] = static_cast<int>(stars_.size());
-          stars_.push_back({.vertex = v});
-        }
-        if (region.may_move(v)) stars_[rank_[v]].triangles.push_back(t);
-      }
-  }
+  SpaceSmoothing(const BadRegion& region, const PlaneDomain& domain, int ref, Cad& cad, PatchMesh& mesh,
+                 Monitor& monitor)
+      : region_(region),
+        ref_(ref),
+        cad_(cad),
+        mesh_(mesh),
+        monitor_(monitor),
+        editable_(domain, mesh.plane, mesh.xyz, region.triangles()) {}
 
   std::vector<std::int32_t> run() {
-    std::vector<std::int32_t> all;
-    for (int pass = 0; pass < most_passes; ++pass) {
-      bool moved = false;
-      for (const std::int32_t v : corners_of_bad()) {
-        monitor_.checkpoint();
-        if (!improve(star_of(v))) continue;
-        moved = true;
-        all.push_back(v);
-      }
-      if (!moved) break;
-    }
-    return all;
+    std::vector<std::int32_t> moved;
+    improve_in_passes(
+        most_passes, monitor_, [this] { return corners_of_bad(); },
+        [&](std::int32_t v) {
+          const bool better = improve(v);
+          if (better) moved.push_back(v);
+          return better;
+        });
+    return moved;
   }
 
  private:
-  using Triangle = std::array<std::int32_t, 3>;
-  struct Star {
-    std::int32_t vertex = 0;
-    std::vector<std::int32_t> triangles = {};  // none around a vertex that may not move
-    bool tried = false;                        // in vain, and nothing around has moved since
-    std::optional<Vec3> normal = {};           // of unit length, or zero where the surface has none; once it was asked
+  using Triangle = EditableMesh::Triangle;
+  using Place = EditableMesh::Place;
+  struct Known {
+    bool tried = false;               // in vain, and nothing around has moved since
+    std::optional<Vec3> normal = {};  // of unit length, or zero where the surface has none; once it was asked
   };
 
-  [[nodiscard]] Star& star_of(std::int32_t v) { return stars_[rank_[v]]; }
+  /// The triangles around a vertex that may move.
+  [[nodiscard]] const std::vector<Place>& star(std::int32_t v) const { return editable_.fan(v); }
 
   // Those that may move, of the worst triangles first.
   [[nodiscard]] std::vector<std::int32_t> corners_of_bad() {
     std::vector<std::pair<double, std::int32_t>> bad;
-    for (const std::int32_t t : region_.below(good_quality)) bad.emplace_back(quality_of(t), t);
+    for (const std::int32_t t : region_.below(good)) bad.emplace_back(quality_of(t), t);
     std::sort(bad.begin(), bad.end());
     std::vector<std::int32_t> corners;
     for (const auto& [quality, t] : bad)
       for (const std::int32_t v : mesh_.plane.triangles[t])
-        if (region_.may_move(v) && !star_of(v).tried) corners.push_back(v);
+        if (region_.may_move(v) && !known_[v].tried) corners.push_back(v);
     return corners;
   }
 
   [[nodiscard]] double quality_of(std::int32_t t) const {
     return quality_in_space(mesh_.plane.triangles[t], mesh_.xyz);
   }
-  // Below `least`, it need not be known.
-  [[nodiscard]] double worst_around(const Star& star, double least = 0) const {
+  [[nodiscard]] double worst_around(std::int32_t v) const {
     double worst = 1;
-    for (const std::int32_t t : star.triangles) {
-      worst = std::min(worst, quality_of(t));
-      if (worst < least) break;
-    }
+    for (const Place p : star(v)) worst = std::min(worst, quality_of(p.triangle));
     return worst;
   }
-  // The same of the triangles of order_: the one that told last is asked first.
+  // The same of the triangles of order_: the one that told last is asked first. Below `least`, it need not be known.
   [[nodiscard]] double worst_in_order(double least) {
     double worst = 1;
-    for (std::int32_t& t : order_) {
-      worst = std::min(worst, quality_of(t));
+    for (Place& p : order_) {
+      worst = std::min(worst, quality_of(p.triangle));
       if (worst < least) {
-        std::swap(t, order_.front());
+        std::swap(p, order_.front());
         break;
       }
     }
     return worst;
   }
-  [[nodiscard]] double sum_around(const Star& star) const {
+  [[nodiscard]] double sum_around(std::int32_t v) const {
     double sum = 0;
-    for (const std::int32_t t : star.triangles) sum += quality_of(t);
+    for (const Place p : star(v)) sum += quality_of(p.triangle);
     return sum;
   }
-  [[nodiscard]] double mean_edge(const Star& star) const {
+  [[nodiscard]] double mean_edge(std::int32_t v) const {
     double sum = 0;
-    for (const std::int32_t t : star.triangles)
-      for (const std::int32_t v : mesh_.plane.triangles[t]) sum += norm(mesh_.xyz[v] - mesh_.xyz[star.vertex]);
-    return sum / (2 * static_cast<double>(star.triangles.size()));
+    for (const Place p : star(v))
+      for (const std::int32_t w : editable_.at(p)) sum += norm(mesh_.xyz[w] - mesh_.xyz[v]);
+    return sum / (2 * static_cast<double>(star(v).size()));
   }
 
-  [[nodiscard]] SurfaceJet jet_at(Vec2 uv) {
+  [[nodiscard]] SurfaceJet jet_at(const Vec2& uv) {
     SurfaceJet jet;
     cad_.surface(ref_, want_position | want_first, {&uv, 1}, {&jet, 1});
     return jet;
   }
-  void ask_normals(const Star& star) {
+  void ask_normals(std::int32_t centre) {
     std::vector<Vec2> uv;
     std::vector<std::int32_t> asked;
-    for (const std::int32_t t : star.triangles)
-      for (const std::int32_t v : mesh_.plane.triangles[t])
-        if (!star_of(v).normal) {
-          star_of(v).normal = Vec3{};
+    for (const Place p : star(centre))
+      for (const std::int32_t v : editable_.at(p))
+        if (Known& known = known_[v]; !known.normal) {
+          known.normal = Vec3{0, 0, 0};
           asked.push_back(v);
           uv.push_back(mesh_.plane.vertices[v]);
         }
     std::vector<SurfaceJet> jets(uv.size());
     if (!uv.empty()) cad_.surface(ref_, want_first, uv, jets);
-    for (std::size_t k = 0; k < jets.size(); ++k) star_of(asked[k]).normal = unit_normal(jets[k]).value_or(Vec3{});
+    for (std::size_t k = 0; k < jets.size(); ++k) known_[asked[k]].normal = normal_of(jets[k]);
   }
+  [[nodiscard]] static Vec3 normal_of(const SurfaceJet& jet) { return unit_normal(jet).value_or(Vec3{0, 0, 0}); }
 
   // The least cosine of a triangle's normal and those at its corners; that of a corner without a normal is zero.
-  [[nodiscard]] double agreement(std::int32_t t) {
-    const Triangle& c = mesh_.plane.triangles[t];
-    const Vec3 n = cross(mesh_.xyz[c[1]] - mesh_.xyz[c[0]], mesh_.xyz[c[2]] - mesh_.xyz[c[0]]);
+  [[nodiscard]] double agreement(Place p) {
+    const Vec3 n = editable_.normal(p);
     const double size = norm(n);
     if (!(size > 0)) return -1;
     double least = 1;
-    for (const std::int32_t v : c) least = std::min(least, dot(n, *star_of(v).normal) / size);
+    for (const std::int32_t v : editable_.at(p)) least = std::min(least, dot(n, *known_[v].normal) / size);
     return least;
   }
 
   // The way to the best place of the tangent plane, by a search along eight directions: the worst of some triangles
   // has no derivative.
-  [[nodiscard]] Vec2 best_way(const Star& star, Vec3 e1, Vec3 e2) {
-    const Vec3 home = mesh_.xyz[star.vertex];
-    const double length = mean_edge(star);
-    static constexpr double d = 0.70710678118654752;
-    static const std::array<Vec2, 8> directions{
-        {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
-    Vec2 way;
-    double best = worst_around(star);
-    order_ = star.triangles;
-    for (double step = first_step; step > last_step;) {
-      Vec2 next = way;
-      for (const Vec2& direction : directions) {
-        const Vec2 there = way + (step * length) * direction;
-        mesh_.xyz[star.vertex] = home + there.x() * e1 + there.y() * e2;
-        const double worst = worst_in_order(best);
-        if (worst > best) best = worst, next = there;
-      }
-      if (next == way) step /= 2;
-      way = next;
-    }
-    mesh_.xyz[star.vertex] = home;
+  [[nodiscard]] Vec2 best_way(std::int32_t v, const Vec3& e1, const Vec3& e2) {
+    const Vec3 home = mesh_.xyz[v];
+    const double length = mean_edge(v);
+    order_ = star(v);
+    const Vec2 way = search_along_compass(worst_around(v), first_step * length, last_step * length,
+                                          [&](const Vec2& there, double best) {
+                                            mesh_.xyz[v] = home + there.x() * e1 + there.y() * e2;
+                                            return worst_in_order(best);
+                                          });
+    mesh_.xyz[v] = home;
     return way;
   }
 
-  bool improve(Star& star) {
-    if (star.tried) return false;
-    star.tried = !move(star);
-    if (star.tried) return false;
-    for (const std::int32_t t : star.triangles)
-      for (const std::int32_t v : mesh_.plane.triangles[t]) star_of(v).tried = false;
+  bool improve(std::int32_t v) {
+    if (known_[v].tried) return false;
+    known_[v].tried = !move(v);
+    if (known_[v].tried) return false;
+    for (const Place p : star(v))
+      for (const std::int32_t w : editable_.at(p)) known_[w].tried = false;
     return true;
   }
 
-  bool move(Star& star) {
-    const double worst = worst_around(star), sum = sum_around(star);
-    if (!(worst < good_quality)) return false;
-    Vec2& uv = mesh_.plane.vertices[star.vertex];
-    Vec3& xyz = mesh_.xyz[star.vertex];
-    const Vec2 home_uv = uv;
-    const Vec3 home = xyz;
-    const SurfaceJet jet = jet_at(uv);
+  bool move(std::int32_t v) {
+    const double worst = worst_around(v), sum = sum_around(v);
+    if (!(worst < good)) return false;
+    const Vec2 home = mesh_.plane.vertices[v];
+    const SurfaceJet jet = jet_at(home);
     const std::optional<Vec3> normal = unit_normal(jet);
     if (!normal) return false;
     const Vec3 e1 = (1 / norm(jet.su)) * jet.su, e2 = cross(*normal, e1);
-    const Vec2 way = best_way(star, e1, e2);
-    if (way == Vec2{}) return false;
+    const Vec2 way = best_way(v, e1, e2);
+    if (way == Vec2{0, 0}) return false;
     const double along_v = way.y() / dot(jet.sv, e2);
     const Vec2 step{(way.x() - along_v * dot(jet.sv, e1)) / norm(jet.su), along_v};
-    star.normal = normal;
-    ask_normals(star);
+    known_[v].normal = normal;
+    ask_normals(v);
     agreement_before_.clear();
-    for (const std::int32_t t : star.triangles) agreement_before_.push_back(agreement(t));
+    for (const Place p : star(v)) agreement_before_.push_back(agreement(p));
+    const std::size_t edits = editable_.edits();
     for (const double share : shares) {
-      uv = home_uv + share * step;
-      if (!is_positive(star)) continue;
+      const Vec2 uv = home + share * step;
+      if (!editable_.can_move({0, v}, uv)) continue;
       const SurfaceJet there = jet_at(uv);
-      xyz = there.s;
-      star.normal = unit_normal(there).value_or(Vec3{});
-      const bool better = worst_around(star) > worst + least_gain && (worst < poor_quality || sum_around(star) > sum);
-      if (better && agrees(star)) return true;
+      editable_.move({0, v}, uv, there.s);
+      known_[v].normal = normal_of(there);
+      const bool better = worst_around(v) > worst + least_gain && (worst < poor || sum_around(v) > sum);
+      if (better && agrees(v)) return true;
+      editable_.undo(edits);
     }
-    uv = home_uv;
-    xyz = home;
-    star.normal = normal;
+    known_[v].normal = normal;
     return false;
   }
 
-  [[nodiscard]] bool is_positive(const Star& star) const {
-    const std::vector<Vec2>& uv = mesh_.plane.vertices;
-    return std::all_of(star.triangles.begin(), star.triangles.end(), [&](std::int32_t t) {
-      const Triangle& c = mesh_.plane.triangles[t];
-      return orientation(uv[c[0]], uv[c[1]], uv[c[2]]) > 0;
-    });
-  }
-  [[nodiscard]] bool agrees(const Star& star) {
-    for (std::size_t k = 0; k < star.triangles.size(); ++k)
-      if (agreement(star.triangles[k]) < std::min(agreement_before_[k], least_agreement)) return false;
+  [[nodiscard]] bool agrees(std::int32_t v) {
+    const std::vector<Place>& around = star(v);
+    for (std::size_t k = 0; k < around.size(); ++k)
+      if (agreement(around[k]) < std::min(agreement_before_[k], least_agreement)) return false;
     return true;
   }
 
@@ -230,17 +198,17 @@ class SpaceSmoothing {
   Cad& cad_;
   PatchMesh& mesh_;
   Monitor& monitor_;
-  std::vector<int> rank_;  // by vertex: index in stars_, or -1
-  std::vector<Star> stars_;
-  std::vector<std::int32_t> order_;       // scratch of best_way()
-  std::vector<double> agreement_before_;  // of the triangles of the star that is moved
+  EditableMesh editable_;
+  std::unordered_map<std::int32_t, Known> known_;  // by vertex
+  std::vector<Place> order_;                       // scratch of best_way()
+  std::vector<double> agreement_before_;           // of the triangles of the star that is moved
 };
 
 }  // namespace
 
-std::vector<std::int32_t> smooth_in_space(const BadRegion& region, int ref, Cad& cad, PatchMesh& mesh,
-                                          Monitor& monitor) {
-  return SpaceSmoothing(region, ref, cad, mesh, monitor).run();
+std::vector<std::int32_t> smooth_in_space(const BadRegion& region, const PlaneDomain& domain, int ref, Cad& cad,
+                                          PatchMesh& mesh, Monitor& monitor) {
+  return SpaceSmoothing(region, domain, ref, cad, mesh, monitor).run();
 }
 
 }  // namespace carreau

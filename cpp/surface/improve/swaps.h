@@ -9,6 +9,7 @@ namespace carreau {
 /// Swaps edges of the region that are not imposed while that raises the worse shape quality of the two triangles, where
 /// one of them is poor. Triangles stay counterclockwise in (u, v), exactly. No vertex moves, no callback. Whether an
 /// edge was swapped.
-bool swap_in_space(const BadRegion& region, PlaneMesh& mesh, const std::vector<Vec3>& xyz, Monitor& monitor);
+bool swap_in_space(const BadRegion& region, const PlaneDomain& domain, PlaneMesh& mesh, std::vector<Vec3>& xyz,
+                   Monitor& monitor);
 
 }  // namespace carreau

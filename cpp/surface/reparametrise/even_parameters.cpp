@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <optional>
 
+#include "mesh/editable_mesh.h"
+#include "mesh/local_search.h"
 #include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
 #include "surface/improve/bad_region.h"
@@ -32,14 +34,14 @@ constexpr double least_speed = 0.02;
 constexpr double shortest = 1e-7;
 
 /// One parameter: 0 is u, 1 is v.
-double of(Vec2 p, int axis) noexcept { return axis == 0 ? p.x() : p.y(); }
+double of(const Vec2& p, int axis) noexcept { return axis == 0 ? p.x() : p.y(); }
 Vec2 point(int axis, double along, double across) noexcept {
   return axis == 0 ? Vec2{along, across} : Vec2{across, along};
 }
 
 class Evener {
  public:
-  Evener(int ref, Cad& cad, const SampledDomain& domain, Vec2 at, Monitor& monitor)
+  Evener(int ref, Cad& cad, const SampledDomain& domain, const Vec2& at, Monitor& monitor)
       : ref_(ref), cad_(cad), locator_(domain.vertices, domain.edges), at_(at), monitor_(monitor) {
     for (int axis = 0; axis < 2; ++axis) {
       for (const auto& [a, b] : domain.edges) boundary_[axis].push_back(of(domain.vertices[a], axis));
@@ -185,83 +187,50 @@ constexpr double least_kept = 0.5;
 /// Swaps edges of triangles that are turned over.
 class Righter {
  public:
-  Righter(const PlaneDomain& host, PatchMesh& mesh) : mesh_(mesh) {
-    for (const PlaneEdge& e : host.edges) imposed_[std::minmax(e.a, e.b)] = true;
+  Righter(const PlaneDomain& host, PatchMesh& mesh) : mesh_(mesh), editable_(host, mesh.plane, mesh.xyz) {}
+
+  void run(Monitor& monitor) {
+    constexpr int most_passes = 20;
+    improve_in_passes(
+        most_passes, monitor, [this] { return turned_over(mesh_.plane); }, [this](std::int32_t t) { return mend(t); });
   }
 
-  /// How many stay turned over.
-  std::size_t run() {
-    constexpr int most_passes = 20;
-    std::vector<int> turned = all_turned();
-    if (!turned.empty()) join();
-    for (int pass = 0; pass < most_passes && !turned.empty(); ++pass) {
-      bool changed = false;
-      for (const int t : turned) changed = mend(t) || changed;
-      if (!changed) break;
-      turned = all_turned();
-    }
-    return turned.size();
+  [[nodiscard]] static std::vector<std::int32_t> turned_over(const PlaneMesh& mesh) {
+    std::vector<std::int32_t> turned;
+    const std::vector<Vec2>& p = mesh.vertices;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (const auto& [a, b, c] = mesh.triangles[t]; orientation(p[a], p[b], p[c]) <= 0)
+        turned.push_back(static_cast<std::int32_t>(t));
+    return turned;
   }
 
  private:
-  using Triangle = std::array<std::int32_t, 3>;
-  [[nodiscard]] bool upright(const Triangle& t) const {
-    const std::vector<Vec2>& p = mesh_.plane.vertices;
-    return orientation(p[t[0]], p[t[1]], p[t[2]]) > 0;
-  }
-  [[nodiscard]] std::vector<int> all_turned() const {
-    std::vector<int> turned;
-    for (std::size_t t = 0; t < mesh_.plane.triangles.size(); ++t)
-      if (!upright(mesh_.plane.triangles[t])) turned.push_back(static_cast<int>(t));
-    return turned;
-  }
-  void join() {
-    for (std::size_t t = 0; t < mesh_.plane.triangles.size(); ++t) join(static_cast<int>(t));
-  }
-  void join(int t) {
-    const Triangle& v = mesh_.plane.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i) sides_[{v[i], v[(i + 1) % 3]}] = t;
-  }
-  bool mend(int t) {
-    Triangle& T = mesh_.plane.triangles[t];
-    if (upright(T)) return false;
+  bool mend(std::int32_t t) {
+    const auto quality = [this](const EditableMesh::Triangle& of) { return quality_in_space(of, mesh_.xyz); };
+    if (editable_.is_positive(0, editable_.at({0, t}))) return false;
+    const double own = quality(editable_.at({0, t}));
     double best = 0;
-    int across = -1;
-    const double own = quality_in_space(T, mesh_.xyz);
-    std::array<Triangle, 2> parts{};
-    std::pair<std::int32_t, std::int32_t> gone;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = T[i], b = T[(i + 1) % 3], c = T[(i + 2) % 3];
-      const auto beyond = sides_.find({b, a});
-      if (beyond == sides_.end() || imposed_.contains(std::minmax(a, b))) continue;
-      const Triangle& U = mesh_.plane.triangles[beyond->second];
-      const std::int32_t d = U[0] + U[1] + U[2] - a - b;
-      const Triangle p{a, d, c}, q{d, b, c};
-      if (sides_.contains({c, d}) || sides_.contains({d, c}) || !upright(p) || !upright(q)) continue;
-      const double worse = std::min(quality_in_space(p, mesh_.xyz), quality_in_space(q, mesh_.xyz));
-      if (worse < least_kept * std::min(own, quality_in_space(U, mesh_.xyz))) continue;
-      if (worse > best) best = worse, across = beyond->second, parts = {p, q}, gone = {a, b};
+    std::optional<EditableMesh::Quad> found;
+    for (int i = 0; i < 3; ++i) {
+      const auto q = editable_.quad({0, t}, i);
+      if (!q || !editable_.can_swap(*q)) continue;
+      const auto [first, second] = EditableMesh::swapped(*q);
+      const double worse = std::min(quality(first), quality(second));
+      if (worse < least_kept * std::min(own, quality(editable_.at({0, q->u})))) continue;
+      if (worse > best) best = worse, found = q;
     }
-    if (across < 0) return false;
-    T = parts[0];
-    mesh_.plane.triangles[across] = parts[1];
-    sides_.erase(gone);
-    sides_.erase({gone.second, gone.first});
-    join(t);
-    join(across);
-    return true;
+    return found && editable_.swap(*found);
   }
 
   PatchMesh& mesh_;
-  std::map<std::pair<int, int>, bool> imposed_;
-  std::map<std::pair<std::int32_t, std::int32_t>, int> sides_;
+  EditableMesh editable_;
 };
 
 Metric2 scaled(Metric2 m, double x, double y) noexcept { return {m.a * x * x, m.b * x * y, m.c * y * y}; }
 
 }  // namespace
 
-std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, Vec2 at,
+std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, const Vec2& at,
                                                  Monitor& monitor) {
   return Evener(ref, cad, domain, at, monitor).run();
 }
@@ -272,11 +241,13 @@ FaceDomain reparametrised(const FaceDomain& domain, const Reparametrisation& map
   return result;
 }
 
-std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map, PatchMesh& mesh) {
+std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map, PatchMesh& mesh, Monitor& monitor) {
   std::vector<Vec2>& uv = mesh.plane.vertices;
   std::copy(host.vertices.begin(), host.vertices.end(), uv.begin());
   for (std::size_t v = host.vertices.size(); v < uv.size(); ++v) uv[v] = map.to_host(uv[v]);
-  return Righter(host, mesh).run();
+  const auto turned = [&mesh] { return Righter::turned_over(mesh.plane).size(); };
+  if (turned() > 0) Righter(host, mesh).run(monitor);
+  return turned();
 }
 
 ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& map, const ControlSpace& space,

@@ -24,7 +24,7 @@ FaceDomain reparametrised(const FaceDomain& domain, const Reparametrisation& map
 /// Brings a mesh back to (u, v); imposed vertices get those of `host` again. Where speeds change much within a triangle
 /// it can be turned over in (u, v), though neither in (x, y) nor in space: edges are swapped where shapes in space stay
 /// good. Returns how many triangles remain turned.
-std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map, PatchMesh& mesh);
+std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map, PatchMesh& mesh, Monitor& monitor);
 
 /// What a control space in (x, y) holds, in (u, v). Asks nobody.
 ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& map, const ControlSpace& space,

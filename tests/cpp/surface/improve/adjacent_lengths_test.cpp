@@ -1,99 +1,14 @@
-// Adjacent edges whose lengths differ too much, and the parts of a mesh that change for their sake.
+// Adjacent edges whose lengths differ too much.
 #include "surface/improve/adjacent_lengths.h"
 
 #include <gtest/gtest.h>
 
 #include "geometric_run.h"
-#include "surface/improve/local_mesh.h"
 
 namespace carreau {
 namespace {
 
 using namespace testing;
-
-/// The unit square as n x n cells of two triangles each; its border is one closed curve.
-SurfaceMesh square_mesh(int n) {
-  SurfaceMesh mesh;
-  FaceMesh face;
-  face.ref = 1, face.status = FaceStatus::meshed;
-  const auto at = [n](int i, int j) { return j * (n + 1) + i; };
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
-      face.uv.push_back({x, y});
-      face.vertex.push_back(at(i, j));
-      mesh.vertices.push_back({x, y, 0});
-    }
-  mesh.vertex_ref.assign(mesh.vertices.size(), 0);
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      face.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      face.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
-  CurveMesh border{.ref = 1, .vertices = {}, .uses = {{0, false}}};
-  for (int k = 0; k < n; ++k) border.vertices.push_back(at(k, 0));
-  for (int k = 0; k < n; ++k) border.vertices.push_back(at(n, k));
-  for (int k = n; k > 0; --k) border.vertices.push_back(at(k, n));
-  for (int k = n; k >= 0; --k) border.vertices.push_back(at(0, k));
-  mesh.curves.push_back(border);
-  mesh.faces.push_back(face);
-  return mesh;
-}
-
-TEST(LocalMesh, KnowsWhatIsAroundCentresAndWhatMayMove) {
-  SurfaceMesh mesh = square_mesh(4);
-  const std::vector<std::int32_t> centre{12};
-  const LocalMesh local(mesh, centre, 1);
-  EXPECT_EQ(local.ring(12), (std::vector<std::int32_t>{6, 7, 11, 13, 17, 18}));
-  EXPECT_EQ(local.fan(12).size(), 6U);
-  EXPECT_FALSE(local.is_known(0));
-  ASSERT_TRUE(local.inside(12));
-  EXPECT_FALSE(local.inside(6)) << "its own neighbours are not known";
-  const LocalMesh all(mesh, centre, 4);
-  EXPECT_TRUE(all.inside(6));
-  EXPECT_FALSE(all.inside(1)) << "it is on the border";
-}
-
-TEST(LocalMesh, SwapsAndDivisionsKeepTheMeshSoundAndCanBeTakenBack) {
-  SurfaceMesh mesh = square_mesh(4);
-  const std::vector<std::int32_t> centre{12};
-  LocalMesh local(mesh, centre, 4);
-  int swaps = 0, divisions = 0, imposed = 0;
-  const std::vector<LocalMesh::Place> places = local.fan(6);
-  for (const LocalMesh::Place p : places)
-    for (int side = 0; side < 3; ++side) {
-      const SurfaceMesh before = mesh;
-      const auto quad = local.quad(p, side);
-      if (!quad) {
-        ++imposed;
-        continue;
-      }
-      if (local.swap(*quad)) {
-        ++swaps;
-        EXPECT_EQ(find_defects(mesh), std::vector<std::string>{});
-        local.restore(*quad);
-      }
-      EXPECT_EQ(mesh.faces[0].triangles, before.faces[0].triangles);
-      const auto middle = local.divide(*quad);
-      ASSERT_TRUE(middle);
-      ++divisions;
-      const auto [a, b, c, d] = local.corners(*quad);
-      mesh.vertices.back() = 0.5 * (mesh.vertices[a] + mesh.vertices[b]);
-      EXPECT_EQ(find_defects(mesh), std::vector<std::string>{});
-      std::vector<std::int32_t> corners{a, b, c, d};
-      std::sort(corners.begin(), corners.end());
-      EXPECT_EQ(local.ring(local.global(*middle)), corners);
-      local.unite(*quad);
-      EXPECT_EQ(mesh.faces[0].triangles, before.faces[0].triangles);
-      EXPECT_EQ(mesh.vertices, before.vertices);
-      EXPECT_EQ(mesh.faces[0].vertex, before.faces[0].vertex);
-    }
-  // Diagonals of squares have another one; other edges are diagonals of parallelograms without: their triangles would
-  // have no area.
-  EXPECT_GT(swaps, 0);
-  EXPECT_EQ(divisions + imposed, 18);
-  EXPECT_EQ(imposed, 2) << "the sides on the border";
-}
 
 double worst_ratio(const SurfaceMesh& mesh) {
   std::vector<double> low(mesh.vertices.size(), 1e300), high(low.size(), 0);

@@ -1,0 +1,53 @@
+#include "surface/improve/assembled_search.h"
+
+#include <algorithm>
+
+#include "surface/improve/thresholds.h"
+#include "surface/sample/face_metric.h"
+
+namespace carreau {
+
+namespace {
+
+Budget budget_of(const SurfaceMesh& mesh) {
+  using namespace thresholds::assembled;
+  return Budget(
+      static_cast<std::int64_t>(std::max(least_budget, budget_a_vertex * static_cast<double>(mesh.vertices.size()))));
+}
+
+}  // namespace
+
+AssembledSearch::AssembledSearch(std::span<const std::int32_t> centres, const SizeRules& rules, Cad& cad,
+                                 CompositeResult& result)
+    : rules_(rules),
+      cad_(cad),
+      result_(result),
+      mesh_(result.mesh, centres, thresholds::assembled::rings),
+      budget_(budget_of(result.mesh)) {}
+
+SurfaceJet AssembledSearch::ask(std::int32_t face, const Vec2& uv) {
+  budget_.spend();
+  return surface_at(cad_, result_.mesh.faces[face].ref, want_position | want_first, uv);
+}
+
+bool AssembledSearch::agree(std::span<const Place> places, const Vec3& mean) const {
+  return std::all_of(places.begin(), places.end(), [&](Place p) {
+    const Vec3 n = mesh_.normal(p);
+    return dot(n, mean) > thresholds::assembled::least_agreement * norm(n);
+  });
+}
+
+void AssembledSearch::update_sizes(double (*size_of)(const SurfaceJet&, Metric2), Monitor& monitor) {
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  for (const Vertex v : changed_) {
+    FaceMetric prescribed(v.face, rules_, result_.interfaces[v.face], monitor, {.field = result_.graded.get()});
+    const Vec2 uv = mesh_.uv(v);
+    prescribed.sample(cad_, result_.mesh.faces[v.face].ref, 0, {&uv, 1},
+                      [&](std::size_t, const SurfaceJet& jet, Metric2 metric) {
+                        if (const double h = size_of(jet, metric); h > 0) result_.vertex_size[mesh_.global(v)] = h;
+                      });
+  }
+}
+
+}  // namespace carreau

@@ -1,0 +1,86 @@
+// What searches for better edges on an assembled mesh share, whatever is better: budget, places tried, sizes
+// afterwards.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/editable_mesh.h"
+#include "mesh/local_search.h"
+#include "size/size_rules.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// Edits around some vertices of an assembled mesh. Keeps references to all that it is given.
+class AssembledSearch {
+ public:
+  using Vertex = EditableMesh::Vertex;
+  using Place = EditableMesh::Place;
+
+  AssembledSearch(std::span<const std::int32_t> centres, const SizeRules& rules, Cad& cad, CompositeResult& result);
+
+  [[nodiscard]] EditableMesh& mesh() noexcept { return mesh_; }
+  [[nodiscard]] const EditableMesh& mesh() const noexcept { return mesh_; }
+  /// Points of surfaces that may still be asked.
+  [[nodiscard]] const Budget& budget() const noexcept { return budget_; }
+  /// Faces between sides that were matched have no control space, and stay.
+  [[nodiscard]] bool has_space(std::int32_t face) const { return result_.spaces[face].has_value(); }
+  /// Of the control space of the face.
+  [[nodiscard]] Metric2 metric(std::int32_t face, const Vec2& uv) const { return result_.spaces[face]->at(uv); }
+  /// Position and derivatives; one of the budget.
+  SurfaceJet ask(std::int32_t face, const Vec2& uv);
+  /// None of the triangles is turned much from `mean`, the mean normal of those that they replace.
+  [[nodiscard]] bool agree(std::span<const Place> places, const Vec3& mean) const;
+
+  /// The size of such a vertex is to be asked for.
+  void note_changed(Vertex v) { changed_.push_back(v); }
+  /// Asks for them: by `size_of` a metric at a point.
+  void update_sizes(double (*size_of)(const SurfaceJet&, Metric2), Monitor& monitor);
+
+  /// Where a vertex may go, and what the criterion knows of it there.
+  template <typename Known>
+  struct Found {
+    Vec2 uv;
+    Vec3 xyz;
+    Known known;
+  };
+  /// The best place of those tried for a vertex inside by `judge()`, which `best` becomes; none: where it is. Of
+  /// `criterion`: what it knows of a vertex is known(v), and changes by learn(v, jet) and set_known(v, known).
+  /// `accepts(now, before)`: whether a place comes into question.
+  template <typename Criterion, typename Judge, typename Accepts, typename Judgement>
+  auto best_place(Criterion& criterion, Vertex v, const Judge& judge, const Accepts& accepts, Judgement& best) {
+    const std::vector<Place>& fan = mesh_.fan(mesh_.global(v));
+    const Vec2 home = mesh_.uv(v);
+    const Vec3 mean = mesh_.mean_normal(fan);
+    const auto known = criterion.known(v);
+    const Judgement before = judge();
+    best = before;
+    std::optional<Found<std::remove_const_t<decltype(known)>>> found;
+    for_placements(UnitCircle(metric(v.face, home)), [&](const Vec2& offset) {
+      const Vec2 uv = home + offset;
+      if (budget_.is_spent() || !mesh_.can_move(v, uv)) return;  // so it stays inside the domain
+      const SurfaceJet jet = ask(v.face, uv);
+      const std::size_t edits = mesh_.edits();
+      mesh_.move(v, uv, jet.s);
+      criterion.learn(v, jet);
+      const Judgement now = judge();
+      if (accepts(now, before) && now.better_than(best) && agree(fan, mean))
+        best = now, found = {uv, jet.s, criterion.known(v)};
+      mesh_.undo(edits);
+      criterion.set_known(v, known);
+    });
+    return found;
+  }
+
+ private:
+  const SizeRules& rules_;
+  Cad& cad_;
+  CompositeResult& result_;
+  EditableMesh mesh_;
+  Budget budget_;
+  std::vector<Vertex> changed_;
+};
+
+}  // namespace carreau

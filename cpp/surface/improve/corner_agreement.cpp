@@ -1,0 +1,28 @@
+#include "surface/improve/corner_agreement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace carreau {
+
+KeptAgreement::KeptAgreement(const GeometricLimits& kept)
+    : sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180)
+                                               : std::numeric_limits<double>::infinity()),
+      deviation_(kept.deviation) {}
+
+double KeptAgreement::share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept {
+  double angles = 0, offsets = 0, middle = 0;  // angles by their sines
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const Vec3 e = corners[j] - corners[i];
+    const double p = dot(e, normals[i]), q = -dot(e, normals[j]);
+    angles = std::max(angles, std::max(std::abs(p), std::abs(q)) / norm(e));
+    for (const double s : along_edge) offsets = std::max(offsets, std::abs(cubic_offset(s, p, q)));
+    middle += p + q;
+  }
+  return std::max(angles / sine_, std::max(offsets, std::abs(middle) / 18) / deviation_);
+}
+
+}  // namespace carreau

@@ -1,0 +1,36 @@
+// How far triangles leave the surface, by what is known at their corners.
+#pragma once
+
+#include <array>
+
+#include "size/size_rules.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Shares of an edge where its offsets are sampled: that of an arc is largest in its middle, that of an S at 0.21 and
+/// 0.79.
+inline constexpr std::array<double, 3> along_edge{0.21, 0.5, 0.79};
+
+/// Offset, at the share s of an edge, of the cubic that leaves its ends as the surface does (cubic patches of Vlachos
+/// et al.: "Curved PN triangles", 2001). `p`: height of the last end over the tangent plane of the first; `q`: of the
+/// first over that of the last.
+constexpr double cubic_offset(double s, double p, double q) noexcept { return s * (1 - s) * ((1 - s) * p + s * q); }
+
+/// What a mesh keeps of angles and distances to its surface.
+class KeptAgreement {
+ public:
+  explicit KeptAgreement(const GeometricLimits& kept);
+
+  /// The largest angle or offset of a triangle as a share of what is kept; up to 1 it is within. By the cubics of its
+  /// edges, and by the middle of the patch that they bound: the mean of the six offsets of their control points.
+  /// `normals`: of the surface at the corners, of unit length, or zero where it has none.
+  [[nodiscard]] double share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept;
+  /// Sine of the angle that is kept between an edge and the tangent planes at its ends; infinity: any.
+  [[nodiscard]] double sine() const noexcept { return sine_; }
+
+ private:
+  double sine_, deviation_;
+};
+
+}  // namespace carreau
