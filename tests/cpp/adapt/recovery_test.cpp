@@ -106,7 +106,7 @@ TEST(Recovery, FindsTheHessianOfAHeightOnASphere) {
   // On the unit sphere the Hessian of z, along the surface, is -z times the identity.
   double before = 0;
   for (const int n : {16, 32, 64}) {
-    TestMesh mesh = mapped(square_mesh(n, 0.2), [](Vec3 p) {
+    TestMesh mesh = mapped(square_mesh(n, 0.2), [](Vec3 p) -> Vec3 {
       const Vec3 q{p.x(), p.y(), 1.2};
       return (1 / norm(q)) * q;
     });

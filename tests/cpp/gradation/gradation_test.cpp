@@ -449,7 +449,7 @@ TangentMetric sizes_at(const SampledField::Sample& s) {
 TEST(BoundSlopesByDirection, ALayerGrowsInBothDirectionsByItsOwnMetric) {
   constexpr double slope = 0.3, across = 0.05, along = 0.2;
   SampledField field = directed_grid(
-      [](Vec2 x) {
+      [=](Vec2 x) {
         return x.y() < 1e-9 ? Vec2{along, across} : Vec2{10, 10};
       },
       [](Vec2) { return 0; });

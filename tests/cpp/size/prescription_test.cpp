@@ -167,7 +167,7 @@ TEST(GeometricMetrics, ACurveIsKeptByItsOwnCurvature) {
   const double radius = 0.5;
   for (const int ref : {8, 4}) {
     const double sign = ref == 8 ? 1 : -1;
-    s.cad.curves[{ref, 1}] = plane_curve({0, 1}, [=](double t) {
+    s.cad.curves[{ref, 1}] = plane_curve({0, 1}, [=](double t) -> Vec2 {
       return radius * Vec2{std::cos(sign * t), std::sin(sign * t)};
     });
   }
