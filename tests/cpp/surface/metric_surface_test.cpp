@@ -199,7 +199,7 @@ TEST(Anisotropy, SavesTriangles) {
 // ---- invariance ----
 
 AnalyticCad transformed(const AnalyticCad& from, double scale, double angle) {
-  const auto moved = [=](Vec3 v) {
+  const auto moved = [=](Vec3 v) -> Vec3 {
     return scale * Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(),
                         std::sin(angle) * v.x() + std::cos(angle) * v.z()};
   };

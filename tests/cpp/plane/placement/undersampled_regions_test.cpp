@@ -24,11 +24,11 @@ PlaneCase spotted(Vec2 spot) {
   return c;
 }
 
-ControlSpace space_of(const PlaneCase& c, const std::vector<Vec2>& suspects) {
+ControlSpace space_of(const PlaneCase& c, const std::vector<Vec2>& probe_points) {
   SampledDomain domain{c.domain.vertices, {}};
   for (const PlaneEdge& e : c.domain.edges) domain.edges.emplace_back(e.a, e.b);
   ControlSpaceOptions options;
-  options.suspects = suspects;
+  options.probe_points = probe_points;
   Monitor monitor;
   return ControlSpace::build(
       domain,

@@ -38,10 +38,10 @@ struct Lattice {
   std::int64_t x, y;
 };
 
-std::int64_t area(Lattice a, Lattice b, Lattice c) { return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()); }
+std::int64_t area(Lattice a, Lattice b, Lattice c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
 bool holds(Lattice a, Lattice b, Lattice p) {
-  return area(a, b, p) == 0 && (p.x() - a.x()) * (p.x() - b.x()) <= 0 && (p.y() - a.y()) * (p.y() - b.y()) <= 0;
+  return area(a, b, p) == 0 && (p.x - a.x) * (p.x - b.x) <= 0 && (p.y - a.y) * (p.y - b.y) <= 0;
 }
 
 bool properly_cross(Lattice a, Lattice b, Lattice c, Lattice d) {
