@@ -15,7 +15,7 @@ namespace carreau {
 /// such places x and y are to u and v as before. Asks for positions only, some thousand, in the domain. `at`: a place
 /// where the speed is extreme. Empty where speeds do not differ by parameter lines, so that no x and y help. Throws
 /// DomainError with the place where the surface jumps.
-std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, Vec2 at,
+std::optional<Reparametrisation> even_parameters(int ref, Cad& cad, const SampledDomain& domain, const Vec2& at,
                                                  Monitor& monitor);
 
 /// The domain in (x, y).
