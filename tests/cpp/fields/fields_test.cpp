@@ -90,8 +90,8 @@ std::string sentence_of(Action&& action) {
 // (u, v) of each pixel from the attributes of the file alone, as a reader would compute it.
 Vec2 uv_of(const ExrImage& image, int column, int row) {
   const Imath::V2d low = image.pair_attribute("uv.low"), high = image.pair_attribute("uv.high");
-  return {low.x() + (column + 0.5) * (high.x() - low.x()) / image.width,
-          high.y() - (row + 0.5) * (high.y() - low.y()) / image.height};
+  return {low.x + (column + 0.5) * (high.x - low.x) / image.width,
+          high.y - (row + 0.5) * (high.y - low.y) / image.height};
 }
 
 template <typename Body>
