@@ -68,7 +68,7 @@ TEST(FindCrossings, AgreesWithIntegersOnRandomLatticeGraphs) {
     PlaneDomain domain;
     for (int i = 0; i < n; ++i) {
       lattice.push_back({static_cast<std::int64_t>(random() % size), static_cast<std::int64_t>(random() % size)});
-      domain.vertices.push_back({static_cast<double>(lattice.back().x()), static_cast<double>(lattice.back().y())});
+      domain.vertices.push_back({static_cast<double>(lattice.back().x), static_cast<double>(lattice.back().y)});
     }
     // From a few edges, often without conflict, to more than vertices.
     for (int i = 0; i < 1 + n * (trial % 7) / 6; ++i) {
