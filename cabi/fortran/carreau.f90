@@ -40,6 +40,7 @@ module carreau
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
+  public :: carreau_mesh_intersections
   public :: carreau_exr_options, carreau_write_exr
   public :: carreau_session_delivered, carreau_delivered_measure, carreau_delivered_histogram
   public :: carreau_delivered_values, carreau_delivered_edges, carreau_delivered_triangle_edges, carreau_delivered_write
@@ -1205,6 +1206,27 @@ contains
     status = c_mesh_defects(mesh%handle, merge(1_c_int32_t, 0_c_int32_t, closed), limit, count, c_sentences)
     text = carreau_string(c_sentences)
   end subroutine carreau_mesh_defects
+
+  !> triangles(2, n) and xyz(3, n) of the first n pairs, n = min(most, count)
+  subroutine carreau_mesh_intersections(mesh, threads, most, count, triangles, xyz, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: threads
+    integer(c_int64_t), intent(in) :: most
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), allocatable, intent(out) :: triangles(:, :)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), allocatable :: room(:, :)
+    real(c_double), allocatable :: places(:, :)
+    integer(c_int64_t) :: n
+    count = 0
+    n = max(most, 0_c_int64_t)
+    allocate (room(2, n), places(3, n))
+    status = c_mesh_intersections(mesh%handle, threads, n, count, room, places)
+    n = min(n, count)
+    triangles = room(:, 1:n) + 1
+    xyz = places(:, 1:n)
+  end subroutine carreau_mesh_intersections
 
   ! ---- Fields as images ----
 

@@ -837,6 +837,20 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_defects
 
+    !> Looks for pairs of triangles that cross: with a point in common that is on no vertex and no edge of both.
+    function c_mesh_intersections(mesh, threads, capacity, count, triangles, xyz) result(status) &
+        bind(c, name="carreau_mesh_intersections")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: threads
+      integer(c_int64_t), value :: capacity
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t), intent(inout) :: triangles
+      real(c_double), intent(inout) :: xyz
+      integer(c_int32_t) :: status
+    end function c_mesh_intersections
+
     !> Samples what governed the mesh of each face on a grid over the box of its parameter domain, and writes images.
     function c_write_exr(session, path, options) result(status) bind(c, name="carreau_write_exr")
       import :: c_char, c_exr_options, c_int32_t, c_ptr

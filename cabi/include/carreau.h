@@ -403,7 +403,8 @@ enum {
 
 /* Gets one sentence without a newline. The text lives until the callback returns. */
 typedef void (*carreau_message_fn)(int32_t level, const char* text, void* user);
-/* Gets the reference of the face or curve at work (0: none), and the fraction of the whole run, 0 to 1. Return 0, or
+/* Gets the reference of the face or curve at work (0: none), and the fraction of the whole run, 0 to 1. The fraction
+ * never falls, also when faces are left out and the rest is meshed again, and over the steps of an adaptation. Return 0, or
  * any other value to stop the run as carreau_stop does. */
 typedef int32_t (*carreau_progress_fn)(int32_t phase, int32_t entity, double fraction, void* user);
 
@@ -698,6 +699,14 @@ CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_qual
  * Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t limit, int64_t* out_count,
                                                 const char** out_text);
+
+/* Looks for pairs of triangles that cross: with a point in common that is on no vertex and no edge of both. Decided
+ * exactly. Vertices at one place count as one; triangles without area are passed over. threads: at work, 0: all
+ * processors; the result does not depend on it. *out_count: all such pairs. Of the first `capacity` pairs, ascending,
+ * out_triangles has the indices of both triangles (rows of 2) and out_xyz a place (rows of 3); both may be NULL. A
+ * capacity below *out_count is no error. Finding pairs is CARREAU_OK. Errors: ARGUMENT, SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity,
+                                                      int64_t* out_count, int32_t* out_triangles, double* out_xyz);
 
 /* ---- Fields as images (OpenEXR) ---- */
 

@@ -241,7 +241,7 @@ carreau_status carreau_adapt(carreau_session* session, const carreau_adaptation*
     if (known.iterations != 0) options.iterations = known.iterations;
     options.convergence = known.convergence;
     const FieldFunction field = function_of(required(known.field, "adaptation->field"), known.user, session->monitor);
-    session->monitor.clear_stop();
+    session->monitor.begin_run();
     session->commit_model();
     const carreau::AdaptationReport report = carreau::adapt(session->session, field, options, session->monitor);
     const carreau::AdaptationStep &first = report.steps.front(), &last = report.steps.back();

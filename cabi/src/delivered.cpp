@@ -29,7 +29,7 @@ namespace {
 
 const MeshEvaluation& evaluation_of(carreau_session& handle) {
   if (!handle.session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
-  handle.monitor.clear_stop();
+  handle.monitor.begin_run();
   return handle.session.delivered();
 }
 

@@ -44,7 +44,7 @@ carreau::FieldOptions field_options(const carreau_exr_options& given) {
 carreau_status carreau_write_exr(carreau_session* session, const char* path, const carreau_exr_options* options) {
   return guarded(session, [&] {
     required(path, "path");
-    session->monitor.clear_stop();
+    session->monitor.begin_run();
     const carreau::FieldOptions fields =
         field_options(options != nullptr ? read_struct(options, "options") : carreau_exr_options{});
     if (!session->has_cad)

@@ -1,6 +1,7 @@
 // What the opaque handles of carreau.h hold.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 #include <utility>
@@ -44,7 +45,15 @@ class HostMonitor final : public Monitor {
     if (message_ == nullptr || int(level) > (*parameters_)->integer("verb")) return;
     message_(std::int32_t(level), std::string(text).c_str(), message_user_);
   }
+  /// A call that tells progress of its own.
+  void begin_run() {
+    clear_stop();
+    reached_ = 0;
+  }
+  /// What a part of a run does again, or in another order, does not take back what was told.
   void progress(Phase phase, int entity, double fraction) override {
+    if (phase == Phase::idle && fraction < 1) return;  // a part has ended, the run has not
+    reached_ = fraction = std::max(reached_, fraction);
     if (progress_ != nullptr && progress_(std::int32_t(phase), entity, fraction, progress_user_) != 0) request_stop();
   }
 
@@ -54,6 +63,7 @@ class HostMonitor final : public Monitor {
   void* message_user_ = nullptr;
   carreau_progress_fn progress_ = nullptr;
   void* progress_user_ = nullptr;
+  double reached_ = 0;
 };
 
 }  // namespace carreau::abi

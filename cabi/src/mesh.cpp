@@ -1,10 +1,12 @@
 #include <map>
+#include <thread>
 
 #include "arguments.h"
 #include "carreau.h"
 #include "guard.h"
 #include "io/mesh_files.h"
 #include "mesh/flat_defects.h"
+#include "mesh/intersections.h"
 #include "mesh/quality.h"
 
 using carreau::FaceMesh;
@@ -119,10 +121,12 @@ carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path) {
   return guarded(mesh, [&] {
     required(path, "path");
     require_content(*mesh);
-    if (mesh->session != nullptr)
+    if (mesh->session != nullptr) {
+      mesh->session->monitor.begin_run();
       mesh->session->session.write(path);
-    else
+    } else {
       carreau::write_mesh(mesh->flat, path, carreau::mesh_format_of(path));
+    }
   });
 }
 
@@ -305,5 +309,29 @@ carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t closed, int64_t 
     mesh->text = std::move(text);
     *out_count = std::int64_t(defects.size());
     *out_text = mesh->text.c_str();
+  });
+}
+
+carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity, int64_t* out_count,
+                                          int32_t* out_triangles, double* out_xyz) {
+  return guarded(mesh, [&] {
+    required(out_count, "out_count");
+    if (threads < 0) throw InvalidArgument("threads is " + std::to_string(threads) + ", below 0");
+    if (capacity < 0) throw InvalidArgument("capacity is " + std::to_string(capacity) + ", below 0");
+    require_content(*mesh);
+    carreau::Monitor silent;
+    carreau::IntersectionOptions options;
+    options.limit = std::size_t(capacity);
+    options.threads = threads > 0 ? threads : std::max(1, int(std::thread::hardware_concurrency()));
+    FlatMesh copy;
+    if (mesh->session != nullptr) copy = flat_of(*mesh);
+    const FlatMesh& flat = mesh->session != nullptr ? copy : mesh->flat;
+    const carreau::Intersections found = carreau::find_intersections(flat.vertices, flat.triangles, options, silent);
+    *out_count = found.count;
+    for (const carreau::TriangleIntersection& pair : found.pairs) {
+      if (out_triangles != nullptr)
+        out_triangles = std::copy(pair.triangles.begin(), pair.triangles.end(), out_triangles);
+      if (out_xyz != nullptr) *out_xyz++ = pair.place.x(), *out_xyz++ = pair.place.y(), *out_xyz++ = pair.place.z();
+    }
   });
 }

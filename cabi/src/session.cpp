@@ -83,7 +83,7 @@ void carreau_stop(carreau_session* session) {
 
 carreau_status carreau_mesh_generate(carreau_session* session) {
   return guarded(session, [&] {
-    session->monitor.clear_stop();
+    session->monitor.begin_run();
     require_geometry(*session);
     if (session->model().faces.empty()) throw StatusError(CARREAU_ERR_SEQUENCE, "the model has no face yet");
     session->commit_model();
@@ -95,7 +95,7 @@ carreau_status carreau_mesh_generate(carreau_session* session) {
 carreau_status carreau_run_env(carreau_session* session, const char* path) {
   return guarded(session, [&] {
     required(path, "path");
-    session->monitor.clear_stop();
+    session->monitor.begin_run();
     require_geometry(*session);
     session->commit_model();
     session->session.run_env(path);

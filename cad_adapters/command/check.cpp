@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossings.h"
 #include "json_output.h"
 #include "mesh_report.h"
 #include "quality_json.h"
@@ -19,6 +20,7 @@ struct Checked {
   std::string sentences;
   carreau_quality quality{};
   MeshReport report;
+  Crossings crossings;
   std::vector<FaceResult> not_meshed;  ///< faces that the file knows of and has no triangles of
   bool measured = false;               ///< indices and numbers allow quality and report
 };
@@ -51,8 +53,12 @@ Checked look_at(const CheckOptions& options) {
   c.report = report_of(arrays, static_cast<std::size_t>(options.worst), places);
   c.quality.struct_size = sizeof c.quality;
   require(mesh.get(), carreau_mesh_quality(mesh.get(), &c.quality));
+  c.crossings = crossings_of(mesh.get(), arrays.triangle_refs, 0);
   return c;
 }
+
+/// No defect of any kind.
+bool is_sound(const Checked& c) { return c.defects == 0 && c.crossings.pairs == 0; }
 
 std::string place_text(const Point& p) {
   char text[120];
@@ -164,6 +170,7 @@ void print_as_json(const Checked& c, const CheckOptions& options) {
   if (c.measured) {
     result["quality"] = quality_json(c.quality);
     result["report"] = json_of(c.report);
+    result["intersections"] = crossings_json(c.crossings);
   }
   print_json(result);
 }
@@ -174,7 +181,7 @@ int check(const CheckOptions& options) {
   const Checked c = look_at(options);
   if (options.json) {
     print_as_json(c, options);
-    return c.defects == 0 ? 0 : 1;
+    return is_sound(c) ? 0 : 1;
   }
   std::printf("vertices    %" PRId64 "\ntriangles   %" PRId64 "\nfaces       %" PRId64 "\ncurve edges %" PRId64 "\n",
               c.vertices, c.triangles, c.faces, c.edges);
@@ -184,10 +191,13 @@ int check(const CheckOptions& options) {
   if (c.measured) {
     print_quality(c.quality, c.report);
     print_report(c.report, options.faces);
+    std::printf("crossing    %" PRId64 " pairs of triangles\n", c.crossings.pairs);
+    for (const std::string& sentence : sentences_of(c.crossings, static_cast<std::size_t>(options.limit)))
+      std::printf("  %s\n", sentence.c_str());
   }
   if (c.defects == 0) {
-    std::puts("defects     none");
-    return 0;
+    std::puts(is_sound(c) ? "defects     none" : "defects     none but triangles that cross");
+    return is_sound(c) ? 0 : 1;
   }
   std::printf("defects     %" PRId64 "%s\n%s\n", c.defects, c.defects >= options.limit ? " or more" : "",
               c.sentences.c_str());

@@ -81,6 +81,11 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   run.faces = faces_of(run.mesh);
   for (FaceResult& face : run.faces) face.why = in_terms_of_file(input, face.why);
   if (const std::string open = unexpectedly_open(run); !open.empty()) progress.warning(open);
+  if (!options.quiet || options.json) {
+    constexpr std::size_t faces_told = 10;
+    run.crossings = crossings_of(run.mesh, options.threads);
+    for (const std::string& sentence : sentences_of(run.crossings, faces_told)) progress.warning(sentence);
+  }
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 

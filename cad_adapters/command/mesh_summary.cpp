@@ -257,6 +257,7 @@ void print_json(const MeshRun& run) {
                                       {"shortest", short_edges.shortest},
                                       {"faces", short_edges.faces}}},
                                     {"faces", faces},
+                                    {"intersections", crossings_json(run.crossings)},
                                     {"not_read", run.input.losses()},
                                     {"warnings", run.warnings},
                                     {"interfaces", interfaces_json(run.input, interfaces_of(run.session))},

@@ -8,6 +8,7 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "crossings.h"
 #include "mesh_file.h"
 #include "short_edges.h"
 
@@ -24,6 +25,7 @@ struct MeshRun {
   std::vector<std::string> dumped;  ///< files of faces that failed
   std::vector<std::string> warnings = {};
   ShortEdges short_edges = {};
+  Crossings crossings = {};
 };
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.

@@ -211,6 +211,31 @@ void TriangleSearch::beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& t
   }
 }
 
+void TriangleSearch::beside_box(const Vec3& low, const Vec3& high, std::vector<std::int32_t>& triangles) const {
+  if (boxes_.empty()) return;
+  const auto apart = [&](const Vec3& l, const Vec3& h) {
+    return l.x() > high.x() || h.x() < low.x() || l.y() > high.y() || h.y() < low.y() || l.z() > high.z() ||
+           h.z() < low.z();
+  };
+  std::array<std::int32_t, 128> todo;  // as in nearest()
+  std::size_t size = 0;
+  todo[size++] = 0;
+  while (size > 0) {
+    const Box& box = boxes_[static_cast<std::size_t>(todo[--size])];
+    if (apart(box.low, box.high)) continue;
+    for (std::int32_t k = 0; k < box.count; ++k) {
+      const std::int32_t triangle = order_[static_cast<std::size_t>(box.first + k)];
+      const auto& [a, b, c] = corners_[static_cast<std::size_t>(triangle)];
+      const Vec3 l{std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}), std::min({a.z(), b.z(), c.z()})};
+      const Vec3 h{std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()}), std::max({a.z(), b.z(), c.z()})};
+      if (!apart(l, h)) triangles.push_back(triangle);
+    }
+    if (box.count > 0) continue;
+    todo[size++] = box.first + 1;
+    todo[size++] = box.first;
+  }
+}
+
 double TriangleSearch::longest_edge(std::int32_t triangle) const noexcept {
   const auto& c = corners_[static_cast<std::size_t>(triangle)];
   return std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});

@@ -1,26 +1,11 @@
 #include "predicates/predicates.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cstdint>
-
-#include "predicates/big_integer.h"
-#include "predicates/expansion.h"
+#include "predicates/exact_numbers.h"
 
 namespace carreau::detail {
 namespace {
 
-/// Coordinates in this range (or zero) multiply four at a time, with all their rounding errors, without overflow or
-/// underflow: the last bit of the smallest is 2^-252, its fourth power 2^-1008 > 2^-1074.
-constexpr double smallest = 0x1p-200, largest = 0x1p200;
-
-bool in_safe_range(double x) noexcept {
-  const double size = std::abs(x);
-  return x == 0 || (size >= smallest && size <= largest);
-}
-
-bool in_safe_range(Vec2 p) noexcept { return in_safe_range(p.x()) && in_safe_range(p.y()); }
+bool in_safe_range(Vec2 p) noexcept { return is_safe(p.x()) && is_safe(p.y()); }
 
 /// The formulas for any ring of numbers; the arguments are differences to the last point.
 template <typename Number>
@@ -36,33 +21,6 @@ int sign_of_in_circle(const Number& ax, const Number& ay, const Number& bx, cons
   const auto c2 = cx * cx + cy * cy;
   return ((bx * cy - cx * by) * a2 + (cx * ay - ax * cy) * b2 + (ax * by - bx * ay) * c2).sign();
 }
-
-/// Doubles as integer multiples of the last bit of the smallest of them.
-template <std::size_t N>
-class Integers {
- public:
-  explicit Integers(const std::array<double, N>& value) noexcept {
-    for (std::size_t i = 0; i < N; ++i) {
-      const double fraction = std::frexp(value[i], &exponent_[i]);
-      mantissa_[i] = static_cast<std::int64_t>(std::ldexp(fraction, 53));
-      exponent_[i] -= 53;
-      if (mantissa_[i] == 0) continue;
-      // Short: and frexp normalises subnormal numbers, whose last bit is 2^-1074.
-      const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa_[i]));
-      mantissa_[i] >>= zeros;
-      exponent_[i] += zeros;
-      lowest_ = std::min(lowest_, exponent_[i]);
-    }
-  }
-  [[nodiscard]] BigInteger operator[](std::size_t i) const noexcept {
-    return mantissa_[i] == 0 ? BigInteger() : BigInteger(mantissa_[i], exponent_[i] - lowest_);
-  }
-
- private:
-  std::array<std::int64_t, N> mantissa_{};
-  std::array<int, N> exponent_{};
-  int lowest_ = 2000;
-};
 
 /// Sign of left - right for products of doubles that are exact in two terms: the higher terms decide unless equal,
 /// because rounding is monotonic.

@@ -246,6 +246,8 @@ contains
     integer(c_int32_t), allocatable :: triangles(:, :), c_triangles(:, :), refs(:), edges(:, :), edge_refs(:), ends(:, :)
     integer(c_int32_t), allocatable :: face_refs(:), types(:), curve_refs(:)
     integer(c_int64_t) :: n, m, k, f, c_n, c_m, defects, t
+    integer(c_int32_t), allocatable :: crossing(:, :)
+    real(c_double), allocatable :: places(:, :)
     integer(c_int32_t) :: status
     character(len=:), allocatable :: text
     call carreau_session_create(session, status)
@@ -296,6 +298,9 @@ contains
       quality%q2_mean > 0.97d0 .and. quality%degree6 > 0.5d0, 'quality')
     call carreau_mesh_defects(mesh, .false., 10_c_int64_t, defects, text, status)
     call expect(defects == 0 .and. text == '', 'no defects')
+    call carreau_mesh_intersections(mesh, 1_c_int32_t, 4_c_int64_t, defects, crossing, places, status)
+    call expect(status == CARREAU_OK .and. defects == 0 .and. size(crossing, 2) == 0 .and. size(places, 2) == 0, &
+      'no intersections')
     call carreau_session_report(session, report, status)
     call expect(report%surf0_calls >= n .and. report%seconds_total > 0 .and. abs(report%diag - 7.735d0) < 0.01d0, 'report')
     call carreau_session_interface_count(session, interfaces, status)

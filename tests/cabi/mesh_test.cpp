@@ -109,6 +109,39 @@ TEST_F(SessionTest, GivesQualityFacesAndDefects) {
   EXPECT_EQ(carreau_mesh_vertices(mesh(), n, nullptr), CARREAU_ERR_ARGUMENT);
 }
 
+TEST_F(SessionTest, TellsTrianglesThatCross) {
+  use_paraboloid(0.3);
+  std::int64_t count = -1;
+  EXPECT_EQ(carreau_mesh_intersections(mesh(), 1, 0, &count, nullptr, nullptr), CARREAU_ERR_SEQUENCE);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_intersections(mesh(), 0, 0, &count, nullptr, nullptr), CARREAU_OK);
+  EXPECT_EQ(count, 0);
+  // A square of two triangles, and three more through its middle.
+  const std::string path = testing::TempDir() + "carreau_crossing.mesh";
+  std::ofstream(path) << "MeshVersionFormatted 2\nDimension 3\nVertices 9\n0 0 0 0\n2 0 0 0\n2 2 0 0\n0 2 0 0\n"
+                         "1 .5 -1 0\n1 .5 1 0\n1.25 .5 1 0\n.5 1 1 0\n.5 1.25 1 0\nTriangles 4\n"
+                         "1 2 3 1\n1 3 4 1\n5 6 7 2\n5 8 9 3\nEnd\n";
+  carreau_mesh* file = nullptr;
+  ASSERT_EQ(carreau_mesh_create(&file), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_read(file, path.c_str()), CARREAU_OK) << carreau_mesh_last_error(file);
+  std::array<std::int32_t, 6> triangles{-1, -1, -1, -1, -1, -1};
+  std::array<double, 9> xyz{};
+  ASSERT_EQ(carreau_mesh_intersections(file, 2, 3, &count, triangles.data(), xyz.data()), CARREAU_OK);
+  EXPECT_EQ(count, 2);
+  EXPECT_EQ(triangles, (std::array<std::int32_t, 6>{0, 2, 1, 3, -1, -1}));
+  EXPECT_NEAR(xyz[1], 0.5, 1e-15);
+  EXPECT_NEAR(xyz[2], 0, 1e-15);
+  triangles.fill(-1);
+  ASSERT_EQ(carreau_mesh_intersections(file, 1, 1, &count, triangles.data(), nullptr), CARREAU_OK);
+  EXPECT_EQ(count, 2);
+  EXPECT_EQ(triangles, (std::array<std::int32_t, 6>{0, 2, -1, -1, -1, -1}));
+  EXPECT_EQ(carreau_mesh_intersections(file, -1, 0, &count, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_intersections(file, 1, -1, &count, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_mesh_intersections(file, 1, 0, nullptr, nullptr, nullptr), CARREAU_ERR_ARGUMENT);
+  carreau_mesh_free(file);
+  std::remove(path.c_str());
+}
+
 TEST_F(SessionTest, FindsReferencesByGluingAndGivesThemBack) {
   const carreau_cad cad = paraboloid_cad(&host);
   ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);

@@ -183,6 +183,20 @@ class Command(unittest.TestCase):
                                 [(1, 2, 3, 1), (4, 5, 6, 1)])["report"]
         self.assertEqual(apart["double_points"]["count"], 1)  # the third is 1e-7 away: another place
 
+    # A triangle of face 7 through the square, above and below it.
+    CROSSING = ([(0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1), (0.5, 0.25, 0), (0.5, 0.25, 2), (0.75, 0.25, 2)],
+                [(1, 2, 3, 1), (1, 3, 4, 2), (5, 6, 7, 7)])
+
+    def test_check_finds_triangles_that_cross(self):
+        found = self.check_json("crossing.mesh", *self.CROSSING, code=1)["intersections"]
+        self.assertEqual(found["pairs"], 1)
+        pair, = found["faces"]
+        self.assertEqual((pair["faces"], pair["pairs"], pair["triangles"]), ([1, 7], 1, [0, 2]))
+        self.assertEqual((pair["at"][1], pair["at"][2]), (0.25, 1))
+        text = run("check", os.path.join(self.folder, "crossing.mesh")).stdout
+        self.assertIn("crossing    1 pairs of triangles\n  faces 1 and 7: 1 pair of triangles crosses, first triangles 1 and 3 at (0.5", text)
+        self.assertEqual(self.check_json("t.mesh", *self.TETRAHEDRON)["intersections"], {"pairs": 0, "faces": []})
+
     def test_check_prints_places_and_faces_for_a_person(self):
         text = run("check", self.mesh, "--faces").stdout
         self.assertRegex(text, r"(?m)^worst +Q2 0\.8660: triangle [12] of face [12] at \(0\.\d+, 0\.\d+, 1\)$")

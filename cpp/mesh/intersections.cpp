@@ -1,0 +1,239 @@
+#include "mesh/intersections.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/triangle_search.h"
+#include "predicates/orientation_3d.h"
+#include "support/stepped_tasks.h"
+
+namespace carreau {
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+constexpr int no_axis = -1;
+
+/// A view along an axis, which keeps orders of rotation.
+Vec2 along(int axis, const Vec3& p) noexcept {
+  return axis == 0 ? Vec2{p.y(), p.z()} : axis == 1 ? Vec2{p.z(), p.x()} : Vec2{p.x(), p.y()};
+}
+int turn(int axis, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+  return orientation(along(axis, a), along(axis, b), along(axis, c));
+}
+
+/// An axis along which the triangle has an area, the one with most of it if doubles can tell; no_axis: it has none.
+int axis_of(const Corners& t) noexcept {
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const double x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
+  const int best = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  for (int k = 0; k < 3; ++k)
+    if (const int axis = (best + k) % 3; turn(axis, t[0], t[1], t[2]) != 0) return axis;
+  return no_axis;
+}
+
+/// Whether a plane along an edge of s and along the axis has s on one side of it and t on the other, but for corners
+/// that are ends of that edge: what they have in common is then what such corners span.
+bool parted_by_edges_of(const Corners& s, const Corners& t, int axis) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &from = s[(k + 1) % 3], &to = s[(k + 2) % 3];
+    const int inside = turn(axis, from, to, s[k]);
+    if (inside == 0) return false;
+    const bool parted = std::all_of(
+        t.begin(), t.end(), [&](const Vec3& p) { return p == from || p == to || turn(axis, from, to, p) == -inside; });
+    if (parted) return true;
+  }
+  return false;
+}
+
+/// The part of p - q over the triangle, in the middle; by doubles.
+Vec3 middle_over(const Corners& t, int axis, const Vec3& p, const Vec3& q) noexcept {
+  double from = 0, to = 1;
+  const double sign = turn(axis, t[0], t[1], t[2]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 a = along(axis, t[k]), side = along(axis, t[(k + 1) % 3]) - a;
+    const double at_p = sign * cross(side, along(axis, p) - a), at_q = sign * cross(side, along(axis, q) - a);
+    if (at_p < 0 && at_q > at_p) from = std::max(from, at_p / (at_p - at_q));
+    if (at_q < 0 && at_p > at_q) to = std::min(to, at_p / (at_p - at_q));
+  }
+  return lerp(p, q, std::clamp((from + to) / 2, 0.0, 1.0));
+}
+
+bool flat_segments_meet(int axis, const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b) noexcept {
+  const int sa = turn(axis, p, q, a), sb = turn(axis, p, q, b);
+  const int sp = turn(axis, a, b, p), sq = turn(axis, a, b, q);
+  // All on one line: whether they overlap, the other sides of the triangle or its corners tell.
+  return sa * sb <= 0 && sp * sq <= 0 && (sa != 0 || sb != 0);
+}
+
+/// p - q lies in the plane of t.
+bool meets_in_plane(const Vec3& p, const Vec3& q, const Corners& t) noexcept {
+  const int axis = axis_of(t), inside = turn(axis, t[0], t[1], t[2]);
+  const auto holds = [&](const Vec3& x) {
+    return turn(axis, t[0], t[1], x) * inside >= 0 && turn(axis, t[1], t[2], x) * inside >= 0 &&
+           turn(axis, t[2], t[0], x) * inside >= 0;
+  };
+  if (holds(p) || holds(q)) return true;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (flat_segments_meet(axis, p, q, t[k], t[(k + 1) % 3])) return true;
+  return false;
+}
+
+/// Whether p - q, p != q, has a point in common with the closed triangle t.
+bool segment_meets(const Vec3& p, const Vec3& q, const Corners& t, Vec3& place) noexcept {
+  const int sp = orientation(t[0], t[1], t[2], p), sq = orientation(t[0], t[1], t[2], q);
+  if (sp * sq > 0) return false;
+  if (sp == 0 && sq == 0) {
+    if (!meets_in_plane(p, q, t)) return false;
+    place = middle_over(t, axis_of(t), p, q);
+    return true;
+  }
+  // The line crosses the plane in one point: inside where it passes all sides in one sense.
+  const int a = orientation(p, q, t[0], t[1]), b = orientation(p, q, t[1], t[2]), c = orientation(p, q, t[2], t[0]);
+  if (std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0) return false;
+  const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
+  const double at_p = dot(n, p - t[0]), at_q = dot(n, q - t[0]);
+  place = lerp(p, q, at_p != at_q ? std::clamp(at_p / (at_p - at_q), 0.0, 1.0) : 0.5);
+  return true;
+}
+
+bool on_one_side(const Corners& s, const Corners& t) noexcept {
+  const int first = orientation(s[0], s[1], s[2], t[0]);
+  return first != 0 && orientation(s[0], s[1], s[2], t[1]) == first && orientation(s[0], s[1], s[2], t[2]) == first;
+}
+
+/// No common corner.
+bool strangers_meet(const Corners& s, const Corners& t, Vec3& place) noexcept {
+  if (on_one_side(s, t) || on_one_side(t, s)) return false;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (segment_meets(s[k], s[(k + 1) % 3], t, place) || segment_meets(t[k], t[(k + 1) % 3], s, place)) return true;
+  return false;
+}
+
+/// Corner i of s is corner j of t. Triangles are convex: from there to another common point and on, one of the two is
+/// left over the side that faces the corner.
+bool meet_beyond_corner(const Corners& s, std::size_t i, const Corners& t, std::size_t j, Vec3& place) noexcept {
+  return segment_meets(s[(i + 1) % 3], s[(i + 2) % 3], t, place) ||
+         segment_meets(t[(j + 1) % 3], t[(j + 2) % 3], s, place);
+}
+
+/// Corners i of s and j of t face an edge that both have.
+bool overlap_at_edge(const Corners& s, std::size_t i, const Corners& t, std::size_t j, Vec3& place) noexcept {
+  const Vec3 &from = s[(i + 1) % 3], &to = s[(i + 2) % 3];
+  if (orientation(from, to, s[i], t[j]) != 0) return false;
+  const int axis = axis_of(s);
+  if (turn(axis, from, to, s[i]) != turn(axis, from, to, t[j])) return false;
+  place = lerp(from, to, 0.5);
+  return true;
+}
+
+/// `axis`: of s.
+bool intersect(const Corners& s, const Corners& t, int axis, Vec3& place) noexcept {
+  if (parted_by_edges_of(s, t, axis) || parted_by_edges_of(t, s, axis)) return false;
+  std::size_t shared = 0, first_s = 0, first_t = 0, other_s = 3, other_t = 3;  // sums of indices to 3
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (s[i] == t[j]) ++shared, first_s = i, first_t = j, other_s -= i, other_t -= j;
+  if (shared == 0) return strangers_meet(s, t, place);
+  if (shared == 1) return meet_beyond_corner(s, first_s, t, first_t, place);
+  if (shared == 2) return overlap_at_edge(s, other_s, t, other_t, place);
+  place = (1.0 / 3) * (s[0] + s[1] + s[2]);
+  return true;
+}
+
+/// What is left of a mesh that can be asked.
+struct SoundTriangles {
+  std::vector<std::array<std::int32_t, 3>> corners;
+  std::vector<std::int32_t> number, axis;  // in the whole mesh; of axis_of
+};
+
+Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t) noexcept {
+  return {vertices[static_cast<std::size_t>(t[0])], vertices[static_cast<std::size_t>(t[1])],
+          vertices[static_cast<std::size_t>(t[2])]};
+}
+
+SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                               Monitor& monitor) {
+  SoundTriangles sound;
+  const auto usable = [&](std::int32_t v) {
+    return v >= 0 && static_cast<std::size_t>(v) < vertices.size() && is_finite(vertices[static_cast<std::size_t>(v)]);
+  };
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (i % 65536 == 0) monitor.checkpoint();
+    const auto& t = triangles[i];
+    if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
+    const int axis = axis_of(corners_of(vertices, t));
+    if (axis == no_axis) continue;
+    sound.corners.push_back(t);
+    sound.number.push_back(static_cast<std::int32_t>(i));
+    sound.axis.push_back(axis);
+  }
+  return sound;
+}
+
+/// Pairs of some triangles with those behind them.
+class Query {
+ public:
+  Query(std::span<const Vec3> vertices, const SoundTriangles& sound, const TriangleSearch& search, std::size_t limit)
+      : vertices_(vertices), sound_(sound), search_(search), limit_(limit) {}
+
+  void ask(std::size_t i, Intersections& found) {
+    const Corners s = corners_of(vertices_, sound_.corners[i]);
+    const auto& [a, b, c] = s;
+    near_.clear();
+    search_.beside_box(
+        {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}), std::min({a.z(), b.z(), c.z()})},
+        {std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()}), std::max({a.z(), b.z(), c.z()})}, near_);
+    std::sort(near_.begin(), near_.end());
+    for (const std::int32_t j : near_) {
+      if (static_cast<std::size_t>(j) <= i) continue;
+      const Corners t = corners_of(vertices_, sound_.corners[static_cast<std::size_t>(j)]);
+      Vec3 place;
+      if (!intersect(s, t, sound_.axis[i], place)) continue;
+      ++found.count;
+      if (found.pairs.size() < limit_)
+        found.pairs.push_back({{sound_.number[i], sound_.number[static_cast<std::size_t>(j)]}, place});
+    }
+  }
+
+ private:
+  std::span<const Vec3> vertices_;
+  const SoundTriangles& sound_;
+  const TriangleSearch& search_;
+  std::size_t limit_;
+  std::vector<std::int32_t> near_;
+};
+
+}  // namespace
+
+bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexcept {
+  Vec3 point;
+  const int axis = axis_of(s);
+  if (axis == no_axis || axis_of(t) == no_axis || !intersect(s, t, axis, point)) return false;
+  if (place != nullptr) *place = point;
+  return true;
+}
+
+Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
+                                 const IntersectionOptions& options, Monitor& monitor) {
+  const SoundTriangles sound = sound_triangles(vertices, triangles, monitor);
+  const TriangleSearch search(vertices, sound.corners, &monitor);
+  constexpr std::size_t block_size = 512;
+  const std::size_t n = sound.corners.size(), blocks = (n + block_size - 1) / block_size;
+  std::vector<Intersections> of_block(blocks);
+  const auto ask = [&](std::size_t block, Monitor&) {
+    Query query(vertices, sound, search, options.limit);
+    for (std::size_t i = block * block_size; i < std::min(n, (block + 1) * block_size); ++i)
+      query.ask(i, of_block[block]);
+  };
+  run_each(blocks, false, options.threads, ask, monitor);
+  Intersections all;
+  for (const Intersections& some : of_block) {
+    all.count += some.count;
+    const std::size_t room = std::min(options.limit - all.pairs.size(), some.pairs.size());
+    all.pairs.insert(all.pairs.end(), some.pairs.begin(), some.pairs.begin() + static_cast<std::ptrdiff_t>(room));
+  }
+  return all;
+}
+
+}  // namespace carreau
