@@ -19,6 +19,9 @@ namespace {
 
 constexpr int all_faces = 0, some_faces = 1;
 
+// Shares of progress where a CAD file is read, and all is meshed.
+constexpr double read_at = 0.1, meshed_at = 0.97;
+
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {
@@ -89,16 +92,21 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 
-void write_all(const MeshRun& run, const std::vector<std::string>& paths) {
+void write_all(const MeshRun& run, const std::vector<std::string>& paths, Progress& progress) {
   carreau_exr_options fields{};
   fields.struct_size = sizeof fields;
   fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
   fields.multi_part = 1;
-  for (const std::string& path : paths)
+  const double each = (1 - meshed_at) / static_cast<double>(paths.size());
+  double done = meshed_at;
+  for (const std::string& path : paths) {
+    progress.part(done, done + each);
+    done += each;
     if (suffix_of(path) == ".exr")
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else
       require(run.mesh, carreau_mesh_write(run.mesh, path.c_str()));
+  }
 }
 
 }  // namespace
@@ -112,12 +120,14 @@ int mesh(const MeshOptions& options) {
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
+  progress.part(0, read_at);
   const Stopwatch reading;
   const std::unique_ptr<CadInput> input =
       open_input(options.input, options.host, [&](double fraction) { progress.reading(fraction); });
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
+  progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
   progress.line(input->summary());
   try {
     mesh_all(options, run, *input, map, dumped, progress);
@@ -131,7 +141,7 @@ int mesh(const MeshOptions& options) {
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
   const Stopwatch writing;
-  outputs.write([&](const std::vector<std::string>& paths) { write_all(run, paths); });
+  outputs.write([&](const std::vector<std::string>& paths) { write_all(run, paths, progress); });
   run.seconds_writing = writing.seconds();
   if (!options.quiet || options.json) run.short_edges = find_short_edges(run.session, run.mesh);
   if (!options.quiet)

@@ -129,6 +129,8 @@ void Progress::on_message(std::int32_t level, const char* sentence, void* user) 
     self.line(text);
 }
 
+void Progress::part(double from, double to) { from_ = from, to_ = to; }
+
 void Progress::reading(double fraction) {
   const auto now = Clock::now();
   if (!terminal_ && now - drawn_ < between_lines) return;
@@ -146,11 +148,13 @@ std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, doub
 void Progress::show(std::int32_t phase, std::int32_t entity, double fraction) {
   if (quiet_ || phase == CARREAU_PHASE_IDLE) return;
   if (phase != phase_) tell_of_others();
-  const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
+  reached_ = std::max(reached_, from_ + (to_ - from_) * std::clamp(fraction, 0.0, 1.0));
+  const int percent = static_cast<int>(100 * reached_ + 1e-9);
   if (!terminal_) {
     // Files are written image by image, each from 0 to 100 %: a log needs to know only that it has begun.
     const bool of_files = phase == CARREAU_PHASE_WRITING || phase == CARREAU_PHASE_MEASURE;
-    if (phase == phase_ && (of_files || percent / 10 == tenth_)) return;
+    const bool ends = percent == 100 && tenth_ < 10;
+    if (phase == phase_ && !ends && (of_files || percent / 10 == tenth_)) return;
     tenth_ = percent / 10, phase_ = phase;
     std::fprintf(stderr, "%3d %% %s%s\n", percent, phase_name(phase), entity_name(phase, entity).c_str());
     return;

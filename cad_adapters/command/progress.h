@@ -26,6 +26,10 @@ class Progress {
   /// Messages and progress of this session, which has the geometry of `input`, come here; both must not outlive this
   /// object.
   void listen_to(carreau_session* session, const CadInput& input);
+  /// What is told from now on is this share of all: bars and lines never go back.
+  void part(double from, double to);
+  /// How much of all is done, 0 to 1.
+  [[nodiscard]] double reached() const noexcept { return reached_; }
   /// How much of a file is read; a log gets a line a second.
   void reading(double fraction);
   /// A line of its own: what has begun, or a result.
@@ -48,6 +52,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   const CadInput* input_ = nullptr;
   bool quiet_, terminal_, colours_, bar_ = false;
+  double from_ = 0, to_ = 1, reached_ = 0;
   int tenth_ = -1, phase_ = -1;
   Clock::time_point drawn_;
   std::vector<std::string> warnings_;

@@ -106,7 +106,8 @@ class Loop {
   }
 
   AdaptationReport run() {
-    if (!session_.has_mesh()) session_.make_mesh();
+    const double share = 1.0 / (options_.iterations + 1);
+    if (!session_.has_mesh()) session_.make_mesh(0, share);
     const NoBackgroundAfterwards afterwards(session_);
     look({});
     for (int i = 0; i < options_.iterations && !report_.converged; ++i) {
@@ -116,13 +117,14 @@ class Loop {
       {
         const OpenBounds bounds(session_.parameters(), range);
         session_.set_background(background_of(session_, {wanted.sizes, wanted.metrics, {}}));
-        session_.make_mesh();
+        session_.make_mesh((i + 1) * share, (i + 2) * share);
       }
       const auto before = static_cast<double>(report_.steps.back().triangles);
       look(range);
       const auto now = static_cast<double>(report_.steps.back().triangles);
       report_.converged = std::abs(now - before) < options_.convergence * before;
     }
+    monitor_.progress(Phase::idle, 0, 1);
     return std::move(report_);
   }
 

@@ -1,4 +1,5 @@
 // The actions of blsurf.env (RT-0232 sec. 3.3, fig. 12).
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -37,13 +38,17 @@ class EnvRunner {
   void run() {
     const std::vector<EnvPair> pairs = read_env(path_);
     const DefaultsAround around(session_.parameters());
-    for (const EnvPair& pair : pairs) {
-      if (pair.name != "call") {
-        set(pair);
+    const auto exit = std::find_if(pairs.begin(), pairs.end(),
+                                   [](const EnvPair& pair) { return pair.name == "call" && pair.value == "exit"; });
+    const auto calls = std::count_if(pairs.begin(), exit, [](const EnvPair& pair) { return pair.name == "call"; });
+    share_ = calls > 0 ? 1.0 / static_cast<double>(calls) : 1;
+    for (auto pair = pairs.begin(); pair != exit; ++pair) {
+      if (pair->name != "call") {
+        set(*pair);
         continue;
       }
-      if (pair.value == "exit") break;
-      call(pair);
+      call(*pair);
+      done_ += share_;
       session_.parameters().reset_all();
     }
   }
@@ -83,7 +88,7 @@ class EnvRunner {
     if (pair.value == actions[0]) {
       if (load_pardom_) load_pardom_(beside_env(".pardom"));
       find_beside_env({"background_mesh", "background_sol"});
-      session_.make_mesh();
+      session_.make_mesh(done_, done_ + share_);
     } else if (pair.value == actions[1]) {
       if (!session_.has_mesh()) throw InvalidArgument(at(pair), "call export comes before any call inimesh");
       session_.write(beside_env("." + session_.parameters().text("format")));
@@ -104,6 +109,7 @@ class EnvRunner {
   std::string path_;
   std::filesystem::path folder_;
   std::function<void(const std::string&)> load_pardom_;
+  double done_ = 0, share_ = 1;  // of the run
 };
 
 }  // namespace

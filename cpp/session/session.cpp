@@ -21,6 +21,7 @@
 #include "session/messages.h"
 #include "session/options.h"
 #include "support/format.h"
+#include "support/part_monitor.h"
 
 namespace carreau {
 
@@ -208,29 +209,36 @@ const CompositeReport& Session::report() const { return (void)mesh(), state_->re
 const std::vector<Interface>& Session::interfaces() const { return (void)mesh(), state_->interfaces; }
 const ModelSupports& Session::supports() const { return (void)mesh(), state_->meshed.supports; }
 
-void Session::make_mesh() {
+void Session::make_mesh(double from, double to) {
   State& s = *state_;
   s.tried_parameters = s.parameters;
   s.last_failed = true;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
   Model known = s.model;
-  for (;;) try {
-      make_mesh_of(known);
+  for (;;) {
+    PartMonitor run(s.monitor, from, to);
+    try {
+      make_mesh_of(known, run);
       return;
     } catch (const Error& error) {
       if (!leaves_out(s.parameters) || !leave_out(known, error)) throw;
       s.monitor.message(Level::warning, "meshing again without face " + std::to_string(error.where().face));
       // What was glued stays so.
       for (std::size_t f = 0; f < known.faces.size(); ++f) known.faces[f].curves = s.model.faces[f].curves;
+      from = run.reached();
     }
+  }
 }
 
 // Leaves out faces of `known` whose curves cannot be had, when that is wanted.
-void Session::make_mesh_of(Model& known) {
+void Session::make_mesh_of(Model& known, Monitor& run) {
   State& s = *state_;
   CheckedCad whole_cad(*s.cad);
-  s.monitor.progress(Phase::model, 0, 0);
+  run.progress(Phase::model, 0, 0);
+  const bool measured = s.parameters.integer("measure") != 0;
+  constexpr double share_of_mesh = 0.75;  // measuring asks the geometry about as often as meshing
+  PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
   if (!(supports.diag > 0))
@@ -262,7 +270,7 @@ void Session::make_mesh_of(Model& known) {
   Topology topology =
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 
-  CompositeResult result = mesh_composite(model, topology, supports, cad, options, s.monitor);
+  CompositeResult result = mesh_composite(model, topology, supports, cad, options, making);
   if (result.mesh.triangle_count() == 0) {
     const auto failed = std::find_if(result.mesh.faces.begin(), result.mesh.faces.end(),
                                      [](const FaceMesh& face) { return !face.why.empty(); });
@@ -282,7 +290,7 @@ void Session::make_mesh_of(Model& known) {
                 std::move(topology),
                 std::move(options)};
   std::optional<MeshEvaluation> delivered;
-  if (s.parameters.integer("measure") != 0) delivered = measure(meshed, result, s.monitor);
+  if (measured) delivered = measure(meshed, result, measuring);
   s.background_report = background_report;
   s.has_previous = s.has_mesh;
   s.previous = std::move(s.result.mesh);
@@ -296,7 +304,7 @@ void Session::make_mesh_of(Model& known) {
   describe_result(s.result, s.meshed.options.threads, s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_evaluation(*s.delivered, s.monitor);
-  s.monitor.progress(Phase::idle, 0, 1);
+  run.progress(Phase::idle, 0, 1);
 }
 
 std::vector<std::string> Session::write_fields(const std::string& path, const FieldOptions& options) {
@@ -403,7 +411,8 @@ void Session::write(const std::string& path) {
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  write_mesh(exported(measures), path, format, {.ascii_stl = true});
+  write_mesh(exported(measures), path, format,
+             {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1});
 }
 
 }  // namespace carreau

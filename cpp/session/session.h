@@ -55,7 +55,8 @@ class Session {
   /// `<source>.new` when the model was read from a file. Faces that are left out are in the mesh, as failed. When the
   /// parameter failing_faces is "leave_out" those on which the host fails are left out of this run, and what was made
   /// with them is made again; DomainError when none is left.
-  void make_mesh();
+  /// Progress is told from `from` to `to`: the share that this is of a longer run.
+  void make_mesh(double from = 0, double to = 1);
 
   /// Throws InvalidArgument before the first make_mesh().
   [[nodiscard]] const SurfaceMesh& mesh() const;
@@ -106,7 +107,7 @@ class Session {
   void read_env(const std::string& path);
 
  private:
-  void make_mesh_of(Model& known);
+  void make_mesh_of(Model& known, Monitor& run);
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
   std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);
   [[nodiscard]] bool has_model_from_host() const noexcept;
