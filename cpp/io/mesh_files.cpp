@@ -85,9 +85,9 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
     case MeshFormat::stl:
       return options.ascii_stl ? stl_text(mesh) : stl_bytes(mesh);
     case MeshFormat::msh:
-      return msh_text(mesh, false);
+      return msh_text(mesh, false, options.curve_groups);
     case MeshFormat::msh2:
-      return msh_text(mesh, true);
+      return msh_text(mesh, true, options.curve_groups);
   }
   throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
 }

@@ -17,6 +17,9 @@ enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2 };
 struct MeshFileOptions {
   /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); otherwise binary.
   bool ascii_stl = false;
+  /// Gmsh's formats: edges of curves and corners are elements, each curve and corner a physical group; otherwise there
+  /// are triangles only.
+  bool curve_groups = true;
 };
 
 /// Format by the suffix of `path` (case does not matter). Throws InvalidArgument for another suffix, listing those

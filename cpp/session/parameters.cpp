@@ -58,6 +58,7 @@ constexpr std::array kTable = {
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
+    integer_row("curve_groups", 0, 1, 1, "1: .msh files have the curves and corners too, as groups; 0: faces only"),
     real_row("edge_gradation", 0, kInfinity, 0,
              "largest ratio of sizes one unit edge apart, inward from short edges of curves, greater than 1 (0: any)"),
     text_row("element", "p1", "p1", "type of the elements: triangles of three nodes"),

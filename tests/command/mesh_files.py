@@ -208,6 +208,8 @@ def vtu_arrays(path):
                 values = [word.decode() for word in content.split(b"\0")]
             else:
                 values = list(struct.unpack("<" + str(len(content) // struct.calcsize(code[kind])) + code[kind], content))
+        if section.tag == "FieldData" and array.get("Name") in ("face_name", "face_why") and kind == "UInt8":
+            values = [text.decode() for text in bytes(values).split(b"\0")[:-1]]
         arrays[section.tag, array.get("Name")] = values
     return arrays
 

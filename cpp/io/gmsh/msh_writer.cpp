@@ -45,7 +45,8 @@ void end_line(std::string& text) { text.back() = '\n'; }
 
 class MshText {
  public:
-  MshText(const FlatMesh& mesh, bool version_2) : mesh_(mesh), version_2_(version_2) {
+  MshText(const FlatMesh& mesh, bool version_2, bool curve_groups)
+      : mesh_(mesh), version_2_(version_2), curve_groups_(curve_groups) {
     collect_entities();
     classify_nodes();
   }
@@ -68,10 +69,7 @@ class MshText {
   void collect_entities() {
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       entities_[2][ref_of(mesh_.triangle_refs, t)].members.push_back(t);
-    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) entities_[1][ref_of(mesh_.edge_refs, e)].members.push_back(e);
-    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
-      if (ref_of(mesh_.vertex_refs, v) > 0) entities_[0][ref_of(mesh_.vertex_refs, v)].members.push_back(v);
-    std::erase_if(entities_[0], [](const auto& point) { return point.second.members.size() > 1; });
+    if (curve_groups_) collect_curves();
     for (Entities& entities : entities_) give_tags(entities);
     // Faces of one name are one group, under the smallest of their tags.
     std::map<std::string, int> group;
@@ -79,8 +77,17 @@ class MshText {
       face.name = name_of_face(mesh_, ref, "face_");
       face.physical = group.emplace(face.name, face.tag).first->second;
     }
-    for (auto& [ref, curve] : entities_[1])
-      curve.physical = curve.tag, curve.name = "curve_" + std::to_string(curve.tag);
+    // Programs expect a group of every element when any has one.
+    for (const int dim : {0, 1})
+      for (auto& [ref, entity] : entities_[dim])
+        entity.physical = entity.tag, entity.name = (dim == 0 ? "point_" : "curve_") + std::to_string(entity.tag);
+  }
+
+  void collect_curves() {
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) entities_[1][ref_of(mesh_.edge_refs, e)].members.push_back(e);
+    for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
+      if (ref_of(mesh_.vertex_refs, v) > 0) entities_[0][ref_of(mesh_.vertex_refs, v)].members.push_back(v);
+    std::erase_if(entities_[0], [](const auto& point) { return point.second.members.size() > 1; });
   }
 
   void classify_nodes() {
@@ -102,7 +109,7 @@ class MshText {
 
   void add_names() {
     std::map<std::pair<int, int>, std::string> names;
-    for (const int dim : {1, 2})
+    for (const int dim : {0, 1, 2})
       for (const auto& [ref, entity] : entities_[dim]) names.emplace(std::pair{dim, entity.physical}, entity.name);
     text_ += "$PhysicalNames\n" + std::to_string(names.size()) + "\n";
     for (const auto& [key, name] : names)
@@ -117,7 +124,7 @@ class MshText {
   }
 
   [[nodiscard]] std::size_t element_count() const {
-    return mesh_.triangles.size() + mesh_.edges.size() + entities_[0].size();
+    return mesh_.triangles.size() + (curve_groups_ ? mesh_.edges.size() : 0) + entities_[0].size();
   }
 
   void add_corners(int dim, std::size_t member) {
@@ -174,7 +181,8 @@ class MshText {
              std::to_string(entities_[2].size()) + " 0\n";
     for (const auto& [ref, point] : entities_[0]) {
       const Vec3 p = mesh_.vertices[point.members.front()];
-      number(text_, point.tag), number(text_, p.x()), number(text_, p.y()), number(text_, p.z()), number(text_, 0);
+      number(text_, point.tag), number(text_, p.x()), number(text_, p.y()), number(text_, p.z());
+      number(text_, 1), number(text_, point.physical);
       end_line(text_);
     }
     for (const int dim : {1, 2})
@@ -219,13 +227,15 @@ class MshText {
   }
 
   const FlatMesh& mesh_;
-  bool version_2_;
+  bool version_2_, curve_groups_;
   Entities entities_[3];  // by dimension
   std::string text_;
 };
 
 }  // namespace
 
-std::string msh_text(const FlatMesh& mesh, bool version_2) { return MshText(mesh, version_2).run(); }
+std::string msh_text(const FlatMesh& mesh, bool version_2, bool curve_groups) {
+  return MshText(mesh, version_2, curve_groups).run();
+}
 
 }  // namespace carreau

@@ -151,15 +151,18 @@ void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
   file.xml("</CellData>\n");
 }
 
-/// Strings are arrays of character codes, each string ended by a zero, as VTK reads them.
+/// Strings are arrays of the bytes of their characters, each string ended by a zero. Not VTK's own type for strings,
+/// <Array type="String">: programs that know DataArray alone refuse such a file.
 void add_strings(VtuFile& file, const std::string& name, const FlatMesh& mesh, std::string FlatFace::*text) {
   std::string codes;
+  std::size_t count = 0;
   for (const FlatFace& face : mesh.faces) {
     for (const char c : face.*text) codes += std::to_string(static_cast<unsigned char>(c)) + " ";
     codes += "0\n";
+    count += (face.*text).size() + 1;
   }
-  file.xml("<Array type=\"String\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(mesh.faces.size()) +
-           "\" format=\"ascii\">\n" + codes + "</Array>\n");
+  file.xml("<DataArray type=\"UInt8\" Name=\"" + name + "\" NumberOfTuples=\"" + std::to_string(count) +
+           "\" format=\"ascii\">\n" + codes + "</DataArray>\n");
 }
 
 /// Field data: what is known of each face.

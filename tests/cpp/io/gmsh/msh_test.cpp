@@ -81,7 +81,8 @@ Content read_4(const std::string& text) {
   std::map<std::pair<int, int>, int> physical;
   for (int i = 0; i < counts[0]; ++i) {
     words >> tag >> x >> x >> x >> n;
-    EXPECT_EQ(n, 0);
+    EXPECT_EQ(n, 1);
+    words >> physical[{0, tag}];
   }
   for (const int dim : {1, 2})
     for (int i = 0; i < counts[dim]; ++i) {
@@ -113,7 +114,7 @@ Content read_4(const std::string& text) {
   for (int b = 0; b < blocks; ++b) {
     words >> dim >> entity >> type >> n;
     for (int i = 0; i < n; ++i) {
-      Element e{type, dim > 0 ? physical.at({dim, entity}) : 0, entity, {}};
+      Element e{type, physical.at({dim, entity}), entity, {}};
       words >> tag;
       e.nodes.resize(static_cast<std::size_t>(nodes_of(type)));
       for (int& node : e.nodes) words >> node;
@@ -151,10 +152,22 @@ TEST(Msh, BothVersionsHoldTheSameMesh) {
     const Element expected{2, t == 0 ? 3 : 7, t == 0 ? 3 : 7, {corners[0] + 1, corners[1] + 1, corners[2] + 1}};
     EXPECT_EQ(now.elements.at(static_cast<int>(t) + 3), expected);
   }
-  EXPECT_EQ(now.elements.at(1), (Element{15, 0, 4, {1}}));
+  EXPECT_EQ(now.elements.at(1), (Element{15, 4, 4, {1}}));
   EXPECT_EQ(now.elements.at(2), (Element{1, 5, 5, {1, 2}}));
-  const std::map<std::pair<int, int>, std::string> names{{{1, 5}, "curve_5"}, {{2, 3}, "lid _A_"}, {{2, 7}, "face_7"}};
+  const std::map<std::pair<int, int>, std::string> names{
+      {{0, 4}, "point_4"}, {{1, 5}, "curve_5"}, {{2, 3}, "lid _A_"}, {{2, 7}, "face_7"}};
   EXPECT_EQ(now.names, names);
+}
+
+TEST(Msh, CurvesAndCornersAreLeftOutWhenTheirGroupsAreNotWanted) {
+  for (const MeshFormat format : {MeshFormat::msh2, MeshFormat::msh}) {
+    const std::string text = mesh_bytes(named_square(), format, {.curve_groups = false});
+    const Content content = format == MeshFormat::msh2 ? read_2(text) : read_4(text);
+    EXPECT_EQ(content.names, (std::map<std::pair<int, int>, std::string>{{{2, 3}, "lid _A_"}, {{2, 7}, "face_7"}}));
+    EXPECT_EQ(content.nodes.size(), 4u);
+    ASSERT_EQ(content.elements.size(), 2u);
+    for (const auto& [tag, element] : content.elements) EXPECT_EQ(element.type, 2);
+  }
 }
 
 TEST(Msh, FacesOfOneNameAreOneGroup) {
@@ -166,7 +179,7 @@ TEST(Msh, FacesOfOneNameAreOneGroup) {
     EXPECT_EQ(content.elements.at(4).physical, 3);
     EXPECT_EQ(content.elements.at(3).entity, 3);
     EXPECT_EQ(content.elements.at(4).entity, 7);
-    EXPECT_EQ(content.names.size(), 2u);
+    EXPECT_EQ(content.names.size(), 3u);
     EXPECT_EQ(content.names.at({2, 3}), "wall");
   }
 }
