@@ -1,8 +1,6 @@
 // Positions and derivatives of faces and of the curves in their parameter planes, from any thread.
 #pragma once
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <BRepAdaptor_Surface.hxx>
 #include <Geom2dAdaptor_Curve.hxx>
 #include <Geom2d_Curve.hxx>
@@ -12,6 +10,8 @@
 #include <limits>
 #include <memory>
 #include <vector>
+
+#include "thread_values.h"
 
 namespace carreau_occ {
 
@@ -111,7 +111,7 @@ class Evaluators {
   const Adaptors& mine(std::size_t face);
 
   std::vector<Face> faces_;
-  tbb::enumerable_thread_specific<std::vector<std::unique_ptr<Adaptors>>> of_thread_;
+  ThreadValues<std::vector<std::unique_ptr<Adaptors>>> of_thread_;
 };
 
 }  // namespace carreau_occ

@@ -1,9 +1,5 @@
 #include "support/stepped_tasks.h"
 
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
-#include <tbb/task_group.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -15,16 +11,7 @@
 #include <string>
 #include <utility>
 
-// oneTBB is not instrumented: what it hands from one thread to another the thread sanitizer has to be told.
-#if defined(__SANITIZE_THREAD__)
-#include <sanitizer/tsan_interface.h>
-namespace {
-char handed_over;  // its address only
-}
-#else
-#define __tsan_release(address)
-#define __tsan_acquire(address)
-#endif
+#include "support/helpers.h"
 
 namespace carreau {
 namespace {
@@ -76,7 +63,7 @@ class ThreadedRun {
         monitor_(monitor),
         errors_(tasks.size()),
         done_(tasks.size(), 0),
-        arena_(threads, 1) {
+        helping_(threads) {
     for (std::size_t i = 0; i < tasks.size(); ++i)
       monitors_.push_back(std::make_unique<TaskMonitor>(i, monitor, first_failed_));
     if (run.order.empty()) {
@@ -97,7 +84,7 @@ class ThreadedRun {
     }
     // Helpers that no thread has begun with the calling thread ends itself: on a machine with other work it may take
     // long until the system runs another thread.
-    arena_.execute([this] { helping_.wait(); });
+    helping_.wait();
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return helpers_ == 0; });
   }
@@ -152,12 +139,7 @@ class ThreadedRun {
     changed_.notify_all();
     if (bound) return;
     try {
-      tbb::task_handle helper = helping_.defer([this] {
-        __tsan_acquire(&handed_over);  // before `this` is read
-        help();
-      });
-      __tsan_release(&handed_over);
-      arena_.execute([this, &helper] { helping_.run(std::move(helper)); });
+      helping_.send([this] { help(); });
     } catch (...) {  // no memory for a helper: the calling thread takes the task
       const std::scoped_lock lock(mutex_);
       --helpers_;
@@ -257,10 +239,9 @@ class ThreadedRun {
   std::deque<std::size_t> bound_, free_;
   std::vector<std::exception_ptr> errors_;
   std::vector<char> done_;
-  int helpers_ = 0;        // sent and not yet back
-  bool sent_ = false;      // a helper, ever
-  tbb::task_arena arena_;  // of the calling thread and its helpers
-  tbb::task_group helping_;
+  int helpers_ = 0;    // sent and not yet back
+  bool sent_ = false;  // a helper, ever
+  Helpers helping_;
 };
 
 // Enough that one long range does not keep the others waiting.
@@ -289,7 +270,7 @@ class Range final : public SteppedTask {
 
 void run_stepped(std::span<const std::unique_ptr<SteppedTask>> tasks, const SteppedRun& run, Monitor& monitor) {
   // Asked for more than it has, oneTBB would print a warning.
-  const std::size_t most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  const std::size_t most = Helpers::most_threads();
   const int threads =
       static_cast<int>(std::min({static_cast<std::size_t>(std::max(run.threads, 1)), most, tasks.size()}));
   if (threads <= 1) {

@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""The shared library exports exactly the functions of cabi/abi/symbols.txt.
+"""The shared library exports exactly the functions of cabi/abi/symbols.txt, each under the version VERSION.
 
-    check_symbols.py <libcarreau.so> <symbols.txt> [--refresh] [--nm NM]
+    check_symbols.py <libcarreau.so> <symbols.txt> --version VERSION [--refresh] [--nm NM]
 """
 import argparse
 import subprocess
 import sys
 
 
-def exported(nm, library):
+def exported(nm, library, version):
     lines = subprocess.run([nm, "-D", "--defined-only", library], check=True, capture_output=True, text=True).stdout
-    return sorted(line.split()[-1] for line in lines.splitlines() if line.strip())
+    names = [line.split()[-1] for line in lines.splitlines() if line.strip()]
+    return sorted(name for name in names if name != version)
 
 
 def main():
@@ -19,8 +20,13 @@ def main():
     parser.add_argument("symbols")
     parser.add_argument("--refresh", action="store_true")
     parser.add_argument("--nm", default="nm")
+    parser.add_argument("--version", required=True)
     args = parser.parse_args()
-    found = exported(args.nm, args.library)
+    versioned = exported(args.nm, args.library, args.version)
+    found = [name.removesuffix("@@" + args.version) for name in versioned]
+    for name in versioned:
+        if not name.endswith("@@" + args.version):
+            sys.exit(f"exported without the version {args.version}: {name}")
     if args.refresh:
         with open(args.symbols, "w") as out:
             out.write("\n".join(found) + "\n")

@@ -1,0 +1,50 @@
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include <utility>
+
+#include "support/helpers.h"
+
+// oneTBB is not instrumented: what it hands from one thread to another the thread sanitizer has to be told.
+#if defined(__SANITIZE_THREAD__)
+#include <sanitizer/tsan_interface.h>
+namespace {
+char handed_over;  // its address only
+}
+#else
+#define __tsan_release(address)
+#define __tsan_acquire(address)
+#endif
+
+namespace carreau {
+
+struct Helpers::State {
+  explicit State(int threads) : arena(threads, 1) {}
+  tbb::task_arena arena;  // of the calling thread and its helpers
+  tbb::task_group helping;
+};
+
+Helpers::Helpers(int threads) : state_(std::make_unique<State>(threads)) {}
+Helpers::~Helpers() = default;
+
+void Helpers::send(std::function<void()> work) {
+  State& s = *state_;
+  tbb::task_handle helper = s.helping.defer([work = std::move(work)] {
+    __tsan_acquire(&handed_over);  // before anything that was captured is read
+    work();
+  });
+  __tsan_release(&handed_over);
+  s.arena.execute([&s, &helper] { s.helping.run(std::move(helper)); });
+}
+
+void Helpers::wait() {
+  State& s = *state_;
+  s.arena.execute([&s] { s.helping.wait(); });
+}
+
+std::size_t Helpers::most_threads() noexcept {
+  return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+}
+
+}  // namespace carreau

@@ -1,0 +1,86 @@
+// In place of helpers_tbb.cpp where oneTBB is not built in.
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "support/helpers.h"
+
+namespace carreau {
+
+struct Helpers::State {
+  explicit State(int threads) : most(static_cast<std::size_t>(threads) - 1) {}
+
+  void help() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      changed.wait(lock, [this] { return ending || !waiting.empty(); });
+      if (waiting.empty()) return;
+      work_on_one(lock);
+    }
+  }
+
+  /// `lock` is held before and after.
+  void work_on_one(std::unique_lock<std::mutex>& lock) {
+    std::function<void()> work = std::move(waiting.front());
+    waiting.pop_front();
+    ++at_work;
+    lock.unlock();
+    work();
+    work = nullptr;
+    lock.lock();
+    --at_work;
+    changed.notify_all();
+  }
+
+  std::size_t most;
+  std::mutex mutex;  // of what follows
+  std::condition_variable changed;
+  std::deque<std::function<void()>> waiting;
+  std::vector<std::thread> threads;
+  std::size_t at_work = 0;
+  bool ending = false;
+};
+
+Helpers::Helpers(int threads) : state_(std::make_unique<State>(threads)) {}
+
+Helpers::~Helpers() {
+  State& s = *state_;
+  {
+    const std::scoped_lock lock(s.mutex);
+    s.ending = true;
+  }
+  s.changed.notify_all();
+  for (std::thread& thread : s.threads) thread.join();
+}
+
+void Helpers::send(std::function<void()> work) {
+  State& s = *state_;
+  const std::scoped_lock lock(s.mutex);
+  s.waiting.push_back(std::move(work));
+  if (s.threads.size() < s.most && s.at_work + s.waiting.size() > s.threads.size()) try {
+      s.threads.reserve(s.most);
+      s.threads.emplace_back([&s] { s.help(); });
+    } catch (const std::exception&) {  // the system has no thread: wait() does the work
+    }
+  s.changed.notify_all();
+}
+
+void Helpers::wait() {
+  State& s = *state_;
+  std::unique_lock lock(s.mutex);
+  for (;;) {
+    while (!s.waiting.empty()) s.work_on_one(lock);
+    if (s.at_work == 0) return;
+    s.changed.wait(lock, [&s] { return s.at_work == 0 || !s.waiting.empty(); });
+  }
+}
+
+std::size_t Helpers::most_threads() noexcept {
+  return 256;  // more would cost memory and gain nothing
+}
+
+}  // namespace carreau
