@@ -114,6 +114,10 @@ class BezierInput final : public ModelInput {
     return 0;
   }
 
+  [[nodiscard]] std::string kind(std::int32_t face) const override {
+    return "Bezier " + std::to_string(patch(face).m) + " x " + std::to_string(patch(face).n);
+  }
+
   carreau_status give_geometry(carreau_session* session) override {
     carreau_cad cad{};
     cad.struct_size = sizeof cad;

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "face_list.h"
+
 namespace command {
 
 /// A point of a face: in space, and the parameters that the file gives it.
@@ -41,6 +43,10 @@ class CadInput {
   /// The point at (u, v), as callbacks of the session get them. May be called from several threads when the geometry
   /// may. False: the geometry fails there.
   [[nodiscard]] virtual bool locate(std::int32_t face, double u, double v, Place& place) const noexcept = 0;
+  /// The faces of the file. Samples the geometry.
+  [[nodiscard]] virtual std::vector<FaceLook> faces() const = 0;
+  /// Numbers of the faces of the file.
+  [[nodiscard]] virtual std::vector<std::int32_t> face_numbers() const = 0;
   /// "" when it has none.
   [[nodiscard]] virtual std::string face_name(std::int32_t) const { return ""; }
   /// References of the curves of a face, as far as they are known.

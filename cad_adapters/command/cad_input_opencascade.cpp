@@ -1,4 +1,5 @@
 #include <brep_host.h>
+#include <face_figures.h>
 #include <faults.h>
 #include <shape_file.h>
 #include <shape_report.h>
@@ -7,6 +8,7 @@
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "cad_input.h"
 #include "commands.h"
@@ -38,6 +40,19 @@ std::string sentence(const carreau_occ::Danger& danger, const carreau_occ::BrepH
                      : "; it cannot be cut there, and sizes by an angle or a chord do not see it");
 }
 
+std::vector<FaceLook> faces_of_shape(const carreau_occ::ShapeFile& file, const carreau_occ::BrepHost& host) {
+  std::vector<FaceLook> list;
+  for (const carreau_occ::FaceFigures& face : carreau_occ::list_faces(file))
+    list.push_back({.number = face.number,
+                    .name = host.face_name(face.number),
+                    .kind = face.kind,
+                    .area = face.area,
+                    .perimeter = face.perimeter,
+                    .low = face.low,
+                    .high = face.high});
+  return list;
+}
+
 class OpenCascadeInput final : public CadInput {
  public:
   OpenCascadeInput(const std::string& path, const ReadingProgress& progress)
@@ -65,6 +80,13 @@ class OpenCascadeInput final : public CadInput {
     if (!host_.locate(face, u, v, xyz, uv)) return false;
     place = {xyz[0], xyz[1], xyz[2], uv[0], uv[1]};
     return true;
+  }
+
+  [[nodiscard]] std::vector<FaceLook> faces() const override { return faces_of_shape(file_, host_); }
+  [[nodiscard]] std::vector<std::int32_t> face_numbers() const override {
+    std::vector<std::int32_t> numbers(static_cast<std::size_t>(host_.face_count()));
+    std::iota(numbers.begin(), numbers.end(), 1);
+    return numbers;
   }
 
   [[nodiscard]] std::string face_name(std::int32_t face) const override {
@@ -188,10 +210,14 @@ int print_cad_info(const InfoOptions& options) try {
   const carreau_occ::ShapeFile file = carreau_occ::read_shape(options.input);
   const carreau_occ::BrepHost host(file);
   const carreau_occ::ShapeReport report = carreau_occ::inspect(file);
-  if (options.json)
-    print_json(json_of(report, file, host, options));
-  else
-    print_report(report, file, host, options.limit);
+  if (options.json) {
+    nlohmann::ordered_json value = json_of(report, file, host, options);
+    if (options.faces) value["face_list"] = faces_json(faces_of_shape(file, host));
+    print_json("info", value);
+    return 0;
+  }
+  print_report(report, file, host, options.limit);
+  if (options.faces) print_faces(faces_of_shape(file, host));
   return 0;
 } catch (const Failure&) {
   throw;

@@ -172,7 +172,7 @@ void print_as_json(const Checked& c, const CheckOptions& options) {
     result["report"] = json_of(c.report);
     result["intersections"] = crossings_json(c.crossings);
   }
-  print_json(result);
+  print_json("check", result);
 }
 
 }  // namespace

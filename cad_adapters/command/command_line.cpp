@@ -3,13 +3,14 @@
 #include <carreau.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "completion.h"
 #include "failure.h"
 #include "json_output.h"
 #include "lengths.h"
+#include "suggestions.h"
 
 namespace command {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh or .msh2";
 constexpr const char* geometry_files = "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom";
 constexpr int most_listed = 1'000'000;
+constexpr int unusable = 2;  // exit code
 
 std::string is_gradation(const std::string& value) {
   double ratio = -1;
@@ -53,17 +55,65 @@ CLI::Option* threads(CLI::App* app, int& value) {
       ->capture_default_str();
 }
 
+std::vector<std::string> commands_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+  return names;
+}
+
+const CLI::App* find_command(const std::string& name, const CLI::App& app) {
+  for (const CLI::App* sub : app.get_subcommands({}))
+    if (sub->get_name() == name) return sub;
+  return nullptr;
+}
+
+std::string command_names(const CLI::App& app) {
+  std::string names;
+  for (const std::string& name : commands_of(app)) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+std::string unknown_command(const std::string& word, const CLI::App& app) {
+  return "There is no command '" + word + "'" + did_you_mean(word, commands_of(app)) + " There are " +
+         command_names(app) + ".";
+}
+
+/// The words in "{a,b,c}" of an option's kind of value.
+std::vector<std::string> choices_of(const std::string& type) {
+  const std::size_t open = type.find('{'), close = type.find('}');
+  std::vector<std::string> words;
+  if (open == std::string::npos || close == std::string::npos) return words;
+  for (std::size_t from = open + 1; from < close;) {
+    const std::size_t to = std::min(type.find(',', from), close);
+    words.push_back(type.substr(from, to - from));
+    from = to + 1;
+  }
+  return words;
+}
+
+/// Why a word is no value of an option: it is no number, or not in its range, or none of its choices. "": it may be.
+std::string choice_sentence(const std::string& name, const std::string& word, const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  if (const std::vector<std::string> choices = choices_of(type); !choices.empty()) {
+    if (std::find(choices.begin(), choices.end(), word) != choices.end()) return "";
+    std::string all;
+    for (const std::string& each : choices) all += (all.empty() ? "" : ", ") + each;
+    return name + " '" + word + "' is none of: " + all + did_you_mean(word, choices);
+  }
+  const std::size_t range = type.find(" in [");
+  double number = 0;
+  if (range == std::string::npos || CLI::detail::lexical_cast(word, number)) return "";
+  return name + " '" + word + "' is not a number" + type.substr(range);
+}
+
 }  // namespace
 
 CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches.", "carreau") {
   app_.set_version_flag("--version", std::string("carreau ") + carreau_version());
   app_.require_subcommand(1);
-  app_.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("carreau: ") + error.what() + "\nRun with --help for more information.\n";
-  });
   app_.footer(
-      "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Manual: "
-      "man carreau");
+      "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
+      "command: carreau help COMMAND. Manual: man carreau");
   add_mesh();
   add_info();
   add_check();
@@ -89,44 +139,48 @@ void CommandLine::add_mesh() {
                             "may be repeated"))
       ->required()
       ->type_name(kind::file);
-  mesh->add_option("--size", mesh_.size,
-                   "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")
-      ->check(not_empty)
-      ->type_name(kind::length);
-  mesh->add_option("--size-map", mesh_.size_map,
-                   "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
-      ->check(not_empty)
-      ->type_name(kind::file);
-  mesh->add_option("--angle", mesh_.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
-      ->check(CLI::Range(0.01, 89.0))
-      ->type_name("DEGREES");
-  mesh->add_option("--chord", mesh_.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
-      ->check(not_empty)
-      ->type_name(kind::length);
-  mesh->add_option("--gradation", mesh_.gradation,
-                   "Sizes grow by at most this ratio from one edge to the next; 0: by any. 1.3 with --anisotropic")
-      ->check(is_gradation)
-      ->type_name("RATIO");
-  mesh->add_flag("--anisotropic{1000}", mesh_.anisotropy,
-                 "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
-                 "--gradation 1.3")
-      ->check(CLI::Range(1.0, 1e9));
-  mesh->add_option("--min", mesh_.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
-  mesh->add_option("--max", mesh_.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
-  repeated(mesh->add_option("--face-size", mesh_.face_sizes,
-                            "Size on a face given by number, or on all faces of a name; may be repeated"))
-      ->type_name("FACE=LENGTH");
-  mesh->add_option("--env", mesh_.env, "Parameters from a blsurf.env, up to its first action; options win")
-      ->check(not_empty)
-      ->type_name(kind::file);
-  repeated(mesh->add_option("--set", mesh_.settings, "Any parameter that `carreau params` lists; may be repeated"))
-      ->type_name(kind::setting);
+  add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
                    "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
       ->type_name(kind::file);
-  threads(mesh, mesh_.threads);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
+}
+
+void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
+  app->add_option("--size", options.size,
+                  "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")
+      ->check(not_empty)
+      ->type_name(kind::length);
+  app->add_option("--size-map", options.size_map,
+                  "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
+      ->check(not_empty)
+      ->type_name(kind::file);
+  app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
+      ->check(CLI::Range(0.01, 89.0))
+      ->type_name("DEGREES");
+  app->add_option("--chord", options.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
+      ->check(not_empty)
+      ->type_name(kind::length);
+  app->add_option("--gradation", options.gradation,
+                  "Sizes grow by at most this ratio from one edge to the next; 0: by any. 1.3 with --anisotropic")
+      ->check(is_gradation)
+      ->type_name("RATIO");
+  app->add_flag("--anisotropic{1000}", options.anisotropy,
+                "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
+                "--gradation 1.3")
+      ->check(CLI::Range(1.0, 1e9));
+  app->add_option("--min", options.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
+  app->add_option("--max", options.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
+  repeated(app->add_option("--face-size", options.face_sizes,
+                           "Size on a face given by number, or on all faces of a name; may be repeated"))
+      ->type_name("FACE=LENGTH");
+  app->add_option("--env", options.env, "Parameters from a blsurf.env, up to its first action; options win")
+      ->check(not_empty)
+      ->type_name(kind::file);
+  repeated(app->add_option("--set", options.settings, "Any parameter that `carreau params` lists; may be repeated"))
+      ->type_name(kind::setting);
+  threads(app, options.threads);
 }
 
 void CommandLine::add_info() {
@@ -138,6 +192,7 @@ void CommandLine::add_info() {
       ->check(CLI::Range(1, most_listed))
       ->type_name(kind::number)
       ->capture_default_str();
+  info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
   info->add_flag("--json", info_.json, "Print JSON");
 }
 
@@ -167,13 +222,19 @@ void CommandLine::add_picture() {
                                "eye; may be repeated"))
       ->type_name(kind::view);
   picture
-      ->add_option("--color", paint_,
-                   "face: their own colours when the file has some, else a colour a reference; quality: red 0 to green "
-                   "1; size: red the smallest triangles, green the largest; none: grey")
-      ->check(CLI::IsMember({"face", "quality", "size", "none"}))
+      ->add_option(
+          "--color", paint_,
+          "face: their own colours when the file has some, else as reference; reference: a colour a reference, "
+          "another one than its neighbours; quality: red 0 to green 1; size: red the smallest triangles, green "
+          "the largest; none: grey")
+      ->check(CLI::IsMember({"face", "reference", "quality", "size", "none"}))
       ->capture_default_str();
   picture->add_flag("--edges,!--no-edges", picture_.scene.edges,
                     "Draw the sides of triangles or not; they are by default");
+  picture->add_option("--label", label_, "faces: their numbers are drawn where they are seen")
+      ->check(CLI::IsMember({"faces"}))
+      ->type_name("WHAT");
+  picture->add_flag("--json", picture_.json, "Print what was drawn as JSON");
   picture->add_option("--samples", picture_.samples, "Points a pixel in each direction")
       ->check(CLI::Range(1, 8))
       ->type_name(kind::number)
@@ -181,35 +242,39 @@ void CommandLine::add_picture() {
 }
 
 void CommandLine::add_fields() {
-  CLI::App* fields = add("fields", "Mesh, and write what governed the mesh as OpenEXR images");
-  fields->add_option("INPUT", fields_.input, "CAD file, .bpt, .pardom, or .env whose actions are run")
+  CLI::App* fields = add("fields", "Mesh, and write what governed the mesh as OpenEXR images or pictures");
+  fields->add_option("INPUT", fields_.mesh.input, "CAD file, .bpt, .pardom, or .env whose actions are run")
       ->required()
       ->type_name(kind::file);
   fields
-      ->add_option("--host", fields_.host, "Geometry of a .pardom or .env: a shared library with the routines of cad_m")
+      ->add_option("--host", fields_.mesh.host,
+                   "Geometry of a .pardom or .env: a shared library with the routines of cad_m")
       ->type_name(kind::file);
-  fields->add_option("-o,--output", fields_.out, "File .exr; a file a face: NAME.face.REF.exr")
+  repeated(fields->add_option("-o,--output", fields_.mesh.outputs,
+                              "File .exr, or .png with the sizes in colours; a file a face: NAME.face.REF.exr; may be "
+                              "repeated"))
       ->required()
       ->type_name(kind::file);
-  fields->add_option("--size", field_size_, "Pixels of the longer side, or WIDTHxHEIGHT")
+  fields->add_option("--pixels", field_size_, "Pixels of the longer side, or WIDTHxHEIGHT")
       ->type_name("PIXELS")
       ->capture_default_str();
   fields->add_option("--face", fields_.face, "Only this face, into the file as it is named")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->type_name("REF");
-  fields->add_flag("--multi-part", fields_.multi_part, "All faces into one file, a part each");
+  fields->add_flag("--multi-part", fields_.multi_part, "All faces into one file .exr, a part each");
   repeated(fields->add_option("--channels", fields_.channels, "Groups of channels, separated by commas; all by default")
                ->delimiter(',')
                ->check(CLI::IsMember(field_groups())));
   fields->add_flag("--piz", fields_.piz, "PIZ in place of ZIP; both are lossless");
   fields->add_flag("--raw", fields_.raw, "What the geometry answers, without a mesh");
-  repeated(fields->add_option("--set", fields_.settings, "A parameter; may be repeated"))->type_name(kind::setting);
-  threads(fields, fields_.threads);
+  add_mesh_options(fields, fields_.mesh);
+  fields->add_flag("--json", fields_.mesh.json, "Print the files as JSON");
 }
 
 void CommandLine::add_params() {
   CLI::App* params = add("params", "List the parameters with types, defaults, ranges and a line of help");
-  params->add_option("NAME", parameter_, "One parameter only")->type_name(kind::parameter);
+  params->add_option("NAME", params_.name, "One parameter only")->type_name(kind::parameter);
+  params->add_flag("--json", params_.json, "Print JSON");
 }
 
 void CommandLine::add_completion() {
@@ -217,37 +282,58 @@ void CommandLine::add_completion() {
   completion->add_option("SHELL", shell_, "The shell")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
 }
 
-int CommandLine::run(int argc, char** argv) {
-  const std::string first = argc > 1 ? argv[1] : "";
-  std::string known;
-  bool found = first.starts_with('-');
-  for (const CLI::App* sub : app_.get_subcommands({})) {
-    known += (known.empty() ? "" : ", ") + sub->get_name();
-    found = found || sub->get_name() == first;
-  }
-  if (first.empty()) throw Failure("A command is wanted: " + known + ". More: carreau --help, man carreau.");
-  if (!found) throw Failure("There is no command '" + first + "'; there are " + known + ".");
-  try {
-    app_.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app_.exit(error) == 0 ? 0 : 2;
-  }
-  try {
-    return run_command();
-  } catch (const std::bad_alloc&) {
-    print_failure("there is not enough memory");
-    throw;
-  } catch (const std::exception& error) {
-    print_failure(error.what());
-    throw;
-  }
+int CommandLine::help(const std::string& command) {
+  if (command.empty()) return std::fputs(app_.help().c_str(), stdout), 0;
+  if (const CLI::App* const sub = find_command(command, app_))
+    return std::fputs(sub->help("carreau").c_str(), stdout), 0;
+  throw Failure(unknown_command(command, app_));
 }
 
-void CommandLine::print_failure(const char* sentence) const {
-  if (!mesh_.json && !info_.json && !check_.json) return;
-  nlohmann::ordered_json value;
-  value["error"] = sentence;
-  print_json(value);
+std::string CommandLine::sentence_of(const CLI::ParseError& error, const CLI::App& sub,
+                                     const std::vector<std::string>& words) const {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : sub.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with("--") || name.size() < 3 || std::find(known.begin(), known.end(), name) != known.end())
+      continue;
+    return "carreau " + sub.get_name() + " has no option '" + name + "'" + did_you_mean(name, known);
+  }
+  for (const CLI::Option* option : sub.get_options()) {
+    const std::string name = option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames().front();
+    const auto is_value = [&](const std::string& word) { return !choice_sentence(name, word, *option).empty(); };
+    if (const auto wrong = std::find_if(option->results().begin(), option->results().end(), is_value);
+        wrong != option->results().end())
+      return choice_sentence(name, *wrong, *option);
+  }
+  return error.what();
+}
+
+int CommandLine::run(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const std::string first = words.empty() ? "" : words.front();
+  const bool json = std::find(words.begin(), words.end(), "--json") != words.end();
+  try {
+    if (first.empty())
+      throw Failure("A command is wanted: " + command_names(app_) + ". More: carreau help, man carreau.");
+    if (first == "help") return help(words.size() > 1 ? words[1] : "");
+    const CLI::App* const sub = find_command(first, app_);
+    if (sub == nullptr && !first.starts_with('-')) throw Failure(unknown_command(first, app_));
+    try {
+      app_.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      if (error.get_exit_code() == 0) return app_.exit(error), 0;
+      throw Failure(sub == nullptr ? std::string(error.what()) : sentence_of(error, *sub, words));
+    }
+    return run_command();
+  } catch (const std::bad_alloc&) {
+    if (json) print_json_error(first, "there is not enough memory", unusable);
+    throw;
+  } catch (const std::exception& error) {
+    if (json) print_json_error(first, error.what(), unusable);
+    throw;
+  }
 }
 
 int CommandLine::run_command() {
@@ -256,10 +342,12 @@ int CommandLine::run_command() {
   if (app_.got_subcommand("check")) return check(check_);
   if (app_.got_subcommand("picture")) {
     parse_picture_size(picture_size_, picture_);
-    picture_.scene.paint = paint_ == "face"      ? Paint::face
-                           : paint_ == "quality" ? Paint::quality
-                           : paint_ == "size"    ? Paint::size
-                                                 : Paint::none;
+    picture_.scene.paint = paint_ == "face"        ? Paint::face
+                           : paint_ == "reference" ? Paint::reference
+                           : paint_ == "quality"   ? Paint::quality
+                           : paint_ == "size"      ? Paint::size
+                                                   : Paint::none;
+    picture_.labels = !label_.empty();
     return picture(picture_);
   }
   if (app_.got_subcommand("fields")) {
@@ -267,7 +355,7 @@ int CommandLine::run_command() {
     return fields(fields_);
   }
   if (app_.got_subcommand("completion")) return print_completion(app_, shell_);
-  return params(parameter_);
+  return params(params_);
 }
 
 }  // namespace command

@@ -34,6 +34,8 @@ class CommandLine {
  private:
   CLI::App* add(const char* name, const char* description);
   void add_mesh();
+  /// What governs a mesh: of `mesh` and `fields`.
+  static void add_mesh_options(CLI::App* app, MeshOptions& options);
   void add_info();
   void add_picture();
   void add_check();
@@ -41,17 +43,21 @@ class CommandLine {
   void add_params();
   void add_completion();
   int run_command();
-  /// Where JSON is wanted, an object whose member "error" is the sentence.
-  void print_failure(const char* sentence) const;
+  /// `carreau help [COMMAND]`.
+  int help(const std::string& command);
+  /// A sentence for a command line that cannot be parsed, with what may have been meant.
+  [[nodiscard]] std::string sentence_of(const CLI::ParseError& error, const CLI::App& sub,
+                                        const std::vector<std::string>& words) const;
 
   CLI::App app_;
   MeshOptions mesh_;
   InfoOptions info_;
   PictureOptions picture_;
-  std::string picture_size_ = "1200x900", paint_ = "face";
+  std::string picture_size_ = "1200x900", paint_ = "face", label_;
   CheckOptions check_;
   FieldsOptions fields_;
-  std::string field_size_ = "1024", parameter_, shell_;
+  std::string field_size_ = "1024", shell_;
+  ParamsOptions params_;
 };
 
 }  // namespace command

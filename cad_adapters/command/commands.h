@@ -14,6 +14,8 @@ struct PictureOptions {
   int width = 1200, height = 900, samples = 3;
   std::vector<std::string> views;  ///< side by side; none: iso, or top for a plane mesh
   SceneOptions scene;
+  bool labels = false;  ///< numbers of faces
+  bool json = false;
 };
 
 int picture(const PictureOptions& options);
@@ -41,8 +43,9 @@ int mesh(const MeshOptions& options);
 
 struct InfoOptions {
   std::string input;
-  std::string host;  ///< shared library, of a .pardom
-  int limit = 10;    ///< sentences of each kind
+  std::string host;    ///< shared library, of a .pardom
+  int limit = 10;      ///< sentences of each kind
+  bool faces = false;  ///< a line for each
   bool json = false;
 };
 
@@ -59,24 +62,26 @@ struct CheckOptions {
 int check(const CheckOptions& options);
 
 struct FieldsOptions {
-  std::string input;  ///< .pardom, .env or a CAD file
-  std::string host;   ///< shared library, of the first two
-  std::string out;    ///< .exr
+  MeshOptions mesh;  ///< input: also .env; outputs: the name of the images, .exr or .png
   int longest = 1024, width = 0, height = 0;
-  int face = 0;     ///< reference of the only one; 0: all
-  int threads = 0;  ///< 0: all processors
+  int face = 0;  ///< reference of the only one; 0: all
   bool multi_part = false, raw = false, piz = false;
   std::vector<std::string> channels;  ///< names of field_groups(); none: all
-  std::vector<std::string> settings;  ///< NAME=VALUE
 };
 
-/// Meshes, and writes what governed the mesh as EXR files. 1 when the files are there but not all faces have triangles.
+/// Meshes, and writes what governed the mesh of `carreau mesh` as EXR or PNG files. 1 when the files are there but not
+/// all faces have triangles.
 int fields(const FieldsOptions& options);
 
 /// Names of the groups of channels.
 std::vector<std::string> field_groups();
 
+struct ParamsOptions {
+  std::string name;  ///< of the only one; empty: all
+  bool json = false;
+};
+
 /// Prints the parameters, all or one of them.
-int params(const std::string& name);
+int params(const ParamsOptions& options);
 
 }  // namespace command

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "suggestions.h"
 
 namespace command {
 namespace {
@@ -24,16 +25,6 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
   return all;
-}
-
-std::string parameter_names() {
-  std::vector<std::string> names;
-  for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
-    carreau_parameter parameter{};
-    parameter.struct_size = sizeof parameter;
-    if (carreau_parameter_info(i, &parameter) == CARREAU_OK) names.emplace_back(parameter.name);
-  }
-  return joined(names, " ");
 }
 
 /// CLI11 writes the choices of an option as "{a,b,c}" into the name of its type.
@@ -58,8 +49,8 @@ Completed completed(const CLI::Option& option) {
   const std::string base = type.substr(0, type.find(':'));
   if (!result.words.empty()) result.values = Values::words;
   if (base == kind::file) result.values = Values::files;
-  if (base == kind::setting) result.values = Values::settings, result.words = parameter_names();
-  if (base == kind::parameter) result.values = Values::words, result.words = parameter_names();
+  if (base == kind::setting) result.values = Values::settings, result.words = joined(parameter_names(), " ");
+  if (base == kind::parameter) result.values = Values::words, result.words = joined(parameter_names(), " ");
   if (base == kind::view) result.values = Values::words, result.words = "iso front back left right top bottom";
   return result;
 }
@@ -163,7 +154,7 @@ void print_zsh(const CLI::App& app) {
       "_carreau_settings() { compadd -S = -- %s; }\n"
       "_carreau() {\n  local context state line\n  typeset -A opt_args\n"
       "  if ((CURRENT == 2)); then\n    local -a commands=(\n",
-      parameter_names().c_str());
+      joined(parameter_names(), " ").c_str());
   for (const CLI::App* sub : app.get_subcommands({}))
     std::printf("      '%s:%s'\n", sub->get_name().c_str(), quoted(sub->get_description(), "'\\''").c_str());
   std::printf(

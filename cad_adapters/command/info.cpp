@@ -38,14 +38,16 @@ int info(const InfoOptions& options) {
     Json dangers = Json::array();
     for (const ModelDanger& d : figures.dangers)
       dangers.push_back({{"kind", d.kind}, {"face", d.face}, {"side", d.ic}, {"text", d.text}});
-    print_json({{"input", options.input},
-                {"faces", figures.faces},
-                {"sides", figures.sides},
-                {"points", figures.points},
-                {"diagonal", input->diagonal()},
-                {"poles", figures.poles},
-                {"shortest_side", figures.shortest},
-                {"dangers", dangers}});
+    Json value = {{"input", options.input},
+                  {"faces", figures.faces},
+                  {"sides", figures.sides},
+                  {"points", figures.points},
+                  {"diagonal", input->diagonal()},
+                  {"poles", figures.poles},
+                  {"shortest_side", figures.shortest},
+                  {"dangers", dangers}};
+    if (options.faces) value["face_list"] = faces_json(input->faces());
+    print_json("info", value);
     return 0;
   }
   std::printf("faces       %d\nsides       %d\npoints      %d\ndiagonal    %.6g\npoles       %d\nshortest side %.6g\n",
@@ -63,6 +65,7 @@ int info(const InfoOptions& options) {
     if (++told <= options.limit) std::printf("  %s\n", sentence(d).c_str());
     if (told == options.limit + 1) std::puts("  ...");
   }
+  if (options.faces) print_faces(input->faces());
   return 0;
 }
 

@@ -2,10 +2,19 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 namespace command {
 
-/// Prints a value with an indent of 1 and a newline. Texts may be in any encoding: what is not UTF-8 is replaced.
-void print_json(const nlohmann::ordered_json& value);
+/// The member "format" of what a sub-command prints: "carreau mesh 1". The number grows when a member changes its
+/// meaning or goes; new members do not change it.
+std::string json_format(const std::string& command);
+
+/// Prints an object with its "format" first, an indent of 1 and a newline. Texts may be in any encoding: what is not
+/// UTF-8 is replaced.
+void print_json(const std::string& command, const nlohmann::ordered_json& value);
+
+/// In place of it when a command cannot do what it is asked: "format", and "error" with the sentence and the exit code.
+void print_json_error(const std::string& command, const std::string& sentence, int exit_code);
 
 }  // namespace command

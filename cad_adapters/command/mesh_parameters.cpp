@@ -4,10 +4,12 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <thread>
 
 #include "lengths.h"
 #include "session_handle.h"
+#include "suggestions.h"
 
 namespace command {
 namespace {
@@ -142,6 +144,42 @@ int threads_of(const MeshOptions& options) {
   return options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+/// Names and numbers of the faces of a file, each once.
+std::vector<std::string> words_for_faces(const CadInput& input) {
+  std::set<std::string> words;
+  for (const std::int32_t face : input.face_numbers()) {
+    words.insert(std::to_string(face));
+    if (const std::string name = input.face_name(face); !name.empty()) words.insert(name);
+  }
+  return {words.begin(), words.end()};
+}
+
+void set_face_sizes(const MeshOptions& options, CadInput& input) {
+  for (const std::string& each : options.face_sizes) {
+    const auto [face, text] = parse_assignment(each, "--face-size");
+    const double size = parse_length(text, "--face-size").of(input.diagonal());
+    // A name may hold a star: itself first.
+    if (input.set_face_size(face, size)) continue;
+    bool any = false;
+    if (face.find_first_of("*?") != std::string::npos)
+      for (const std::int32_t number : input.face_numbers())
+        if (fits(input.face_name(number), face)) any = input.set_face_size(std::to_string(number), size) || any;
+    if (!any)
+      throw Failure("--face-size: there is no face '" + face + "'" + did_you_mean(face, words_for_faces(input)) +
+                    " Faces are listed by: carreau info --faces");
+  }
+}
+
+/// Throws Failure for a parameter that is unknown, or a value that it cannot have.
+void check_setting(carreau_session* session, const std::string& setting, const std::string& option) {
+  const auto [name, value] = parse_assignment(setting, option);
+  const std::vector<std::string> known = parameter_names();
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw Failure(option + " '" + setting + "': there is no parameter '" + name + "'" + did_you_mean(name, known) +
+                  " `carreau params` lists them all.");
+  set_by_name(session, setting, 1);
+}
+
 }  // namespace
 
 void check_words(const MeshOptions& options) {
@@ -150,7 +188,9 @@ void check_words(const MeshOptions& options) {
   if (options.minimum.ends_with('%') == options.maximum.ends_with('%')) refuse_contradictions(options, lengths);
   for (const std::string& each : options.face_sizes)
     parse_length(parse_assignment(each, "--face-size").second, "--face-size");
-  for (const std::string& each : options.settings) parse_assignment(each, "--set");
+  if (options.settings.empty()) return;
+  const SessionHandle session = make_session();
+  for (const std::string& each : options.settings) check_setting(session.get(), each, "--set");
 }
 
 std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double diagonal) {
@@ -172,11 +212,7 @@ std::vector<std::string> sizes_beyond_bounds(const MeshOptions& options, double 
 void set_parameters(carreau_session* session, const MeshOptions& options, CadInput& input, SizeMap& map) {
   const double diagonal = input.diagonal();
   refuse_contradictions(options, lengths_of(options, diagonal));
-  for (const std::string& each : options.face_sizes) {
-    const auto [face, size] = parse_assignment(each, "--face-size");
-    if (!input.set_face_size(face, parse_length(size, "--face-size").of(diagonal)))
-      throw Failure("--face-size: there is no face '" + face + "'.");
-  }
+  set_face_sizes(options, input);
   const bool sizes_by_face = !options.face_sizes.empty() && !input.answers_face_sizes();
   set(session, "threads", threads_of(options));
   // Zones narrower than 6 % of their edges would have triangles of no shape (Q2 below .1); cutting more adds

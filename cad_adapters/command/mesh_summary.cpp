@@ -281,7 +281,7 @@ void print_json(const MeshRun& run) {
   std::int32_t measured = 0;
   require(run.session, carreau_get_integer(run.session, "measure", &measured));
   if (measured != 0) summary["delivered"] = delivered_json(run.session);
-  print_json(summary);
+  print_json("mesh", summary);
 }
 
 }  // namespace command

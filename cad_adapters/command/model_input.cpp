@@ -78,6 +78,83 @@ ModelFigures ModelInput::look_at() const {
   return figures;
 }
 
+namespace {
+
+struct Inside {
+  double u = 0, v = 0;
+};
+
+/// By the even-odd rule.
+bool holds(const std::vector<std::pair<Inside, Inside>>& sides, Inside p) {
+  bool inside = false;
+  for (const auto& [a, b] : sides)
+    if ((a.v > p.v) != (b.v > p.v) && p.u < a.u + (p.v - a.v) / (b.v - a.v) * (b.u - a.u)) inside = !inside;
+  return inside;
+}
+
+}  // namespace
+
+// The area by midpoints of a grid over the box of the domain, within about 1 %: to be told from others, a face needs no
+// more.
+FaceLook ModelInput::look_at(const FaceModel::Face& face) const {
+  constexpr int cells = 96;
+  FaceLook look{.number = face.ref, .name = face_name(face.ref), .kind = kind(face.ref)};
+  look.low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, look.high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  const auto enclose = [&](const Place& p) {
+    const Point x{p.x, p.y, p.z};
+    for (std::size_t k = 0; k < 3; ++k)
+      look.low[k] = std::min(look.low[k], x[k]), look.high[k] = std::max(look.high[k], x[k]);
+  };
+  std::vector<std::pair<Inside, Inside>> sides;
+  Inside low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  for (std::size_t c = 0; c < face.curves.size(); ++c) {
+    if (face.curves[c].type != CARREAU_BOUNDARY) continue;
+    Place before;
+    Inside last;
+    for (int i = 0; i <= samples; ++i) {
+      Inside p;
+      Place place;
+      if (!on_curve(face.ref, static_cast<std::int32_t>(c + 1), static_cast<double>(i) / samples, p.u, p.v) ||
+          !locate(face.ref, p.u, p.v, place))
+        return look;
+      enclose(place);
+      low = {std::min(low.u, p.u), std::min(low.v, p.v)}, high = {std::max(high.u, p.u), std::max(high.v, p.v)};
+      if (i > 0) {
+        sides.emplace_back(last, p);
+        look.perimeter += std::hypot(place.x - before.x, place.y - before.y, place.z - before.z);
+      }
+      last = p, before = place;
+    }
+  }
+  const double du = (high.u - low.u) / cells, dv = (high.v - low.v) / cells;
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const Inside p{low.u + (i + 0.5) * du, low.v + (j + 0.5) * dv};
+      Place place, left, right, below, above;
+      if (!holds(sides, p) || !locate(face.ref, p.u, p.v, place)) continue;
+      enclose(place);
+      if (!locate(face.ref, p.u - du / 2, p.v, left) || !locate(face.ref, p.u + du / 2, p.v, right) ||
+          !locate(face.ref, p.u, p.v - dv / 2, below) || !locate(face.ref, p.u, p.v + dv / 2, above))
+        continue;
+      const Point a{right.x - left.x, right.y - left.y, right.z - left.z};
+      const Point b{above.x - below.x, above.y - below.y, above.z - below.z};
+      look.area += std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+    }
+  return look;
+}
+
+std::vector<FaceLook> ModelInput::faces() const {
+  std::vector<FaceLook> list;
+  for (const FaceModel::Face& face : model_.faces) list.push_back(look_at(face));
+  return list;
+}
+
+std::vector<std::int32_t> ModelInput::face_numbers() const {
+  std::vector<std::int32_t> numbers;
+  for (const FaceModel::Face& face : model_.faces) numbers.push_back(face.ref);
+  return numbers;
+}
+
 carreau_status ModelInput::give_to(carreau_session* session) {
   const carreau_status status = give_geometry(session);
   return status == CARREAU_OK ? give_model(model_, session) : status;

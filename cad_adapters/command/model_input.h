@@ -29,6 +29,8 @@ class ModelInput : public CadInput {
   /// geometry fails.
   [[nodiscard]] ModelFigures look_at() const;
   [[nodiscard]] std::string summary() const final;
+  [[nodiscard]] std::vector<FaceLook> faces() const final;
+  [[nodiscard]] std::vector<std::int32_t> face_numbers() const final;
   bool set_face_size(const std::string& face, double size) final;
   [[nodiscard]] bool answers_face_sizes() const final { return false; }
   [[nodiscard]] double face_size(std::int32_t face) const final;
@@ -41,8 +43,11 @@ class ModelInput : public CadInput {
 
   [[nodiscard]] const FaceModel& model() const noexcept { return model_; }
   virtual carreau_status give_geometry(carreau_session* session) = 0;
+  /// "Bezier 3 x 3".
+  [[nodiscard]] virtual std::string kind(std::int32_t face) const = 0;
 
  private:
+  [[nodiscard]] FaceLook look_at(const FaceModel::Face& face) const;
   /// Places of `samples` + 1 points of a curve; calls visit(place), or failed() where the geometry fails.
   template <typename Visit, typename Failed>
   void walk(std::int32_t face, std::int32_t ic, Visit&& visit, Failed&& failed) const;

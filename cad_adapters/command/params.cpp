@@ -1,8 +1,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "json_output.h"
+#include "suggestions.h"
 
 namespace command {
 namespace {
@@ -31,7 +34,28 @@ std::string range_of(const carreau_parameter& p) {
 
 }  // namespace
 
-int params(const std::string& name) {
+namespace {
+
+nlohmann::ordered_json json_of(const carreau_parameter& p) {
+  nlohmann::ordered_json row = {{"name", p.name}, {"help", p.help}};
+  if (p.type == CARREAU_TEXT) {
+    row["type"] = "text", row["default"] = p.default_text;
+    if (p.choices != nullptr && *p.choices != '\0') row["choices"] = p.choices;
+    return row;
+  }
+  row["type"] = p.type == CARREAU_INTEGER ? "integer" : "real";
+  row["default"] = p.default_number;
+  row["of_diagonal"] = p.diag_relative != 0;
+  row["minimum"] = p.minimum;
+  row["maximum"] = std::isinf(p.maximum) ? nlohmann::ordered_json() : nlohmann::ordered_json(p.maximum);
+  return row;
+}
+
+}  // namespace
+
+int params(const ParamsOptions& options) {
+  const std::string& name = options.name;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
   bool found = false;
   for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
     carreau_parameter p{};
@@ -39,12 +63,19 @@ int params(const std::string& name) {
     if (carreau_parameter_info(i, &p) != CARREAU_OK) throw Failure("The parameters cannot be listed.");
     if (!name.empty() && name != p.name) continue;
     found = true;
+    if (options.json) {
+      list.push_back(json_of(p));
+      continue;
+    }
     const char* type = p.type == CARREAU_INTEGER ? "integer" : p.type == CARREAU_REAL ? "real" : "text";
     const std::string range = range_of(p);
     std::printf("%-20s %-8s default %-12s%s%s\n    %s\n", p.name, type, default_of(p).c_str(),
                 range.empty() ? "" : " values ", range.c_str(), p.help);
   }
-  if (!found) throw Failure("There is no parameter '" + name + "'; `carreau params` lists them all.");
+  if (!found)
+    throw Failure("There is no parameter '" + name + "'" + did_you_mean(name, parameter_names()) +
+                  " `carreau params` lists them all.");
+  if (options.json) print_json("params", {{"parameters", list}});
   return 0;
 }
 

@@ -37,6 +37,7 @@ class PardomInput final : public ModelInput {
   }
 
  private:
+  [[nodiscard]] std::string kind(std::int32_t) const override { return "of the host"; }
   carreau_status give_geometry(carreau_session* session) override { return carreau_set_cad_m(session, &routines_); }
 
   SharedHost host_;

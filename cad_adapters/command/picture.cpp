@@ -1,12 +1,31 @@
 #include <cmath>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "json_output.h"
+#include "labels.h"
 #include "output_files.h"
 #include "png_file.h"
 #include "signals.h"
 
 namespace command {
+
+namespace {
+
+void print_as_json(const PictureOptions& options, const std::vector<std::string>& views,
+                   const std::vector<Label>& labels) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Label& label : labels)
+    list.push_back(
+        {{"face", label.face}, {"view", views[static_cast<std::size_t>(label.cell)]}, {"x", label.x}, {"y", label.y}});
+  nlohmann::ordered_json value = {
+      {"mesh", options.mesh}, {"output", options.out}, {"size", {options.width, options.height}}, {"views", views}};
+  if (options.labels) value["labels"] = list;
+  print_json("picture", value);
+}
+
+}  // namespace
 
 int picture(const PictureOptions& options) {
   catch_signals();
@@ -31,8 +50,14 @@ int picture(const PictureOptions& options) {
         project(mesh, view_from(views[k]), options.scene, k % columns * width, k / columns * height, width, height);
     triangles.insert(triangles.end(), part.begin(), part.end());
   }
-  const Image image = draw(triangles, options.width, options.height, options.samples);
+  std::vector<std::int32_t> seen;
+  Image image = draw(triangles, options.width, options.height, options.samples, options.labels ? &seen : nullptr);
+  draw_legend(options.scene.paint, SizeScale(mesh), image);
+  std::vector<Label> labels;
+  if (options.labels) labels = place_labels(seen, options.width, options.height, {columns, rows});
+  draw_labels(labels, image);
   output.write([&](const std::vector<std::string>& hidden) { write_png(image, hidden.front()); });
+  if (options.json) print_as_json(options, views, labels);
   return 0;
 }
 

@@ -6,13 +6,14 @@
 namespace command {
 namespace {
 
-constexpr Colour line_colour{0.012f, 0.016f, 0.03f};
+constexpr Colour dark_line{0.012f, 0.016f, 0.03f}, light_line{0.42f, 0.44f, 0.48f};
 
 /// Some rows of the picture at the resolution of the samples.
 struct Band {
   int width = 0, first = 0, rows = 0;  ///< in samples
   std::vector<float> depth;
   std::vector<Colour> colour;
+  std::vector<std::int32_t> face;  // empty: not wanted
 };
 
 /// The ground: white, very slightly grey towards the bottom.
@@ -46,7 +47,8 @@ Colour with_lines(const ScreenTriangle& t, const std::array<double, 3>& distance
   for (int i = 0; i < 3; ++i)
     if (distance[i] < t.lines[i].width) opacity = std::max(opacity, t.lines[i].opacity);
   Colour colour = t.colour;
-  for (int i = 0; i < 3; ++i) colour[i] += opacity * (line_colour[i] - colour[i]);
+  const Colour& line = t.light_lines ? light_line : dark_line;
+  for (int i = 0; i < 3; ++i) colour[i] += opacity * (line[i] - colour[i]);
   return colour;
 }
 
@@ -73,8 +75,11 @@ void draw_triangle(const ScreenTriangle& t, double step, Band& band) {
       if (static_cast<float>(depth) <= band.depth[at]) continue;
       band.depth[at] = static_cast<float>(depth);
       band.colour[at] = with_lines(t, distance);
+      if (!band.face.empty()) band.face[at] = t.face;
     }
 }
+
+}  // namespace
 
 std::uint8_t to_srgb(double x) {
   x = std::clamp(x, 0.0, 1.0);
@@ -82,21 +87,25 @@ std::uint8_t to_srgb(double x) {
   return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-}  // namespace
-
-Image draw(const std::vector<ScreenTriangle>& triangles, int width, int height, int samples) {
+Image draw(const std::vector<ScreenTriangle>& triangles, int width, int height, int samples,
+           std::vector<std::int32_t>* faces) {
   Image image{width, height, std::vector<std::uint8_t>(std::size_t{3} * width * height)};
   // A band of rows at a time: memory does not grow with the height of the picture.
   const int rows = std::clamp(4'000'000 / (width * samples * samples), 1, height);
   for (int row = 0; row < height; row += rows) {
     const int count = std::min(rows, height - row);
-    Band band{width * samples, row * samples, count * samples, {}, {}};
+    Band band{width * samples, row * samples, count * samples, {}, {}, {}};
     band.depth.assign(static_cast<std::size_t>(band.width) * band.rows, -1);
     band.colour.resize(band.depth.size());
+    if (faces != nullptr) band.face.resize(band.depth.size());
     for (int j = 0; j < band.rows; ++j)
       std::fill_n(band.colour.begin() + static_cast<std::ptrdiff_t>(j) * band.width, band.width,
                   ground((band.first + j + 0.5) / samples / height));
     for (const ScreenTriangle& t : triangles) draw_triangle(t, 1.0 / samples, band);
+    for (int y = 0; y < count && faces != nullptr; ++y)
+      for (int x = 0; x < width; ++x)
+        faces->push_back(
+            band.face[static_cast<std::size_t>(samples - 1 + y * samples) * band.width + x * samples + samples - 1]);
     for (int y = 0; y < count; ++y)
       for (int x = 0; x < width; ++x)
         for (int c = 0; c < 3; ++c) {

@@ -26,9 +26,16 @@ struct ScreenTriangle {
   std::array<std::array<double, 3>, 3> corners;  ///< x, y, depth
   Colour colour{};
   std::array<Line, 3> lines{};  ///< line i is on the side opposite to corner i
+  std::int32_t face = 0;        ///< what Image::faces tells of
+  bool light_lines = false;     ///< on dark colours
 };
 
 /// Draws the triangles, nearest in front, over a white ground; every pixel is the mean of samples x samples points.
-Image draw(const std::vector<ScreenTriangle>& triangles, int width, int height, int samples);
+/// `faces`, which may be null: the face of each pixel's last point, row by row; 0: none.
+Image draw(const std::vector<ScreenTriangle>& triangles, int width, int height, int samples,
+           std::vector<std::int32_t>* faces = nullptr);
+
+/// The byte of a display for linear light.
+std::uint8_t to_srgb(double x);
 
 }  // namespace command

@@ -1,10 +1,12 @@
 #include "scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <map>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -28,21 +30,13 @@ Colour srgb(int hex) {
 
 constexpr int grey = 0xbcc6d2;
 
+constexpr std::size_t palette_size = 12;
+
 /// Soft colours, far apart for neighbours in the list.
 Colour face_colour(std::size_t rank) {
-  static constexpr int palette[] = {0x8fb8de, 0xf2c078, 0x9fd0a4, 0xe39b94, 0xb9a7d6, 0xe8dc8c,
-                                    0x86cbc7, 0xe9aec8, 0xb7c48a, 0xa9b7c9, 0xd9b99b, 0x9bb0e6};
-  return srgb(palette[rank % std::size(palette)]);
-}
-
-/// 0: dark red, 1/2: yellow, 1: green-blue.
-Colour quality_colour(double q) {
-  static constexpr int stops[] = {0x7f0d23, 0xd73027, 0xfc8d59, 0xfee08b, 0xd9ef8b, 0x91cf60, 0x3aa99f};
-  const double x = std::clamp(q, 0.0, 1.0) * (std::size(stops) - 1);
-  const auto i = std::min(static_cast<std::size_t>(x), std::size(stops) - 2);
-  const auto t = static_cast<float>(x - static_cast<double>(i));
-  const Colour a = srgb(stops[i]), b = srgb(stops[i + 1]);
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+  static constexpr int palette[palette_size] = {0x8fb8de, 0xf2c078, 0x9fd0a4, 0xe39b94, 0xb9a7d6, 0xe8dc8c,
+                                                0x86cbc7, 0xe9aec8, 0xb7c48a, 0xa9b7c9, 0xd9b99b, 0x9bb0e6};
+  return srgb(palette[rank % palette_size]);
 }
 
 /// Two lamps and some light from everywhere; both sides of a triangle are lit. `normal` is a unit vector in the frame
@@ -83,21 +77,49 @@ std::unordered_set<std::uint64_t> sides_on_curves(const MeshArrays& mesh) {
   return curves;
 }
 
-/// Rank of each reference in the order of their first triangle.
-std::map<std::int32_t, std::size_t> ranks_of(const std::vector<std::int32_t>& refs) {
-  std::map<std::int32_t, std::size_t> ranks;
-  for (const std::int32_t ref : refs) ranks.emplace(ref, ranks.size());
-  return ranks;
+/// A colour of the palette for each reference: in the order of their first triangle the first one that no neighbour
+/// over an edge has, or, where twelve neighbours have all, the rank decides.
+std::map<std::int32_t, Colour> colours_of_references(const MeshArrays& mesh) {
+  std::vector<std::int32_t> order;
+  std::map<std::int32_t, std::set<std::int32_t>> beside;
+  std::unordered_map<std::uint64_t, std::int32_t> first;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::int32_t ref = mesh.triangle_refs[i];
+    if (beside.try_emplace(ref).second) order.push_back(ref);
+    for (int k = 0; k < 3; ++k) {
+      const auto [at, fresh] = first.emplace(key_of(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]), ref);
+      if (!fresh && at->second != ref) beside[ref].insert(at->second), beside[at->second].insert(ref);
+    }
+  }
+  std::map<std::int32_t, std::size_t> place;
+  std::map<std::int32_t, Colour> colours;
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    std::array<bool, palette_size> taken{};
+    for (const std::int32_t ref : beside[order[rank]])
+      if (const auto found = place.find(ref); found != place.end()) taken[found->second] = true;
+    // Beginning at the rank, so that few faces far from each other share a colour.
+    std::size_t k = rank % palette_size, tried = 0;
+    while (taken[k] && ++tried < palette_size) k = (k + 1) % palette_size;
+    place[order[rank]] = k, colours[order[rank]] = face_colour(k);
+  }
+  return colours;
 }
 
 /// Colours of faces: their own when any has one (grey for the others), else those of the palette.
 std::map<std::int32_t, Colour> colours_of_faces(const MeshArrays& mesh) {
-  std::map<std::int32_t, Colour> colours;
   const bool own = std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const FaceResult& f) { return f.rgb >= 0; });
-  for (const auto& [ref, rank] : ranks_of(mesh.triangle_refs)) colours[ref] = own ? srgb(grey) : face_colour(rank);
+  if (!own) return colours_of_references(mesh);
+  std::map<std::int32_t, Colour> colours;
+  for (const std::int32_t ref : mesh.triangle_refs) colours.try_emplace(ref, srgb(grey));
   for (const FaceResult& face : mesh.faces)
     if (face.rgb >= 0) colours[face.ref] = srgb(face.rgb);
   return colours;
+}
+
+/// Too dark for dark lines and for shades.
+bool is_dark(const Colour& colour) {
+  constexpr float darkest = 0.03f;
+  return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2] < darkest;
 }
 
 /// Side of the equilateral triangle of the same area.
@@ -118,13 +140,22 @@ std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Projection& p
     const double x = -(b[1] - a[1]) / length * half_width, y = (b[0] - a[0]) / length * half_width;
     const Point a1{a[0] + x, a[1] + y, a[2]}, a2{a[0] - x, a[1] - y, a[2]};
     const Point b1{b[0] + x, b[1] + y, b[2]}, b2{b[0] - x, b[1] - y, b[2]};
-    triangles.push_back({{a1, a2, b2}, dark, {}});
-    triangles.push_back({{a1, b2, b1}, dark, {}});
+    triangles.push_back({{a1, a2, b2}, dark, {}, 0, false});
+    triangles.push_back({{a1, b2, b1}, dark, {}, 0, false});
   }
   return triangles;
 }
 
 }  // namespace
+
+Colour scale_colour(double q) {
+  static constexpr int stops[] = {0x7f0d23, 0xd73027, 0xfc8d59, 0xfee08b, 0xd9ef8b, 0x91cf60, 0x3aa99f};
+  const double x = std::clamp(q, 0.0, 1.0) * (std::size(stops) - 1);
+  const auto i = std::min(static_cast<std::size_t>(x), std::size(stops) - 2);
+  const auto t = static_cast<float>(x - static_cast<double>(i));
+  const Colour a = srgb(stops[i]), b = srgb(stops[i + 1]);
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
 
 SizeScale::SizeScale(const MeshArrays& mesh) {
   for (const auto& t : mesh.triangles) {
@@ -161,7 +192,7 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
   const Projection projection(view, used, x0, y0, width, height);
   if (mesh.triangles.empty()) return lines_of(mesh, projection);
   const auto curves = sides_on_curves(mesh);
-  const auto colours = colours_of_faces(mesh);
+  const auto colours = options.paint == Paint::reference ? colours_of_references(mesh) : colours_of_faces(mesh);
   const SizeScale sizes(mesh);
 
   std::vector<ScreenTriangle> triangles;
@@ -171,16 +202,23 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
     const std::array<Point, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) continue;
     Colour colour = srgb(grey);
-    if (options.paint == Paint::face) colour = colours.at(mesh.triangle_refs[i]);
-    if (options.paint == Paint::size) colour = quality_colour(sizes.share(p[0], p[1], p[2]));
-    if (options.paint == Paint::quality) colour = quality_colour(shape_quality(p[0], p[1], p[2]));
+    if (options.paint == Paint::face || options.paint == Paint::reference) colour = colours.at(mesh.triangle_refs[i]);
+    const bool dark = is_dark(colour);
+    if (dark)
+      for (float& c : colour) c += 0.02f;  // black has no shades
+    if (options.paint == Paint::size) colour = scale_colour(sizes.share(p[0], p[1], p[2]));
+    if (options.paint == Paint::quality) colour = scale_colour(shape_quality(p[0], p[1], p[2]));
     const Point a = projection.in_camera(p[0]);
     Point normal = cross(minus(projection.in_camera(p[1]), a), minus(projection.in_camera(p[2]), a));
     const double length = std::sqrt(dot(normal, normal));
     if (!(length > 0)) continue;
     for (double& x : normal) x /= length;
 
-    ScreenTriangle s{{projection(p[0]), projection(p[1]), projection(p[2])}, shaded(colour, normal), {}};
+    ScreenTriangle s{{projection(p[0]), projection(p[1]), projection(p[2])},
+                     shaded(colour, normal),
+                     {},
+                     mesh.triangle_refs[i],
+                     dark};
     double pixels = 0;
     for (int k = 0; k < 3; ++k)
       pixels +=

@@ -10,7 +10,7 @@
 
 namespace command {
 
-enum class Paint { face, quality, size, none };
+enum class Paint { face, reference, quality, size, none };
 
 struct SceneOptions {
   Paint paint = Paint::face;
@@ -28,6 +28,9 @@ struct SizeScale {
   /// 0 for the smallest triangle to 1 for the largest, by the logarithm; 1/2 when all have one size.
   [[nodiscard]] double share(const Point& a, const Point& b, const Point& c) const;
 };
+
+/// Of Paint::quality and Paint::size, linear light. 0: dark red, 1/2: yellow, 1: green-blue.
+Colour scale_colour(double x);
 
 /// The triangles of `mesh` as `view` shows them in the rectangle [x0, x0 + width] x [y0, y0 + height], in pixels.
 /// Triangles whose vertices are not finite are left out.

@@ -26,6 +26,7 @@
 #include <map>
 
 #include "extent.h"
+#include "face_figures.h"
 #include "faults.h"
 #include "kinks.h"
 
@@ -33,33 +34,6 @@ namespace carreau_occ {
 namespace {
 
 constexpr int gap_samples = 9;
-
-const char* kind_name(GeomAbs_SurfaceType type) {
-  switch (type) {
-    case GeomAbs_Plane:
-      return "plane";
-    case GeomAbs_Cylinder:
-      return "cylinder";
-    case GeomAbs_Cone:
-      return "cone";
-    case GeomAbs_Sphere:
-      return "sphere";
-    case GeomAbs_Torus:
-      return "torus";
-    case GeomAbs_BezierSurface:
-      return "Bezier surface";
-    case GeomAbs_BSplineSurface:
-      return "B-spline surface";
-    case GeomAbs_SurfaceOfRevolution:
-      return "surface of revolution";
-    case GeomAbs_SurfaceOfExtrusion:
-      return "surface of extrusion";
-    case GeomAbs_OffsetSurface:
-      return "offset surface";
-    default:
-      return "other surface";
-  }
-}
 
 class Inspector {
  public:

@@ -6,7 +6,9 @@
 #include <optional>
 
 #include "fields/field_samples.h"
+#include "io/files.h"
 #include "support/error.h"
+#include "support/part_monitor.h"
 
 namespace carreau {
 
@@ -51,12 +53,17 @@ class FieldWriter {
 
   std::vector<std::string> write(const std::string& path) {
     std::vector<std::string> files;
+    as_png_ = suffix_of(path) == ".png";
+    if (as_png_) options_.groups = field_preview;
+    if (as_png_ && options_.multi_part && faces_.size() > 1)
+      throw InvalidArgument("a .png file holds one face: '" + path + "' cannot have all of them");
     if (options_.multi_part || options_.face != 0) {
       field_file_of_face(path, 0);  // checks the suffix
       write_file(path, faces_);
       return {path};
     }
     for (const std::size_t f : faces_) {
+      begun_ = files.size();
       files.push_back(field_file_of_face(path, run_.model.faces[f].ref));
       write_file(files.back(), {&f, 1});
     }
@@ -81,6 +88,7 @@ class FieldWriter {
     std::deque<FieldSource> sources;
     std::deque<FaceMetric> prescribed;
     std::deque<FieldImage> images;
+    std::deque<PartMonitor> part_of_run;
     std::vector<ExrPart> parts;
     for (const std::size_t f : faces) {
       sources.push_back(source_of(f));
@@ -88,9 +96,15 @@ class FieldWriter {
         prescribed.emplace_back(static_cast<int>(f), *rules_, interfaces_of(f), monitor_, limits());
         sources.back().prescribed = &prescribed.back();
       }
+      const auto all = static_cast<double>(faces_.size()), before = static_cast<double>(begun_ + images.size());
+      part_of_run.emplace_back(monitor_, before / all, (before + 1) / all);
       images.emplace_back(
-          sources.back(), options_, [this] { return deviations(); }, cad_, monitor_);
+          sources.back(), options_, [this] { return deviations(); }, cad_, part_of_run.back());
       parts.push_back(images.back().part());
+    }
+    if (as_png_) {
+      carreau::write_file(path, images.front().png());
+      return report(path, sources.front().ref, images.front());
     }
     ExrWriter writer(path, parts, options_.file);
     for (std::size_t i = 0; i < faces.size(); ++i) writer.write_part(static_cast<int>(i), images[i].pixels());
@@ -153,14 +167,16 @@ class FieldWriter {
   }
 
   const FieldRun& run_;
-  const FieldOptions& options_;
+  FieldOptions options_;
   Cad& cad_;
   Monitor& monitor_;
   std::optional<SizeRules> rules_;
   std::vector<std::size_t> faces_;             // to be written
   std::vector<std::uint32_t> first_triangle_;  // by face
   const MeshEvaluation* evaluation_ = nullptr;
-  bool unknown_ = false;  // the host failed while it was measured
+  bool as_png_ = false;
+  std::size_t begun_ = 0;  // faces of earlier files
+  bool unknown_ = false;   // the host failed while it was measured
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "fields/false_colours.h"
 #include "fields/field_samples.h"
 #include "io/files.h"
+#include "io/png.h"
 #include "support/error.h"
 
 namespace carreau {
@@ -364,10 +365,29 @@ ExrPrepare FieldImage::pixels() {
   };
 }
 
+std::string FieldImage::png() {
+  const ExrPrepare prepare = pixels();
+  const std::vector<ExrChannel> names = part().channels;
+  std::array<std::size_t, 4> rgba{};
+  for (std::size_t k = 0; k < rgba.size(); ++k)
+    rgba[k] = static_cast<std::size_t>(
+        std::find_if(names.begin(), names.end(), [k](const ExrChannel& c) { return c.name[0] == "RGBA"[k]; }) -
+        names.begin());
+  const int width = state_->grid.width;
+  return png_bytes(width, state_->grid.height, [&](int first, int rows, std::span<std::array<float, 3>> colours) {
+    std::vector<ExrPlane> planes(names.size(), ExrPlane(colours.size()));
+    prepare(first, rows)(planes);
+    const auto at = [&](std::size_t k, std::size_t i) { return std::bit_cast<float>(planes[rgba[k]][i]); };
+    // Over white.
+    for (std::size_t i = 0; i < colours.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) colours[i][k] = at(k, i) + (1 - at(3, i));
+  });
+}
+
 std::string field_file_of_face(const std::string& path, int ref) {
-  const std::string_view suffix = ".exr";
-  if (path.size() <= suffix.size() || suffix_of(path) != suffix)
-    throw InvalidArgument("the name '" + path + "' does not end in .exr");
+  const std::string suffix = suffix_of(path);
+  if (path.size() <= suffix.size() || (suffix != ".exr" && suffix != ".png"))
+    throw InvalidArgument("the name '" + path + "' ends neither in .exr nor in .png");
   const std::size_t stem = path.size() - suffix.size();
   return path.substr(0, stem) + ".face." + std::to_string(ref) + path.substr(stem);
 }

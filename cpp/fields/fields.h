@@ -79,6 +79,8 @@ class FieldImage {
   /// Makes the pixels; the geometry is asked by the thread that calls it, for pixels of the domain only. Where the host
   /// fails there is NaN; only Cancelled is thrown.
   [[nodiscard]] ExrPrepare pixels();
+  /// The preview over white as a PNG file: options.groups must be field_preview. Throws as pixels() does.
+  [[nodiscard]] std::string png();
   /// Pixels at which the host failed until now, and its first sentence.
   [[nodiscard]] std::int64_t failures() const noexcept;
   [[nodiscard]] const std::string& first_failure() const noexcept;
@@ -88,7 +90,8 @@ class FieldImage {
   std::unique_ptr<State> state_;
 };
 
-/// Name of the file of one face: "a/x.exr" becomes "a/x.face.7.exr". Throws InvalidArgument unless it ends in ".exr".
+/// Name of the file of one face: "a/x.exr" becomes "a/x.face.7.exr". Throws InvalidArgument unless it ends in ".exr"
+/// or ".png".
 std::string field_file_of_face(const std::string& path, int ref);
 
 /// Throws InvalidArgument with a sentence on what cannot be.

@@ -183,7 +183,7 @@ class Mesh(unittest.TestCase):
 
     def test_fields_of_a_cad_file_are_an_image_a_face(self):
         # What is in such files is tested in tests/command/fields_test.py and tests/cpp/session.
-        done = run("fields", os.path.join(SHAPES, "sphere.step"), "-o", self.out("s.exr"), "--size", "30", "--set",
+        done = run("fields", os.path.join(SHAPES, "sphere.step"), "-o", self.out("s.exr"), "--pixels", "30", "--set",
                    "hgeo_flag=1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         files = done.stdout.splitlines()

@@ -80,7 +80,7 @@ class Fields(unittest.TestCase):
     def test_hosts_in_c_and_fortran_give_one_file_a_face(self):
         for host in HOSTS:
             with self.subTest(host=host):
-                done = self.run_fields(self.pardom, "-o", "a.exr", "--size", "40x30", "--set", "hphydef=0.5", host=host)
+                done = self.run_fields(self.pardom, "-o", "a.exr", "--pixels", "40x30", "--set", "hphydef=0.5", host=host)
                 self.assertEqual((done.stdout, done.stderr), ("a.face.1.exr\n", ""))
                 part, = attributes(self.path("a.face.1.exr"))
                 self.assertEqual(part["dataWindow"], (0, 0, 39, 29))
@@ -93,7 +93,7 @@ class Fields(unittest.TestCase):
 
     def test_an_env_file_is_run_and_then_shown(self):
         self.write("blsurf.env", "hphydef 0.5\ncall inimesh\npref mine\ncall export\ncall exit\n")
-        done = self.run_fields("blsurf.env", "-o", "a.exr", "--size", "20", "--multi-part", "--channels", "mask,size")
+        done = self.run_fields("blsurf.env", "-o", "a.exr", "--pixels", "20", "--multi-part", "--channels", "mask,size")
         self.assertEqual(done.stdout, "a.exr\n")
         part, = attributes(self.path("a.exr"))
         self.assertEqual(part["channels"], ["mask", "size.angle", "size.h", "size.h1", "size.h2"])
@@ -102,18 +102,18 @@ class Fields(unittest.TestCase):
 
     def test_an_env_file_can_export_fields_itself(self):
         self.write("blsurf.env", "hphydef 0.5\ncall inimesh\nformat exr\ncall export\ncall exit\n")
-        self.run_fields("blsurf.env", "-o", "a.exr", "--size", "8")
+        self.run_fields("blsurf.env", "-o", "a.exr", "--pixels", "8")
         part, = attributes(self.path("x.exr"))
         self.assertEqual(part["dataWindow"], (0, 0, 1023, 1023))
 
     def test_raw_needs_no_mesh(self):
-        self.run_fields(self.pardom, "-o", "a.exr", "--size", "16", "--raw", "--face", "1", "--piz")
+        self.run_fields(self.pardom, "-o", "a.exr", "--pixels", "16", "--raw", "--face", "1", "--piz")
         part, = attributes(self.path("a.exr"))
         self.assertEqual((part["face.status"], part["dataWindow"]), ("not meshed", (0, 0, 15, 15)))
 
     def test_a_face_that_fails_is_shown_and_the_exit_code_is_1(self):
         self.write("two.pardom", "1\n" + FACE.format(2))
-        done = self.run_fields("two.pardom", "-o", "a.exr", "--size", "20", code=1)
+        done = self.run_fields("two.pardom", "-o", "a.exr", "--pixels", "20", code=1)
         self.assertIn("carreau: face 2, u = ", done.stderr)
         self.assertIn("pixels of the fields of face 2", done.stderr)
         part, = attributes(self.path("a.face.2.exr"))
@@ -129,7 +129,7 @@ class Fields(unittest.TestCase):
         self.fails(self.pardom, "-o", "a.exr", host="libc.so.6", sentence="cannot be loaded")  # not the system's
         self.fails(self.pardom, "-o", "a.exr", host=self.pardom, sentence="cannot be loaded")
         self.fails(self.pardom, "-o", "a.exr", host=PARTIAL, sentence="lacks surf0, alone or in a Fortran module cad_m")
-        self.fails(self.pardom, "-o", "a.png", sentence="'a.png' does not end in .exr")
+        self.fails(self.pardom, "-o", "a.tif", sentence="'a.tif' ends neither in .exr nor in .png")
         self.fails("x.step", "-o", "a.exr", sentence="--host goes with a .pardom or .env file, not with 'x.step'")
         self.fails("x.step", "-o", "a.exr", host="", sentence="x.step")
         self.fails(self.pardom, "-o", "a.exr", host="", sentence="--host names the shared library")
@@ -139,9 +139,9 @@ class Fields(unittest.TestCase):
         self.fails("no.env", "-o", "a.exr", "--set", "hphydef=1", sentence="--set")
         self.fails(self.pardom, "-o", "a.exr", "--set", "hphydef", sentence="NAME=VALUE")
         self.fails(self.pardom, "-o", "a.exr", "--set", "hphydeff=1", sentence="did you mean 'hphydef'")
-        self.fails(self.pardom, "-o", "a.exr", "--size", "0", sentence="'0' is neither")
-        self.fails(self.pardom, "-o", "a.exr", "--size", "12x", sentence="'12x' is neither")
-        self.fails(self.pardom, "-o", "a.exr", "--size", "99999", "--raw", sentence="from 1 to 65536")
+        self.fails(self.pardom, "-o", "a.exr", "--pixels", "0", sentence="'0' is neither")
+        self.fails(self.pardom, "-o", "a.exr", "--pixels", "12x", sentence="'12x' is neither")
+        self.fails(self.pardom, "-o", "a.exr", "--pixels", "99999", "--raw", sentence="from 1 to 65536")
         self.fails(self.pardom, "-o", "a.exr", "--channels", "colour", sentence="colour")
         self.fails(self.pardom, "-o", "a.exr", "--face", "7", "--raw", sentence="reference 7")
         self.fails(self.pardom, "-o", "a.exr", "--face", "2000000000", "--raw", sentence="reference 2000000000")

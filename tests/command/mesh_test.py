@@ -418,8 +418,9 @@ class Results(Folder):
                 done = subprocess.run([PROGRAM, *arguments, "--json"], capture_output=True, text=True, timeout=120, cwd=self.folder)
                 self.assertEqual(done.returncode, 2, done.stderr)
                 told = json.loads(done.stdout)
-                self.assertEqual(list(told), ["error"])
-                self.assertIn(told["error"], done.stderr)
+                self.assertEqual((list(told), told["format"]), (["format", "error"], f"carreau {arguments[0]} 1"))
+                self.assertIn(told["error"]["sentence"], done.stderr)
+                self.assertEqual(told["error"]["exit"], 2)
 
 
 if __name__ == "__main__":

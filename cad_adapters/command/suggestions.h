@@ -1,0 +1,19 @@
+// What a person may have meant by a word that is not known.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace command {
+
+/// Known words within a few slips (letters added, left out, changed, two exchanged), nearest first, at most three; and
+/// those that begin with the word. Capitals do not count.
+std::vector<std::string> near_words(const std::string& word, const std::vector<std::string>& known);
+
+/// "; did you mean 'size'?", "; did you mean 'size' or 'size-map'?", "." without any.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
+
+/// The names of all parameters.
+std::vector<std::string> parameter_names();
+
+}  // namespace command
