@@ -34,6 +34,7 @@
 #include "entity_check.h"
 #include "faults.h"
 #include "natural_bounds.h"
+#include "zero_edges.h"
 
 namespace carreau_occ {
 
@@ -187,6 +188,7 @@ void read_document(const std::string& path, const char* kind, const Handle(Indic
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     refuse(path, std::string("is not a readable ") + kind + " file");
   mend_resolution(reader);
+  take_out_zero_edges(session_of(reader)->Model());
   const EntityCheck check(session_of(reader));
   const bool translated = reader.Transfer(document, indicator->Start());
   file.losses = check.losses();
