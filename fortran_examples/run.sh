@@ -5,9 +5,9 @@ set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 . "$root/tests/setup.sh"
 need_packages g++ gcc gfortran cmake ninja-build libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev
-build=$root/build/examples
+build=$root/build/release
 out=$root/out/teapot
-configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_TESTS=OFF
+configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_FORTRAN=ON
 cmake --build "$build" -j "$(processors)" --target blsurf_teapot carreau_command
 
 mkdir -p "$out"

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""readers.py READER CARREAU TEAPOT.BPT: other programs read what `carreau mesh` writes: the same vertices, triangles, references and names.
+
+READER is vtk (whose readers ParaView uses), gmsh or meshio. --has READER: exit status 0 when this Python has it."""
+import importlib
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+READER = sys.argv[-1] if sys.argv[1] == "--has" else sys.argv[1]
+if sys.argv[1] == "--has":
+    importlib.import_module(READER)
+    sys.exit(0)
+PROGRAM, TEAPOT = sys.argv[2:4]
+
+# A corner of a cube: three squares, named by nobody, with curves and corners.
+CORNER = "3\n" + "".join("1 1\n" + "".join("%d %d %d\n" % p for p in face) for face in (
+    ((0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0)), ((0, 0, 0), (0, 0, 1), (0, 1, 0), (0, 1, 1)), ((0, 0, 0), (1, 0, 0), (0, 0, 1), (1, 0, 1))))
+
+
+def area(points, triangles):
+    total = 0
+    for t in triangles:
+        (a, b, c), (d, e, f), (g, h, i) = (tuple(map(float, points[v])) for v in t)
+        u, v = (d - a, e - b, f - c), (g - a, h - b, i - c)
+        total += math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2
+    return total
+
+
+def by_vtk(path):
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+    errors = []
+    reader = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".stl": vtk.vtkSTLReader}[os.path.splitext(path)[1]]()
+    reader.AddObserver("ErrorEvent", lambda *_: errors.append(path))
+    reader.SetFileName(path)
+    reader.Update()
+    assert not errors and reader.GetErrorCode() == 0, (path, reader.GetErrorCode())
+    grid = reader.GetOutput()
+    points = vtk_to_numpy(grid.GetPoints().GetData())
+    chosen = [i for i in range(grid.GetNumberOfCells()) if grid.GetCellType(i) == vtk.VTK_TRIANGLE]
+    triangles = [[grid.GetCell(i).GetPointId(k) for k in range(3)] for i in chosen]
+    refs = []
+    if path.endswith(".vtu"):
+        array = vtk_to_numpy(grid.GetCellData().GetArray("reference"))
+        refs = [int(array[i]) for i in chosen]
+        assert grid.GetFieldData().GetArray("face_name") is not None
+    return points, triangles, refs
+
+
+def by_meshio(path):
+    import meshio
+    mesh = meshio.read(path, file_format="gmsh") if path.endswith(".msh2") else meshio.read(path)
+    triangles, refs = [], []
+    key = next((k for k in ("reference", "gmsh:geometrical", "medit:ref") if k in mesh.cell_data), None)
+    for i, block in enumerate(mesh.cells):
+        if block.type == "triangle":
+            triangles += block.data.tolist()
+            refs += mesh.cell_data[key][i].astype(int).flatten().tolist() if key else []
+    return mesh.points, triangles, refs
+
+
+def by_gmsh(path):
+    import gmsh
+    if path.endswith(".msh2"):
+        copy = path[:-5] + ".2.msh"
+        os.link(path, copy)
+        path = copy
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.logger.start()
+        gmsh.open(path)
+        wrong = [line for line in gmsh.logger.get() if line.startswith(("Error", "Warning"))]
+        gmsh.logger.stop()
+        assert not wrong, wrong
+        tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        place = {int(tag): k for k, tag in enumerate(tags)}
+        points = [coordinates[3 * k:3 * k + 3] for k in range(len(tags))]
+        triangles, refs = [], []
+        for _, entity in gmsh.model.getEntities(2):
+            types, _, nodes = gmsh.model.mesh.getElements(2, entity)
+            for kind, corners in zip(types, nodes):
+                assert kind == 2, kind
+                triangles += [[place[int(v)] for v in corners[k:k + 3]] for k in range(0, len(corners), 3)]
+                refs += [entity] * (len(corners) // 3)
+        return points, triangles, refs
+    finally:
+        gmsh.finalize()
+
+
+READERS = {"vtk": (by_vtk, ("vtu", "stl")), "gmsh": (by_gmsh, ("msh", "msh2", "mesh", "stl")),
+           "meshio": (by_meshio, ("vtu", "msh", "msh2", "mesh", "meshb", "stl"))}
+
+
+def check(folder, geometry, options):
+    read, formats = READERS[READER]
+    names = {form: os.path.join(folder, "m." + form) for form in formats}
+    outputs = [word for name in names.values() for word in ("-o", name)]
+    done = subprocess.run([PROGRAM, "mesh", geometry, *outputs, "--json", *options], check=True, capture_output=True, text=True)
+    told = json.loads(done.stdout)
+    wanted = {face["reference"]: face["triangles"] for face in told["faces"]}
+    for form, name in names.items():
+        points, triangles, refs = read(name)
+        assert len(triangles) == sum(wanted.values()), (name, len(triangles), wanted)
+        assert form == "stl" or len(points) == told["mesh"]["vertices"], (name, len(points))
+        precision = 1e-6 if form == "stl" else 1e-12
+        assert abs(area(points, triangles) / told["mesh"]["area"] - 1) < precision, name
+        if refs and form != "stl":
+            assert {ref: refs.count(ref) for ref in set(refs)} == wanted, name
+        print(READER, form, len(points), "points", len(triangles), "triangles")
+
+
+with tempfile.TemporaryDirectory(prefix="carreau readers ") as home:
+    corner = os.path.join(home, "corner.bpt")
+    with open(corner, "w") as file:
+        file.write(CORNER)
+    for number, (geometry, options) in enumerate(((corner, ("--size", "0.3")), (corner, ("--size", "0.3", "--set", "curve_groups=0")),
+                                                  (TEAPOT, ("--size", "0.2")))):
+        folder = os.path.join(home, str(number))
+        os.mkdir(folder)
+        check(folder, geometry, options)
