@@ -767,6 +767,9 @@ typedef struct carreau_exr_options {
  * triangle of the face, the sizes at both ends of the colours (preview.size), the direction of rows, and the version of
  * the library. `options` may be NULL, which means all zero.
  *
+ * From "a/x.png" it makes pictures a/x.face.<ref>.png, or a/x.png with `face`: the preview over white, 8 bits of sRGB.
+ * They need no OpenEXR; a library that was built without it refuses .exr files (FILE).
+ *
  * The fields are those of the session's mesh. When there is no mesh, when the last carreau_mesh_generate has failed,
  * for faces that have failed, and when `raw` is 1, they are what the geometry answers in the domain, as far as its
  * curves are known: positions, derivatives, sizes. There are then no triangles, and no target unless the mesher had
