@@ -103,7 +103,9 @@ std::string choice_sentence(const std::string& name, const std::string& word, co
   const std::size_t range = type.find(" in [");
   double number = 0;
   if (range == std::string::npos || CLI::detail::lexical_cast(word, number)) return "";
-  return name + " '" + word + "' is not a number" + type.substr(range);
+  std::string bounds = type.substr(range + 5, type.find(']', range) - range - 5);
+  if (const std::size_t between = bounds.find(" - "); between != std::string::npos) bounds.replace(between, 3, " to ");
+  return name + " '" + word + "' is not a number from " + bounds;
 }
 
 }  // namespace

@@ -73,8 +73,8 @@ class FirstHour(unittest.TestCase):
         self.refused("mesh", "a.step", "--sze", "3", "-o", "a.vtu", sentence="carreau mesh has no option '--sze'; did you mean '--size'?")
         self.refused("mesh", "a.step", "--size-mapp=3", "-o", "a.vtu", sentence="carreau mesh has no option '--size-mapp'; did you mean '--size-map'?")
         self.refused("check", "a.mesh", "--zzzzzz", sentence="carreau check has no option '--zzzzzz'.")
-        self.refused("mesh", "a.step", "--angle", "x", "-o", "a.vtu", sentence="--angle 'x' is not a number in [0.01 - 89]")
-        self.refused("check", "a.mesh", "--limit", "all", sentence="--limit 'all' is not a number in [1 - 1000000]")
+        self.refused("mesh", "a.step", "--angle", "x", "-o", "a.vtu", sentence="--angle 'x' is not a number from 0.01 to 89")
+        self.refused("check", "a.mesh", "--limit", "all", sentence="--limit 'all' is not a number from 1 to 1000000")
         self.refused("picture", "a.mesh", "-o", "a.png", "--color", "qualty",
                      sentence="--color 'qualty' is none of: face, reference, quality, size, none; did you mean 'quality'?")
         self.refused("params", "hphydf", sentence="There is no parameter 'hphydf'; did you mean 'hphydef'? `carreau params` lists them all.")

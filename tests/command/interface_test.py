@@ -85,7 +85,7 @@ class Interface(unittest.TestCase):
         self.assertEqual(self.completed_by_bash("pic"), {"picture"})
         for command in commands():
             self.assertEqual(self.completed_by_bash(command, "-"), options_of(command))
-        self.assertEqual(self.completed_by_bash("picture", "--color", ""), {"face", "quality", "size", "none"})
+        self.assertEqual(self.completed_by_bash("picture", "--color", ""), {"face", "reference", "quality", "size", "none"})
         self.assertEqual(self.completed_by_bash("picture", "a.mesh", "--view", "b"), {"back", "bottom"})
         self.assertEqual(self.completed_by_bash("completion", ""), {"bash", "zsh", "fish"})
         self.assertEqual(self.completed_by_bash("params", "hphyd"), {"hphydef"})
@@ -119,7 +119,7 @@ class Interface(unittest.TestCase):
                           env=os.environ | {"HOME": self.folder})
             return {row.split("\t")[0] for row in text.splitlines()}
         self.assertTrue(set(commands()) <= complete("carreau "))
-        self.assertEqual(complete("carreau picture --color "), {"face", "quality", "size", "none"})
+        self.assertEqual(complete("carreau picture --color "), {"face", "reference", "quality", "size", "none"})
         self.assertTrue({"--size-map", "--size"} <= complete("carreau mesh --siz"))
 
 
