@@ -846,8 +846,8 @@ module carreau_c
       integer(c_int32_t), value :: threads
       integer(c_int64_t), value :: capacity
       integer(c_int64_t), intent(inout) :: count
-      integer(c_int32_t), intent(inout) :: triangles
-      real(c_double), intent(inout) :: xyz
+      integer(c_int32_t), intent(inout) :: triangles(*)
+      real(c_double), intent(inout) :: xyz(*)
       integer(c_int32_t) :: status
     end function c_mesh_intersections
 

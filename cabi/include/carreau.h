@@ -706,7 +706,7 @@ CARREAU_API carreau_status carreau_mesh_defects(carreau_mesh* mesh, int32_t clos
  * out_triangles has the indices of both triangles (rows of 2) and out_xyz a place (rows of 3); both may be NULL. A
  * capacity below *out_count is no error. Finding pairs is CARREAU_OK. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, int64_t capacity,
-                                                      int64_t* out_count, int32_t* out_triangles, double* out_xyz);
+                                                      int64_t* out_count, int32_t out_triangles[], double out_xyz[]);
 
 /* ---- Fields as images (OpenEXR) ---- */
 

@@ -57,8 +57,10 @@ Checked look_at(const CheckOptions& options) {
   return c;
 }
 
-/// No defect of any kind.
-bool is_sound(const Checked& c) { return c.defects == 0 && c.crossings.pairs == 0; }
+/// Models may cross themselves: that is a defect for those who say so.
+bool is_sound(const Checked& c, const CheckOptions& options) {
+  return c.defects == 0 && (c.crossings.pairs == 0 || !options.no_crossings);
+}
 
 std::string place_text(const Point& p) {
   char text[120];
@@ -181,7 +183,7 @@ int check(const CheckOptions& options) {
   const Checked c = look_at(options);
   if (options.json) {
     print_as_json(c, options);
-    return is_sound(c) ? 0 : 1;
+    return is_sound(c, options) ? 0 : 1;
   }
   std::printf("vertices    %" PRId64 "\ntriangles   %" PRId64 "\nfaces       %" PRId64 "\ncurve edges %" PRId64 "\n",
               c.vertices, c.triangles, c.faces, c.edges);
@@ -196,8 +198,8 @@ int check(const CheckOptions& options) {
       std::printf("  %s\n", sentence.c_str());
   }
   if (c.defects == 0) {
-    std::puts(is_sound(c) ? "defects     none" : "defects     none but triangles that cross");
-    return is_sound(c) ? 0 : 1;
+    std::puts(is_sound(c, options) ? "defects     none" : "defects     none but triangles that cross");
+    return is_sound(c, options) ? 0 : 1;
   }
   std::printf("defects     %" PRId64 "%s\n%s\n", c.defects, c.defects >= options.limit ? " or more" : "",
               c.sentences.c_str());

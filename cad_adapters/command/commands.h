@@ -54,7 +54,7 @@ int info(const InfoOptions& options);
 
 struct CheckOptions {
   std::string mesh;
-  bool closed = false, faces = false, json = false;
+  bool closed = false, no_crossings = false, faces = false, json = false;
   int limit = 20, worst = 3;
 };
 

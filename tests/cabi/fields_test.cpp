@@ -88,7 +88,7 @@ TEST_F(FieldsTest, ThatCannotBeWrittenLoseNoMesh) {
   const MeshData before = data_of(mesh());
   EXPECT_EQ(carreau_write_exr(session, file("none/x.exr").c_str(), nullptr), CARREAU_ERR_FILE);
   EXPECT_EQ(error(), "cannot write '" + file("none/x.face.1.exr") + "': No such file or directory");
-  EXPECT_EQ(carreau_write_exr(session, file("x.png").c_str(), nullptr), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_write_exr(session, file("x.tif").c_str(), nullptr), CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(carreau_mesh_write(mesh(), file("none/x.exr").c_str()), CARREAU_ERR_FILE);
   EXPECT_TRUE(data_of(mesh()) == before);
   EXPECT_TRUE(std::filesystem::is_empty(folder));

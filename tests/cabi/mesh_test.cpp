@@ -118,9 +118,9 @@ TEST_F(SessionTest, TellsTrianglesThatCross) {
   EXPECT_EQ(count, 0);
   // A square of two triangles, and three more through its middle.
   const std::string path = testing::TempDir() + "carreau_crossing.mesh";
-  std::ofstream(path) << "MeshVersionFormatted 2\nDimension 3\nVertices 9\n0 0 0 0\n2 0 0 0\n2 2 0 0\n0 2 0 0\n"
-                         "1 .5 -1 0\n1 .5 1 0\n1.25 .5 1 0\n.5 1 1 0\n.5 1.25 1 0\nTriangles 4\n"
-                         "1 2 3 1\n1 3 4 1\n5 6 7 2\n5 8 9 3\nEnd\n";
+  std::ofstream(path) << "MeshVersionFormatted 2\nDimension 3\nVertices 10\n0 0 0 0\n2 0 0 0\n2 2 0 0\n0 2 0 0\n"
+                         "1 .5 -1 0\n1 .5 1 0\n1.25 .5 1 0\n.5 1.5 1 0\n.5 1.75 1 0\n.5 1.5 -1 0\nTriangles 4\n"
+                         "1 2 3 1\n1 3 4 1\n5 6 7 2\n10 8 9 3\nEnd\n";
   carreau_mesh* file = nullptr;
   ASSERT_EQ(carreau_mesh_create(&file), CARREAU_OK);
   ASSERT_EQ(carreau_mesh_read(file, path.c_str()), CARREAU_OK) << carreau_mesh_last_error(file);

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cfenv>
 #include <cmath>
+#include <filesystem>
 #include <thread>
 
 #include "abi_fixture.h"
@@ -134,6 +136,31 @@ TEST_F(FailingHostTest, ProgressGrowsAndCanStopTheRun) {
   EXPECT_LT(log.fractions.size(), reports);
   ASSERT_EQ(carreau_set_progress_callback(session, nullptr, nullptr), CARREAU_OK);
   expect_old_mesh_and_a_usable_session();
+}
+
+TEST_F(FailingHostTest, ProgressNeverFallsWhateverTheRunConsistsOf) {
+  ASSERT_EQ(carreau_set_integer(session, "measure", 1), CARREAU_OK);
+  ASSERT_EQ(carreau_set_real(session, "gradation", 1.5), CARREAU_OK);
+  ProgressLog log;
+  ASSERT_EQ(carreau_set_progress_callback(session, log_progress, &log), CARREAU_OK);
+  const auto expect_growth = [&](std::int32_t phase) {
+    EXPECT_TRUE(std::is_sorted(log.fractions.begin(), log.fractions.end()));
+    EXPECT_NE(std::find(log.phases.begin(), log.phases.end(), phase), log.phases.end());
+    ASSERT_FALSE(log.fractions.empty());
+    EXPECT_GT(log.fractions.back(), log.fractions.front());
+    log = {};
+  };
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  EXPECT_EQ(log.fractions.back(), 1);
+  expect_growth(CARREAU_PHASE_MEASURE);
+  const std::string path = testing::TempDir() + "carreau_progress.exr";
+  carreau_exr_options options{};
+  options.struct_size = sizeof options;
+  options.longest = 64, options.multi_part = 1;
+  ASSERT_EQ(carreau_write_exr(session, path.c_str(), &options), CARREAU_OK) << error();
+  expect_growth(CARREAU_PHASE_WRITING);
+  std::filesystem::remove(path);
+  ASSERT_EQ(carreau_set_progress_callback(session, nullptr, nullptr), CARREAU_OK);
 }
 
 TEST_F(FailingHostTest, AStopWithoutARunDoesNothing) {

@@ -188,7 +188,9 @@ class Command(unittest.TestCase):
                 [(1, 2, 3, 1), (1, 3, 4, 2), (5, 6, 7, 7)])
 
     def test_check_finds_triangles_that_cross(self):
-        found = self.check_json("crossing.mesh", *self.CROSSING, code=1)["intersections"]
+        self.check_json("crossing.mesh", *self.CROSSING, "--no-crossings", code=1)
+        self.check_json("t.mesh", *self.TETRAHEDRON, "--no-crossings")
+        found = self.check_json("crossing.mesh", *self.CROSSING)["intersections"]
         self.assertEqual(found["pairs"], 1)
         pair, = found["faces"]
         self.assertEqual((pair["faces"], pair["pairs"], pair["triangles"]), ([1, 7], 1, [0, 2]))

@@ -510,8 +510,8 @@ TEST(Fields, ThatCannotBeWrittenLeaveTheMesh) {
   };
   EXPECT_EQ(sentence_of<FileError>(write(run.file("none/x.exr"), {.longest = 10})),
             "cannot write '" + run.file("none/x.face.1.exr") + "': No such file or directory");
-  EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.png"), {})),
-            "the name '" + run.file("x.png") + "' does not end in .exr");
+  EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.tif"), {})),
+            "the name '" + run.file("x.tif") + "' ends neither in .exr nor in .png");
   EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.face = 9})),
             "there is no face of the reference 9, whose fields are to be written");
   EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.longest = 0})),
