@@ -53,6 +53,8 @@ class Field {
     constexpr Metric2 none{0, 0, 0};
     return {p, {at(p), none, none}};
   }
+  /// Length of the segment p - q in the tensor at its middle.
+  [[nodiscard]] double length_at_middle(Vec2 p, Vec2 q) const noexcept { return length(at(0.5 * (p + q)), q - p); }
   /// Parameters of the host.
   [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
   /// Whether there may be places where it bends.

@@ -2,10 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
+
+namespace {
+
+// Where the field bends, straight triangles have less area than their lengths say; half of it is well enough.
+constexpr double straight_weight = 2 * 2 * std::numbers::sqrt3;
+constexpr double look_again_quality = 0.7;  // of bent triangles, from which on their edges are integrated
+
+}  // namespace
 
 // Kinks of the field, or bends too strong for second order, make charts that lie: what one tells of distances in six
 // directions must be what the tensors halfway do.
@@ -67,6 +76,36 @@ Sizes Shapes::classify() const noexcept {
 double Shapes::quality(int p, int q, int r) const noexcept {
   if (!mesh_.is_bent(p, q, r)) return mesh_.quality(p, q, r);
   return orientation(mesh_.at(p), mesh_.at(q), mesh_.at(r)) > 0 ? lengths(p, q, r).quality() : 0;
+}
+
+// By two points of Gauss on each edge.
+Lengths Shapes::integrated_lengths(int p, int q, int r) const {
+  constexpr double first = 0.2113248654051871;
+  const auto squared = [&](int a, int b) {
+    const Vec2 A = mesh_.at(a), B = mesh_.at(b);
+    const double one = carreau::squared_length(field_.at(lerp(A, B, first)), B - A);
+    const double two = carreau::squared_length(field_.at(lerp(B, A, first)), B - A);
+    return 0.25 * (one + two) + 0.5 * std::sqrt(one * two);
+  };
+  return {squared(q, r), squared(r, p), squared(p, q)};
+}
+
+double Shapes::quality_at_centroid(int p, int q, int r) const {
+  const Vec2 P = mesh_.at(p), Q = mesh_.at(q), R = mesh_.at(r);
+  if (orientation(P, Q, R) <= 0) return 0;
+  const Metric2 m = field_.at((1.0 / 3) * (P + Q + R));
+  const Vec2 u = Q - P, v = R - P;
+  const double area = cross(u, v) * std::sqrt(std::max(determinant(m), 0.0));
+  if (mesh_.is_bent(p, q, r)) {
+    const auto shape_of = [&](const Lengths& l) {
+      return std::min(l.quality(), straight_weight * area / (l.a + l.b + l.c));
+    };
+    const double roughly = shape_of(lengths(p, q, r));
+    // The tensor halfway says little of long edges that leave a thin layer and come back, or cross it.
+    return roughly < look_again_quality ? shape_of(integrated_lengths(p, q, r)) : roughly;
+  }
+  return 2 * std::numbers::sqrt3 * area /
+         (carreau::squared_length(m, u) + carreau::squared_length(m, v) + carreau::squared_length(m, u - v));
 }
 
 }  // namespace carreau::plane

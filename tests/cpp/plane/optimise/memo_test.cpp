@@ -45,15 +45,15 @@ TEST(Memo, TrianglesOfAGridHaveKeysOfTheirOwn) {
 }
 
 TEST(Memo, WhatIsNotKnownIsNotFound) {
-  Findings<double> findings;
-  findings.open();
+  Memo<double> findings;
+  findings.clear();
   const PlaceKey known = key_of_place({0.25, 0.5}), other = key_of_place({0.5, 0.25});
   EXPECT_EQ(findings.find(known), nullptr);
   findings.put(known, 0.75);
   ASSERT_NE(findings.find(known), nullptr);
   EXPECT_EQ(*findings.find(known), 0.75);
   EXPECT_EQ(findings.find(other), nullptr);
-  findings.open();
+  findings.clear();
   EXPECT_EQ(findings.find(known), nullptr);
 }
 
