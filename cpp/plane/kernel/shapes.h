@@ -9,11 +9,6 @@
 
 namespace carreau::plane {
 
-/// Change (Shapes::change) from which on sizes count as graded.
-inline constexpr double graded_change = 1.3;
-/// Edges of bent triangles that are longer (squared) are taken for what they are: too long.
-inline constexpr double longest_bent2 = 3;
-
 /// A triangle in the chart about its centroid.
 struct ChartedTriangle {
   Chart chart;

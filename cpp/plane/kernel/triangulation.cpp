@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 int Triangulation::locate(Vec2 p, int hint) const noexcept {
-  constexpr std::size_t fixed_order_steps = 40;
   const Triangle* const T = triangles.data();
   const Vertex* const V = vertices.data();
   int t = hint, from = -1;
@@ -51,8 +51,7 @@ int Triangulation::locate(Vec2 p, int hint) const noexcept {
 }
 
 void Triangulation::renumber_if_large() {
-  constexpr std::size_t fits_in_cache = 200'000;  // triangles
-  if (triangles.size() < fits_in_cache) return;
+  if (triangles.size() < renumbered_from) return;
   // By counting on the largest vertex of each.
   const auto key = [](const Triangle& T) { return std::max({T.v[0], T.v[1], T.v[2]}); };
   std::vector<std::int32_t> next(vertices.size() + 1, 0), rank(triangles.size());

@@ -3,18 +3,11 @@
 #include <algorithm>
 
 #include "plane/optimise/mending.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr double doubtful_quality = 0.85;  // in the mean metric of the vertices, which are at hand
-constexpr int mending_passes = 6;
-// Work is bounded by a multiple of the mesh: a boundary without any relation to the sizes leaves nothing but bad
-// triangles. It is counted by shapes, since a fine boundary far from all other vertices gives stars of thousands; the
-// least is a few tenths of a second.
-constexpr std::int64_t shapes_a_triangle = 24, least_shapes = 4'000'000;
-constexpr int triangles_between_checks = 1 << 16, shapes_between_checks = 1 << 15;
 
 /// Triangles that are helped.
 enum class Helped : std::uint8_t { crowded, crowded_or_bad };
@@ -45,10 +38,10 @@ std::vector<std::int32_t> help(PlaneWork& work, Helped helped) {
   const auto total = static_cast<std::int32_t>(work.mesh.triangles.size());
   std::vector<std::int32_t> open, looked_at;
   for (std::int32_t t = 0; t < total; ++t) {
-    if (t % triangles_between_checks == 0) work.monitor.checkpoint();
+    if (t % steps_between_checks == 0) work.monitor.checkpoint();
     if (needs_help(work, helped, t)) open.push_back(t);
   }
-  const std::int64_t budget = std::max(least_shapes, shapes_a_triangle * total);
+  const std::int64_t budget = std::max(mending_shapes, mending_shapes_a_triangle * total);
   std::int64_t checked = 0;
   Mending mending{work};
   if (!open.empty()) mending.failed_moves.clear(), mending.failed_points.clear();

@@ -4,17 +4,11 @@
 #include <utility>
 
 #include "plane/kernel/star.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr int vertices_between_checks = 1 << 14;
-// A layer that is shifted by one edge leaves triangles of 0.6 until vertices move; none may be much worse.
-constexpr double shifted_quality = 0.5;
-// Mean squared length of a vertex' edges below which it may go, and of the longest edge and for the worst triangle that
-// are left.
-constexpr double dense_length2 = 0.9, longest_thinned2 = 2.6, thinned_quality = 0.45;
 
 // Change of the sum of squares of the excesses by a swap.
 int swap_gain(const Triangulation& mesh, const Degrees& degrees, int t, int i) {
@@ -130,7 +124,7 @@ void cancel_degree_pairs(PlaneWork& work, Degrees& degrees, int reach) {
   std::vector<std::pair<std::int32_t, std::int32_t>> swapped;
   const auto n = static_cast<int>(work.mesh.vertices.size());
   for (int v = work.fixed; v < n; ++v) {
-    if (v % vertices_between_checks == 0) work.monitor.checkpoint();
+    if (v % steps_between_checks == 0) work.monitor.checkpoint();
     if (work.mesh.vertices[v].triangle < 0 || degrees.excess(v) < 1 || swap_around(work, degrees, v) ||
         degrees.excess(v) != 1 || !star.collect(work.mesh, v))
       continue;
@@ -149,7 +143,7 @@ void remove_surplus_vertices(PlaneWork& work, Degrees& degrees) {
   const auto n = static_cast<int>(work.mesh.vertices.size());
   bool any = false;
   for (int v = work.fixed; v < n; ++v) {
-    if (v % vertices_between_checks == 0) work.monitor.checkpoint();
+    if (v % steps_between_checks == 0) work.monitor.checkpoint();
     if (work.mesh.vertices[v].triangle < 0 || degrees.excess(v) > -1 || !star.collect(work.mesh, v) ||
         has_imposed_spoke(work.mesh, star, v))
       continue;

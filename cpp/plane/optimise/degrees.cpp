@@ -5,16 +5,9 @@
 #include <numbers>
 
 #include "plane/optimise/inner_edges.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
-
-namespace {
-
-// A swap for the sake of degrees leaves no triangle worse than this.
-constexpr double swap_quality = 0.6;
-constexpr int degree_passes = 2;
-
-}  // namespace
 
 Degrees count_degrees(const PlaneWork& work) {
   const Triangulation& mesh = work.mesh;
@@ -53,7 +46,8 @@ void swap_to_degree_six(PlaneWork& work, Degrees& degrees) {
       if (degrees.excess(c) + degrees.excess(d) - degrees.excess(a) - degrees.excess(b) + 2 >= 0 ||
           (A.imposed >> i & 1) != 0)
         return;
-      if (work.shapes.quality(c, a, d) <= swap_quality || work.shapes.quality(c, d, b) <= swap_quality) return;
+      if (work.shapes.quality(c, a, d) <= degree_swap_quality || work.shapes.quality(c, d, b) <= degree_swap_quality)
+        return;
       mesh.swap_edge(t, i);
       --degrees.found[a], --degrees.found[b], ++degrees.found[c], ++degrees.found[d];
       any = true;

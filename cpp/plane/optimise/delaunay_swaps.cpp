@@ -6,22 +6,16 @@
 #include "metric/field_length.h"
 #include "plane/kernel/metric_delaunay.h"
 #include "plane/optimise/inner_edges.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
 
-constexpr int passes = 10;
-constexpr int edges_between_checks = 256;
-// Nearly cocircular vertices keep their diagonal.
-constexpr double cocircular = 1e-9;
-// Units, and shortest edges of the triangle: longer than any edge that points a unit apart leave.
-constexpr double long_edge = 3;
-
 // Opposite angles, at c and d, that sum to more than pi: their sines are areas over lengths.
 bool sum_exceeds_pi(double dot_c, double area_c, double dot_d, double area_d) noexcept {
   const double s = dot_c * area_d + dot_d * area_c, scale = std::abs(dot_c) * area_d + std::abs(dot_d) * area_c;
-  return s < -cocircular * scale;
+  return s < -swap_tolerance * scale;
 }
 
 // By Simpson's rule: on an edge of several units sizes may change manifold, as beside a waist.
@@ -38,7 +32,8 @@ double squared_length_along(const PlaneWork& work, int u, int v) {
 bool wants_bent_swap(const PlaneWork& work, int a, int b, int c, int d) {
   const Shapes& shapes = work.shapes;
   const double ab = shapes.squared_length(a, b);
-  if (ab > longest_bent2) return squared_length_along(work, c, d) < squared_length_along(work, a, b) * (1 - cocircular);
+  if (ab > longest_bent2)
+    return squared_length_along(work, c, d) < squared_length_along(work, a, b) * (1 - swap_tolerance);
   const Lengths abc{shapes.squared_length(b, c), shapes.squared_length(c, a), ab},
       abd{shapes.squared_length(b, d), shapes.squared_length(d, a), ab};
   return sum_exceeds_pi(abc.a + abc.b - ab, std::sqrt(abc.area2()), abd.a + abd.b - ab, std::sqrt(abd.area2()));
@@ -68,7 +63,7 @@ bool has_long_edge(const Triangulation& mesh, const Triangle& T) {
     const double l2 = mesh.squared_length(T.v[i], T.v[next3[i]]);
     shortest2 = std::min(shortest2, l2), longest2 = std::max(longest2, l2);
   }
-  return longest2 > long_edge * long_edge * shortest2;
+  return longest2 > long_edge2 * shortest2;
 }
 
 // Where hundreds of edges lean over dozens of units one swap gains less than the metrics of neighbouring triangles
@@ -90,9 +85,9 @@ void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
     const Triangle& A = mesh.triangles[t];
     if (A.n[i] == no_edge || mesh.is_imposed(t, i)) continue;
     const int u = A.n[i] >> 2, c = A.v[i], a = A.v[next3[i]], b = A.v[prev3[i]], d = mesh.triangles[u].v[A.n[i] & 3];
-    if (!(mesh.squared_length(a, b) > long_edge * long_edge) || !mesh.can_swap(t, i)) continue;
-    if (++measured % edges_between_checks == 0) work.monitor.checkpoint();
-    if (!(length_along(c, d) < (1 - cocircular) * length_along(a, b))) continue;
+    if (!(mesh.squared_length(a, b) > long_edge2) || !mesh.can_swap(t, i)) continue;
+    if (++measured % integrals_between_checks == 0) work.monitor.checkpoint();
+    if (!(length_along(c, d) < (1 - swap_tolerance) * length_along(a, b))) continue;
     mesh.swap_edge(t, i);
     triangles.insert(triangles.end(), {t, u});
     open.insert(open.end(), {4 * t, 4 * t + 2, 4 * u, 4 * u + 1});
@@ -115,10 +110,10 @@ void swap_to_delaunay(PlaneWork& work) {
   for_inner_edges(mesh, work.monitor, [&](int t, int i) {
     if (wants_swap(work, t, i)) swap(t, i, changed);
   });
-  // A bounded number of passes: in a metric that varies swaps can run in circles. Then both triangles of each swap come
-  // back, and the list doubles with each pass.
+  // A bounded number of delaunay_passes: in a metric that varies swaps can run in circles. Then both triangles of each
+  // swap come back, and the list doubles with each pass.
   const std::size_t most = 2 * mesh.triangles.size();
-  for (int pass = 0; pass < passes && !changed.empty() && changed.size() <= most; ++pass) {
+  for (int pass = 0; pass < delaunay_passes && !changed.empty() && changed.size() <= most; ++pass) {
     work.monitor.checkpoint();
     next.clear();
     for (const std::int32_t t : changed)
@@ -129,8 +124,8 @@ void swap_to_delaunay(PlaneWork& work) {
       }
     changed.swap(next);
   }
-  // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many passes. Where no
-  // edge is long, swaps run in circles between triangles that are as good as each other.
+  // The two sides of a long strip that are fans of hundreds of triangles in the frame take as many delaunay_passes.
+  // Where no edge is long, swaps run in circles between triangles that are as good as each other.
   if (!mesh.bends.empty()) return;
   std::erase_if(changed, [&](std::int32_t t) { return !has_long_edge(mesh, mesh.triangles[t]); });
   shorten_long_edges(work, changed);

@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "plane/kernel/star.h"
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
-
-// Height over the longest side. Good triangles of metrics have the inverse of the metric's ratio, of some ten thousand
-// at most; points put on edges are on them but for rounding.
-constexpr double flat_height = 1e-7;
 
 // Over the longest side; 0 unless counterclockwise (exactly).
 double height(const Triangulation& mesh, int p, int q, int r) {

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "plane/kernel/triangulation.h"
+#include "plane/thresholds.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {
 
 inline constexpr std::int32_t triangles_at_once = 256;
-inline constexpr int triangles_between_checks = 1 << 16;
 
 /// Half-edges of the triangles from `first` to before `end` whose neighbour has a larger number, without a branch that
 /// a processor could not predict.
@@ -50,7 +50,7 @@ void for_inner_edges(const Triangulation& mesh, Monitor& monitor, const Use& use
   std::vector<HalfEdge> edges;
   const auto total = static_cast<std::int32_t>(mesh.triangles.size());
   for (std::int32_t first = 0; first < total; first += triangles_at_once) {
-    if (first % triangles_between_checks == 0) monitor.checkpoint();
+    if (first % steps_between_checks == 0) monitor.checkpoint();
     list_edges(mesh, first, std::min(total, first + triangles_at_once), edges);
     for (std::size_t k = 0; k < edges.size(); ++k) {
       prefetch_beyond(mesh, edges, k);

@@ -7,27 +7,12 @@
 #include <vector>
 
 #include "plane/optimise/zone_moves.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
 
-// Triangles of a better shape are left alone: to search at those below .92 costs twice as much and raises no worst one.
-constexpr double searched_quality = 0.88;
-constexpr int most_passes = 8;
-// Work, counted by shapes, is bounded by a multiple of the mesh.
-constexpr std::int64_t least_shapes = 16'000, shapes_a_triangle = 48;
-// Where nothing helps, strips between fixed borders, there is an end sooner.
-constexpr std::int64_t first_shapes = 2'400, first_shapes_a_triangle = 4, shapes_a_success = 12'000;
-// Of the mean cost of a zone.
-constexpr double change_gain = 0.01, round_gain = 0.02;
-constexpr int relaxing_rounds = 4;
-// Changes that promise most are followed through.
-constexpr std::size_t most_promising = 5;
-// Squared lengths of the edges that a change leaves, unless some were longer or shorter before.
-constexpr double longest_left2 = 2.4, shortest_left2 = 0.4;
-constexpr double least_split2 = 1.1;  // squared length of an edge that is split
-constexpr double least_collapse_quality = 0.05;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Change {
@@ -185,11 +170,11 @@ void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals)
   const Triangulation& mesh = work.mesh;
   if (!mesh.bends.empty()) return;
   const auto total = static_cast<std::int64_t>(mesh.triangles.size());
-  const std::int64_t budget = least_shapes + shapes_a_triangle * total;
-  std::int64_t allowed = first_shapes + first_shapes_a_triangle * total;
+  const std::int64_t budget = search_shapes + search_shapes_a_triangle * total;
+  std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
   SearchZone zone(work, normals);
   std::vector<char> in_vain(mesh.triangles.size(), 0);
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < search_passes; ++pass) {
     bool any = false;
     for (const auto& [rank, t] : list_bad(work, in_vain)) {
       if (zone.shapes_asked > std::min(budget, allowed)) return;
@@ -200,7 +185,7 @@ void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals)
       in_vain.resize(mesh.triangles.size(), 0);
       in_vain[t] = 1;
       if (!better) continue;
-      allowed += shapes_a_success;
+      allowed += search_shapes_a_success;
       for (const std::int32_t s : zone.triangles) in_vain[s] = 0;
       any = true;
     }

@@ -5,16 +5,11 @@
 #include <limits>
 
 #include "plane/optimise/star_cost.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr double refine_quality = 0.45;  // below, shape goes before size
-constexpr double gain = 1e-3;
-constexpr double short_edge_height = 0.9;       // of a vertex inserted over a short edge, in lengths of the edge
-constexpr double longest_after_removal2 = 2.0;  // squared length
-constexpr double longest_crowded2 = 2.1, crowded_quality = 0.6;
 
 // What moves make small: bad triangles weigh much; one that is turned over outweighs everything.
 double penalty(double quality) noexcept {
@@ -32,7 +27,7 @@ bool swap(Mending& m, int t) {
     const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]], d = U.v[T.n[i] & 3];
     const double before = std::min(shapes.quality_at_centroid(c, a, b), shapes.quality_at_centroid(d, b, a));
     const double after = std::min(shapes.quality_at_centroid(c, a, d), shapes.quality_at_centroid(c, d, b));
-    if (after <= before + gain) continue;
+    if (after <= before + mending_gain) continue;
     m.changed.push_back(t);
     m.changed.push_back(T.n[i] >> 2);
     mesh.swap_edge(t, i);
@@ -66,7 +61,7 @@ bool move_to_best(Mending& m, int v) {
         P = kept;
     }
   }
-  return best < before * (1 - gain);
+  return best < before * (1 - mending_gain);
 }
 
 bool move(Mending& m, int v) {
@@ -95,14 +90,14 @@ bool remove(Mending& m, int v, bool crowded) {
   double worst = 1;
   for (int k = 0; k < n; ++k) worst = std::min(worst, shapes.quality_at_centroid(v, ring[k], ring[(k + 1) % n]));
   int into = -1;
-  double best = crowded ? std::max(std::min(worst, crowded_quality) - gain, 0.0) : worst + gain;
+  double best = crowded ? std::max(std::min(worst, uncrowded_quality) - mending_gain, 0.0) : worst + mending_gain;
   for (int k = 0; k < n; ++k) {
     const int u = ring[k];
     double least = 1;
     for (int j = 1; j + 1 < n && least > best; ++j) {
       const int a = ring[(k + j) % n], b = ring[(k + j + 1) % n];
       least = std::min(least, shapes.quality_at_centroid(u, a, b));
-      if (j > 1 && shapes.squared_length(u, a) > (crowded ? longest_crowded2 : longest_after_removal2)) least = 0;
+      if (j > 1 && shapes.squared_length(u, a) > (crowded ? longest_uncrowded2 : longest_after_removal2)) least = 0;
     }
     if (least > best) best = least, into = k;
   }
@@ -161,7 +156,7 @@ bool insert(Mending& m, Vec2 p, int t, bool spaced) {
     move_to_best(m, v);
     m.work.shapes.set_metric(v);
   }
-  if (worst_around(m, v, spaced) <= before + gain) {
+  if (worst_around(m, v, spaced) <= before + mending_gain) {
     mesh.vertices.pop_back();
     if (!mesh.bends.empty()) mesh.bends.pop_back();
     m.failed_points.put(key, true);
@@ -185,7 +180,7 @@ bool insert_over_short_edge(Mending& m, int t) {
   for (int k = 1; k < 3; ++k)
     if (l2[k] < l2[i]) i = k;
   const Vec2 a = V[next3[i]]->point(), b = V[prev3[i]]->point(), e = b - a;
-  const double k = short_edge_height / std::sqrt(std::max(determinant(mean), 1e-300));
+  const double k = over_short_edge / std::sqrt(std::max(determinant(mean), 1e-300));
   const Vec2 p{0.5 * (a.x() + b.x()) - k * (mean.b * e.x() + mean.c * e.y()),
                0.5 * (a.y() + b.y()) + k * (mean.a * e.x() + mean.b * e.y())};
   return insert(m, p, t, false);

@@ -10,11 +10,6 @@
 
 namespace carreau::plane {
 
-/// Triangles of a worse shape are bad.
-inline constexpr double bad_quality = 0.8;
-/// Squared length of edges that are crowded.
-inline constexpr double crowded_length2 = 0.52;
-
 struct Mending {
   PlaneWork& work;
   std::vector<std::int32_t> changed = {};  ///< triangles to be looked at again

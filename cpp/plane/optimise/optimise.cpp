@@ -6,6 +6,7 @@
 #include "plane/optimise/delaunay_swaps.h"
 #include "plane/optimise/flat_triangles.h"
 #include "plane/optimise/smoothing.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
@@ -15,9 +16,6 @@ namespace {
 // leave (Chebyshev's semi-iteration, its longest moves cut off for the sake of triangles that turn over).
 constexpr double far_first[] = {1.6, 1.6}, short_last[] = {1, 0.7};
 constexpr double spread[] = {1, 2.5, 1.4, 0.7}, once[] = {1};
-constexpr double pull_even = 0.05, pull_graded = 0.1;
-// Steps of a degree pair along its layer.
-constexpr int reach_even = 1, reach_graded = 3;
 
 }  // namespace
 
@@ -34,17 +32,17 @@ void optimise(PlaneWork& work) {
     smooth(work, arrays, short_last, aim);
     update_metrics(work);
   } else if (sizes == Sizes::even) {
-    cancel_degree_pairs(work, degrees, reach_even);
+    cancel_degree_pairs(work, degrees, pair_reach_even);
     smooth(work, arrays, spread, {.pull = pull_even, .by_size = false});
     update_metrics(work);
   } else {
     // There is more to relax. Where pairs cancel, what they held apart must move, and again after the removals. Metrics
     // follow once: to ask where sizes change costs as much as two passes, and gains nothing before the long one.
     const SmoothingAim aim{.pull = pull_graded, .by_size = true};
-    cancel_degree_pairs(work, degrees, reach_graded);
+    cancel_degree_pairs(work, degrees, pair_reach_graded);
     smooth(work, arrays, once, aim);
     remove_surplus_vertices(work, degrees);
-    cancel_degree_pairs(work, degrees, reach_graded);
+    cancel_degree_pairs(work, degrees, pair_reach_graded);
     smooth_evenly(work, arrays, {.passes = 7, .slowest = 0.05}, aim);
     update_metrics(work);
     remove_crowded_vertices(work);  // smoothing mends more of the bad ones than single moves do

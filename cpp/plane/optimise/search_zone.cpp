@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "plane/thresholds.h"
+
 namespace carreau::plane {
-
-namespace {
-
-// Square of the turn of the surface along an edge, as a chord of unit normals, that leaves no flat spot: 20 degrees.
-constexpr double least_turn2 = 0.12;
-
-}  // namespace
 
 SearchZone::SearchZone(PlaneWork& shared, const SampledNormals* normals) : work(shared), normals_(normals) {
   for (const Vertex& V : work.mesh.vertices) places.push_back(key_of_place(V.point()));

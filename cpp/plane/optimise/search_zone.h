@@ -14,10 +14,6 @@
 
 namespace carreau::plane {
 
-/// What is better by less than this share is no better: where meshes are symmetric, the last bits of a host's numbers
-/// would decide.
-inline constexpr double tie = 1e-6;
-
 /// Cost of a triangle of this shape. The worst weigh most: 2.8 at .8, 0.36 at .95. Equilateral triangles cost nothing.
 inline double shape_cost(double quality) noexcept {
   if (!(quality > 0)) return std::numeric_limits<double>::infinity();

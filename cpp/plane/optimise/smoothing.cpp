@@ -5,19 +5,14 @@
 #include <numbers>
 
 #include "plane/kernel/star.h"
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
 
-constexpr double least_area = 0.2;  // of a parallelogram in the metric after a move (ideal: 0.87)
-constexpr int undo_rounds = 20;
-constexpr int vertices_between_checks = 1 << 16;
 constexpr std::size_t prefetch_distance = 12;
-// Bounds of what is kept of metrics: of the root of the determinant over the trace, and of that root.
-constexpr double most_stretched = 1e-15, least_root = 1e-30;
-
 // The same in the plane, times the root of the determinant of the sum of three metrics.
 constexpr double least_area_in_sum = 3 * least_area;
 
@@ -269,7 +264,7 @@ void smooth_evenly(PlaneWork& work, SmoothingArrays& arrays, EvenDamping damping
 
 void update_metrics(PlaneWork& work) {
   for (int v = work.fixed; v < static_cast<int>(work.mesh.vertices.size()); ++v) {
-    if (v % vertices_between_checks == 0) work.monitor.checkpoint();
+    if (v % steps_between_checks == 0) work.monitor.checkpoint();
     work.shapes.set_metric(v);
   }
 }

@@ -3,15 +3,13 @@
 #include <algorithm>
 
 #include "plane/optimise/star_cost.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
 
-// Cost of a triangle of Q2 .97: vertices amid such ones need not move.
-constexpr double good_enough = 0.2;
-constexpr double steps[] = {0.15, 0.05};
-constexpr int turns_a_step = 3;
+constexpr double steps[] = {0.15, 0.05};  // units
 
 // Goes from the place of v to the best of six at this distance, and so on as long as that helps. `best`: the cost of
 // the star.
@@ -48,7 +46,7 @@ Vec2 best_place(SearchZone& zone, int v, bool quick, bool tried) {
     best += one;
     if (one > most) most = one, worst = k;
   }
-  if (best < static_cast<double>(n) * good_enough) return old.point();
+  if (best < static_cast<double>(n) * cheap_enough) return old.point();
   // What is worst is asked first: most moves need no more.
   std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(worst), ring.end());
   for (const double step : steps) {

@@ -4,29 +4,24 @@
 #include <cmath>
 
 #include "plane/placement/circumcentres.h"
-#include "plane/placement/distances.h"
 #include "plane/placement/front.h"
 #include "plane/placement/respacing.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
 
-constexpr int first_stride = 64;
-// Over a long base the apex keeps at least this height, squared.
-constexpr double least_height2 = 0.3;
-
-// Where the field bends, the triangle is isosceles in the chart about its own centroid, which is found in turns with
-// it.
+// Where the field bends, the triangle is isosceles in the chart about its own centroid, which is found in chart_rounds
+// with it.
 Candidate apex_in_charts(const Placement& placement, const FrontEdge& edge, Vec2 first) {
-  constexpr int turns = 2;
   const Triangulation& mesh = placement.mesh;
   const Vec2 a = mesh.at(edge.a), b = mesh.at(edge.b);
   Vec2 top = first;
-  for (int k = 0; k < turns; ++k) {
+  for (int k = 0; k < chart_rounds; ++k) {
     const ChartedTriangle y(placement.field, a, b, top, !mesh.is_kinked(edge.a, edge.b));
     const Vec2 e = y.b - y.a;
-    const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, least_height2) / l2);
+    const double l2 = dot(e, e), height = std::sqrt(std::max(1 - 0.25 * l2, least_apex_height2) / l2);
     top = y.chart.point(0.5 * (y.a + y.b) + height * Vec2{-e.y(), e.x()}, top);
   }
   return {top, placement.field.at(top), edge.edge, edge.a};
@@ -40,7 +35,7 @@ Candidate apex(const Placement& placement, const FrontEdge& edge) {
   const Vec2 middle{0.5 * (A.x + B.x), 0.5 * (A.y + B.y)};
   const auto place = [&](Metric2 m) {
     const double l2 = m.a * ex * ex + 2 * m.b * ex * ey + m.c * ey * ey;
-    const double height2 = std::max(1 - 0.25 * l2, least_height2);
+    const double height2 = std::max(1 - 0.25 * l2, least_apex_height2);
     const double k = std::sqrt(height2 / (std::max(determinant(m), 1e-300) * l2));
     return Vec2{middle.x() - k * (m.b * ex + m.c * ey), middle.y() + k * (m.a * ex + m.b * ey)};
   };
@@ -91,8 +86,8 @@ void advance_front(Placement& placement) {
     insert_layer(placement, layer.points);
     front.find_again(placement);
   }
-  insert_circumcentres(placement, leftover_radius, 0.7);
-  insert_circumcentres(placement, leftover_radius, 0.6);
+  insert_circumcentres(placement, large_radius, circumcentre_distance);
+  insert_circumcentres(placement, large_radius, last_distance);
 }
 
 }  // namespace carreau::plane

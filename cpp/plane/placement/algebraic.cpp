@@ -4,14 +4,11 @@
 #include <numbers>
 
 #include "plane/placement/circumcentres.h"
-#include "plane/placement/distances.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr int most_pieces = 4096;  // of one edge in one pass; the next passes see to the rest
-constexpr double distance_on_edges = 0.7;
 
 void place_on_edge(const Placement& placement, int t, int i, std::vector<Candidate>& points) {
   const Triangulation& mesh = placement.mesh;
@@ -42,11 +39,11 @@ void split_long_edges(Placement& placement) {
         if (T.n[i] != no_edge && (T.n[i] >> 2) > t && (T.imposed >> i & 1) == 0) place_on_edge(placement, t, i, points);
     }
     const std::size_t before = mesh.vertices.size();
-    for (const Candidate& c : points) try_insert(placement, c, distance_on_edges);
+    for (const Candidate& c : points) try_insert(placement, c, edge_distance);
     placement.touched.clear();
     if (mesh.vertices.size() == before) break;
   }
-  insert_circumcentres(placement, leftover_radius, distance_on_edges);
+  insert_circumcentres(placement, large_radius, edge_distance);
 }
 
 }  // namespace carreau::plane

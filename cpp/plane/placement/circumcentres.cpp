@@ -3,20 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plane/placement/distances.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr int attempts = 4;
-// Of points on edges that join what is far apart: crowded ones are removed in the end, but edges that cannot be swapped
-// would stay.
-constexpr double crowded_distance = 0.25;
-// 1 % of points more where the radius is less by 0.045, but never as small as that of many that the front makes. Edges
-// about a larger radius become longer than 1.5.
-constexpr double radius_a_share = 4.5, largest_reduction = 0.1, largest_rise = 0.05;
-static_assert(leftover_radius - largest_reduction > done_radius);
 
 Vec2 circumcentre(const Placement& placement, int t) {
   const Triangulation& mesh = placement.mesh;
@@ -38,7 +29,6 @@ Vec2 circumcentre(const Placement& placement, int t) {
 // Long edges of a bent triangle, which mean tensors or charts beyond their reach have joined, are swapped for shorter
 // ones.
 bool shorten(Placement& placement, int t) {
-  constexpr double gain = 0.9;
   Triangulation& mesh = placement.mesh;
   const Shapes& shapes = placement.shapes;
   const Triangle& T = mesh.triangles[t];
@@ -47,7 +37,7 @@ bool shorten(Placement& placement, int t) {
     const double l2 = shapes.squared_length(T.v[next3[i]], T.v[prev3[i]]);
     if (l2 <= longest_bent2 || !mesh.can_swap(t, i)) continue;
     const HalfEdge o = T.n[i];
-    if (shapes.squared_length(T.v[i], mesh.triangles[o >> 2].v[o & 3]) > gain * gain * l2) continue;
+    if (shapes.squared_length(T.v[i], mesh.triangles[o >> 2].v[o & 3]) > shorter_edge * shorter_edge * l2) continue;
     mesh.swap_edge(t, i);
     mesh.triangles[t].done = mesh.triangles[o >> 2].done = Done::no;
     return true;
@@ -68,7 +58,7 @@ bool halve(Placement& placement, int t) {
   const Lengths l = placement.shapes.lengths(T.v[0], T.v[1], T.v[2]);
   const int i = l.a >= l.b && l.a >= l.c ? 0 : l.b >= l.c ? 1 : 2;
   if (std::max({l.a, l.b, l.c}) <= longest_bent2) return false;
-  return insert_near(placement, 0.5 * (mesh.at(T.v[next3[i]]) + mesh.at(T.v[prev3[i]])), t, crowded_distance);
+  return insert_near(placement, 0.5 * (mesh.at(T.v[next3[i]]) + mesh.at(T.v[prev3[i]])), t, bent_edge_distance);
 }
 
 // Layers that must gain points all along make too few, those that must lose them too many. Where sizes are graded, what
@@ -90,7 +80,7 @@ void insert_circumcentres(Placement& placement, double radius, double distance) 
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     placement.tick();
     // Those that are done, nearly all, have a smaller radius.
-    for (int attempt = 0; attempt < attempts && mesh.triangles[t].done == Done::no; ++attempt) {
+    for (int attempt = 0; attempt < circumcentre_attempts && mesh.triangles[t].done == Done::no; ++attempt) {
       const double r2 = shapes.squared_radius(t);
       if (!(r2 > (shapes.change(t) > graded_change ? graded2 : radius2))) break;
       if (!shorten(placement, t) && !insert_near(placement, circumcentre(placement, t), t, distance) &&

@@ -4,22 +4,12 @@
 #include <cmath>
 
 #include "plane/kernel/edge_recovery.h"
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr int rays = 33;            // 0.2 units apart round a pole, if all are alike
-constexpr double widest_gap = 0.4;  // between rays; else there are more of them
-constexpr std::size_t most_rays = 512;
-constexpr double step = 0.05;                                    // unit lengths
-constexpr double enough_room = 1.5;                              // a layer fits between the ring and what is beyond it
-constexpr std::size_t steps_of_room = 30;                        // enough_room / step
-constexpr double least_room = 0.5;                               // below, no ring
-constexpr double narrowest = 0.5;                                // of a triangle of a wide fan, over its height
-constexpr double ring_distance = 0.5;                            // least distance of a ring point to other vertices
-constexpr double longest_lateral = 1.6, shortest_lateral = 0.5;  // of a lateral edge that takes part in the fan
 
 // Rays from the degenerate edge a - b into the domain, by the length walked on them.
 struct Ring {
@@ -30,7 +20,7 @@ struct Ring {
   std::vector<std::vector<Vec2>> ray;  // ray[k][i]: at i steps
 };
 
-// Places at multiples of the step along a ray, as far as there is room. `hint`: the triangle that it begins in; -1:
+// Places at multiples of the ray_step along a ray, as far as there is room. `hint`: the triangle that it begins in; -1:
 // it is not looked where it goes.
 std::vector<Vec2> walk(const Placement& placement, Vec2 from, Vec2 direction, int hint) {
   const bool inside = hint >= 0;
@@ -39,8 +29,8 @@ std::vector<Vec2> walk(const Placement& placement, Vec2 from, Vec2 direction, in
     const Vec2 p = ray.back();
     const double speed = length(placement.field.at(p), direction);
     if (!(speed > 0)) break;
-    const Vec2 middle = p + (0.5 * step / speed) * direction;
-    const Vec2 next = p + (step / length(placement.field.at(middle), direction)) * direction;
+    const Vec2 middle = p + (0.5 * ray_step / speed) * direction;
+    const Vec2 next = p + (ray_step / length(placement.field.at(middle), direction)) * direction;
     if (inside) {
       hint = is_finite(next) ? placement.mesh.locate(next, hint) : -1;
       if (hint < 0) break;
@@ -81,9 +71,9 @@ Ring sample_ring(const Placement& placement, const DegenerateSide& side) {
   // Where sizes differ by direction rays that are evenly spaced in the frame are not in the metric.
   for (std::size_t k = 0; k + 1 < ring.ray.size() && ring.ray.size() < most_rays;) {
     const auto &ray = ring.ray[k], &next = ring.ray[k + 1];
-    const std::size_t unit = std::min({static_cast<std::size_t>(1 / step), ray.size() - 1, next.size() - 1});
+    const std::size_t unit = std::min({static_cast<std::size_t>(1 / ray_step), ray.size() - 1, next.size() - 1});
     const double middle = 0.5 * (share[k] + share[k + 1]);
-    if (!(placement.field.length_at_middle(ray[unit], next[unit]) > widest_gap) || !(share[k] < middle)) {
+    if (!(placement.field.length_at_middle(ray[unit], next[unit]) > widest_ray_gap) || !(share[k] < middle)) {
       ++k;
       continue;
     }
@@ -93,7 +83,7 @@ Ring sample_ring(const Placement& placement, const DegenerateSide& side) {
   }
   std::size_t room = steps_of_room;
   for (const auto& ray : ring.ray) room = std::min(room, ray.size() - 1);
-  ring.room = static_cast<double>(room) * step;
+  ring.room = static_cast<double>(room) * ray_step;
   return ring;
 }
 
@@ -103,11 +93,11 @@ std::vector<Vec2> points_on(const Field& field, const Ring& ring, double height,
   std::vector<Vec2> at;
   std::vector<double> along;
   for (const auto& ray : ring.ray) {
-    const auto i = std::min(static_cast<std::size_t>(height / step + 0.5), ray.size() - 1);
+    const auto i = std::min(static_cast<std::size_t>(height / ray_step + 0.5), ray.size() - 1);
     along.push_back(at.empty() ? 0 : along.back() + field.length_at_middle(at.back(), ray[i]));
     at.push_back(ray[i]);
   }
-  const bool wide = along.back() >= narrowest * height * side.wide_fan;
+  const bool wide = along.back() >= narrowest_fan * height * side.wide_fan;
   const int least = wide ? std::max(side.wide_fan, side.least_fan) : side.least_fan;
   const int pieces = std::max(least, static_cast<int>(std::min(along.back() + 0.5, 1e6)));
   spacing = along.back() / pieces;
@@ -156,7 +146,7 @@ bool freeze_fan(Triangulation& mesh, const DegenerateSide& side, const std::vect
 void surround(Placement& placement, DegenerateSide& side) {
   Triangulation& mesh = placement.mesh;
   const Ring ring = sample_ring(placement, side);
-  const double height = ring.room >= enough_room - 0.5 * step ? 1 : 0.5 * ring.room;
+  const double height = ring.room >= (static_cast<double>(steps_of_room) - 0.5) * ray_step ? 1 : 0.5 * ring.room;
   if (ring.room < least_room || (height < 1 && ring.fan >= side.least_fan)) return;
   std::vector<std::int32_t> fan;
   const auto takes_part = [&](int end, int v) {

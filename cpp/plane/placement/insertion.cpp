@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "plane/placement/distances.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
@@ -20,7 +20,7 @@ Placement::Placement(PlaneWork& work, std::int64_t triangle_limit)
 void judge(Placement& placement, int t) {
   Triangle& T = placement.mesh.triangles[t];
   if (T.done == Done::frozen) return;
-  T.done = placement.shapes.squared_radius(t) < done_radius * done_radius ? Done::yes : Done::no;
+  T.done = placement.shapes.squared_radius(t) < small_radius * small_radius ? Done::yes : Done::no;
 }
 
 void judge_all(Placement& placement) {
@@ -44,7 +44,7 @@ bool near_degenerate_side(const Placement& placement, Vec2 p, Metric2 metric) {
 // By their circumradius in the metric of the point, whose lengths are at hand, and, if small enough, in the mean of
 // their vertices; in charts where the field bends.
 void judge_star(Placement& placement, int v, Metric2 metric) {
-  constexpr double r2 = done_radius * done_radius;
+  constexpr double r2 = small_radius * small_radius;
   Triangulation& mesh = placement.mesh;
   const double four_det = 4 * determinant(metric);
   const auto rim = mesh.rim();

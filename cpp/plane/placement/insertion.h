@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
@@ -22,7 +23,7 @@ struct Placement {
 
   /// To be called often.
   void tick() {
-    if (++ticks % ticks_between_checks == 0) monitor.checkpoint();
+    if (++ticks % insertions_between_checks == 0) monitor.checkpoint();
   }
 
   Triangulation& mesh;
@@ -34,9 +35,6 @@ struct Placement {
   std::vector<std::int32_t> degenerate_ends;  ///< keep no distance to new points (the edge does, as a whole)
   std::vector<std::int32_t> touched;          ///< triangles made since a pass has cleared this
   long ticks = 0;
-
- private:
-  static constexpr int ticks_between_checks = 4096;
 };
 
 /// A point to be inserted.

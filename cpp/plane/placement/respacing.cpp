@@ -4,15 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "plane/thresholds.h"
+
 namespace carreau::plane {
 
 namespace {
-
-constexpr double merge_gap = 0.55, wide_gap = 1.5;
-constexpr double narrow_gap = 0.6;
-constexpr int strain_window = 5;
-constexpr double strain_limit_small = 0.9, strain_limit_large = 1.3;
-constexpr double large_mesh = 10000;  // triangles
 
 double distance(const Placement& placement, const Candidate& p, const Candidate& q) {
   if (placement.mesh.is_bent(p.a, q.a)) return placement.field.length_at_middle(p.p, q.p);
@@ -29,7 +25,7 @@ void go_round_corner(const Placement& placement, const Candidate& before, const 
   // Clockwise from u to v.
   double angle = -std::atan2(root * cross(u, v), dot(m, u, v));
   if (angle < 0) angle += 2 * std::numbers::pi;
-  const int pieces = static_cast<int>(angle / (std::numbers::pi / 3) + 0.4);
+  const int pieces = static_cast<int>(angle / (std::numbers::pi / 3) + corner_rounding);
   const double lu = length(m, u);
   if (pieces < 2 || pieces > 5 || !(lu > 0)) return;
   // An orthonormal pair of the metric: e along u, f a quarter turn counterclockwise from it.

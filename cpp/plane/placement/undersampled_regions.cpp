@@ -5,16 +5,11 @@
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
-#include "plane/placement/distances.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
 namespace {
-
-// A point so far from all vertices is never wanted in a triangle that is small enough, nor in one that circumcentre
-// insertion leaves.
-constexpr double far_from_all = 1;
-static_assert(far_from_all > leftover_radius);
 
 // A walk can end at a hole: then from the nearest vertex.
 int triangle_at(const Triangulation& mesh, Vec2 p) {
@@ -34,7 +29,7 @@ int triangle_at(const Triangulation& mesh, Vec2 p) {
 bool seed_region(Placement& placement, Vec2 place) {
   const Triangulation& mesh = placement.mesh;
   const int start = triangle_at(mesh, place);
-  if (start < 0 || !try_insert(placement, place, start, far_from_all)) return false;
+  if (start < 0 || !try_insert(placement, place, start, seed_distance)) return false;
   const Eigen2 e = eigen(placement.field.at(place));
   const Vec2 base = (1 / std::sqrt(e.major)) * e.direction;
   const Vec2 height = (0.5 * std::numbers::sqrt3 / std::sqrt(e.minor)) * Vec2{-e.direction.y(), e.direction.x()};
