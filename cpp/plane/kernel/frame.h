@@ -20,7 +20,7 @@ struct Frame {
 /// The control space as seen from the frame.
 class Field {
  public:
-  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no rows lead, come from both
+  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no layers lead, come from both
   /// ends of an arc, and folded charts do not see that they meet.
   Field(const ControlSpace& space, const Frame& frame, bool charts = true) noexcept
       : space_(space),

@@ -31,9 +31,9 @@ bool wants_swap(const Triangulation& mesh, int t, int i) noexcept {
 
 }  // namespace
 
-void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> seeds, Monitor& monitor) {
+void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> start, Monitor& monitor) {
   std::vector<HalfEdge> open;
-  for (const std::int32_t t : seeds)
+  for (const std::int32_t t : start)
     for (int i = 0; i < 3; ++i) open.push_back(4 * t + i);
   long swaps = 0;
   while (!open.empty()) {

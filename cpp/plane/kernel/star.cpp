@@ -6,14 +6,14 @@ namespace carreau::plane {
 
 bool Star::collect(const Triangulation& mesh, int v) {
   triangles.clear();
-  ring.clear();
+  link.clear();
   const int start = mesh.vertices[v].triangle;
   int t = start;
   do {
     const Triangle& T = mesh.triangles[t];
     const int k = mesh.corner_of(t, v);
     triangles.push_back(t);
-    ring.push_back(T.v[next3[k]]);
+    link.push_back(T.v[next3[k]]);
     if (T.n[next3[k]] == no_edge) return false;
     t = T.n[next3[k]] >> 2;
   } while (t != start);
@@ -46,8 +46,8 @@ void close_over(Triangulation& mesh, int v, int gone, int kept, bool kept_after)
 }  // namespace
 
 void collapse(Triangulation& mesh, const Star& star, int v, int k) {
-  const auto n = static_cast<int>(star.ring.size());
-  const int u = star.ring[k], last = star.triangles[(k + n - 1) % n], first = star.triangles[k];
+  const auto n = static_cast<int>(star.link.size());
+  const int u = star.link[k], last = star.triangles[(k + n - 1) % n], first = star.triangles[k];
   close_over(mesh, v, first, star.triangles[(k + 1) % n], true);
   close_over(mesh, v, last, star.triangles[(k + n - 2) % n], false);
   for (int j = 1; j + 1 < n; ++j) {

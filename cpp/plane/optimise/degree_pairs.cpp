@@ -94,21 +94,21 @@ bool move_pair(PlaneWork& work, Degrees& degrees, Pair pair, bool left, int reac
   return false;
 }
 
-// The ring vertex into which v is best drawn; -1: none.
+// The link vertex into which v is best drawn; -1: none.
 int best_neighbour(const PlaneWork& work, const Degrees& degrees, const Star& star, int v) {
-  const auto& ring = star.ring;
-  const auto n = static_cast<int>(ring.size());
+  const auto& link = star.link;
+  const auto n = static_cast<int>(link.size());
   int into = -1, least_change = 1;
   double best = thinned_quality;
   for (int k = 0; k < n; ++k) {
-    const int u = ring[k], a = ring[(k + n - 1) % n], b = ring[(k + 1) % n];
+    const int u = link[k], a = link[(k + n - 1) % n], b = link[(k + 1) % n];
     const int of_u = degrees.excess(u), of_v = degrees.excess(v), joined = of_u + of_v + 2;
     const int change = joined * joined - of_u * of_u - of_v * of_v + 2 - 2 * (degrees.excess(a) + degrees.excess(b));
     if (change > std::min(least_change, 0)) continue;
     double worst = 1;
     for (int j = 1; j + 1 < n && worst > thinned_quality; ++j) {
-      const int x = ring[(k + j) % n];
-      worst = std::min(worst, work.shapes.quality(u, x, ring[(k + j + 1) % n]));
+      const int x = link[(k + j) % n];
+      worst = std::min(worst, work.shapes.quality(u, x, link[(k + j + 1) % n]));
       if (j > 1 && work.shapes.squared_length(u, x) > longest_thinned2) worst = 0;
     }
     if (worst <= (change < least_change ? thinned_quality : best)) continue;
@@ -128,7 +128,7 @@ void cancel_degree_pairs(PlaneWork& work, Degrees& degrees, int reach) {
     if (work.mesh.vertices[v].triangle < 0 || degrees.excess(v) < 1 || swap_around(work, degrees, v) ||
         degrees.excess(v) != 1 || !star.collect(work.mesh, v))
       continue;
-    for (const std::int32_t w : star.ring) {
+    for (const std::int32_t w : star.link) {
       const Pair pair{.seven = v, .five = w};
       if (w >= work.fixed && degrees.excess(w) == -1 &&
           (move_pair(work, degrees, pair, true, reach, swapped) ||
@@ -147,16 +147,16 @@ void remove_surplus_vertices(PlaneWork& work, Degrees& degrees) {
     if (work.mesh.vertices[v].triangle < 0 || degrees.excess(v) > -1 || !star.collect(work.mesh, v) ||
         has_imposed_spoke(work.mesh, star, v))
       continue;
-    const std::size_t around = star.ring.size();
+    const std::size_t around = star.link.size();
     double sum = 0;
-    for (const std::int32_t u : star.ring) sum += work.shapes.squared_length(u, v);
+    for (const std::int32_t u : star.link) sum += work.shapes.squared_length(u, v);
     if (sum > dense_length2 * static_cast<double>(around)) continue;
     const int into = best_neighbour(work, degrees, star, v);
     if (into < 0) continue;
     const std::size_t k = static_cast<std::size_t>(into);
     auto& found = degrees.found;
-    --found[star.ring[(k + around - 1) % around]], --found[star.ring[(k + 1) % around]];
-    found[star.ring[k]] = static_cast<std::uint8_t>(found[star.ring[k]] + found[v] - 4);
+    --found[star.link[(k + around - 1) % around]], --found[star.link[(k + 1) % around]];
+    found[star.link[k]] = static_cast<std::uint8_t>(found[star.link[k]] + found[v] - 4);
     collapse(work.mesh, star, v, into);
     any = true;
   }

@@ -77,7 +77,7 @@ void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
   std::vector<HalfEdge> open;
   for (const std::int32_t t : triangles)
     for (int i = 0; i < 3; ++i) open.push_back(4 * t + i);
-  const std::size_t seeds = triangles.size();
+  const std::size_t listed = triangles.size();
   long measured = 0;
   while (!open.empty()) {
     const int t = open.back() >> 2, i = open.back() & 3;
@@ -92,7 +92,7 @@ void shorten_long_edges(PlaneWork& work, std::vector<std::int32_t>& triangles) {
     triangles.insert(triangles.end(), {t, u});
     open.insert(open.end(), {4 * t, 4 * t + 2, 4 * u, 4 * u + 1});
   }
-  if (triangles.size() == seeds) return;
+  if (triangles.size() == listed) return;
   std::sort(triangles.begin(), triangles.end());
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
 }

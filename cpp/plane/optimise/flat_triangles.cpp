@@ -44,16 +44,8 @@ bool raise_by_removal(PlaneWork& work, Star& star, int t) {
   Triangulation& mesh = work.mesh;
   for (const std::int32_t v : Triangle(mesh.triangles[t]).v) {
     if (v < work.fixed || !star.collect(mesh, v) || has_imposed_spoke(mesh, star, v)) continue;
-    const auto& ring = star.ring;
-    const auto n = static_cast<int>(ring.size());
-    int into = -1;
-    double highest = flat_height;
-    for (int k = 0; k < n; ++k) {
-      double lowest = 1;
-      for (int j = 1; j + 1 < n && lowest > highest; ++j)
-        lowest = std::min(lowest, height(mesh, ring[k], ring[(k + j) % n], ring[(k + j + 1) % n]));
-      if (lowest > highest) highest = lowest, into = k;
-    }
+    const int into =
+        best_collapse(star, flat_height, 0, [&](int p, int q, int r, bool) { return height(mesh, p, q, r); });
     if (into < 0) continue;
     collapse(mesh, star, v, into);
     return true;

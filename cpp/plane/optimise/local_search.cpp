@@ -25,16 +25,8 @@ struct Change {
 bool collapse_best(SearchZone& zone, int v) {
   Triangulation& mesh = zone.work.mesh;
   if (!zone.star.collect(mesh, v) || has_imposed_spoke(mesh, zone.star, v)) return false;
-  const auto& ring = zone.star.ring;
-  const auto n = static_cast<int>(ring.size());
-  int into = -1;
-  double best = least_collapse_quality;
-  for (int k = 0; k < n; ++k) {
-    double least = 1;
-    for (int j = 1; j + 1 < n && least > best; ++j)
-      least = std::min(least, zone.shape(ring[k], ring[(k + j) % n], ring[(k + j + 1) % n]));
-    if (least > best * (1 + tie)) best = least, into = k;
-  }
+  const int into = best_collapse(zone.star, least_collapse_quality, tie,
+                                 [&](int p, int q, int r, bool) { return zone.shape(p, q, r); });
   if (into < 0) return false;
   collapse(mesh, zone.star, v, into);
   return true;

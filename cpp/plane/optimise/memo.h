@@ -33,11 +33,11 @@ inline PlaceKey key_of_diagonal(PlaceKey c, PlaceKey a, PlaceKey b, PlaceKey d) 
   return key_of_side(c, a) + key_of_side(a, d) + key_of_side(d, b) + key_of_side(b, c) + 3 * (a + b);
 }
 
-/// Of a star: the vertex and its ring; place(v): the key of the place of v.
+/// Of a star: the vertex and its link; place(v): the key of the place of v.
 template <typename Place>
-PlaceKey key_of_star(int v, const std::vector<std::int32_t>& ring, const Place& place) {
-  PlaceKey sum = 5 * place(v), last = place(ring.back());
-  for (const std::int32_t u : ring) {
+PlaceKey key_of_star(int v, const std::vector<std::int32_t>& link, const Place& place) {
+  PlaceKey sum = 5 * place(v), last = place(link.back());
+  for (const std::int32_t u : link) {
     const PlaceKey key = place(u);
     sum += key_of_side(last, key);
     last = key;

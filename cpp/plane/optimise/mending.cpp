@@ -36,12 +36,12 @@ bool swap(Mending& m, int t) {
   return false;
 }
 
-// To the best of places around, at shrinking distances in the metric; whether that gains. Of the ring collected.
+// To the best of places around, at shrinking distances in the metric; whether that gains. Of the link collected.
 bool move_to_best(Mending& m, int v) {
   Triangulation& mesh = m.work.mesh;
   Vertex& P = mesh.vertices[v];
   const auto cost = [&](double enough) {
-    return star_cost(m.work.shapes, v, m.star.ring, enough, penalty, m.shapes_asked);
+    return star_cost(m.work.shapes, v, m.star.link, enough, penalty, m.shapes_asked);
   };
   const double before = cost(std::numeric_limits<double>::infinity());
   double best = before;
@@ -67,7 +67,7 @@ bool move_to_best(Mending& m, int v) {
 bool move(Mending& m, int v) {
   const Triangulation& mesh = m.work.mesh;
   if (!m.star.collect(mesh, v)) return false;
-  const auto key = [&] { return key_of_star(v, m.star.ring, [&](int u) { return key_of_place(mesh.at(u)); }); };
+  const auto key = [&] { return key_of_star(v, m.star.link, [&](int u) { return key_of_place(mesh.at(u)); }); };
   const PlaceKey star = key();
   if (m.failed_moves.find(star) != nullptr) return false;
   if (!move_to_best(m, v)) {
@@ -85,22 +85,16 @@ bool remove(Mending& m, int v, bool crowded) {
   Triangulation& mesh = m.work.mesh;
   if (!m.star.collect(mesh, v) || has_imposed_spoke(mesh, m.star, v)) return false;
   const Shapes& shapes = m.work.shapes;
-  const auto& ring = m.star.ring;
-  const auto n = static_cast<int>(ring.size());
+  const auto& link = m.star.link;
+  const auto n = static_cast<int>(link.size());
   double worst = 1;
-  for (int k = 0; k < n; ++k) worst = std::min(worst, shapes.quality_at_centroid(v, ring[k], ring[(k + 1) % n]));
-  int into = -1;
-  double best = crowded ? std::max(std::min(worst, uncrowded_quality) - mending_gain, 0.0) : worst + mending_gain;
-  for (int k = 0; k < n; ++k) {
-    const int u = ring[k];
-    double least = 1;
-    for (int j = 1; j + 1 < n && least > best; ++j) {
-      const int a = ring[(k + j) % n], b = ring[(k + j + 1) % n];
-      least = std::min(least, shapes.quality_at_centroid(u, a, b));
-      if (j > 1 && shapes.squared_length(u, a) > (crowded ? longest_uncrowded2 : longest_after_removal2)) least = 0;
-    }
-    if (least > best) best = least, into = k;
-  }
+  for (int k = 0; k < n; ++k) worst = std::min(worst, shapes.quality_at_centroid(v, link[k], link[(k + 1) % n]));
+  const double least =
+      crowded ? std::max(std::min(worst, uncrowded_quality) - mending_gain, 0.0) : worst + mending_gain;
+  const double longest2 = crowded ? longest_uncrowded2 : longest_after_removal2;
+  const int into = best_collapse(m.star, least, 0, [&](int u, int a, int b, bool inner) {
+    return inner && shapes.squared_length(u, a) > longest2 ? 0 : shapes.quality_at_centroid(u, a, b);
+  });
   if (into < 0) return false;
   collapse(mesh, m.star, v, into);
   m.changed.insert(m.changed.end(), m.star.triangles.begin(), m.star.triangles.end());
@@ -123,13 +117,13 @@ PlaceKey key_of_cavity(const Triangulation& mesh, Vec2 p, bool spaced) {
   return key;
 }
 
-// The worst shape around the new vertex v, whose ring is collected; 0 if it makes an edge too short.
+// The worst shape around the new vertex v, whose link is collected; 0 if it makes an edge too short.
 double worst_around(const Mending& m, int v, bool spaced) {
-  const auto& ring = m.star.ring;
+  const auto& link = m.star.link;
   double worst = 1;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    worst = std::min(worst, m.work.shapes.quality_at_centroid(v, ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]));
-    if (spaced && m.work.shapes.squared_length(v, ring[k]) < crowded_length2) worst = 0;
+  for (std::size_t k = 0; k < link.size(); ++k) {
+    worst = std::min(worst, m.work.shapes.quality_at_centroid(v, link[k], link[k + 1 < link.size() ? k + 1 : 0]));
+    if (spaced && m.work.shapes.squared_length(v, link[k]) < crowded_length2) worst = 0;
   }
   return worst;
 }
@@ -150,8 +144,8 @@ bool insert(Mending& m, Vec2 p, int t, bool spaced) {
   mesh.vertices.push_back({p.x(), p.y()});
   if (!mesh.bends.empty()) mesh.bends.push_back(Bend::none);
   m.work.shapes.set_metric(v);
-  m.star.ring.clear();
-  for (const RimEdge& r : mesh.rim()) m.star.ring.push_back(mesh.rim_point(r.a).v);
+  m.star.link.clear();
+  for (const RimEdge& r : mesh.rim()) m.star.link.push_back(mesh.rim_point(r.a).v);
   if (spaced) {
     move_to_best(m, v);
     m.work.shapes.set_metric(v);

@@ -22,7 +22,7 @@ void search_at(SearchZone& zone, int v, double step, int turns, double& best) {
     for (const Vec2& d : six_directions) {
       const Vec2 kept = P.point(), to = centre + circle.vector(step * d);
       P.x = to.x(), P.y = to.y();
-      const double now = star_cost(zone.work.shapes, v, zone.star.ring, best, shape_cost, zone.shapes_asked);
+      const double now = star_cost(zone.work.shapes, v, zone.star.link, best, shape_cost, zone.shapes_asked);
       if (now < best * (1 - tie))
         best = now, any = true;
       else
@@ -32,25 +32,25 @@ void search_at(SearchZone& zone, int v, double step, int turns, double& best) {
   }
 }
 
-// Where v, whose star is collected, is best; its old place, if no other is better. `tried`: steps of the first length
-// lead nowhere.
-Vec2 best_place(SearchZone& zone, int v, bool quick, bool tried) {
+// Where v, whose star is collected, is best; its old place, if no other is better. `in_vain`: steps of the first
+// length.
+Vec2 best_place(SearchZone& zone, int v, bool quick, bool in_vain) {
   Vertex& P = zone.work.mesh.vertices[v];
-  std::vector<std::int32_t>& ring = zone.star.ring;
+  std::vector<std::int32_t>& link = zone.star.link;
   const Vertex old = P;
   double best = 0, most = 0;
   std::size_t worst = 0;
-  const std::size_t n = ring.size();
+  const std::size_t n = link.size();
   for (std::size_t k = 0; k < n; ++k) {
-    const double one = shape_cost(zone.shape(v, ring[k], ring[k + 1 < n ? k + 1 : 0]));
+    const double one = shape_cost(zone.shape(v, link[k], link[k + 1 < n ? k + 1 : 0]));
     best += one;
     if (one > most) most = one, worst = k;
   }
   if (best < static_cast<double>(n) * cheap_enough) return old.point();
   // What is worst is asked first: most moves need no more.
-  std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(worst), ring.end());
+  std::rotate(link.begin(), link.begin() + static_cast<std::ptrdiff_t>(worst), link.end());
   for (const double step : steps) {
-    if (tried && step == steps[0]) continue;
+    if (in_vain && step == steps[0]) continue;
     search_at(zone, v, step, quick ? 1 : turns_a_step, best);
     if (quick) break;
   }
@@ -63,7 +63,7 @@ void move(SearchZone& zone, int v, bool quick) {
   const Triangulation& mesh = zone.work.mesh;
   if (mesh.vertices[v].triangle < 0 || !zone.star.collect(mesh, v)) return;
   const Vec2 from = mesh.at(v);
-  const PlaceKey star = key_of_star(v, zone.star.ring, [&](int u) { return zone.places[u]; });
+  const PlaceKey star = key_of_star(v, zone.star.link, [&](int u) { return zone.places[u]; });
   const PlaceKey key = quick ? star : star + 1;
   Vec2 to{};
   if (const Vec2* known = zone.known_moves.find(key)) {

@@ -18,7 +18,7 @@ void Front::find(const Placement& placement) {
   const Triangulation& mesh = placement.mesh;
   clear(mesh);
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) visit(mesh, t);
-  link(mesh);
+  connect(mesh);
 }
 
 void Front::find_again(Placement& placement) {
@@ -31,7 +31,7 @@ void Front::find_again(Placement& placement) {
   }
   for (const std::int32_t t : placement.touched) mesh.triangles[t].mark = 0;
   placement.touched.clear();
-  link(mesh);
+  connect(mesh);
 }
 
 void Front::clear(const Triangulation& mesh) {
@@ -75,7 +75,7 @@ void Front::add(const Triangulation& mesh, HalfEdge he) {
   edges.push_back({he, a, b});
 }
 
-void Front::link(const Triangulation& mesh) {
+void Front::connect(const Triangulation& mesh) {
   for (FrontEdge& e : edges) {
     const std::int32_t next = leaving[e.b];
     e.next = next == more_than_one ? next_around(mesh, e) : next;

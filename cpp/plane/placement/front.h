@@ -29,7 +29,7 @@ struct Front {
   void clear(const Triangulation& mesh);
   void visit(const Triangulation& mesh, int t);
   void add(const Triangulation& mesh, HalfEdge he);
-  void link(const Triangulation& mesh);
+  void connect(const Triangulation& mesh);
   [[nodiscard]] std::int32_t next_around(const Triangulation& mesh, const FrontEdge& edge) const;
 };
 
