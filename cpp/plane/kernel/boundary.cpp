@@ -4,13 +4,12 @@
 
 #include "plane/kernel/domain_reader.h"
 #include "plane/kernel/edge_recovery.h"
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr int work_between_checks = 2048;
 
 class BoundaryMesher {
  public:
@@ -30,7 +29,7 @@ class BoundaryMesher {
 
  private:
   void tick() {
-    if (++work_ % work_between_checks == 0) monitor_.checkpoint();
+    if (++work_ % insertions_between_checks == 0) monitor_.checkpoint();
   }
   [[nodiscard]] Vec2 uv(int v) const { return domain_.vertices[v]; }
 

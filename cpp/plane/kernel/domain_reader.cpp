@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstdint>
 
+#include "plane/thresholds.h"
 #include "support/error.h"
 
 namespace carreau::plane {
 
 namespace {
-
-// Below this, coordinates inside the domain would lose their last bits to underflow; above, its box overflows.
-constexpr int least_exponent = -900, largest_exponent = 1020;
 
 double scale_for(double low, double high, Vec2 where) {
   // Halves, because the difference of two numbers may overflow.

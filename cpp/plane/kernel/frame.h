@@ -5,6 +5,7 @@
 #include "metric/chart.h"
 #include "metric/metric2.h"
 #include "plane/kernel/triangulation.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
@@ -16,19 +17,10 @@ struct Frame {
   [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale.x(), p.y() * unscale.y()}; }
 };
 
-/// Bend of a chart from which on it takes the place of the tensor: a size that grows by a tenth, or directions that
-/// turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors.
-inline constexpr double least_bend = 0.4;
-/// Bend beyond which charts are of no use: of a unit triangle in a chart the plane keeps 1 - bend / (2 sqrt(3)) of its
-/// area where its height is along the bend, which here is little more than a quarter; soon it is turned over.
-inline constexpr double most_bend = 2.5;
-/// Triangles below which charts are not used: in coarse meshes of patches with poles and creases they reach too far.
-inline constexpr double least_bent_measure = 10'000;
-
 /// The control space as seen from the frame.
 class Field {
  public:
-  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no rows lead, come from both
+  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no layers lead, come from both
   /// ends of an arc, and folded charts do not see that they meet.
   Field(const ControlSpace& space, const Frame& frame, bool charts = true) noexcept
       : space_(space),
@@ -36,7 +28,7 @@ class Field {
         aa_(unscale_.x() * unscale_.x()),
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
-        bends_(charts && space.measure() >= least_bent_measure && space.largest_bend() > least_bend) {}
+        bends_(charts && space.measure() >= fewest_for_charts && space.largest_bend() > least_bend) {}
 
   [[nodiscard]] Metric2 at(Vec2 p) const noexcept {
     const Metric2 m = space_.at({p.x() * unscale_.x(), p.y() * unscale_.y()});
@@ -53,6 +45,8 @@ class Field {
     constexpr Metric2 none{0, 0, 0};
     return {p, {at(p), none, none}};
   }
+  /// Length of the segment p - q in the tensor at its middle.
+  [[nodiscard]] double length_at_middle(Vec2 p, Vec2 q) const noexcept { return length(at(0.5 * (p + q)), q - p); }
   /// Parameters of the host.
   [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
   /// Whether there may be places where it bends.

@@ -116,11 +116,17 @@ class Triangulation {
   /// leaves the numbers of what it removes to what it makes, anywhere.
   void renumber_if_large();
 
+  /// The last triangles of the list take the places of those that are removed (without vertices).
+  void drop_removed();
+
   /// Exchanges the diagonal of the two triangles at half-edge (t, i). They keep their numbers; the new diagonal is edge
   /// 1 of t and edge 2 of the other.
   void swap_edge(int t, int i) noexcept;
   /// Whether both triangles of the other diagonal are counterclockwise. Exact.
   [[nodiscard]] bool can_swap(int t, int i) const noexcept;
+  /// Puts vertex m, which lies on edge i of t, not imposed, between its ends: the two triangles keep their numbers, two
+  /// more come last. Edge 0 of each of the four is a half of the edge.
+  void split_edge(int t, int i, int m);
   /// A half-edge u - v in either direction among the triangles of u's fan, or no_edge.
   [[nodiscard]] HalfEdge find_edge(int u, int v) const noexcept;
 

@@ -65,7 +65,7 @@ TEST_P(UndersampledRegions, AreMeshed) {
     EXPECT_GT(measure(c, mesh).mean, 0.85);
   }
 }
-// One of them about a vertex that rows place.
+// One of them about a vertex that the front places.
 INSTANTIATE_TEST_SUITE_P(Places, UndersampledRegions,
                          ::testing::Values(Vec2{0.37, 0.41}, Vec2{0.5, 0.5}, Vec2{0.71, 0.22}, Vec2{0.13, 0.83}));
 
