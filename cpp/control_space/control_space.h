@@ -85,8 +85,8 @@ class ControlSpace {
   /// What a mesh, of which `vertex` gives `count` vertices, has missed: the squares of leaves that hold some vertices
   /// of a unit mesh but less than a quarter of them; of nested squares the smallest. Each as the centres of its leaves,
   /// where sizes are smallest first; some may lie outside of the domain.
-  [[nodiscard]] std::vector<std::vector<Vec2>> deserts(std::size_t count,
-                                                       const std::function<Vec2(std::size_t)>& vertex) const;
+  [[nodiscard]] std::vector<std::vector<Vec2>> undersampled_regions(
+      std::size_t count, const std::function<Vec2(std::size_t)>& vertex) const;
 
   /// Points at which the sampler was called.
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }

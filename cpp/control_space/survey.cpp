@@ -42,7 +42,8 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
   std::vector<Vec2> points;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      const Vec2 p{s.low.x() + (i + 0.5) / n * (s.high.x() - s.low.x()), s.low.y() + (j + 0.5) / n * (s.high.y() - s.low.y())};
+      const Vec2 p{s.low.x() + (i + 0.5) / n * (s.high.x() - s.low.x()),
+                   s.low.y() + (j + 0.5) / n * (s.high.y() - s.low.y())};
       if (locator.contains(p)) points.push_back(p);
     }
   return points;

@@ -46,7 +46,7 @@ void place_points(plane::PlaneWork& work, const PlaneDomain& domain, const plane
   const auto fill = [&] { options.frontal ? advance_front(placement) : split_long_edges(placement); };
   fill();
   bool seeded = false;
-  for (const std::vector<Vec2>& places : options.deserts)
+  for (const std::vector<Vec2>& places : options.undersampled)
     seeded =
         std::any_of(places.begin(), places.end(), [&](Vec2 p) { return seed_region(placement, frame.inward(p)); }) ||
         seeded;
