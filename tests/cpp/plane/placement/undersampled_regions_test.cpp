@@ -84,7 +84,7 @@ TEST(UndersampledRegions, AreSquaresThatHoldTooFewVertices) {
   ASSERT_FALSE(missed.empty());
   for (const std::vector<Vec2>& places : missed) EXPECT_LT(norm(places.front() - Vec2{0.37, 0.41}), 1.5 * radius);
   EXPECT_FALSE(count(none).empty());
-  EXPECT_TRUE(ControlSpace::constant({1e6, 0, 1e6}).undersampled(0, [](std::size_t) { return Vec2{}; }).empty());
+  EXPECT_TRUE(ControlSpace::constant({1e6, 0, 1e6}).undersampled_regions(0, [](std::size_t) { return Vec2{}; }).empty());
 }
 
 }  // namespace
