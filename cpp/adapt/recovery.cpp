@@ -51,7 +51,7 @@ bool solve(std::vector<Row>& rows, std::array<double, unknowns>& x) {
   return true;
 }
 
-VertexFrame frame_of(Vec3 normal) {
+VertexFrame frame_of(const Vec3& normal) {
   const double length = norm(normal);
   if (!(length > 0)) return {};
   VertexFrame f;
@@ -115,7 +115,7 @@ class Fitter {
   /// fitted as well as others, and the fit turns with the mesh.
   struct Whitening {
     Vec2 first, second;  // coordinates are the products with these
-    [[nodiscard]] Vec2 of(Vec2 d) const noexcept { return {dot(first, d), dot(second, d)}; }
+    [[nodiscard]] Vec2 of(const Vec2& d) const noexcept { return {dot(first, d), dot(second, d)}; }
     [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
     [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
       const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;

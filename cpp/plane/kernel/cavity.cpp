@@ -23,7 +23,7 @@ inline double squared(Metric2 m, double x, double y) noexcept { return (m.a * x 
 
 }  // namespace
 
-bool Triangulation::too_near(Vec2 p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept {
+bool Triangulation::too_near(const Vec2& p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept {
   if (std::find(rules.exempt.begin(), rules.exempt.end(), v) != rules.exempt.end()) return false;
   if (in_chart) return true;
   const Vertex& w = vertices[v];

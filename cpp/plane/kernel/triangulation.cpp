@@ -10,7 +10,7 @@
 
 namespace carreau::plane {
 
-int Triangulation::locate(Vec2 p, int hint) const noexcept {
+int Triangulation::locate(const Vec2& p, int hint) const noexcept {
   const Triangle* const T = triangles.data();
   const Vertex* const V = vertices.data();
   int t = hint, from = -1;

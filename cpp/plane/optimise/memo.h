@@ -20,7 +20,7 @@ inline PlaceKey mixed(PlaceKey k) noexcept {
   k = (k ^ k >> 27) * 0x94d049bb133111ebU;
   return k ^ k >> 31;
 }
-inline PlaceKey key_of_place(Vec2 p) noexcept {
+inline PlaceKey key_of_place(const Vec2& p) noexcept {
   return mixed(mixed(std::bit_cast<std::uint64_t>(p.x())) + std::bit_cast<std::uint64_t>(p.y()));
 }
 inline PlaceKey key_of_side(PlaceKey from, PlaceKey to) noexcept { return from ^ std::rotl(to, 32); }

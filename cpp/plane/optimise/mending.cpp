@@ -108,7 +108,7 @@ double worst_of_cavity(const Mending& m) {
   return worst;
 }
 
-PlaceKey key_of_cavity(const Triangulation& mesh, Vec2 p, bool spaced) {
+PlaceKey key_of_cavity(const Triangulation& mesh, const Vec2& p, bool spaced) {
   PlaceKey key = 5 * key_of_place(p) + (spaced ? 1 : 0);
   for (const std::int32_t c : mesh.cavity()) {
     const Triangle& C = mesh.triangles[c];

@@ -14,7 +14,7 @@ namespace {
 
 // Where the field bends, the triangle is isosceles in the chart about its own centroid, which is found in chart_rounds
 // with it.
-Candidate apex_in_charts(const Placement& placement, const FrontEdge& edge, Vec2 first) {
+Candidate apex_in_charts(const Placement& placement, const FrontEdge& edge, const Vec2& first) {
   const Triangulation& mesh = placement.mesh;
   const Vec2 a = mesh.at(edge.a), b = mesh.at(edge.b);
   Vec2 top = first;

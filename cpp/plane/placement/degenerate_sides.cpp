@@ -22,7 +22,7 @@ struct Ring {
 
 // Places at multiples of the ray_step along a ray, as far as there is room. `hint`: the triangle that it begins in; -1:
 // it is not looked where it goes.
-std::vector<Vec2> walk(const Placement& placement, Vec2 from, Vec2 direction, int hint) {
+std::vector<Vec2> walk(const Placement& placement, const Vec2& from, const Vec2& direction, int hint) {
   const bool inside = hint >= 0;
   std::vector<Vec2> ray{from};
   while (ray.size() <= steps_of_room) {

@@ -29,7 +29,7 @@ void judge_all(Placement& placement) {
 
 namespace {
 
-bool near_degenerate_side(const Placement& placement, Vec2 p, Metric2 metric) {
+bool near_degenerate_side(const Placement& placement, const Vec2& p, Metric2 metric) {
   const Triangulation& mesh = placement.mesh;
   for (const DegenerateSide& side : placement.degenerate) {
     if (side.surrounded) continue;

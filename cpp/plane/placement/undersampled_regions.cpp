@@ -12,7 +12,7 @@ namespace carreau::plane {
 namespace {
 
 // A walk can end at a hole: then from the nearest vertex.
-int triangle_at(const Triangulation& mesh, Vec2 p) {
+int triangle_at(const Triangulation& mesh, const Vec2& p) {
   const int t = mesh.locate(p, mesh.vertices.back().triangle);
   if (t >= 0) return t;
   int nearest = 0;
