@@ -20,7 +20,7 @@ struct PlaneMesherOptions {
   const SampledNormals* normals = nullptr;
   std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
   /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), as places of each: what is still far
-  /// from all vertices when points have been placed is settled, and they go on from there.
+  /// from all vertices when points have been placed gets a seed, from which the front goes on.
   std::span<const std::vector<Vec2>> undersampled = {};
 };
 
