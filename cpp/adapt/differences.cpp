@@ -50,8 +50,8 @@ std::vector<double> steps_of(const Refined& mesh) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec3 low{far, far, far}, high{-far, -far, -far};
   for (const Vec3& p : mesh.vertices) {
-    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   const double diagonal = norm(high - low);
   std::vector<double> steps(mesh.vertices.size(), largest_step * diagonal);
@@ -67,7 +67,7 @@ std::vector<double> steps_of(const Refined& mesh) {
   return steps;
 }
 
-double length_along(const VertexPrescriptions& p, std::size_t vertex, Vec3 edge) {
+double length_along(const VertexPrescriptions& p, std::size_t vertex, const Vec3& edge) {
   return p.metrics.empty() ? norm(edge) / p.sizes[vertex] : length(p.metrics[vertex], edge);
 }
 

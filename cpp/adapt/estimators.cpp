@@ -41,7 +41,7 @@ Metric2 sandwich(Metric2 s, Metric2 m) noexcept {  // S M S
 }
 
 /// Identity plus (factor - 1) along g.
-Metric2 stretched_along(Vec2 g, double factor) noexcept {
+Metric2 stretched_along(const Vec2& g, double factor) noexcept {
   const double g2 = dot(g, g);
   if (!(g2 > 0)) return {1, 0, 1};
   const double k = (factor - 1) / g2;

@@ -1,8 +1,10 @@
 #include "adapt/recovery.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
@@ -10,48 +12,28 @@
 namespace carreau {
 namespace {
 
-constexpr std::size_t unknowns = 5;
+constexpr int unknowns = 5;
 /// Smallest over largest diagonal entry of the triangular factor below which a fit is not determined.
 constexpr double least_pivot = 0.02;
 constexpr int most_rings = 3;
 
-using Row = std::array<double, unknowns + 1>;
+using Coefficients = Eigen::Matrix<double, unknowns, 1>;
 
-/// Least squares by Householder reflections; the last column is the right side. False when columns depend on each
-/// other. `rows` is overwritten.
-bool solve(std::vector<Row>& rows, std::array<double, unknowns>& x) {
-  const std::size_t n = rows.size();
-  if (n < unknowns) return false;
-  std::array<double, unknowns> diagonal{};
-  for (std::size_t k = 0; k < unknowns; ++k) {
-    double norm2 = 0;
-    for (std::size_t i = k; i < n; ++i) norm2 += rows[i][k] * rows[i][k];
-    if (!(norm2 > 0)) return false;
-    const double alpha = rows[k][k] > 0 ? -std::sqrt(norm2) : std::sqrt(norm2);
-    const double pivot = rows[k][k] - alpha, beta = -1 / (alpha * pivot);  // 2 / v^T v
-    rows[k][k] = pivot;
-    for (std::size_t j = k + 1; j <= unknowns; ++j) {
-      double sum = 0;
-      for (std::size_t i = k; i < n; ++i) sum += rows[i][k] * rows[i][j];
-      for (std::size_t i = k; i < n; ++i) rows[i][j] -= beta * sum * rows[i][k];
-    }
-    diagonal[k] = alpha;
-  }
-  double smallest = std::abs(diagonal[0]), largest = smallest;
-  for (const double d : diagonal) {
-    smallest = std::min(smallest, std::abs(d));
-    largest = std::max(largest, std::abs(d));
-  }
-  if (!(smallest > least_pivot * largest)) return false;
-  for (std::size_t k = unknowns; k-- > 0;) {
-    double sum = rows[k][unknowns];
-    for (std::size_t j = k + 1; j < unknowns; ++j) sum -= rows[k][j] * x[j];
-    x[k] = sum / diagonal[k];
-  }
-  return true;
+/// Equations of a fit, a row for each neighbour.
+struct Equations {
+  Eigen::Matrix<double, Eigen::Dynamic, unknowns> left;
+  Eigen::VectorXd right;
+};
+
+/// Least squares; empty when columns depend on each other. `left` is overwritten.
+std::optional<Coefficients> solve(Equations& equations) {
+  const Eigen::HouseholderQR<Eigen::Ref<decltype(Equations::left)>> qr(equations.left);
+  const Coefficients diagonal = qr.matrixQR().diagonal().cwiseAbs();
+  if (!(diagonal.minCoeff() > least_pivot * diagonal.maxCoeff())) return {};
+  return qr.solve(equations.right);
 }
 
-VertexFrame frame_of(Vec3 normal) {
+VertexFrame frame_of(const Vec3& normal) {
   const double length = norm(normal);
   if (!(length > 0)) return {};
   VertexFrame f;
@@ -115,7 +97,7 @@ class Fitter {
   /// fitted as well as others, and the fit turns with the mesh.
   struct Whitening {
     Vec2 first, second;  // coordinates are the products with these
-    [[nodiscard]] Vec2 of(Vec2 d) const noexcept { return {dot(first, d), dot(second, d)}; }
+    [[nodiscard]] Vec2 of(const Vec2& d) const noexcept { return {dot(first, d), dot(second, d)}; }
     [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
     [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
       const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;
@@ -139,19 +121,22 @@ class Fitter {
       offset_.push_back(
           result.frame.in_plane(field_.vertices[static_cast<std::size_t>(around_[k])] - field_.vertices[at]));
     Whitening white{};
-    if (offset_.size() < unknowns || !whitening(white)) return false;
-    rows_.clear();
+    if (offset_.size() < static_cast<std::size_t>(unknowns) || !whitening(white)) return false;
+    const auto n = static_cast<Eigen::Index>(offset_.size());
+    equations_.left.resize(n, unknowns), equations_.right.resize(n);
     for (std::size_t k = 0; k < offset_.size(); ++k) {
       const Vec2 d = white.of(offset_[k]);
       const double weight = 1 / std::max(norm(d), 1e-3);
       const double rise = field_.values[static_cast<std::size_t>(around_[k + 1])] - field_.values[at];
-      rows_.push_back({weight * d.x(), weight * d.y(), weight * d.x() * d.x() / 2, weight * d.x() * d.y(), weight * d.y() * d.y() / 2,
-                       weight * rise});
+      const auto row = static_cast<Eigen::Index>(k);
+      equations_.left.row(row) << d.x(), d.y(), d.x() * d.x() / 2, d.x() * d.y(), d.y() * d.y() / 2;
+      equations_.left.row(row) *= weight;
+      equations_.right[row] = weight * rise;
     }
-    std::array<double, unknowns> x{};
-    if (!solve(rows_, x)) return false;
-    result.gradient = white.gradient(x[0], x[1]);
-    result.hessian = white.hessian(x[2], x[3], x[4]);
+    const std::optional<Coefficients> x = solve(equations_);
+    if (!x) return false;
+    result.gradient = white.gradient((*x)[0], (*x)[1]);
+    result.hessian = white.hessian((*x)[2], (*x)[3], (*x)[4]);
     return true;
   }
 
@@ -159,7 +144,7 @@ class Fitter {
   Neighbours neighbours_;
   std::vector<std::int32_t> mark_, around_;
   std::vector<Vec2> offset_;
-  std::vector<Row> rows_;
+  Equations equations_;
 };
 
 /// Gradient in (x, y) of the linear interpolation of `values` in a triangle, times its doubled area.

@@ -13,7 +13,7 @@ namespace carreau {
 /// On meshes of the plane z = 0 they are the axes x, y, z.
 struct VertexFrame {
   Vec3 e1{1, 0, 0}, e2{0, 1, 0}, normal{0, 0, 1};
-  [[nodiscard]] Vec2 in_plane(Vec3 d) const noexcept { return {dot(d, e1), dot(d, e2)}; }
+  [[nodiscard]] Vec2 in_plane(const Vec3& d) const noexcept { return {dot(d, e1), dot(d, e2)}; }
 };
 
 /// Value, gradient and Hessian of the field at a vertex, in the coordinates of `frame`.

@@ -27,13 +27,13 @@ class Neighbourhood {
   /// Keeps references.
   Neighbourhood(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
   /// The point where steps from triangle `start` end: none of the triangles around is nearer to p.
-  [[nodiscard]] NearestOnMesh nearest(Vec3 p, std::int32_t start) const;
+  [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t start) const;
 
  private:
   struct Corner {
     std::int32_t vertex, triangle;
   };
-  [[nodiscard]] NearestOnMesh on(std::int32_t triangle, Vec3 p) const;
+  [[nodiscard]] NearestOnMesh on(std::int32_t triangle, const Vec3& p) const;
   std::span<const Vec3> vertices_;
   std::span<const Triangle> triangles_;
   std::vector<Corner> corners_;                    // vertex by vertex: a face has few of those of a mesh
@@ -57,7 +57,7 @@ Neighbourhood::Neighbourhood(std::span<const Vec3> vertices, std::span<const Tri
   }
 }
 
-NearestOnMesh Neighbourhood::on(std::int32_t triangle, Vec3 p) const {
+NearestOnMesh Neighbourhood::on(std::int32_t triangle, const Vec3& p) const {
   const Triangle& t = triangles_[static_cast<std::size_t>(triangle)];
   const auto corner = [&](std::size_t k) { return vertices_[static_cast<std::size_t>(t[k])]; };
   NearestOnMesh result = nearest_on_triangle(p, {corner(0), corner(1), corner(2)});
@@ -65,7 +65,7 @@ NearestOnMesh Neighbourhood::on(std::int32_t triangle, Vec3 p) const {
   return result;
 }
 
-NearestOnMesh Neighbourhood::nearest(Vec3 p, std::int32_t start) const {
+NearestOnMesh Neighbourhood::nearest(const Vec3& p, std::int32_t start) const {
   NearestOnMesh best = on(start, p);
   for (bool nearer = true; nearer && best.distance > 0;) {
     nearer = false;

@@ -24,13 +24,13 @@ void check_number(double x, const Where& where, const char* routine) {
   throw CallbackError(where, std::string(routine) + " returned " + format_number(x) +
                                  ", which is too large to compute with (beyond " + format_number(largest) + ")");
 }
-bool is_usable(Vec3 v) {  // false for NaN
+bool is_usable(const Vec3& v) {  // false for NaN
   return std::abs(v.x()) <= largest && std::abs(v.y()) <= largest && std::abs(v.z()) <= largest;
 }
-void check_vector(Vec3 v, const Where& where, const char* routine) {
+void check_vector(const Vec3& v, const Where& where, const char* routine) {
   for (const double x : {v.x(), v.y(), v.z()}) check_number(x, where, routine);
 }
-void check_vector(Vec2 v, const Where& where, const char* routine) {
+void check_vector(const Vec2& v, const Where& where, const char* routine) {
   for (const double x : {v.x(), v.y()}) check_number(x, where, routine);
 }
 

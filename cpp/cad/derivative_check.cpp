@@ -73,13 +73,13 @@ double shown(double value, double size) {
 }
 
 // `components`: 3 in space, 2 in the parameter plane. Six digits are enough of a finite difference.
-std::string text(Vec3 v, int components, bool rounded) {
+std::string text(const Vec3& v, int components, bool rounded) {
   const double size = norm(v);
   const auto number = [&](double x) { return format_number(rounded ? shown(x, size) : x); };
   return "(" + number(v.x()) + ", " + number(v.y()) + (components == 3 ? ", " + number(v.z()) : "") + ")";
 }
 
-WrongDerivative wrong_at(const Where& where, const char* routine, const Claim& claim, Vec3 found, int components) {
+WrongDerivative wrong_at(const Where& where, const char* routine, const Claim& claim, const Vec3& found, int components) {
   return {where, std::string(routine) + " gives " + claim.name + " = " + text(claim.given, components, false) +
                      ", but finite differences give " + text(found, components, true)};
 }

@@ -83,7 +83,7 @@ void DifferenceCad::set_parameter_box(int face, Vec2 low, Vec2 high) {
   boxes_[face] = {low, high};
 }
 
-DifferenceCad::Box DifferenceCad::box_at(int face, Vec2 uv) const {
+DifferenceCad::Box DifferenceCad::box_at(int face, const Vec2& uv) const {
   const auto it = boxes_.find(face);
   if (it != boxes_.end()) return it->second;
   // Nothing is known: a box about the point, as wide as its parameters are large.

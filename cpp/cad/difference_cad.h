@@ -47,7 +47,7 @@ class DifferenceCad : public Cad {
     unsigned from = want_position;
     double relative = 0;
   };
-  [[nodiscard]] Box box_at(int face, Vec2 uv) const;
+  [[nodiscard]] Box box_at(int face, const Vec2& uv) const;
   void add_differences(int face, const Task& task, std::span<const Vec2> uv, std::span<SurfaceJet> out);
   bool add_differences_at(int face, const Task& task, Vec2 uv, DifferenceStep u, DifferenceStep v, SurfaceJet& out);
   void add_one_sided(int face, const Task& task, Vec2 uv, SurfaceJet& out);

@@ -79,7 +79,7 @@ std::optional<PrincipalFrame> principal_frame(const SurfaceJet& jet) noexcept {
   return frame;
 }
 
-double normal_curvature(const FirstForm& first, const SecondForm& second, Vec2 x) noexcept {
+double normal_curvature(const FirstForm& first, const SecondForm& second, const Vec2& x) noexcept {
   return (second.l * x.x() * x.x() + 2 * second.m * x.x() * x.y() + second.n * x.y() * x.y()) /
          (first.e * x.x() * x.x() + 2 * first.f * x.x() * x.y() + first.g * x.y() * x.y());
 }

@@ -48,6 +48,6 @@ std::optional<PrincipalFrame> principal_frame(const SurfaceJet& jet) noexcept;
 
 /// Curvature of the normal section along x (parameter plane, not zero) (RR-2928 eq. 33). The first form must be
 /// positive definite.
-double normal_curvature(const FirstForm& first, const SecondForm& second, Vec2 x) noexcept;
+double normal_curvature(const FirstForm& first, const SecondForm& second, const Vec2& x) noexcept;
 
 }  // namespace carreau

@@ -21,8 +21,8 @@ constexpr std::size_t batch_size = 4096;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Vec3 nan3{nan, nan, nan};
 
-bool is_unset(Vec2 v) { return std::isnan(v.x()) && std::isnan(v.y()); }
-bool is_unset(Vec3 v) { return std::isnan(v.x()) && std::isnan(v.y()) && std::isnan(v.z()); }
+bool is_unset(const Vec2& v) { return std::isnan(v.x()) && std::isnan(v.y()); }
+bool is_unset(const Vec3& v) { return std::isnan(v.x()) && std::isnan(v.y()) && std::isnan(v.z()); }
 
 std::optional<double> answer_of(double value) {
   return value == no_answer ? std::nullopt : std::optional<double>(value);

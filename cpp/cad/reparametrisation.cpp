@@ -53,7 +53,7 @@ class ReparametrisedCad final : public Cad {
   [[nodiscard]] unsigned curve_gives() const noexcept override { return host_.curve_gives(); }
 
  private:
-  [[nodiscard]] Vec2 host_uv(int face, Vec2 xy) const noexcept { return face == face_ ? map_.to_host(xy) : xy; }
+  [[nodiscard]] Vec2 host_uv(int face, const Vec2& xy) const noexcept { return face == face_ ? map_.to_host(xy) : xy; }
   void differentiate(Vec2 xy, SurfaceJet& jet) const noexcept {
     const MonotoneMap::Jet u = map_.u.jet(xy.x()), v = map_.v.jet(xy.y());
     jet.suu = (u.first * u.first) * jet.suu + u.second * jet.su;

@@ -39,8 +39,8 @@ class MonotoneMap {
 struct Reparametrisation {
   MonotoneMap u, v;
 
-  [[nodiscard]] Vec2 to_host(Vec2 p) const noexcept { return {u(p.x()), v(p.y())}; }
-  [[nodiscard]] Vec2 from_host(Vec2 p) const noexcept { return {u.inverse(p.x()), v.inverse(p.y())}; }
+  [[nodiscard]] Vec2 to_host(const Vec2& p) const noexcept { return {u(p.x()), v(p.y())}; }
+  [[nodiscard]] Vec2 from_host(const Vec2& p) const noexcept { return {u.inverse(p.x()), v.inverse(p.y())}; }
 };
 
 /// The surface of one face as a function of (x, y), by the chain rule; what the host does not differentiate itself is

@@ -1,17 +1,16 @@
 #include "control_space/border.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "control_space/quadratic_fit.h"
 #include "metric/metric2_algebra.h"
 
 namespace carreau::detail {
 
 namespace {
 
-constexpr int terms = 6;  // 1, x, y, x^2, x y, y^2
 // Neighbours wanted before a quadratic is fitted.
 constexpr std::size_t enough = 10;
 // As many as there usually are.
@@ -20,46 +19,8 @@ constexpr std::size_t usual_neighbours = 48;
 constexpr std::size_t few_nodes = 400;
 // Reach of the neighbourhood in units of the size asked for, and how much the weights prefer near samples.
 constexpr double reach_in_sizes = 2.2, near_share = 0.5, softness = 0.04;
-// Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
-// pulls slopes and curvatures that they do not determine to zero.
-constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 // Eigenvalues of the fit against those of the samples that it was made from.
 constexpr double most_extrapolation = 2;
-
-/// Normal equations of a weighted fit, three right-hand sides.
-struct NormalEquations {
-  std::array<std::array<double, terms>, terms> matrix{};
-  std::array<std::array<double, 3>, terms> rhs{};
-
-  void add(double x, double y, double weight, Metric2 value) noexcept {
-    const std::array<double, terms> basis{1, x, y, x * x, x * y, y * y};
-    for (int r = 0; r < terms; ++r) {
-      const double w = weight * basis[r];
-      for (int c = 0; c <= r; ++c) matrix[r][c] += w * basis[c];
-      rhs[r][0] += w * value.a;
-      rhs[r][1] += w * value.b;
-      rhs[r][2] += w * value.c;
-    }
-  }
-
-  // The constant term: the polynomial's value at the origin. Cholesky; the constant comes last so that the
-  // back substitution ends as soon as it is known.
-  Metric2 value_at_origin() noexcept {
-    const double total = matrix[0][0];
-    for (int r = 1; r < terms; ++r) matrix[r][r] += (r < 3 ? ridge_slope : ridge_curvature) * total;
-    // Eliminates the rows from the highest term down to the constant (U^T U of the reversed order).
-    for (int r = terms - 1; r > 0; --r) {
-      const double pivot = 1 / matrix[r][r];
-      for (int i = 0; i < r; ++i) {
-        const double factor = matrix[r][i] * pivot;
-        for (int c = 0; c <= i; ++c) matrix[i][c] -= factor * matrix[r][c];
-        for (int k = 0; k < 3; ++k) rhs[i][k] -= factor * rhs[r][k];
-      }
-    }
-    const double inverse = 1 / matrix[0][0];
-    return {inverse * rhs[0][0], inverse * rhs[0][1], inverse * rhs[0][2]};
-  }
-};
 
 // A root between these bounds of the eigenvalues of others, where it usually is: they are found only where it may not
 // be.
@@ -181,7 +142,7 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
     // A wider but sparser look may miss what is near.
     if (more.size() > near.size()) near.swap(more);
   }
-  NormalEquations equations;
+  QuadraticFit equations;
   for (const Sample& s : near) {
     const Vec2 d = (1 / scale) * (s.position - position);
     const double q = softness + dot(d, d);

@@ -44,7 +44,7 @@ MetricSlopes ControlSpace::slopes_in(const Leaf& leaf, double s, double t) const
           2 * leaf.scale * scale_.y() * product(root, by_t)};
 }
 
-MetricSlopes ControlSpace::slopes_at(Vec2 uv) const noexcept {
+MetricSlopes ControlSpace::slopes_at(const Vec2& uv) const noexcept {
   const Place at = place(uv);
   return slopes_in(*at.leaf, at.s, at.t);
 }

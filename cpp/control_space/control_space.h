@@ -63,7 +63,7 @@ class ControlSpace {
   static ControlSpace constant(Metric2 metric);
 
   /// Metric at (u, v). Points outside the box take the value of its nearest point.
-  [[nodiscard]] Metric2 at(Vec2 uv) const noexcept {
+  [[nodiscard]] Metric2 at(const Vec2& uv) const noexcept {
     const auto [leaf, s, t] = place(uv);
     const Leaf& l = *leaf;
     // Columns of coefficients: powers of s; rows: powers of t.
@@ -76,7 +76,7 @@ class ControlSpace {
   }
 
   /// With its derivatives, which jump from a leaf to the next by as little as the tolerance allows.
-  [[nodiscard]] MetricSlopes slopes_at(Vec2 uv) const noexcept;
+  [[nodiscard]] MetricSlopes slopes_at(const Vec2& uv) const noexcept;
   /// Largest bend of shapes (metric/chart.h) at the middle of a leaf.
   [[nodiscard]] double largest_bend() const noexcept;
 
@@ -85,8 +85,8 @@ class ControlSpace {
   /// What a mesh, of which `vertex` gives `count` vertices, has missed: the squares of leaves that hold some vertices
   /// of a unit mesh but less than a quarter of them; of nested squares the smallest. Each as the centres of its leaves,
   /// where sizes are smallest first; some may lie outside of the domain.
-  [[nodiscard]] std::vector<std::vector<Vec2>> deserts(std::size_t count,
-                                                       const std::function<Vec2(std::size_t)>& vertex) const;
+  [[nodiscard]] std::vector<std::vector<Vec2>> undersampled_regions(
+      std::size_t count, const std::function<Vec2(std::size_t)>& vertex) const;
 
   /// Points at which the sampler was called.
   [[nodiscard]] std::size_t samples() const noexcept { return samples_; }
@@ -111,7 +111,7 @@ class ControlSpace {
     const Leaf* leaf;
     double s, t;
   };
-  [[nodiscard]] Place place(Vec2 uv) const noexcept {
+  [[nodiscard]] Place place(const Vec2& uv) const noexcept {
     const double x = within((uv.x() - low_.x()) * scale_.x(), last_.x()),
                  y = within((uv.y() - low_.y()) * scale_.y(), last_.y());
     const int i = static_cast<int>(x), j = static_cast<int>(y);

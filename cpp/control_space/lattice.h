@@ -95,11 +95,11 @@ class Lattice {
     return nodes_[node].place == Place::by_border ? inward(point(node)) : parameters(point(node));
   }
   /// Position in units of the finest grid, not rounded.
-  [[nodiscard]] Vec2 position(Vec2 uv) const noexcept {
+  [[nodiscard]] Vec2 position(const Vec2& uv) const noexcept {
     return {(uv.x() - low_.x()) / cell_.x() * step_, (uv.y() - low_.y()) / cell_.y() * step_};
   }
   /// The lower corner of the cell of the finest grid that holds a point; of the nearest one for points outside the box.
-  [[nodiscard]] GridPoint unit_cell(Vec2 uv) const noexcept {
+  [[nodiscard]] GridPoint unit_cell(const Vec2& uv) const noexcept {
     const Vec2 p = position(uv);
     const auto within = [](double x, std::int32_t end) {
       return x > 0 ? std::min(static_cast<std::int32_t>(std::min<double>(x, end)), end - 1) : 0;

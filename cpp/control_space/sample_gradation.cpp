@@ -152,7 +152,7 @@ struct DirectedSample {
   }
   void set_ratio() noexcept { log_ratio = std::log(sizes.h2 / sizes.h1); }
   /// Of TangentMetric::matched(), which is convex in the square of the cosine: the tangents at both ends.
-  [[nodiscard]] double least(Vec3 w) const noexcept {
+  [[nodiscard]] double least(const Vec3& w) const noexcept {
     const double b = dot(w, sizes.d2), t = b * b;
     return std::max(sizes.h1 * (1 + t * log_ratio), sizes.h2 * (1 - (1 - t) * log_ratio));
   }
@@ -162,7 +162,7 @@ struct DirectedSample {
     return j;
   }
   /// Size along an offset of parameters.
-  [[nodiscard]] double along(Vec2 e) const noexcept {
+  [[nodiscard]] double along(const Vec2& e) const noexcept {
     const Vec3 w = e.x() * tangents.su + e.y() * tangents.sv;
     return sizes.along((1 / norm(w)) * w);
   }
@@ -210,13 +210,13 @@ class DirectedBounding {
   [[nodiscard]] double key(std::int32_t s) const noexcept { return at_[s].sizes.h1 * at_[s].sizes.h2; }
 
   /// A tangent of sample `to` rolled over to sample `from`.
-  [[nodiscard]] Vec3 rolled(Vec3 w, std::int32_t to, std::int32_t from) const noexcept {
+  [[nodiscard]] Vec3 rolled(const Vec3& w, std::int32_t to, std::int32_t from) const noexcept {
     return detail::roll(w, at_[to].normal, at_[from].normal);
   }
-  [[nodiscard]] double matched(std::int32_t from, Vec3 w, std::int32_t to) const noexcept {
+  [[nodiscard]] double matched(std::int32_t from, const Vec3& w, std::int32_t to) const noexcept {
     return at_[from].sizes.matched(rolled(w, to, from));
   }
-  [[nodiscard]] double least(std::int32_t from, Vec3 w, std::int32_t to) const noexcept {
+  [[nodiscard]] double least(std::int32_t from, const Vec3& w, std::int32_t to) const noexcept {
     return at_[from].least(rolled(w, to, from));
   }
 

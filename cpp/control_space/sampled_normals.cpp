@@ -64,7 +64,7 @@ class SampledNormals::Fit {
   [[nodiscard]] Moments moments() const noexcept {
     return {xx_ - px_ * px_ / weight_, xy_ - px_ * py_ / weight_, yy_ - py_ * py_ / weight_};
   }
-  static Vec3 unit(Vec3 n) noexcept {
+  static Vec3 unit(const Vec3& n) noexcept {
     const double length = norm(n);
     return length > 0 ? (1 / length) * n : Vec3{};
   }
@@ -91,8 +91,8 @@ void SampledNormals::index(const ControlSpace& space) {
   side_ = std::max(1, static_cast<int>(std::sqrt(n / samples_per_bucket)));
   Vec2 high = low_ = samples_.front().uv;
   for (const Sample& s : samples_) {
-    low_ = {std::min(low_.x(), s.uv.x()), std::min(low_.y(), s.uv.y())};
-    high = {std::max(high.x(), s.uv.x()), std::max(high.y(), s.uv.y())};
+    low_ = low_.cwiseMin(s.uv);
+    high = high.cwiseMax(s.uv);
   }
   scale_ = {side_ / std::max(high.x() - low_.x(), std::numeric_limits<double>::min()),
             side_ / std::max(high.y() - low_.y(), std::numeric_limits<double>::min())};
@@ -124,7 +124,7 @@ void SampledNormals::gather(Vec2 uv, Metric2 m, double reach, Fit& fit) const no
   }
 }
 
-Vec3 SampledNormals::at(Vec2 uv) const noexcept {
+Vec3 SampledNormals::at(const Vec2& uv) const noexcept {
   if (samples_.empty()) return {};
   const Metric2 metric = space_->at(uv);
   double reach = first_reach * spacing_;

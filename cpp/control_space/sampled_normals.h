@@ -20,7 +20,7 @@ class SampledNormals {
   /// Call once, after all add(). `space` tells distances, and must outlive the object.
   void index(const ControlSpace& space);
   /// Unit normal at (u, v): linear least squares about it, of the samples around, the nearest of which weigh most.
-  [[nodiscard]] Vec3 at(Vec2 uv) const noexcept;
+  [[nodiscard]] Vec3 at(const Vec2& uv) const noexcept;
 
  private:
   struct Sample {

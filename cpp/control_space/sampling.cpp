@@ -55,7 +55,7 @@ constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
 // Gradation leaves more kinks, and promises something of each.
 constexpr double most_graded_samples_per_vertex = 6;
 constexpr std::size_t least_of_max_samples = 1000;
-// Cells at probe_points are split while they are wider than this, in edges of the mesh.
+// Cells at probe points are split while they are wider than this, in edges of the mesh.
 constexpr double probe_width = 0.5;
 constexpr int most_looks = 24;
 

@@ -30,8 +30,8 @@ void find_box(const SampledDomain& domain, Survey& s) {
   s.low = s.high = domain.vertices[domain.edges[0].first];
   for (const auto& [a, b] : domain.edges)
     for (const Vec2& p : {domain.vertices[a], domain.vertices[b]}) {
-      s.low = {std::min(s.low.x(), p.x()), std::min(s.low.y(), p.y())};
-      s.high = {std::max(s.high.x(), p.x()), std::max(s.high.y(), p.y())};
+      s.low = s.low.cwiseMin(p);
+      s.high = s.high.cwiseMax(p);
     }
   const Vec2 w = s.high - s.low;
   if (!(w.x() > 0) || !(w.y() > 0)) throw DomainError("the parameter domain has no area");
@@ -42,7 +42,8 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
   std::vector<Vec2> points;
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) {
-      const Vec2 p{s.low.x() + (i + 0.5) / n * (s.high.x() - s.low.x()), s.low.y() + (j + 0.5) / n * (s.high.y() - s.low.y())};
+      const Vec2 p{s.low.x() + (i + 0.5) / n * (s.high.x() - s.low.x()),
+                   s.low.y() + (j + 0.5) / n * (s.high.y() - s.low.y())};
       if (locator.contains(p)) points.push_back(p);
     }
   return points;
@@ -95,7 +96,7 @@ double floor_from(std::vector<double> shortest, double longest) {
   return length * length;
 }
 
-Metric2 in_box(Metric2 m, Vec2 w) { return {m.a * w.x() * w.x(), m.b * w.x() * w.y(), m.c * w.y() * w.y()}; }
+Metric2 in_box(Metric2 m, const Vec2& w) { return {m.a * w.x() * w.x(), m.b * w.x() * w.y(), m.c * w.y() * w.y()}; }
 
 // Relative change between two metrics; the eigenvalues must not be too small.
 double change(Metric2 p, Metric2 q, double floor) {

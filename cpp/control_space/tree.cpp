@@ -29,7 +29,8 @@ Tree::Tree(const SampledDomain& domain, const PolygonLocator& locator, Lattice& 
     const Vec2 q = lattice.position(domain.vertices[domain.edges[e].second]);
     const int i0 = cell_of(std::min(p.x(), q.x()), columns_, -widening),
               i1 = cell_of(std::max(p.x(), q.x()), columns_, widening);
-    const int j0 = cell_of(std::min(p.y(), q.y()), rows_, -widening), j1 = cell_of(std::max(p.y(), q.y()), rows_, widening);
+    const int j0 = cell_of(std::min(p.y(), q.y()), rows_, -widening),
+              j1 = cell_of(std::max(p.y(), q.y()), rows_, widening);
     for (int j = j0; j <= j1; ++j)
       for (int i = i0; i <= i1; ++i)
         candidates[static_cast<std::size_t>(j * columns_ + i)].push_back(static_cast<std::int32_t>(e));
@@ -176,7 +177,8 @@ void Tree::vertices_in(const TreeCell& cell, std::vector<int>& found) const {
   for (std::int32_t k = cell.edges_begin; k < cell.edges_end; ++k)
     for (const int v : {domain_.edges[edges_[k]].first, domain_.edges[edges_[k]].second}) {
       const Vec2 p = lattice_.position(domain_.vertices[v]);
-      if (p.x() >= cell.i && p.x() <= cell.i + cell.size && p.y() >= cell.j && p.y() <= cell.j + cell.size) found.push_back(v);
+      if (p.x() >= cell.i && p.x() <= cell.i + cell.size && p.y() >= cell.j && p.y() <= cell.j + cell.size)
+        found.push_back(v);
     }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

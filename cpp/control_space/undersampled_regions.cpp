@@ -102,8 +102,8 @@ class ControlSpace::UndersampledSearch {
   std::vector<std::vector<Vec2>> found_;
 };
 
-std::vector<std::vector<Vec2>> ControlSpace::deserts(std::size_t count,
-                                                     const std::function<Vec2(std::size_t)>& vertex) const {
+std::vector<std::vector<Vec2>> ControlSpace::undersampled_regions(
+    std::size_t count, const std::function<Vec2(std::size_t)>& vertex) const {
   if (!(scale_.x() > 0) || !(scale_.y() > 0)) return {};  // constant()
   UndersampledSearch search(*this);
   for (std::size_t v = 0; v < count; ++v) search.count(vertex(v));

@@ -191,8 +191,8 @@ double diag_of_curves(const Model& model, Cad& cad, Monitor& monitor) {
     FieldSampler(face.ref, want_position, nullptr, cad, monitor).sample(uv, jets, ignored);
     for (const SurfaceJet& jet : jets) {
       if (!is_finite(jet.s)) continue;
-      low = {std::min(low.x(), jet.s.x()), std::min(low.y(), jet.s.y()), std::min(low.z(), jet.s.z())};
-      high = {std::max(high.x(), jet.s.x()), std::max(high.y(), jet.s.y()), std::max(high.z(), jet.s.z())};
+      low = low.cwiseMin(jet.s);
+      high = high.cwiseMax(jet.s);
     }
   }
   return low.x() <= high.x() ? norm(high - low) : 0;

@@ -16,8 +16,8 @@ void set_box(FieldShape& shape) {
   constexpr double far = std::numeric_limits<double>::infinity();
   Vec2 low{far, far}, high{-far, -far};
   for (const Vec2& p : shape.loops.vertices) {
-    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   if (low.x() <= high.x()) shape.low = low, shape.high = high;
 }

@@ -127,7 +127,7 @@ class Painter {
 };
 
 // How dark the sides of a triangle make a pixel, 0 to 1.
-double ink_of_triangle(const std::array<Vec2, 3>& corner, Vec2 pixel) {
+double ink_of_triangle(const std::array<Vec2, 3>& corner, const Vec2& pixel) {
   double nearest = std::numeric_limits<double>::infinity(), longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     nearest = std::min(nearest, distance_to_segment(pixel, corner[i], corner[(i + 1) % 3]));
@@ -164,7 +164,7 @@ struct FieldImage::State {
   void paint(const Block& block, std::span<ExrPlane> planes) const;
   void paint_point(const Painter& painter, const Block& block, std::size_t i) const;
   [[nodiscard]] LinearColour colour_of(const Block& block, std::size_t i, std::uint32_t triangle, double h,
-                                       Vec3 normal) const;
+                                       const Vec3& normal) const;
 
   [[nodiscard]] bool has(FieldGroup group) const { return (options.groups & group) != 0; }
 
@@ -261,7 +261,7 @@ std::shared_ptr<Block> FieldImage::State::sample(int first, int rows) {
 
 // Colour of a pixel of the domain before its curves are drawn.
 LinearColour FieldImage::State::colour_of(const Block& block, std::size_t i, std::uint32_t triangle, double h,
-                                          Vec3 normal) const {
+                                          const Vec3& normal) const {
   LinearColour colour = h > 0 ? false_colour(place_of_size(h, smallest, largest)) : colour_of_nothing;
   double light = is_finite(normal) ? shade_of(normal) : 1;
   if (triangle != TriangleRaster::none) {

@@ -23,7 +23,7 @@ struct PixelGrid {
   [[nodiscard]] double v(int row) const noexcept { return high.y() - (row + 0.5) * pixel().y(); }
   [[nodiscard]] Vec2 centre(int column, int row) const noexcept { return {u(column), v(row)}; }
   /// Position in pixels: the centre of (column, row) is at (column, row).
-  [[nodiscard]] Vec2 in_pixels(Vec2 uv) const noexcept {
+  [[nodiscard]] Vec2 in_pixels(const Vec2& uv) const noexcept {
     return {(uv.x() - low.x()) / pixel().x() - 0.5, (high.y() - uv.y()) / pixel().y() - 0.5};
   }
   /// First column whose centre is at or right of u, `width` when there is none.

@@ -13,7 +13,7 @@ namespace {
 // corners of polygons.
 constexpr double straight_on = std::numbers::sqrt2 / 2;
 
-bool goes_straight_on(Vec3 before, Vec3 at, Vec3 after) noexcept {
+bool goes_straight_on(const Vec3& before, const Vec3& at, const Vec3& after) noexcept {
   const Vec3 p = at - before, q = after - at;
   return dot(p, q) > straight_on * norm(p) * norm(q);
 }

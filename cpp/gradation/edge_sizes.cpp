@@ -14,10 +14,7 @@ constexpr int leaf_size = 4;
 // Halves of halves: more than any number of edges needs.
 constexpr std::size_t deepest = 64;
 
-Vec3 least(Vec3 p, Vec3 q) noexcept { return {std::min(p.x(), q.x()), std::min(p.y(), q.y()), std::min(p.z(), q.z())}; }
-Vec3 largest(Vec3 p, Vec3 q) noexcept { return {std::max(p.x(), q.x()), std::max(p.y(), q.y()), std::max(p.z(), q.z())}; }
-
-double distance_to_box(Vec3 p, Vec3 low, Vec3 high) noexcept {
+double distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) noexcept {
   const auto beyond = [](double x, double from, double to) { return std::max({from - x, x - to, 0.}); };
   return norm(Vec3{beyond(p.x(), low.x(), high.x()), beyond(p.y(), low.y(), high.y()), beyond(p.z(), low.z(), high.z())});
 }
@@ -36,7 +33,7 @@ void EdgeSizes::build(int node) {
   n.low = n.high = sources_[n.first].a, n.h = sources_[n.first].h;
   for (int k = n.first; k < n.end; ++k) {
     const Source& s = sources_[k];
-    n.low = least(n.low, least(s.a, s.b)), n.high = largest(n.high, largest(s.a, s.b)), n.h = std::min(n.h, s.h);
+    n.low = n.low.cwiseMin(s.a.cwiseMin(s.b)), n.high = n.high.cwiseMax(s.a.cwiseMax(s.b)), n.h = std::min(n.h, s.h);
   }
   if (n.end - n.first > leaf_size) {
     const Vec3 extent = n.high - n.low;
@@ -52,7 +49,7 @@ void EdgeSizes::build(int node) {
   nodes_[node] = n;
 }
 
-double EdgeSizes::at(Vec3 p, double most) const noexcept {
+double EdgeSizes::at(const Vec3& p, double most) const noexcept {
   if (sources_.empty()) return most;
   std::array<int, deepest> stack;
   std::size_t top = 0;

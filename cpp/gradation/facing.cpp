@@ -47,7 +47,7 @@ class Facing {
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
 
   // Where the line through p along n meets a triangle.
-  [[nodiscard]] std::optional<FacingPlace> meet(int place, Vec3 p, Vec3 n, int t) const {
+  [[nodiscard]] std::optional<FacingPlace> meet(int place, const Vec3& p, const Vec3& n, int t) const {
     const auto& c = graph_.triangles[t];
     std::array<Vec3, 3> x;
     for (int i = 0; i < 3; ++i) x[i] = position(c[i]);
@@ -67,7 +67,7 @@ class Facing {
   // Height of the surface over a point of a triangle, along its normal. An arc of radius r rises by l^2 / (8 r) over
   // the middle of its chord l; its normals turn by l / r.
   [[nodiscard]] double bulge(const std::array<int, 3>& c, const std::array<Vec3, 3>& x, const std::array<double, 3>& w,
-                             Vec3 normal) const {
+                             const Vec3& normal) const {
     double height = 0;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;

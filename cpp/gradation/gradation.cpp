@@ -25,7 +25,7 @@ constexpr double same_front = 0.7;
 constexpr std::size_t vertices_between_checks = 1 << 14;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Vec3 resized(Vec3 v, double length) noexcept {
+Vec3 resized(const Vec3& v, double length) noexcept {
   const double l = norm(v);
   return l > 0 ? (length / l) * v : Vec3{};
 }
@@ -241,7 +241,7 @@ double slope_of_gradation(double beta) {
   return std::log(beta);
 }
 
-double size_from_segment(double h_a, double h_b, Vec3 edge, Vec3 d, double slope) noexcept {
+double size_from_segment(double h_a, double h_b, const Vec3& edge, const Vec3& d, double slope) noexcept {
   const double length = norm(edge);
   if (!(length > 0)) return infinity;
   const double climb = (h_b - h_a) / (slope * length);

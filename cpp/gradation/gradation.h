@@ -51,7 +51,7 @@ double slope_of_gradation(double beta);
 
 /// The size at a place by those along a segment from a to b: the least size(p) + slope |place - p| over its points p.
 /// Sizes are linear along it. `edge`: from a to b; `d`: from a to the place. +infinity where a and b are one.
-double size_from_segment(double h_a, double h_b, Vec3 edge, Vec3 d, double slope) noexcept;
+double size_from_segment(double h_a, double h_b, const Vec3& edge, const Vec3& d, double slope) noexcept;
 
 /// The largest field below `h` (one a vertex, +infinity: unknown) whose derivative along the surface is at most
 /// `slope`: h(x) = min over y of h(y) + slope * distance(x, y). Distances are those of straight lines on the unfolded

@@ -25,7 +25,7 @@ bool one_wave(const GradationFront& a, const GradationFront& b, bool smooth) noe
 }  // namespace
 
 /// A chord leaves a circle at half the angle that it spans.
-Vec3 step_on_surface(Vec3 normal, Vec3 chord) noexcept {
+Vec3 step_on_surface(const Vec3& normal, const Vec3& chord) noexcept {
   const double up = dot(normal, chord), length = norm(chord);
   const Vec3 flat = chord - up * normal;
   const double l = norm(flat);
@@ -68,7 +68,7 @@ GradedField::GradedField(double slope, std::vector<GradedFace> faces) : slope_(s
     if (!face.front.empty() || !face.metric.empty()) find_beyond(face);
 }
 
-double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept {
+double GradedField::size(int face, const Vec2& uv, const Vec3& xyz, double prescribed) const noexcept {
   if (static_cast<std::size_t>(face) >= faces_.size()) return prescribed;
   const GradedFace& f = faces_[face];
   const TrianglePlace place = f.tree.find(uv);
@@ -101,7 +101,7 @@ double GradedField::size(int face, Vec2 uv, Vec3 xyz, double prescribed) const n
   return wave && place.inside ? std::min(h, linear) : h;
 }
 
-TangentMetric GradedField::sizes(int face, Vec2 uv, Vec3 xyz, TangentMetric prescribed) const noexcept {
+TangentMetric GradedField::sizes(int face, const Vec2& uv, const Vec3& xyz, TangentMetric prescribed) const noexcept {
   if (static_cast<std::size_t>(face) >= faces_.size()) return prescribed;
   const GradedFace& f = faces_[face];
   const TrianglePlace place = f.tree.find(uv);
@@ -129,7 +129,7 @@ TangentMetric GradedField::sizes(int face, Vec2 uv, Vec3 xyz, TangentMetric pres
   return prescribed;
 }
 
-double GradedField::smaller_size(int face, Vec2 uv) const noexcept {
+double GradedField::smaller_size(int face, const Vec2& uv) const noexcept {
   if (static_cast<std::size_t>(face) >= faces_.size()) return infinity;
   const GradedFace& f = faces_[face];
   const TrianglePlace place = f.tree.find(uv);

@@ -37,7 +37,7 @@ struct GradedFace {
 };
 
 /// From `origin`, where the unit normal is given, to a point nearby: in the tangent plane and as long as the arc.
-Vec3 step_on_surface(Vec3 normal, Vec3 chord) noexcept;
+Vec3 step_on_surface(const Vec3& normal, const Vec3& chord) noexcept;
 
 /// Sizes h(x) = min over sources y of h(y) + slope |x - y| (HDR sec. 1.1.2; Borouchaki, Hecht, Frey). The sources are
 /// those of the fronts at the corners of the triangle around x, and the parts of curves between corners. Safe from
@@ -53,12 +53,12 @@ class GradedField {
   }
   /// At (u, v) in a face, whose image is `xyz` and where the size `prescribed` is wanted (+infinity: anything).
   /// Logarithmic in the number of triangles. Outside the triangles, the nearest one.
-  [[nodiscard]] double size(int face, Vec2 uv, Vec3 xyz, double prescribed) const noexcept;
+  [[nodiscard]] double size(int face, const Vec2& uv, const Vec3& xyz, double prescribed) const noexcept;
 
   /// The same for sizes by direction: those of `prescribed` with its directions.
-  [[nodiscard]] TangentMetric sizes(int face, Vec2 uv, Vec3 xyz, TangentMetric prescribed) const noexcept;
+  [[nodiscard]] TangentMetric sizes(int face, const Vec2& uv, const Vec3& xyz, TangentMetric prescribed) const noexcept;
   /// The smaller of both, interpolated: for places without a tangent plane. +infinity where nothing is bounded.
-  [[nodiscard]] double smaller_size(int face, Vec2 uv) const noexcept;
+  [[nodiscard]] double smaller_size(int face, const Vec2& uv) const noexcept;
 
  private:
   double slope_;
@@ -81,7 +81,7 @@ struct SizeLimits {
   }
   [[nodiscard]] bool want_places() const noexcept { return field != nullptr || edges != nullptr; }
   /// The isotropic size at (u, v) in a face, whose image is xyz, where h is prescribed: bounded by field and edges.
-  [[nodiscard]] double bounded(int face, Vec2 uv, Vec3 xyz, double h) const noexcept {
+  [[nodiscard]] double bounded(int face, const Vec2& uv, const Vec3& xyz, double h) const noexcept {
     if (field != nullptr) h = field->size(face, uv, xyz, h);
     return edges != nullptr ? edges->at(xyz, h) : h;
   }

@@ -21,7 +21,7 @@ struct TangentMetric {
   double h1 = std::numeric_limits<double>::infinity(), h2 = h1;
 
   /// Size along a unit tangent.
-  [[nodiscard]] double along(Vec3 w) const noexcept {
+  [[nodiscard]] double along(const Vec3& w) const noexcept {
     const double a = dot(w, d1) / h1, b = dot(w, d2) / h2;
     return 1 / std::sqrt(a * a + b * b);
   }
@@ -29,7 +29,7 @@ struct TangentMetric {
   /// h2 where it is d2, and between them geometrically by the squares of the cosines, so that nothing jumps where
   /// directions turn (at umbilics by any angle). Not the size along w: of sizes 1 and 100 that is hardly ever the
   /// larger one.
-  [[nodiscard]] double matched(Vec3 w) const noexcept {
+  [[nodiscard]] double matched(const Vec3& w) const noexcept {
     if (h1 == h2 || !std::isfinite(h1) || !std::isfinite(h2)) return std::max(h1, h2);
     const double a = dot(w, d1), b = dot(w, d2), sum = a * a + b * b;
     return sum > 0 ? h1 * std::pow(h2 / h1, b * b / sum) : std::min(h1, h2);

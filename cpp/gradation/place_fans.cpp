@@ -12,7 +12,7 @@ constexpr double smooth_corner = 0.9;
 
 }  // namespace
 
-Vec3 roll(Vec3 v, Vec3 n, Vec3 m) noexcept { return v - (dot(v, m) / (1 + dot(n, m))) * (n + m); }
+Vec3 roll(const Vec3& v, const Vec3& n, const Vec3& m) noexcept { return v - (dot(v, m) / (1 + dot(n, m))) * (n + m); }
 
 PlaceFans::PlaceFans(const GradationGraph& graph)
     : graph_(graph), first_(graph.xyz.size(), -1), next_(graph.places.size(), -1), inward_(graph.places.size()) {

@@ -12,7 +12,7 @@ namespace carreau::detail {
 
 /// v, tangent where the normal is n, rolled to where it is m: the rotation about n x m, which at a crease is the
 /// curve's tangent. n . m > -1.
-Vec3 roll(Vec3 v, Vec3 n, Vec3 m) noexcept;
+Vec3 roll(const Vec3& v, const Vec3& n, const Vec3& m) noexcept;
 
 /// Keeps a reference to the graph.
 class PlaceFans {

@@ -26,7 +26,7 @@ constexpr double one_wave = 1.05;
 constexpr double half_diagonal = std::numbers::sqrt2 / 2;
 constexpr std::size_t triangles_between_checks = 1 << 14;
 
-Vec3 unit(Vec3 v) noexcept {
+Vec3 unit(const Vec3& v) noexcept {
   const double l = norm(v);
   return l > 0 ? (1 / l) * v : Vec3{};
 }
@@ -106,7 +106,7 @@ class NarrowZones {
   }
 
   /// Whether what is at a place comes from its boundary along the unit vector u.
-  [[nodiscard]] bool comes_along(int place, Vec3 u) const noexcept {
+  [[nodiscard]] bool comes_along(int place, const Vec3& u) const noexcept {
     const Vec3 line = fronts_.front[place].line;
     return dot(dot(line, line) > 0 ? unit(line) : inward_[place], u) > head_on;
   }

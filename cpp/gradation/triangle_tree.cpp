@@ -22,8 +22,8 @@ TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<
   // Triangles as long as wide in the mean: boxes around them overlap least.
   Vec2 low = vertices.front(), high = low, length;
   for (const Vec2& p : vertices) {
-    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   for (const auto& t : triangles)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ void TriangleTree::make_starts(Vec2 extent) {
   for (std::int32_t& start : starts_) start = last = start >= 0 ? start : last;
 }
 
-std::size_t TriangleTree::start_near(Vec2 p) const noexcept {
+std::size_t TriangleTree::start_near(const Vec2& p) const noexcept {
   const auto cell = [](double x, std::int32_t count) {
     return x > 0 ? static_cast<std::size_t>(std::min(x, count - 1.0)) : 0;
   };
@@ -97,7 +97,7 @@ std::size_t TriangleTree::start_near(Vec2 p) const noexcept {
 }
 
 // The only triangle that holds a point; -1 where that is not clear, or the way there is long or leaves the domain.
-std::int32_t TriangleTree::walk(Vec2 p) const noexcept {
+std::int32_t TriangleTree::walk(const Vec2& p) const noexcept {
   const double clear = clearly * inside_;
   std::int32_t t = starts_[start_near(p)];
   for (int step = 0; step < most_steps && t >= 0; ++step) {
@@ -119,7 +119,7 @@ std::int32_t TriangleTree::walk(Vec2 p) const noexcept {
   return -1;
 }
 
-TrianglePlace TriangleTree::find(Vec2 uv) const noexcept {
+TrianglePlace TriangleTree::find(const Vec2& uv) const noexcept {
   if (search_.empty()) return {};
   const Vec2 p{(uv.x() - low_.x()) * scale_.x(), (uv.y() - low_.y()) * scale_.y()};
   const Vec3 flat{p.x(), p.y(), 0};

@@ -26,7 +26,7 @@ class TriangleTree {
                Monitor& monitor);
 
   /// Deterministic: of triangles equally near, that of the lowest index.
-  [[nodiscard]] TrianglePlace find(Vec2 p) const noexcept;
+  [[nodiscard]] TrianglePlace find(const Vec2& p) const noexcept;
 
  private:
   struct Corners {
@@ -35,8 +35,8 @@ class TriangleTree {
   };
   void join_sides(const std::vector<std::array<std::int32_t, 3>>& triangles);
   void make_starts(Vec2 extent);  // of the scaled vertices
-  [[nodiscard]] std::size_t start_near(Vec2 p) const noexcept;
-  [[nodiscard]] std::int32_t walk(Vec2 p) const noexcept;
+  [[nodiscard]] std::size_t start_near(const Vec2& p) const noexcept;
+  [[nodiscard]] std::int32_t walk(const Vec2& p) const noexcept;
 
   Vec2 low_, scale_{1, 1};
   double inside_ = 0;  // distance that rounding may leave between a triangle and a point of it, scaled

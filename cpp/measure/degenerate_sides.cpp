@@ -17,7 +17,7 @@ DegenerateSides::DegenerateSides(const FaceMesh& face) : face_(&face) {
   sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
 }
 
-std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, Vec2 a, Vec3 su, Vec3 sv, Vec3 chord) const {
+std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Vec2& a, const Vec3& su, const Vec3& sv, const Vec3& chord) const {
   constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
   // The step of (u, v) whose image is the chord, but for its part across the tangent plane. Not the way that is
   // shortest in a metric: around a pole whose metric differs by direction that is a spiral.

@@ -20,7 +20,7 @@ class DegenerateSides {
   /// Where on the side that ends at local vertex `p` the straight way from `a` arrives; su, sv: derivatives at a;
   /// `chord`: from a to the pole in space. An edge to a pole is a meridian, whichever end of the side stands for the
   /// pole in (u, v). Empty where no side ends at p.
-  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, Vec2 a, Vec3 su, Vec3 sv, Vec3 chord) const;
+  [[nodiscard]] std::optional<Vec2> arrival(std::int32_t p, const Vec2& a, const Vec3& su, const Vec3& sv, const Vec3& chord) const;
 
  private:
   const FaceMesh* face_ = nullptr;

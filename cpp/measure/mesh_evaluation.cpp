@@ -48,7 +48,7 @@ constexpr double shortest_way = 0.1;
 constexpr double fine_length = 0.1;
 
 double degrees(double radians) noexcept { return radians * 180 / std::numbers::pi; }
-double angle_between(Vec3 p, Vec3 q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
+double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
 /// Evaluates jets and metrics at points of a face, a batch at a time, in the order in which they were added.
 class Sampler {
@@ -116,7 +116,7 @@ class Measurement {
     double& known = of(kind)[place];
     known = std::max(known, value);
   }
-  [[nodiscard]] double distance(Vec3 p, std::size_t triangle) const {
+  [[nodiscard]] double distance(const Vec3& p, std::size_t triangle) const {
     const auto& c = triangle_[triangle];
     return distance_to_triangle(p, mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]);
   }
@@ -157,8 +157,8 @@ class Measurement {
   }
 
   // The size that is prescribed along d at a vertex; NaN at a singular one.
-  [[nodiscard]] double size_along(std::int32_t v, Vec2 d) const { return size_along(v, d, at_vertex_[v].metric); }
-  [[nodiscard]] double size_along(std::int32_t v, Vec2 d, Metric2 metric) const {
+  [[nodiscard]] double size_along(std::int32_t v, const Vec2& d) const { return size_along(v, d, at_vertex_[v].metric); }
+  [[nodiscard]] double size_along(std::int32_t v, const Vec2& d, Metric2 metric) const {
     return normal_[v] ? norm(d.x() * at_vertex_[v].su + d.y() * at_vertex_[v].sv) / length(metric, d) : nan;
   }
 
@@ -283,7 +283,7 @@ class Measurement {
   }
 
   // The offset in (u, v) that leads along a chord, in the tangent plane of a vertex.
-  [[nodiscard]] Vec2 offset_along(std::int32_t v, Vec3 chord) const {
+  [[nodiscard]] Vec2 offset_along(std::int32_t v, const Vec3& chord) const {
     const AtVertex& at = at_vertex_[v];
     const double e = dot(at.su, at.su), f = dot(at.su, at.sv), g = dot(at.sv, at.sv), det = e * g - f * f;
     const double p = dot(at.su, chord), q = dot(at.sv, chord);
@@ -330,7 +330,7 @@ class Measurement {
 
   // The image of a triangle of (u, v) may reach beyond the triangle in space, by much at a pole: what lies there is
   // above a neighbour, or its neighbour, as long as they come nearer.
-  [[nodiscard]] double distance_to_mesh(Vec3 s, std::size_t triangle) const {
+  [[nodiscard]] double distance_to_mesh(const Vec3& s, std::size_t triangle) const {
     double d = distance(s, triangle);
     for (bool nearer = true; nearer;) {
       nearer = false;

@@ -12,7 +12,7 @@ namespace carreau {
 
 namespace {
 
-double double_area(Vec3 a, Vec3 b, Vec3 c) noexcept { return norm(cross(b - a, c - a)); }
+double double_area(const Vec3& a, const Vec3& b, const Vec3& c) noexcept { return norm(cross(b - a, c - a)); }
 
 Distribution distribution(std::vector<double>& values) {
   Distribution d;
@@ -29,7 +29,7 @@ Distribution distribution(std::vector<double>& values) {
   return d;
 }
 
-double angle_between(Vec3 p, Vec3 q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
+double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
 // Of this many triangles: sums do not depend on the number of threads.
 constexpr std::size_t part_size = 4096;
@@ -113,7 +113,7 @@ void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
 
 }  // namespace
 
-double quality_q1(Vec3 a, Vec3 b, Vec3 c) noexcept {
+double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const double ab = norm(b - a), bc = norm(c - b), ca = norm(a - c);
   const double longest = std::max({ab, bc, ca});
   if (!(longest > 0)) return 0;
@@ -121,7 +121,7 @@ double quality_q1(Vec3 a, Vec3 b, Vec3 c) noexcept {
   return 2 * std::numbers::sqrt3 * (double_area(a, b, c) / (ab + bc + ca)) / longest;
 }
 
-double quality_q2(Vec3 a, Vec3 b, Vec3 c) noexcept {
+double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const Vec3 ab = b - a, bc = c - b, ca = a - c;
   const double squares = dot(ab, ab) + dot(bc, bc) + dot(ca, ca);
   // HDR eq. 1.6

@@ -9,9 +9,9 @@
 namespace carreau {
 
 /// 2 sqrt(3) inradius / longest edge (HDR eq. 1.5); 1 for an equilateral triangle, 0 for a flat one.
-double quality_q1(Vec3 a, Vec3 b, Vec3 c) noexcept;
+double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 /// 4 sqrt(3) area / sum of squared edges (HDR eq. 1.6).
-double quality_q2(Vec3 a, Vec3 b, Vec3 c) noexcept;
+double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 /// A triangle of no more than this Q2 has no area: it is what rounding leaves of a flat one.
 inline constexpr double flat_quality = 1e-12;
 

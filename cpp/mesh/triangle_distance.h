@@ -8,7 +8,7 @@
 namespace carreau {
 
 /// Distance from p to the closed triangle (a, b, c); of a flat one, to its sides.
-inline double distance_to_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept {
+inline double distance_to_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const Vec3 normal = cross(b - a, c - a);
   const bool inside = dot(cross(b - a, p - a), normal) >= 0 && dot(cross(c - b, p - b), normal) >= 0 &&
                       dot(cross(a - c, p - c), normal) >= 0;

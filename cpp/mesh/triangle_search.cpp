@@ -18,7 +18,7 @@ double& coordinate(Vec3& p, int axis) noexcept { return axis == 0 ? p.x() : axis
 double coordinate(const Vec3& p, int axis) noexcept { return axis == 0 ? p.x() : axis == 1 ? p.y() : p.z(); }
 
 /// Weights of the point of a triangle that is nearest to p.
-std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner) noexcept {
+std::array<double, 3> nearest_weights(const Vec3& p, const std::array<Vec3, 3>& corner) noexcept {
   const Vec3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
   const double area2 = dot(normal, normal);
   if (area2 > 0) {
@@ -49,7 +49,7 @@ std::array<double, 3> nearest_weights(Vec3 p, const std::array<Vec3, 3>& corner)
 
 }  // namespace
 
-NearestOnMesh nearest_on_triangle(Vec3 p, const std::array<Vec3, 3>& corners) noexcept {
+NearestOnMesh nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) noexcept {
   const std::array<double, 3> w = nearest_weights(p, corners);
   const Vec3 point = w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2];
   return {-1, w, point, norm(point - p)};
@@ -122,7 +122,7 @@ TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const s
   }
 }
 
-double TriangleSearch::squared_distance(const Box& box, Vec3 p) noexcept {
+double TriangleSearch::squared_distance(const Box& box, const Vec3& p) noexcept {
   const auto beyond = [](double low, double x, double high) { return std::max({low - x, x - high, 0.0}); };
   const double x = beyond(box.low.x(), p.x(), box.high.x()), y = beyond(box.low.y(), p.y(), box.high.y()),
                z = beyond(box.low.z(), p.z(), box.high.z());
@@ -146,7 +146,7 @@ void TriangleSearch::look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best)
   best = {triangle, w, point, squared};
 }
 
-NearestOnMesh TriangleSearch::nearest(Vec3 p, std::int32_t guess) const noexcept {
+NearestOnMesh TriangleSearch::nearest(const Vec3& p, std::int32_t guess) const noexcept {
   NearestOnMesh best;
   look_at(guess >= 0 && static_cast<std::size_t>(guess) < corners_.size() ? guess : 0, p, best);
   // The depth is the logarithm of the number of triangles: 64 pairs are more than memory can hold.
@@ -176,7 +176,7 @@ NearestOnMesh TriangleSearch::nearest(Vec3 p, std::int32_t guess) const noexcept
 }
 
 // Between the planes of each pair of sides, widened by rounding.
-bool TriangleSearch::meets(const Box& box, Vec3 p, Vec3 q) noexcept {
+bool TriangleSearch::meets(const Box& box, const Vec3& p, const Vec3& q) noexcept {
   double from = 0, to = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const double a = coordinate(p, axis), d = coordinate(q, axis) - a;

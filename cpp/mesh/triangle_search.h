@@ -21,7 +21,7 @@ struct NearestOnMesh {
 };
 
 /// The nearest point of one triangle, which may be flat: then of its sides. `triangle` of the result is -1.
-NearestOnMesh nearest_on_triangle(Vec3 p, const std::array<Vec3, 3>& corners) noexcept;
+NearestOnMesh nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) noexcept;
 
 /// Boxes around triangles of space, halved down to a few triangles. Plane meshes have z = 0: a point of one lies in the
 /// triangle that is nearest. Copies what it is given. nearest() is safe from several threads.
@@ -36,7 +36,7 @@ class TriangleSearch {
   [[nodiscard]] bool empty() const noexcept { return corners_.empty(); }
   /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found
   /// nearby), saves time and changes nothing. Not for an empty tree.
-  [[nodiscard]] NearestOnMesh nearest(Vec3 p, std::int32_t guess = 0) const noexcept;
+  [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
   /// Adds the triangles that a segment may meet: all those whose boxes it meets, and some others beside.
   void beside_segment(Vec3 p, Vec3 q, std::vector<std::int32_t>& triangles) const;
   /// Adds the triangles whose own boxes have a point in common with the closed box from `low` to `high`, exactly.
@@ -51,8 +51,8 @@ class TriangleSearch {
     std::int32_t count = 0;  ///< triangles of a leaf; 0: not a leaf
   };
   struct Builder;
-  static double squared_distance(const Box& box, Vec3 p) noexcept;
-  static bool meets(const Box& box, Vec3 p, Vec3 q) noexcept;
+  static double squared_distance(const Box& box, const Vec3& p) noexcept;
+  static bool meets(const Box& box, const Vec3& p, const Vec3& q) noexcept;
   void look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept;
 
   std::vector<std::array<Vec3, 3>> corners_;

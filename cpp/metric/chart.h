@@ -32,16 +32,16 @@ class Chart {
   }
 
   [[nodiscard]] Vec2 origin() const noexcept { return origin_; }
-  [[nodiscard]] Vec2 at(Vec2 p) const noexcept { return at_offset(p - origin_); }
+  [[nodiscard]] Vec2 at(const Vec2& p) const noexcept { return at_offset(p - origin_); }
   /// y of origin + e.
-  [[nodiscard]] Vec2 at_offset(Vec2 e) const noexcept {
+  [[nodiscard]] Vec2 at_offset(const Vec2& e) const noexcept {
     return to_frame({e.x() + squared_length(u_, e), e.y() + squared_length(v_, e)});
   }
 
   /// J^-1 d: the offset that the tensor alone gives.
-  [[nodiscard]] Vec2 offset(Vec2 d) const noexcept { return {(d.x() - q_ * d.y() / r_) / p_, d.y() / r_}; }
+  [[nodiscard]] Vec2 offset(const Vec2& d) const noexcept { return {(d.x() - q_ * d.y() / r_) / p_, d.y() / r_}; }
   /// The point at y, by Newton's method from one nearby, which is given back where the chart folds.
-  [[nodiscard]] Vec2 point(Vec2 y, Vec2 near) const noexcept {
+  [[nodiscard]] Vec2 point(const Vec2& y, const Vec2& near) const noexcept {
     constexpr int steps = 4;           // from within a unit length: 1e-8 after three
     constexpr double least_det = 0.1;  // of the derivative: 1 at the origin, 0 on the fold
     Vec2 e = near - origin_;
@@ -64,7 +64,7 @@ class Chart {
   }
 
  private:
-  [[nodiscard]] Vec2 to_frame(Vec2 w) const noexcept { return {p_ * w.x() + q_ * w.y(), r_ * w.y()}; }
+  [[nodiscard]] Vec2 to_frame(const Vec2& w) const noexcept { return {p_ * w.x() + q_ * w.y(), r_ * w.y()}; }
 
   Vec2 origin_;
   double p_ = 1, q_ = 0, r_ = 1;  // J = (p q; 0 r)

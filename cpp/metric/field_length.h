@@ -9,7 +9,7 @@ namespace carreau {
 /// (RR-2818 sec. 4.4; LSS of RT-0232 sec. 3.3, default 0.5) and, unlike there, at least once, because both ends may
 /// agree by symmetry where the middle does not. At most `depth` halvings. No memory is allocated.
 template <typename Field>
-double field_length(const Field& at, Vec2 p, Vec2 q, double lss = 0.5, int depth = 20) {
+double field_length(const Field& at, const Vec2& p, const Vec2& q, double lss = 0.5, int depth = 20) {
   const Vec2 d = q - p;
   const auto speed = [&](double t) { return length(at(lerp(p, q, t)), d); };
   struct FieldPiece {

@@ -20,11 +20,11 @@ constexpr Metric2 operator*(double s, Metric2 m) noexcept { return {s * m.a, s *
 
 constexpr double determinant(Metric2 m) noexcept { return m.a * m.c - m.b * m.b; }
 /// <p, q> in the metric.
-inline double dot(Metric2 m, Vec2 p, Vec2 q) noexcept {
+inline double dot(Metric2 m, const Vec2& p, const Vec2& q) noexcept {
   return m.a * p.x() * q.x() + m.b * (p.x() * q.y() + p.y() * q.x()) + m.c * p.y() * q.y();
 }
-inline double squared_length(Metric2 m, Vec2 d) noexcept { return dot(m, d, d); }
-inline double length(Metric2 m, Vec2 d) noexcept { return std::sqrt(squared_length(m, d)); }
+inline double squared_length(Metric2 m, const Vec2& d) noexcept { return dot(m, d, d); }
+inline double length(Metric2 m, const Vec2& d) noexcept { return std::sqrt(squared_length(m, d)); }
 
 /// Corners of a regular hexagon on the unit circle.
 inline constexpr double half_root3 = 0.8660254037844386;
@@ -38,7 +38,7 @@ class UnitCircle {
   explicit UnitCircle(Metric2 m) noexcept
       : p_(std::sqrt(m.a)), q_(m.b / p_), r_(std::sqrt(std::max(m.c - q_ * q_, 1e-12 * m.c))) {}
   /// The vector whose length in the metric is the Euclidean one of d.
-  [[nodiscard]] Vec2 vector(Vec2 d) const noexcept {
+  [[nodiscard]] Vec2 vector(const Vec2& d) const noexcept {
     const double y = d.y() / r_;
     return {(d.x() - q_ * y) / p_, y};
   }
@@ -49,7 +49,7 @@ class UnitCircle {
 
 /// J^T J / h^2 (RR-2928 eq. 27 for an isotropic size h): the metric that a wanted size h in space
 /// induces on the parameter plane where the surface has first derivatives su, sv.
-inline Metric2 induced_metric(Vec3 su, Vec3 sv, double h) noexcept {
+inline Metric2 induced_metric(const Vec3& su, const Vec3& sv, double h) noexcept {
   const double k = 1 / (h * h);
   return {k * dot(su, su), k * dot(su, sv), k * dot(sv, sv)};
 }

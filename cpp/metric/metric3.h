@@ -22,16 +22,16 @@ constexpr Metric3 isotropic_metric3(double h) noexcept {
 }
 
 /// M d.
-inline Vec3 apply(const Metric3& m, Vec3 d) noexcept {
+inline Vec3 apply(const Metric3& m, const Vec3& d) noexcept {
   return {m.xx * d.x() + m.xy * d.y() + m.xz * d.z(), m.xy * d.x() + m.yy * d.y() + m.yz * d.z(),
           m.xz * d.x() + m.yz * d.y() + m.zz * d.z()};
 }
-inline double squared_length(const Metric3& m, Vec3 d) noexcept { return dot(d, apply(m, d)); }
-inline double length(const Metric3& m, Vec3 d) noexcept { return std::sqrt(squared_length(m, d)); }
+inline double squared_length(const Metric3& m, const Vec3& d) noexcept { return dot(d, apply(m, d)); }
+inline double length(const Metric3& m, const Vec3& d) noexcept { return std::sqrt(squared_length(m, d)); }
 
 /// J^T M J (RR-2928 eq. 27, HDR eq. 4.63): what the metric of space induces on the parameter plane where the surface
 /// has first derivatives su, sv.
-inline Metric2 induced_metric(Vec3 su, Vec3 sv, const Metric3& m) noexcept {
+inline Metric2 induced_metric(const Vec3& su, const Vec3& sv, const Metric3& m) noexcept {
   const Vec3 mu = apply(m, su), mv = apply(m, sv);
   return {dot(su, mu), dot(su, mv), dot(sv, mv)};
 }

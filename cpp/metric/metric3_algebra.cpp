@@ -222,7 +222,7 @@ Metric2 combine(Metric2 prescribed, Metric2 bound, MetricCombination how) noexce
   return std::max(1.0, largest * largest) * prescribed;
 }
 
-Metric3 metric_of_sizes(Vec3 direction, double h1, double h2) noexcept {
+Metric3 metric_of_sizes(const Vec3& direction, double h1, double h2) noexcept {
   const Vec3 d = (1 / norm(direction)) * direction;
   // k1 d d^T + k2 (I - d d^T), each eigenvalue from terms of its own sign.
   const double k1 = 1 / (h1 * h1), k2 = 1 / (h2 * h2);
@@ -234,7 +234,7 @@ Metric3 metric_of_sizes(Vec3 direction, double h1, double h2) noexcept {
           k1 * d.z() * d.z() + k2 * (d.x() * d.x() + d.y() * d.y())};
 }
 
-std::optional<TangentFrame> TangentFrame::of(Vec3 su, Vec3 sv) noexcept {
+std::optional<TangentFrame> TangentFrame::of(const Vec3& su, const Vec3& sv) noexcept {
   constexpr double collapsed = 1e-24, parallel = 1e-20;
   const double e = dot(su, su), g = dot(sv, sv);
   const Vec3 n = cross(su, sv);

@@ -66,7 +66,7 @@ Metric2 combine(Metric2 prescribed, Metric2 bound, MetricCombination how) noexce
 
 /// The metric with size h1 along `direction` (any length but zero) and h2 across it (HDR eq. 4.45): in a tangent plane
 /// that holds the direction, sizes h1 and h2.
-Metric3 metric_of_sizes(Vec3 direction, double h1, double h2) noexcept;
+Metric3 metric_of_sizes(const Vec3& direction, double h1, double h2) noexcept;
 
 /// An orthonormal basis (e1, e2) of a tangent plane with su = p e1, sv = q e1 + r e2.
 struct TangentFrame {
@@ -75,7 +75,7 @@ struct TangentFrame {
 
   /// Empty where the parametrisation is degenerate: a derivative below 1e-12 of the other, or both parallel within
   /// 1e-10.
-  static std::optional<TangentFrame> of(Vec3 su, Vec3 sv) noexcept;
+  static std::optional<TangentFrame> of(const Vec3& su, const Vec3& sv) noexcept;
 
   /// What a metric of space says in the plane.
   [[nodiscard]] Metric2 restricted(const Metric3& m) const noexcept;

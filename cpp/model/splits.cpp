@@ -16,7 +16,7 @@ namespace {
 struct Box {
   Vec3 low, high;
 
-  [[nodiscard]] bool holds(Vec3 p, double margin) const noexcept {
+  [[nodiscard]] bool holds(const Vec3& p, double margin) const noexcept {
     return p.x() >= low.x() - margin && p.x() <= high.x() + margin && p.y() >= low.y() - margin && p.y() <= high.y() + margin &&
            p.z() >= low.z() - margin && p.z() <= high.z() + margin;
   }
@@ -25,8 +25,8 @@ struct Box {
 Box box_of(std::span<const Vec3> trace) {
   Box box{trace.front(), trace.front()};
   for (const Vec3& p : trace) {
-    box.low = {std::min(box.low.x(), p.x()), std::min(box.low.y(), p.y()), std::min(box.low.z(), p.z())};
-    box.high = {std::max(box.high.x(), p.x()), std::max(box.high.y(), p.y()), std::max(box.high.z(), p.z())};
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
   }
   return box;
 }

@@ -45,7 +45,7 @@ Vec3 trace_point(std::span<const Vec3> trace, double fraction) {
   return trace.back();
 }
 
-TracePlace nearest_on_trace(std::span<const Vec3> trace, Vec3 p) {
+TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p) {
   TracePlace nearest;
   double before = 0;
   for (std::size_t i = 1; i < trace.size(); ++i) {
@@ -102,8 +102,8 @@ double traces_diagonal(const CurveTraces& traces) {
   for (const auto& of_face : traces)
     for (const auto& trace : of_face)
       for (const Vec3& p : trace) {
-        low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-        high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
       }
   return low.x() > high.x() ? 0 : norm(high - low);
 }

@@ -21,7 +21,7 @@ struct TracePlace {
   double arc = 0;  ///< usual length from its start
   double distance = std::numeric_limits<double>::infinity();
 };
-TracePlace nearest_on_trace(std::span<const Vec3> trace, Vec3 p);
+TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p);
 /// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds
 /// `enough`. Distances up to `negligible` may come out as that.
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough, double negligible = 0);

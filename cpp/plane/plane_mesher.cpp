@@ -3,8 +3,12 @@
 #include <algorithm>
 
 #include "plane/kernel/boundary.h"
-#include "plane/optimise/optimiser.h"
-#include "plane/placement/filler.h"
+#include "plane/optimise/local_search.h"
+#include "plane/optimise/optimise.h"
+#include "plane/placement/advancing_front.h"
+#include "plane/placement/algebraic.h"
+#include "plane/placement/degenerate_sides.h"
+#include "plane/placement/undersampled_regions.h"
 
 namespace carreau {
 
@@ -34,29 +38,32 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangu
   return mesh;
 }
 
+void place_points(plane::PlaneWork& work, const PlaneDomain& domain, const plane::Frame& frame,
+                  const PlaneMesherOptions& options) {
+  plane::Placement placement(work, options.max_triangles);
+  surround_degenerate_sides(placement, domain);
+  work.fixed = static_cast<int>(work.mesh.vertices.size());
+  const auto fill = [&] { options.frontal ? advance_front(placement) : split_long_edges(placement); };
+  fill();
+  bool seeded = false;
+  for (const std::vector<Vec2>& places : options.undersampled)
+    seeded =
+        std::any_of(places.begin(), places.end(), [&](Vec2 p) { return seed_region(placement, frame.inward(p)); }) ||
+        seeded;
+  if (seeded) fill();
+}
+
 }  // namespace
 
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor) {
   plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
   const plane::Field field(metric, boundary.frame, options.frontal);
-  int fixed = 0;
-  {
-    plane::Filler filler(boundary.mesh, field, options.max_triangles, monitor);
-    fixed = filler.surround_degenerate_edges(domain);
-    const auto fill = [&] { options.frontal ? filler.march() : filler.split_long_edges(); };
-    fill();
-    bool settled = false;
-    for (const std::vector<Vec2>& places : options.deserts)
-      settled =
-          std::any_of(places.begin(), places.end(), [&](Vec2 p) { return filler.settle(boundary.frame.inward(p)); }) ||
-          settled;
-    if (settled) fill();
-  }
+  plane::PlaneWork work{boundary.mesh, field, monitor};
+  place_points(work, domain, boundary.frame, options);
   boundary.mesh.renumber_if_large();
-  plane::Optimiser optimiser(boundary.mesh, fixed, field, monitor);
-  optimiser.run();
-  if (options.shape_trials) optimiser.improve_worst(options.normals);
+  plane::optimise(work);
+  if (options.shape_trials) plane::search_around_bad_triangles(work, options.normals);
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 

@@ -19,9 +19,9 @@ struct PlaneMesherOptions {
   /// add none between two vertices of curves. Null: a plane.
   const SampledNormals* normals = nullptr;
   std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
-  /// Squares that another mesh has missed (ControlSpace::deserts()), as places of each: what is still far from all
-  /// vertices when points have been placed is settled, and they go on from there.
-  std::span<const std::vector<Vec2>> deserts = {};
+  /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), as places of each: what is still far
+  /// from all vertices when points have been placed gets a seed, from which the front goes on.
+  std::span<const std::vector<Vec2>> undersampled = {};
 };
 
 /// Triangulates `domain` so that edges have length 1 in the metric as far as possible.

@@ -84,8 +84,8 @@ int EdgeGrid::interval_of(const std::vector<double>& lines, double value) noexce
 }
 
 template <typename Visit>
-void EdgeGrid::visit_cells(Vec2 a, Vec2 b, const Visit& visit) const {
-  if (b.y() < a.y()) std::swap(a, b);
+void EdgeGrid::visit_cells(const Vec2& a, const Vec2& b, const Visit& visit) const {
+  if (b.y() < a.y()) return visit_cells(b, a, visit);
   const double slack = 16 * std::numeric_limits<double>::epsilon();
   const double padding = slack * std::abs(a.x()) + slack * std::abs(b.x()) + 4 * std::numeric_limits<double>::denorm_min();
   const double leftmost = std::min(a.x(), b.x()), rightmost = std::max(a.x(), b.x());

@@ -34,7 +34,7 @@ class EdgeGrid {
  private:
   static int interval_of(const std::vector<double>& lines, double value) noexcept;
   template <typename Visit>
-  void visit_cells(Vec2 a, Vec2 b, const Visit& visit) const;
+  void visit_cells(const Vec2& a, const Vec2& b, const Visit& visit) const;
 
   std::vector<double> xs_, ys_;
   std::vector<int> first_, edge_;  // compressed rows: cell c has edge_[first_[c]] .. edge_[first_[c + 1] - 1]

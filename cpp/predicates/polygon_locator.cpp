@@ -13,7 +13,7 @@ namespace carreau {
 namespace {
 
 /// Does the line y = level + e' meet the segment?
-bool spans_level(Vec2 p, Vec2 q, double level) noexcept {
+bool spans_level(const Vec2& p, const Vec2& q, double level) noexcept {
   return std::min(p.y(), q.y()) <= level && level < std::max(p.y(), q.y());
 }
 
@@ -33,7 +33,7 @@ PolygonLocator::PolygonLocator(std::span<const Vec2> vertices, std::span<const s
 }
 
 /// Side of (p.x + e, p.y + e') seen along the segment: 1 left, -1 right, 0 only without length.
-int PolygonLocator::side(const Segment& s, Vec2 p) noexcept {
+int PolygonLocator::side(const Segment& s, const Vec2& p) noexcept {
   const int sign = orientation(s.low, s.high, p);
   if (sign != 0) return sign;
   if (s.low.y() != s.high.y()) return s.low.y() < s.high.y() ? -1 : 1;
@@ -41,7 +41,7 @@ int PolygonLocator::side(const Segment& s, Vec2 p) noexcept {
 }
 
 /// Does the leg from the corner to (x, corner.y) cross the segment?
-bool PolygonLocator::crosses_horizontally(const Segment& s, Vec2 corner, double x) noexcept {
+bool PolygonLocator::crosses_horizontally(const Segment& s, const Vec2& corner, double x) noexcept {
   if (!spans_level(s.low, s.high, corner.y()) || s.low.x() > x || s.high.x() < corner.x()) return false;
   return side(s, corner) != side(s, {x, corner.y()});
 }
@@ -66,12 +66,12 @@ void PolygonLocator::find_corners() {
   }
 }
 
-bool PolygonLocator::in_box(Vec2 p) const noexcept {
+bool PolygonLocator::in_box(const Vec2& p) const noexcept {
   return !segment_.empty() && p.x() >= grid_.x(0) && p.x() <= grid_.x(grid_.columns()) && p.y() >= grid_.y(0) &&
          p.y() <= grid_.y(grid_.rows());
 }
 
-bool PolygonLocator::contains(Vec2 p) const noexcept {
+bool PolygonLocator::contains(const Vec2& p) const noexcept {
   if (!in_box(p)) return false;
   const int column = grid_.column_of(p.x()), row = grid_.row_of(p.y());
   const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{p.x(), corner.y()};
@@ -89,7 +89,7 @@ bool PolygonLocator::contains(Vec2 p) const noexcept {
   return inside;
 }
 
-int PolygonLocator::edge_through(Vec2 p) const noexcept {
+int PolygonLocator::edge_through(const Vec2& p) const noexcept {
   if (!in_box(p)) return -1;
   int lowest = -1;
   for (const int e : grid_.edges_in(grid_.column_of(p.x()), grid_.row_of(p.y()))) {
@@ -103,7 +103,7 @@ int PolygonLocator::edge_through(Vec2 p) const noexcept {
 
 /// As `contains`, for the point that lies on low - high, infinitely near to low, and then just below, or just right
 /// when low - high is vertical. `edge`: which edge low - high is, or -1.
-bool PolygonLocator::inside_below(Vec2 low, Vec2 high, int edge) const noexcept {
+bool PolygonLocator::inside_below(const Vec2& low, const Vec2& high, int edge) const noexcept {
   const int column = grid_.column_of(low.x()), row = grid_.row_of(low.y());
   const Vec2 corner{grid_.x(column), grid_.y(row)}, turn{low.x(), corner.y()};
   bool inside = corner_inside_[static_cast<std::size_t>(row) * grid_.columns() + column] != 0;
@@ -126,7 +126,7 @@ bool PolygonLocator::inside_left_of(int edge) const noexcept {
   return (reversed_[edge] != 0) == inside_below(s.low, s.high, edge);
 }
 
-bool PolygonLocator::inside_along(Vec2 p, Vec2 q) const noexcept {
+bool PolygonLocator::inside_along(const Vec2& p, const Vec2& q) const noexcept {
   if (p == q || !in_box(p) || !in_box(q)) return false;
   return comes_after(p, q) ? inside_below(q, p, -1) : inside_below(p, q, -1);
 }

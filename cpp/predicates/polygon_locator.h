@@ -18,25 +18,25 @@ class PolygonLocator {
   PolygonLocator(std::span<const Vec2> vertices, std::span<const std::pair<int, int>> edges);
 
   /// Inside or on an edge. Exact for finite points; false for others. Thread-safe.
-  [[nodiscard]] bool contains(Vec2 p) const noexcept;
+  [[nodiscard]] bool contains(const Vec2& p) const noexcept;
   /// The lowest index of an edge that holds p (ends included), or -1.
-  [[nodiscard]] int edge_through(Vec2 p) const noexcept;
+  [[nodiscard]] int edge_through(const Vec2& p) const noexcept;
   /// For an edge whose points are on no other edge, except its ends: is its left side (from first to second) inside?
   /// Edges without length have none: false.
   [[nodiscard]] bool inside_left_of(int edge) const noexcept;
   /// Is the segment p - q, which meets edges at most at its ends, inside? Decided next to one end. False when p == q.
-  [[nodiscard]] bool inside_along(Vec2 p, Vec2 q) const noexcept;
+  [[nodiscard]] bool inside_along(const Vec2& p, const Vec2& q) const noexcept;
 
  private:
   struct Segment {
     Vec2 low, high;  // low comes before high in the order of x, then y
   };
-  static bool comes_after(Vec2 p, Vec2 q) noexcept { return q.x() < p.x() || (q.x() == p.x() && q.y() < p.y()); }
-  static int side(const Segment& s, Vec2 p) noexcept;
-  static bool crosses_horizontally(const Segment& s, Vec2 corner, double x) noexcept;
+  static bool comes_after(const Vec2& p, const Vec2& q) noexcept { return q.x() < p.x() || (q.x() == p.x() && q.y() < p.y()); }
+  static int side(const Segment& s, const Vec2& p) noexcept;
+  static bool crosses_horizontally(const Segment& s, const Vec2& corner, double x) noexcept;
   void find_corners();
-  [[nodiscard]] bool inside_below(Vec2 low, Vec2 high, int edge) const noexcept;
-  [[nodiscard]] bool in_box(Vec2 p) const noexcept;
+  [[nodiscard]] bool inside_below(const Vec2& low, const Vec2& high, int edge) const noexcept;
+  [[nodiscard]] bool in_box(const Vec2& p) const noexcept;
 
   std::vector<Segment> segment_;
   std::vector<char> reversed_;  // edge runs from high to low

@@ -5,7 +5,7 @@
 namespace carreau::detail {
 namespace {
 
-bool in_safe_range(Vec2 p) noexcept { return is_safe(p.x()) && is_safe(p.y()); }
+bool in_safe_range(const Vec2& p) noexcept { return is_safe(p.x()) && is_safe(p.y()); }
 
 /// The formulas for any ring of numbers; the arguments are differences to the last point.
 template <typename Number>
@@ -31,7 +31,7 @@ int compare(TwoTerms left, TwoTerms right) noexcept {
 
 }  // namespace
 
-int exact_orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
+int exact_orientation(const Vec2& a, const Vec2& b, const Vec2& c) noexcept {
   // On a side parallel to an axis both products have a factor that is zero, exactly: differences never underflow.
   if ((a.x() == c.x() || b.y() == c.y()) && (a.y() == c.y() || b.x() == c.x())) return 0;
   if (!in_safe_range(a) || !in_safe_range(b) || !in_safe_range(c)) {
@@ -47,7 +47,7 @@ int exact_orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
   return sign_of_orientation(Expansion<2>(ax), Expansion<2>(ay), Expansion<2>(bx), Expansion<2>(by));
 }
 
-int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
+int exact_in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   if (in_safe_range(a) && in_safe_range(b) && in_safe_range(c) && in_safe_range(d))
     return sign_of_in_circle(difference(a.x(), d.x()), difference(a.y(), d.y()), difference(b.x(), d.x()), difference(b.y(), d.y()),
                              difference(c.x(), d.x()), difference(c.y(), d.y()));

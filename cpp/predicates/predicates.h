@@ -13,8 +13,8 @@ namespace carreau {
 
 namespace detail {
 /// The signs without the filter.
-int exact_orientation(Vec2 a, Vec2 b, Vec2 c) noexcept;
-int exact_in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept;
+int exact_orientation(const Vec2& a, const Vec2& b, const Vec2& c) noexcept;
+int exact_in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept;
 
 /// (3 + 16 e) e and (10 + 96 e) e with e = 2^-53 ([shewchuk-1997] sec. 4.3 and 4.4).
 inline constexpr double orientation_bound = 3.3306690738754716e-16;
@@ -25,7 +25,7 @@ inline constexpr double underflow_bound = 1e-290;
 
 /// Sign of the area of (a, b, c): +1 counterclockwise, -1 clockwise, 0 collinear. Exact for all finite doubles,
 /// however large or small; meaningless for infinities and NaN.
-inline int orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
+inline int orientation(const Vec2& a, const Vec2& b, const Vec2& c) noexcept {
   const double left = (a.x() - c.x()) * (b.y() - c.y());
   const double right = (a.y() - c.y()) * (b.x() - c.x());
   const double det = left - right;
@@ -38,7 +38,7 @@ inline int orientation(Vec2 a, Vec2 b, Vec2 c) noexcept {
 
 /// +1 when d lies inside the circle through a, b, c (counterclockwise), -1 outside, 0 on it; the opposite when a, b, c
 /// are clockwise. Exact for all finite doubles.
-inline int in_circle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
+inline int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const double ax = a.x() - d.x(), ay = a.y() - d.y();
   const double bx = b.x() - d.x(), by = b.y() - d.y();
   const double cx = c.x() - d.x(), cy = c.y() - d.y();

@@ -180,8 +180,8 @@ EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Ve
   options.relative = parameters.integer("adapt_relative") != 0;
   Vec3 low = vertices.front(), high = low;
   for (const Vec3& p : vertices) {
-    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   const double diagonal = norm(high - low);
   options.hmin = parameters.real("adapt_hmin") > 0 ? parameters.real("adapt_hmin") : diagonal / 500;

@@ -21,8 +21,8 @@ Box box_of(const std::vector<CurveSupport>& supports) {
   Box box{{far, far}, {-far, -far}};
   for (const CurveSupport& support : supports)
     for (const Vec2& p : support.uv) {
-      box.low = {std::min(box.low.x(), p.x()), std::min(box.low.y(), p.y())};
-      box.high = {std::max(box.high.x(), p.x()), std::max(box.high.y(), p.y())};
+      box.low = box.low.cwiseMin(p);
+      box.high = box.high.cwiseMax(p);
     }
   return box;
 }

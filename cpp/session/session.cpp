@@ -103,8 +103,8 @@ void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad&
     Vec2 low{far, far}, high{-far, -far};
     for (const CurveSupport& support : supports.of_face[f])
       for (const Vec2& p : support.uv) {
-        low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-        high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
       }
     if (low.x() < high.x() && low.y() < high.y()) cad.set_parameter_box(model.faces[f].ref, low, high);
   }

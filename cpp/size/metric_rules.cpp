@@ -17,7 +17,7 @@ constexpr double way_inside = 1e-3;
 constexpr Metric2 isotropic(double h) noexcept { return {1 / (h * h), 0, 1 / (h * h)}; }
 
 /// Size along a unit vector.
-double size_along(Metric2 m, Vec2 d) noexcept { return 1 / length(m, d); }
+double size_along(Metric2 m, const Vec2& d) noexcept { return 1 / length(m, d); }
 
 /// In an orthonormal basis of the tangent plane.
 Metric2 in_plane(const DirectedSizes& sizes, const TangentFrame& frame) noexcept {
@@ -116,7 +116,7 @@ std::vector<SteepPlace> SizeRules::steep_in_space() const {
 
 // ---- what is answered ----
 
-SizeRules::Answers SizeRules::answers_on_surface(int face, Vec2 uv, Vec3 xyz) const {
+SizeRules::Answers SizeRules::answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const {
   Answers answers;
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   if (asks_sources()) {
@@ -240,7 +240,7 @@ Metric2 SizeRules::degenerate_metric(const Answers& answers, const SurfaceJet& j
 }
 
 /// Clamped. Empty where the parametrisation is degenerate.
-std::optional<DirectedSizes> SizeRules::directed_sizes(int face, Vec2 uv, const SurfaceJet& jet) const {
+std::optional<DirectedSizes> SizeRules::directed_sizes(int face, const Vec2& uv, const SurfaceJet& jet) const {
   const auto clamped = [&](double h) { return std::clamp(h, parameters_.hgeomin, parameters_.hgeomax); };
   if (const auto radius = host_radius_of_surface(face, uv)) {
     const double h = clamped_geometric(*radius);
@@ -255,7 +255,7 @@ std::optional<DirectedSizes> SizeRules::directed_sizes(int face, Vec2 uv, const 
 
 // ---- inside faces ----
 
-SurfaceJet SizeRules::surface_jet(int face, unsigned want, Vec2 uv) const {
+SurfaceJet SizeRules::surface_jet(int face, unsigned want, const Vec2& uv) const {
   return surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, want, uv);
 }
 

@@ -164,7 +164,7 @@ Where SizeRules::where_of(const CurveUse& use, double t) const {
 
 // ---- physical sizes (RT-0232 sec. 3.1.3 a) ----
 
-std::optional<double> SizeRules::ask_surface(int face, Vec2 uv) const {
+std::optional<double> SizeRules::ask_surface(int face, const Vec2& uv) const {
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   const auto answer = checked_size(cad_.surface_size(ref, uv), "cad_hphys", Where{.face = ref, .uv = uv});
   if (!answer) return {};
@@ -291,7 +291,7 @@ double SizeRules::physical_on_curve(int curve, std::span<const double> t, double
 
 // ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
 
-std::optional<double> SizeRules::host_radius_of_surface(int face, Vec2 uv) const {
+std::optional<double> SizeRules::host_radius_of_surface(int face, const Vec2& uv) const {
   if (parameters_.geometric != GeometricSizes::radii) return {};
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   return checked_radius(cad_.surface_radius(ref, uv), "cad_rads", Where{.face = ref, .uv = uv});
@@ -310,7 +310,7 @@ std::optional<double> SizeRules::host_radius_of_curve(int curve, std::span<const
 
 /// `jet` with both derivatives when known, else nullptr. Where a host that was to give its own radius is silent, the
 /// curvature is computed.
-std::optional<double> SizeRules::radius_in_face(int face, Vec2 uv, const SurfaceJet* jet) const {
+std::optional<double> SizeRules::radius_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const {
   if (const auto radius = host_radius_of_surface(face, uv)) return radius;
   if (jet != nullptr) return smallest_radius(*jet);
   return smallest_radius(surface_at(cad_, model_.faces[static_cast<std::size_t>(face)].ref, both_derivatives, uv));

@@ -145,7 +145,7 @@ class SizeRules {
                           const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const;
 
   /// The surface of a face (index in Model::faces) at one point, with these Want bits.
-  [[nodiscard]] SurfaceJet surface_jet(int face, unsigned want, Vec2 uv) const;
+  [[nodiscard]] SurfaceJet surface_jet(int face, unsigned want, const Vec2& uv) const;
 
   /// The physical size alone at a point / on a curve (what `fallback` interpolates), clamped. +infinity when
   /// hphy_flag = 0.
@@ -174,17 +174,17 @@ class SizeRules {
 
   [[nodiscard]] double clamped_physical(double h) const noexcept;
   [[nodiscard]] Where where_of(const CurveUse& use, double t) const;
-  std::optional<double> ask_surface(int face, Vec2 uv) const;
+  std::optional<double> ask_surface(int face, const Vec2& uv) const;
   std::optional<double> ask_curve(int curve, std::span<const double> t);
   std::optional<double> ask_surfaces_beside(int curve, std::span<const double> t);
   std::optional<double> mean_of(const std::vector<double>& answers) const;
   double compute_physical_at_point(int point);
   double compute_geometric_at_point(int point);
   double geometric_on_curve(int curve, std::span<const double> t);
-  std::optional<double> host_radius_of_surface(int face, Vec2 uv) const;
+  std::optional<double> host_radius_of_surface(int face, const Vec2& uv) const;
   std::optional<double> host_radius_of_curve(int curve, std::span<const double> t);
   std::optional<double> radius_beside(const CurveUse& use, double t, const SurfaceJet* jet);
-  std::optional<double> radius_in_face(int face, Vec2 uv, const SurfaceJet* jet) const;
+  std::optional<double> radius_in_face(int face, const Vec2& uv, const SurfaceJet* jet) const;
   void geometric_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                             std::span<double> h) const;
   std::vector<CurveEnd> ends_at(int point);
@@ -196,13 +196,13 @@ class SizeRules {
   struct CurvePlace;
   struct AlongCurve;
   [[nodiscard]] bool needs_positions() const noexcept;
-  Answers answers_on_surface(int face, Vec2 uv, Vec3 xyz) const;
+  Answers answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const;
   Answers answers_on_curve(int curve, std::span<const double> t);
   Answers answers_at_point(int point);
   [[nodiscard]] Metric2 clamped_in_plane(Metric2 tangent) const noexcept;
   [[nodiscard]] Metric2 physical_in_plane(const Answers& answers, const TangentFrame& frame) const;
   [[nodiscard]] Metric2 degenerate_metric(const Answers& answers, const SurfaceJet& jet, double geometric) const;
-  std::optional<DirectedSizes> directed_sizes(int face, Vec2 uv, const SurfaceJet& jet) const;
+  std::optional<DirectedSizes> directed_sizes(int face, const Vec2& uv, const SurfaceJet& jet) const;
   CurvePlace place_on(const CurveUse& use, double t);
   AlongCurve along_curve(int curve, std::span<const double> t, const Answers* given, double silent);
   CurveSizes metric_sizes_on_curve(int curve, std::span<const double> t, double r);

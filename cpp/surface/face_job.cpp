@@ -132,7 +132,7 @@ void FaceJob::mesh(Monitor& monitor) {
                              .shape_trials = options_.shape_trials,
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = most_triangles_,
-                             .deserts = undersampled_},
+                             .undersampled = undersampled_},
                             monitor);
   next_ = Step::lift;
 }

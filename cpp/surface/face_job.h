@@ -63,7 +63,7 @@ class FaceJob final : public SteppedTask {
   void even_out(const UnevenSpeed& speed, Monitor& monitor);
   [[nodiscard]] double most_uneven() const noexcept;
   void return_to_host(Monitor& monitor);
-  [[nodiscard]] Vec2 host_uv(Vec2 p) const { return even_ ? even_->map.to_host(p) : p; }
+  [[nodiscard]] Vec2 host_uv(const Vec2& p) const { return even_ ? even_->map.to_host(p) : p; }
 
   /// What is asked and meshed in other parameters than the host's.
   struct Even {

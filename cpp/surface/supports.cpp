@@ -32,8 +32,8 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
   for (const auto& of_face : supports.of_face)
     for (const CurveSupport& support : of_face)
       for (const Vec3& p : support.xyz) {
-        low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-        high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
       }
   supports.diag = low.x() <= high.x() ? norm(high - low) : 0;
   return supports;

@@ -182,7 +182,7 @@ class Mesh(unittest.TestCase):
         self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("a.mesh"), "--set", "hphydeff=1", sentence="hphydef")
 
     def test_fields_of_a_cad_file_are_an_image_a_face(self):
-        # What is in such files is tested in tests/command/fields_test.py and tests/cpp/session.
+        # What is in such files is tested in tests/command/fields_test.py and tests/cpp/fields.
         done = run("fields", os.path.join(SHAPES, "sphere.step"), "-o", self.out("s.exr"), "--pixels", "30", "--set",
                    "hgeo_flag=1")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -54,8 +54,8 @@ void report(const Field& field) {
   const carreau::PolygonLocator locator(field.domain.vertices, field.domain.edges);
   Vec2 low = field.domain.vertices[0], high = low;
   for (const Vec2& p : field.domain.vertices) {
-    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> unit(0, 1);

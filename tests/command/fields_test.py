@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """fields_test.py CARREAU PARTIAL HOST...: `carreau fields` with geometries in shared libraries, C and Fortran: the same paraboloid.
-What the pixels hold is tested in tests/cpp/session/fields_test.cpp."""
+What the pixels hold is tested in tests/cpp/fields/fields_test.cpp."""
 import os
 import shutil
 import struct

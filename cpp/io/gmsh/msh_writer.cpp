@@ -164,8 +164,8 @@ class MshText {
       const Vec3 p = mesh_.vertices[static_cast<std::size_t>(v)];
       if (!any) low = high = p;
       any = true;
-      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     };
     for (const std::size_t member : entity.members) {
       if (dim == 1)

@@ -4,13 +4,12 @@
 
 #include "plane/kernel/domain_reader.h"
 #include "plane/kernel/edge_recovery.h"
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr int work_between_checks = 2048;
 
 class BoundaryMesher {
  public:
@@ -30,7 +29,7 @@ class BoundaryMesher {
 
  private:
   void tick() {
-    if (++work_ % work_between_checks == 0) monitor_.checkpoint();
+    if (++work_ % insertions_between_checks == 0) monitor_.checkpoint();
   }
   [[nodiscard]] Vec2 uv(int v) const { return domain_.vertices[v]; }
 
@@ -42,8 +41,8 @@ class BoundaryMesher {
     for (int v = 0; v < count_; ++v) {
       const Vec2 p = frame_.inward(domain_.vertices[v]);
       mesh_.vertices[v].x = p.x(), mesh_.vertices[v].y = p.y();
-      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     const double w = 3 * (high.x() - low.x()), h = 3 * (high.y() - low.y());
     const Vec2 corners[4] = {{low.x() - w, low.y() - h},

@@ -3,18 +3,12 @@
 #include <cmath>
 
 #include "plane/kernel/triangulation.h"
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
 namespace {
-
-// Within this squared distance the metric of the new point speaks for the others.
-constexpr double near2 = 9;
-// A chart errs by the cube of the distance.
-constexpr double near_in_chart2 = 9;
-// Nearly cocircular points are left as they are: rounding must not dig.
-constexpr double cocircular = 1e-12;
 
 // Whether cross(p, q) is positive, decided by its rounding errors: p and q are rounded differences of coordinates
 // ([shewchuk-1997] sec. 4.3); 0: the exact predicate must tell.
@@ -29,7 +23,7 @@ inline double squared(Metric2 m, double x, double y) noexcept { return (m.a * x 
 
 }  // namespace
 
-bool Triangulation::too_near(Vec2 p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept {
+bool Triangulation::too_near(const Vec2& p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept {
   if (std::find(rules.exempt.begin(), rules.exempt.end(), v) != rules.exempt.end()) return false;
   if (in_chart) return true;
   const Vertex& w = vertices[v];
@@ -50,7 +44,7 @@ bool Triangulation::in_far_circle(Metric2 metric, const RimPoint& a, const RimPo
 bool Triangulation::in_circle_of_chart(std::int32_t a, std::int32_t b, std::int32_t d) const noexcept {
   const Vec2 A = charted_[a], B = charted_[b], D = charted_[d];
   const double ab = cross(A, B), d2 = points_[d].d2;
-  return points_[a].d2 * cross(D, B) + points_[b].d2 * cross(A, D) - d2 * ab > cocircular * d2 * std::abs(ab);
+  return points_[a].d2 * cross(D, B) + points_[b].d2 * cross(A, D) - d2 * ab > cavity_tolerance * d2 * std::abs(ab);
 }
 
 void Triangulation::reserve_cavity(std::size_t triangles_in) {
@@ -117,11 +111,10 @@ bool Triangulation::dig_in(Vec2 p, Metric2 metric, int start, const InsertRules&
       int left = sign_of_cross(A.x, A.y, D.x, D.y, ad), right = sign_of_cross(D.x, D.y, B.x, B.y, db);
       if (left >= 0 && right >= 0) {
         bool inside = charted ? in_circle_of_chart(e.a, e.b, d)
-                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > cocircular * D.d2 * e.area;
-        const double near = charted ? near_in_chart2 : near2;
-        if (std::max({A.d2, B.d2, D.d2}) > near) {
-          const bool near_a = A.d2 <= near, near_b = B.d2 <= near;
-          if (D.d2 <= near)
+                              : A.d2 * db + B.d2 * ad - D.d2 * e.area > cavity_tolerance * D.d2 * e.area;
+        if (std::max({A.d2, B.d2, D.d2}) > near2) {
+          const bool near_a = A.d2 <= near2, near_b = B.d2 <= near2;
+          if (D.d2 <= near2)
             inside = true;  // a sliver between what is near and what is far
           else if (near_a && near_b)
             inside = inside &&

@@ -4,16 +4,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "plane/thresholds.h"
 #include "support/error.h"
 
 namespace carreau::plane {
 
 namespace {
 
-// Below this, coordinates inside the domain would lose their last bits to underflow; above, its box overflows.
-constexpr int least_exponent = -900, largest_exponent = 1020;
-
-double scale_for(double low, double high, Vec2 where) {
+double scale_for(double low, double high, const Vec2& where) {
   // Halves, because the difference of two numbers may overflow.
   const double half = 0.5 * high - 0.5 * low;
   if (!(half > 0)) throw_at(where, "the domain has no area: all its vertices lie on one line of constant u or v");
@@ -25,7 +23,7 @@ double scale_for(double low, double high, Vec2 where) {
 
 }  // namespace
 
-void throw_at(Vec2 uv, const std::string& sentence) {
+void throw_at(const Vec2& uv, const std::string& sentence) {
   Where where;
   where.uv = uv;
   throw DomainError(where, sentence);
@@ -72,8 +70,8 @@ void check_domain(const PlaneDomain& domain) {
 Frame frame_of(const PlaneDomain& domain) {
   Vec2 low = domain.vertices[0], high = low;
   for (const Vec2& p : domain.vertices) {
-    low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   Frame frame;
   frame.scale = {scale_for(low.x(), high.x(), low), scale_for(low.y(), high.y(), low)};

@@ -14,7 +14,7 @@ namespace carreau::plane {
 std::string name_of(const PlaneEdge& edge);
 /// The edge of the domain between these vertices, or "an imposed edge".
 std::string name_of_edge_between(const PlaneDomain& domain, int u, int v);
-[[noreturn]] void throw_at(Vec2 uv, const std::string& sentence);
+[[noreturn]] void throw_at(const Vec2& uv, const std::string& sentence);
 
 /// Throws DomainError unless vertices are finite, indices exist, and as many boundary edges arrive at each vertex as
 /// leave it; LimitError when there are too many vertices for 32-bit half-edges.

@@ -5,6 +5,7 @@
 #include "metric/chart.h"
 #include "metric/metric2.h"
 #include "plane/kernel/triangulation.h"
+#include "plane/thresholds.h"
 
 namespace carreau::plane {
 
@@ -12,23 +13,14 @@ namespace carreau::plane {
 struct Frame {
   Vec2 scale{1, 1}, unscale{1, 1};
 
-  [[nodiscard]] Vec2 inward(Vec2 uv) const noexcept { return {uv.x() * scale.x(), uv.y() * scale.y()}; }
-  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale.x(), p.y() * unscale.y()}; }
+  [[nodiscard]] Vec2 inward(const Vec2& uv) const noexcept { return {uv.x() * scale.x(), uv.y() * scale.y()}; }
+  [[nodiscard]] Vec2 outward(const Vec2& p) const noexcept { return {p.x() * unscale.x(), p.y() * unscale.y()}; }
 };
-
-/// Bend of a chart from which on it takes the place of the tensor: a size that grows by a tenth, or directions that
-/// turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors.
-inline constexpr double least_bend = 0.4;
-/// Bend beyond which charts are of no use: of a unit triangle in a chart the plane keeps 1 - bend / (2 sqrt(3)) of its
-/// area where its height is along the bend, which here is little more than a quarter; soon it is turned over.
-inline constexpr double most_bend = 2.5;
-/// Triangles below which charts are not used: in coarse meshes of patches with poles and creases they reach too far.
-inline constexpr double least_bent_measure = 10'000;
 
 /// The control space as seen from the frame.
 class Field {
  public:
-  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no rows lead, come from both
+  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no layers lead, come from both
   /// ends of an arc, and folded charts do not see that they meet.
   Field(const ControlSpace& space, const Frame& frame, bool charts = true) noexcept
       : space_(space),
@@ -36,25 +28,27 @@ class Field {
         aa_(unscale_.x() * unscale_.x()),
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
-        bends_(charts && space.measure() >= least_bent_measure && space.largest_bend() > least_bend) {}
+        bends_(charts && space.measure() >= fewest_for_charts && space.largest_bend() > least_bend) {}
 
-  [[nodiscard]] Metric2 at(Vec2 p) const noexcept {
+  [[nodiscard]] Metric2 at(const Vec2& p) const noexcept {
     const Metric2 m = space_.at({p.x() * unscale_.x(), p.y() * unscale_.y()});
     return {m.a * aa_, m.b * ab_, m.c * bb_};
   }
-  [[nodiscard]] MetricSlopes slopes(Vec2 p) const noexcept {
+  [[nodiscard]] MetricSlopes slopes(const Vec2& p) const noexcept {
     const MetricSlopes s = space_.slopes_at({p.x() * unscale_.x(), p.y() * unscale_.y()});
     const auto inward = [&](Metric2 m, double k) { return Metric2{k * aa_ * m.a, k * ab_ * m.b, k * bb_ * m.c}; };
     return {inward(s.metric, 1), inward(s.by_u, unscale_.x()), inward(s.by_v, unscale_.y())};
   }
   /// `curved` false: of the tensor alone.
-  [[nodiscard]] Chart chart(Vec2 p, bool curved = true) const noexcept {
+  [[nodiscard]] Chart chart(const Vec2& p, bool curved = true) const noexcept {
     if (curved) return {p, slopes(p)};
     constexpr Metric2 none{0, 0, 0};
     return {p, {at(p), none, none}};
   }
+  /// Length of the segment p - q in the tensor at its middle.
+  [[nodiscard]] double length_at_middle(const Vec2& p, const Vec2& q) const noexcept { return length(at(0.5 * (p + q)), q - p); }
   /// Parameters of the host.
-  [[nodiscard]] Vec2 outward(Vec2 p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
+  [[nodiscard]] Vec2 outward(const Vec2& p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
   /// Whether there may be places where it bends.
   [[nodiscard]] bool bends() const noexcept { return bends_; }
   /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).

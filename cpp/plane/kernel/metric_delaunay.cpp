@@ -4,13 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "plane/thresholds.h"
+
 namespace carreau::plane {
 
 namespace {
-
-constexpr int swaps_between_checks = 4096;
-// A swap must gain this much, so that rounding cannot make it worth while in both directions.
-constexpr double least_gain = 1 + 1e-9;
 
 // The largest cotangent of an angle, that of the smallest one, which lies between the two longest sides.
 double sharpness(const Triangulation& mesh, int p, int q, int r) noexcept {
@@ -28,14 +26,14 @@ bool wants_swap(const Triangulation& mesh, int t, int i) noexcept {
   if (!mesh.can_swap(t, i)) return false;
   const double now = std::max(sharpness(mesh, c, a, b), sharpness(mesh, d, b, a));
   const double then = std::max(sharpness(mesh, c, a, d), sharpness(mesh, c, d, b));
-  return then * least_gain < now;
+  return then * (1 + swap_tolerance) < now;
 }
 
 }  // namespace
 
-void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> seeds, Monitor& monitor) {
+void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> start, Monitor& monitor) {
   std::vector<HalfEdge> open;
-  for (const std::int32_t t : seeds)
+  for (const std::int32_t t : start)
     for (int i = 0; i < 3; ++i) open.push_back(4 * t + i);
   long swaps = 0;
   while (!open.empty()) {
@@ -43,7 +41,7 @@ void make_delaunay_in_metric(Triangulation& mesh, std::span<const std::int32_t> 
     open.pop_back();
     const int t = he >> 2, i = he & 3;
     if (!wants_swap(mesh, t, i)) continue;
-    if (++swaps % swaps_between_checks == 0) monitor.checkpoint();
+    if (++swaps % insertions_between_checks == 0) monitor.checkpoint();
     const int u = mesh.triangles[t].n[i] >> 2;
     mesh.swap_edge(t, i);
     for (const HalfEdge outer : {4 * t, 4 * t + 2, 4 * u, 4 * u + 1}) open.push_back(outer);

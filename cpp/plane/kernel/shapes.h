@@ -9,11 +9,6 @@
 
 namespace carreau::plane {
 
-/// Change (Shapes::change) from which on sizes count as graded.
-inline constexpr double graded_change = 1.3;
-/// Edges of bent triangles that are longer (squared) are taken for what they are: too long.
-inline constexpr double longest_bent2 = 3;
-
 /// A triangle in the chart about its centroid.
 struct ChartedTriangle {
   Chart chart;
@@ -74,8 +69,13 @@ class Shapes {
   [[nodiscard]] Sizes classify() const noexcept;
   /// Q2 (HDR eq. 1.6); 0 unless counterclockwise (exactly).
   [[nodiscard]] double quality(int p, int q, int r) const noexcept;
+  /// Q2 in the tensor at the centroid: where sizes or the parametrisation change much over a triangle, its shape in
+  /// space is that of the middle. Of bent triangles by lengths. 0 unless counterclockwise (exactly).
+  [[nodiscard]] double quality_at_centroid(int p, int q, int r) const;
 
  private:
+  [[nodiscard]] Lengths integrated_lengths(int p, int q, int r) const;
+
   Triangulation& mesh_;
   const Field& field_;
 };

@@ -1,15 +1,16 @@
 #include "plane/kernel/triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "plane/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::plane {
 
-int Triangulation::locate(Vec2 p, int hint) const noexcept {
-  constexpr std::size_t fixed_order_steps = 40;
+int Triangulation::locate(const Vec2& p, int hint) const noexcept {
   const Triangle* const T = triangles.data();
   const Vertex* const V = vertices.data();
   int t = hint, from = -1;
@@ -50,8 +51,7 @@ int Triangulation::locate(Vec2 p, int hint) const noexcept {
 }
 
 void Triangulation::renumber_if_large() {
-  constexpr std::size_t fits_in_cache = 200'000;  // triangles
-  if (triangles.size() < fits_in_cache) return;
+  if (triangles.size() < renumbered_from) return;
   // By counting on the largest vertex of each.
   const auto key = [](const Triangle& T) { return std::max({T.v[0], T.v[1], T.v[2]}); };
   std::vector<std::int32_t> next(vertices.size() + 1, 0), rank(triangles.size());
@@ -67,6 +67,24 @@ void Triangulation::renumber_if_large() {
   }
   triangles.swap(sorted);
   for (Vertex& v : vertices) v.triangle = rank[v.triangle];
+}
+
+void Triangulation::drop_removed() {
+  for (std::size_t t = 0; t < triangles.size();) {
+    if (triangles[t].v[0] >= 0) {
+      ++t;
+      continue;
+    }
+    triangles[t] = triangles.back();
+    triangles.pop_back();
+    if (t == triangles.size() || triangles[t].v[0] < 0) continue;
+    const auto place = static_cast<std::int32_t>(t);
+    for (int i = 0; i < 3; ++i) {
+      const HalfEdge n = triangles[t].n[i];
+      if (n != no_edge) triangles[n >> 2].n[n & 3] = 4 * place + i;
+      vertices[triangles[t].v[i]].triangle = place;
+    }
+  }
 }
 
 bool Triangulation::can_swap(int t, int i) const noexcept {
@@ -107,6 +125,29 @@ void Triangulation::swap_edge(int t, int i) noexcept {
   if (bc != no_edge) triangles[bc >> 2].n[bc & 3] = 4 * u + 1;
   vertices[c].triangle = vertices[a].triangle = vertices[d].triangle = t;
   vertices[b].triangle = u;
+}
+
+void Triangulation::split_edge(int t, int i, int m) {
+  const Triangle T = triangles[t], U = triangles[T.n[i] >> 2];
+  const int u = T.n[i] >> 2, j = T.n[i] & 3;
+  const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]], d = U.v[j];
+  const auto t2 = static_cast<std::int32_t>(triangles.size()), u2 = t2 + 1;
+  const auto make = [&](int place, const Triangle& from, std::array<std::int32_t, 3> v, std::array<HalfEdge, 3> n,
+                        int outer, int source) {
+    Triangle& K = triangles[place];
+    K = {};
+    K.done = from.done;
+    for (int k = 0; k < 3; ++k) K.v[k] = v[k], K.n[k] = n[k];
+    K.imposed = static_cast<std::uint8_t>((from.imposed >> source & 1U) << outer);
+    K.degenerate = static_cast<std::uint8_t>((from.degenerate >> source & 1U) << outer);
+    if (n[outer] != no_edge) triangles[n[outer] >> 2].n[n[outer] & 3] = 4 * place + outer;
+    for (const std::int32_t w : v) vertices[w].triangle = place;
+  };
+  triangles.resize(triangles.size() + 2);
+  make(t, T, {c, a, m}, {4 * u, 4 * t2 + 2, T.n[prev3[i]]}, 2, prev3[i]);
+  make(t2, T, {c, m, b}, {4 * u2, T.n[next3[i]], 4 * t + 1}, 1, next3[i]);
+  make(u, U, {d, m, a}, {4 * t, U.n[next3[j]], 4 * u2 + 1}, 1, next3[j]);
+  make(u2, U, {d, b, m}, {4 * t2, 4 * u + 2, U.n[prev3[j]]}, 2, prev3[j]);
 }
 
 HalfEdge Triangulation::find_edge(int u, int v) const noexcept {

@@ -97,7 +97,7 @@ class Triangulation {
 
   /// Triangle that contains p (on its border counts), walking from triangle `hint`; -1 when the walk leaves the
   /// triangulation or meets an imposed edge.
-  [[nodiscard]] int locate(Vec2 p, int hint) const noexcept;
+  [[nodiscard]] int locate(const Vec2& p, int hint) const noexcept;
 
   /// Digs the cavity of p from its triangle `start` (RR-2928 eq. 3-8, see README): star-shaped about p by exact tests.
   /// False: the point is refused by the rules, or lies on an imposed edge or a vertex.
@@ -116,11 +116,17 @@ class Triangulation {
   /// leaves the numbers of what it removes to what it makes, anywhere.
   void renumber_if_large();
 
+  /// The last triangles of the list take the places of those that are removed (without vertices).
+  void drop_removed();
+
   /// Exchanges the diagonal of the two triangles at half-edge (t, i). They keep their numbers; the new diagonal is edge
   /// 1 of t and edge 2 of the other.
   void swap_edge(int t, int i) noexcept;
   /// Whether both triangles of the other diagonal are counterclockwise. Exact.
   [[nodiscard]] bool can_swap(int t, int i) const noexcept;
+  /// Puts vertex m, which lies on edge i of t, not imposed, between its ends: the two triangles keep their numbers, two
+  /// more come last. Edge 0 of each of the four is a half of the edge.
+  void split_edge(int t, int i, int m);
   /// A half-edge u - v in either direction among the triangles of u's fan, or no_edge.
   [[nodiscard]] HalfEdge find_edge(int u, int v) const noexcept;
 
@@ -156,7 +162,7 @@ class Triangulation {
  private:
   template <bool charted>
   bool dig_in(Vec2 p, Metric2 metric, int start, const InsertRules& rules, const Chart* chart);
-  [[nodiscard]] bool too_near(Vec2 p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept;
+  [[nodiscard]] bool too_near(const Vec2& p, int v, double d2, const InsertRules& rules, bool in_chart) const noexcept;
   [[nodiscard]] bool in_far_circle(Metric2 metric, const RimPoint& a, const RimPoint& b, const RimPoint& d, double sum,
                                    double area) const noexcept;
   [[nodiscard]] bool in_circle_of_chart(std::int32_t a, std::int32_t b, std::int32_t d) const noexcept;

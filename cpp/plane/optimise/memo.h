@@ -20,7 +20,7 @@ inline PlaceKey mixed(PlaceKey k) noexcept {
   k = (k ^ k >> 27) * 0x94d049bb133111ebU;
   return k ^ k >> 31;
 }
-inline PlaceKey key_of_place(Vec2 p) noexcept {
+inline PlaceKey key_of_place(const Vec2& p) noexcept {
   return mixed(mixed(std::bit_cast<std::uint64_t>(p.x())) + std::bit_cast<std::uint64_t>(p.y()));
 }
 inline PlaceKey key_of_side(PlaceKey from, PlaceKey to) noexcept { return from ^ std::rotl(to, 32); }
@@ -33,9 +33,21 @@ inline PlaceKey key_of_diagonal(PlaceKey c, PlaceKey a, PlaceKey b, PlaceKey d) 
   return key_of_side(c, a) + key_of_side(a, d) + key_of_side(d, b) + key_of_side(b, c) + 3 * (a + b);
 }
 
+/// Of a star: the vertex and its link; place(v): the key of the place of v.
+template <typename Place>
+PlaceKey key_of_star(int v, const std::vector<std::int32_t>& link, const Place& place) {
+  PlaceKey sum = 5 * place(v), last = place(link.back());
+  for (const std::int32_t u : link) {
+    const PlaceKey key = place(u);
+    sum += key_of_side(last, key);
+    last = key;
+  }
+  return sum;
+}
+
 /// Remembers the last of those that share a place in it.
 template <typename Value>
-class Findings {
+class Memo {
  public:
   /// Null: not known.
   [[nodiscard]] const Value* find(PlaceKey key) const noexcept {
@@ -44,7 +56,7 @@ class Findings {
   }
   void put(PlaceKey key, const Value& value) noexcept { entries_[place(key)] = {key, value}; }
   /// Forgets all.
-  void open() { entries_.assign(std::size_t{1} << bits, Entry{}); }
+  void clear() { entries_.assign(std::size_t{1} << bits, Entry{}); }
 
  private:
   static constexpr int bits = 10;

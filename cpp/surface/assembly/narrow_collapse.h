@@ -23,7 +23,7 @@ struct FaceCollapse {
 /// that coincide become one, of the reference of the first, with the uses of all. Statuses and sentences of faces are
 /// set.
 
-/// All faces, where neighbours were meshed without their end_caps. False, and nothing done, when the mesh would have a
+/// All faces, where neighbours were meshed without their end caps. False, and nothing done, when the mesh would have a
 /// defect, or a triangle would be turned over.
 bool collapse_together(std::span<const FaceCollapse> faces, CompositeResult& result);
 

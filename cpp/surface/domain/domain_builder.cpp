@@ -94,13 +94,13 @@ class Builder {
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
       for (const Vec2& p : uv_of(c)) {
-        low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-        high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
       }
     if (high.x() > low.x()) box_.x() = high.x() - low.x();
     if (high.y() > low.y()) box_.y() = high.y() - low.y();
   }
-  [[nodiscard]] double distance(Vec2 p, Vec2 q) const noexcept {
+  [[nodiscard]] double distance(const Vec2& p, const Vec2& q) const noexcept {
     return std::hypot((p.x() - q.x()) / box_.x(), (p.y() - q.y()) / box_.y());
   }
 

@@ -13,16 +13,16 @@
 namespace carreau {
 namespace {
 
-bool comes_before(Vec2 p, Vec2 q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
+bool comes_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
 /// Is p, which is on the line through a and b, between them or at one of them?
-bool within_span(Vec2 a, Vec2 b, Vec2 p) noexcept {
+bool within_span(const Vec2& a, const Vec2& b, const Vec2& p) noexcept {
   return std::min(a.x(), b.x()) <= p.x() && p.x() <= std::max(a.x(), b.x()) && std::min(a.y(), b.y()) <= p.y() &&
          p.y() <= std::max(a.y(), b.y());
 }
 
 /// Where a - b and c - d cross properly, to rounding and without overflow.
-Vec2 crossing_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
+Vec2 crossing_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const double scale = std::max({std::abs(a.x()), std::abs(a.y()), std::abs(b.x()), std::abs(b.y()), std::abs(c.x()),
                                  std::abs(c.y()), std::abs(d.x()), std::abs(d.y())});
   const auto scaled = [&](Vec2 p) { return Vec2{p.x() / scale, p.y() / scale}; };
@@ -33,7 +33,7 @@ Vec2 crossing_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
 }
 
 /// A common point of the closed segments, if there is one.
-std::optional<Vec2> common_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
+std::optional<Vec2> common_point(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   const int of_c = orientation(a, b, c), of_d = orientation(a, b, d);
   if (of_c == 0 && within_span(a, b, c)) return c;
   if (of_d == 0 && within_span(a, b, d)) return d;
@@ -45,7 +45,7 @@ std::optional<Vec2> common_point(Vec2 a, Vec2 b, Vec2 c, Vec2 d) noexcept {
 }
 
 /// For edges p - q and p - r: where they meet besides p.
-std::optional<Vec2> overlap_beyond(Vec2 p, Vec2 q, Vec2 r) noexcept {
+std::optional<Vec2> overlap_beyond(const Vec2& p, const Vec2& q, const Vec2& r) noexcept {
   if (q == p || r == p) return p;
   if (orientation(p, q, r) != 0 || comes_before(p, q) != comes_before(p, r)) return std::nullopt;
   return within_span(p, q, r) ? r : q;

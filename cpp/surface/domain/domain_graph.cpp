@@ -18,7 +18,7 @@ void require_sound(const PlaneDomain& domain) {
                             std::to_string(e.b) + " of " + std::to_string(n));
 }
 
-std::string name_of_place(Vec2 uv) {
+std::string name_of_place(const Vec2& uv) {
   std::string name = "(u, v) = (";
   append_number(name, uv.x());
   name += ", ";

@@ -14,7 +14,7 @@ namespace carreau {
 void require_sound(const PlaneDomain& domain);
 
 /// "(u, v) = (0.5, 1)".
-std::string name_of_place(Vec2 uv);
+std::string name_of_place(const Vec2& uv);
 
 inline bool bounds(const PlaneEdge& edge) noexcept { return edge.kind != PlaneEdgeKind::internal; }
 

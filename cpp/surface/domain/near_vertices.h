@@ -16,8 +16,8 @@ class NearVertices {
   explicit NearVertices(const std::vector<Vec3>& points) : points_(points), order_(points.size()) {
     Vec3 low = points.empty() ? Vec3{} : points.front(), high = low;
     for (const Vec3& p : points) {
-      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     const Vec3 extent = high - low;
     axis_ = extent.x() >= extent.y() && extent.x() >= extent.z() ? 0 : extent.y() >= extent.z() ? 1 : 2;
@@ -37,7 +37,7 @@ class NearVertices {
     }
   }
 
-  [[nodiscard]] bool any_beside(Vec3 a, Vec3 b, double reach) const {
+  [[nodiscard]] bool any_beside(const Vec3& a, const Vec3& b, double reach) const {
     bool any = false;
     each_beside(a, b, reach, [&](int) { return any = true, false; });
     return any;

@@ -21,7 +21,7 @@ inline constexpr double roughness = 0.01;
 inline constexpr double too_long = 3.2;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
-inline Vec3 unit(Vec3 v) noexcept {
+inline Vec3 unit(const Vec3& v) noexcept {
   const double l = norm(v);
   return l > 0 ? (1 / l) * v : Vec3{};
 }

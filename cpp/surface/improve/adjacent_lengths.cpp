@@ -167,7 +167,7 @@ class LengthEvening {
     std::optional<Found> where;
     for (const std::int32_t w : mesh_.with_ring(v)) {
       const auto inside = mesh_.inside(w);
-      if (!inside || !search_.has_space(inside->face)) continue;
+      if (!inside || !search_.is_sampled(inside->face)) continue;
       const Judgement before = ratio_.judge(mesh_.with_ring(w));
       Judgement after;
       const auto found = best_place(*inside, after);
@@ -186,7 +186,7 @@ class LengthEvening {
     const std::vector<Place> places = mesh_.fan(v);
     for (const Place p : places)
       for (int i = 0; i < 3; ++i)
-        if (const auto quad = mesh_.quad(p, i); quad && search_.has_space(p.face)) use(*quad);
+        if (const auto quad = mesh_.quad(p, i); quad && search_.is_sampled(p.face)) use(*quad);
   }
 
   bool swap_one(std::int32_t v) {

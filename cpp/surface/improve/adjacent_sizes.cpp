@@ -206,8 +206,8 @@ class SizeEvening {
     return std::ranges::any_of(mesh_.fan(v), [&](Place p) {
       const auto& t = mesh_.at(p);
       const int i = mesh_.rank_in(p, v);
-      return search_.has_space(p.face) && (gradation_.excess(p.face, t[i], t[(i + 1) % 3]) > 0 ||
-                                           gradation_.excess(p.face, t[(i + 2) % 3], t[i]) > 0);
+      return search_.is_sampled(p.face) && (gradation_.excess(p.face, t[i], t[(i + 1) % 3]) > 0 ||
+                                            gradation_.excess(p.face, t[(i + 2) % 3], t[i]) > 0);
     });
   }
 
@@ -226,7 +226,7 @@ class SizeEvening {
   // To the best of the places around it.
   bool move(std::int32_t v) {
     const auto inside = mesh_.inside(v);
-    if (!inside || !search_.has_space(inside->face)) return false;
+    if (!inside || !search_.is_sampled(inside->face)) return false;
     Judgement best;
     const auto accepts = [](const Judgement& now, const Judgement& before) { return now.improves(before); };
     const auto found = search_.best_place(
@@ -248,7 +248,7 @@ class SizeEvening {
   bool swap_one(std::int32_t v) {
     const std::vector<Place> fan = mesh_.fan(v);
     for (const Place p : fan) {
-      if (!search_.has_space(p.face)) continue;
+      if (!search_.is_sampled(p.face)) continue;
       const int i = mesh_.rank_in(p, v);
       for (const int side : {i, (i + 2) % 3}) {
         const auto q = mesh_.quad(p, side);

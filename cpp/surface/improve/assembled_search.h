@@ -25,8 +25,8 @@ class AssembledSearch {
   [[nodiscard]] const EditableMesh& mesh() const noexcept { return mesh_; }
   /// Points of surfaces that may still be asked.
   [[nodiscard]] const Budget& budget() const noexcept { return budget_; }
-  /// Faces between sides that were matched have no control space, and stay.
-  [[nodiscard]] bool has_space(std::int32_t face) const { return result_.spaces[face].has_value(); }
+  /// Whether the face has a control space. Those between sides that were matched have none, and stay.
+  [[nodiscard]] bool is_sampled(std::int32_t face) const { return result_.spaces[face].has_value(); }
   /// Of the control space of the face.
   [[nodiscard]] Metric2 metric(std::int32_t face, const Vec2& uv) const { return result_.spaces[face]->at(uv); }
   /// Position and derivatives; one of the budget.

@@ -21,10 +21,10 @@ namespace {
 
 using namespace thresholds::refinement;
 
-class SpaceRefinement {
+class Refinement {
  public:
-  SpaceRefinement(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
-                  PatchMesh& mesh, Monitor& monitor)
+  Refinement(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept, PatchMesh& mesh,
+             Monitor& monitor)
       : input_(input), cad_(cad), rules_(rules), mesh_(mesh), monitor_(monitor), kept_(kept), agreement_(kept) {}
 
   std::vector<int> run() {
@@ -61,7 +61,9 @@ class SpaceRefinement {
     return cross(position(t[1]) - position(t[0]), position(t[2]) - position(t[0]));
   }
   // Two corners of one apex of space make a flat triangle that will be removed.
-  [[nodiscard]] static bool collapsed(const Vec3& a, const Vec3& b, const Vec3& c) { return a == b || b == c || c == a; }
+  [[nodiscard]] static bool collapsed(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return a == b || b == c || c == a;
+  }
   [[nodiscard]] bool collapsed(const Triangle& t) const {
     return collapsed(position(t[0]), position(t[1]), position(t[2]));
   }
@@ -287,7 +289,7 @@ class SpaceRefinement {
 
 std::vector<int> refine_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, const GeometricLimits& kept,
                                  PatchMesh& mesh, Monitor& monitor) {
-  return SpaceRefinement(input, cad, rules, kept, mesh, monitor).run();
+  return Refinement(input, cad, rules, kept, mesh, monitor).run();
 }
 
 }  // namespace carreau

@@ -22,10 +22,9 @@ using thresholds::shape::poor;
 // Shares of a step that are tried on the surface itself: it bends away from the tangent plane.
 constexpr std::array<double, 3> shares{1, 0.5, 0.25};
 
-class SpaceSmoothing {
+class Smoothing {
  public:
-  SpaceSmoothing(const BadRegion& region, const PlaneDomain& domain, int ref, Cad& cad, PatchMesh& mesh,
-                 Monitor& monitor)
+  Smoothing(const BadRegion& region, const PlaneDomain& domain, int ref, Cad& cad, PatchMesh& mesh, Monitor& monitor)
       : region_(region),
         ref_(ref),
         cad_(cad),
@@ -208,7 +207,7 @@ class SpaceSmoothing {
 
 std::vector<std::int32_t> smooth_in_space(const BadRegion& region, const PlaneDomain& domain, int ref, Cad& cad,
                                           PatchMesh& mesh, Monitor& monitor) {
-  return SpaceSmoothing(region, domain, ref, cad, mesh, monitor).run();
+  return Smoothing(region, domain, ref, cad, mesh, monitor).run();
 }
 
 }  // namespace carreau

@@ -9,7 +9,7 @@ namespace carreau::thresholds {
 
 // Shapes are Q2 (HDR eq. 1.6), 0 to 1. Agreements are cosines of angles between normals.
 
-/// Shapes of triangles in space: bad_region, swaps, smoothing (tests/cpp/surface/space_smoothing_test, poles_test).
+/// Shapes of triangles in space: bad_region, swaps, smoothing (tests/cpp/surface: improve/smoothing_test, poles_test).
 namespace shape {
 /// Shape. Better triangles are left as the metric made them.
 inline constexpr double good = 0.8;
@@ -19,7 +19,7 @@ inline constexpr double poor = 0.6;
 inline constexpr int most_rounds = 4;
 }  // namespace shape
 
-/// Swaps judged in space (poles_test, narrow_test).
+/// Swaps judged in space (poles_test, narrow/narrow_faces_test).
 namespace swaps {
 /// Shape. A swap must gain this much, so that no pair of swaps undoes each other for ever.
 inline constexpr double least_gain = 1e-6;
@@ -30,7 +30,7 @@ inline constexpr double least_agreement = 0.7;
 inline constexpr int most_passes = 100;
 }  // namespace swaps
 
-/// Vertices moved for shapes in space (space_smoothing_test).
+/// Vertices moved for shapes in space (improve/smoothing_test).
 namespace smoothing {
 /// Passes over the corners of bad triangles; most patches need three.
 inline constexpr int most_passes = 12;
@@ -43,7 +43,7 @@ inline constexpr double first_step = 0.4, last_step = 0.01;
 inline constexpr double least_agreement = 0.5;
 }  // namespace smoothing
 
-/// Triangles that leave the surface (upright_test, guarantees_test, tilts_test).
+/// Triangles that leave the surface (upright_test, guarantees_test, lift/surface_agreement_test).
 namespace refinement {
 /// Cosine of a triangle's normal and the surface's: 85 degrees.
 inline constexpr double least_agreement = 0.08;
@@ -63,7 +63,8 @@ inline constexpr double shortest_median = 0.3;
 inline constexpr double farthest = 1;
 }  // namespace refinement
 
-/// Searches over the assembled mesh, of either kind (adjacent_lengths_test, gradation_test, guarantees_test).
+/// Searches over the assembled mesh, of either kind (improve/adjacent_lengths_test, grade/gradation_test,
+/// guarantees_test).
 namespace assembled {
 /// Cosine of the angle between a new triangle and the mean of those that it replaces.
 inline constexpr double least_agreement = 0.7;
@@ -76,7 +77,7 @@ inline constexpr double least_budget = 5'000, budget_a_vertex = 0.25;
 inline constexpr double shortest = std::numbers::sqrt2 / 2, longest = std::numbers::sqrt2;
 }  // namespace assembled
 
-/// Ratios of lengths at a vertex (adjacent_lengths_test, gradation_test).
+/// Ratios of lengths at a vertex (improve/adjacent_lengths_test, grade/gradation_test).
 namespace length_ratio {
 /// Share of a ratio: rounding of the lengths that are compared.
 inline constexpr double rounding = 1e-9;
@@ -90,7 +91,7 @@ inline constexpr double shortest_divided = 0.5;
 inline constexpr int placements = 4;
 }  // namespace length_ratio
 
-/// Gradation along chords (gradation_test, guarantees_test).
+/// Gradation along chords (grade/gradation_test, guarantees_test).
 namespace chord_gradation {
 /// Share of the limit's logarithm up to which edges are mended: to be measured again, with other rounding.
 inline constexpr double aim = 0.999;

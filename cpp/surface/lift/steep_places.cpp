@@ -26,7 +26,7 @@ struct Foot {
 };
 
 /// Gauss and Newton's step towards the nearest point of the tangent plane; none where that is degenerate.
-Vec2 step_towards(const SurfaceJet& jet, Vec3 at) noexcept {
+Vec2 step_towards(const SurfaceJet& jet, const Vec3& at) noexcept {
   const Vec3 away = at - jet.s;
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
   const double p = dot(jet.su, away), q = dot(jet.sv, away), det = e * g - f * f;
@@ -45,8 +45,8 @@ class SteepPlaces {
     Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
     double longest = 0;
     for (const Vec3& p : mesh_.xyz) {
-      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y()), std::min(low.z(), p.z())};
-      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y()), std::max(high.z(), p.z())};
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     for (const auto& t : mesh_.plane.triangles)
       for (int i = 0; i < 3; ++i) longest = std::max(longest, norm(mesh_.xyz[t[i]] - mesh_.xyz[t[(i + 1) % 3]]));

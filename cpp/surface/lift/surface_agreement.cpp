@@ -13,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Area beyond that of the surface that is told. Unit meshes by curvature have some 1e-4.
 constexpr double notable = 0.05;
-// Least cosine of a triangle's normal and that of what it stands for: a little less than least_cosine.
+// Least cosine of a triangle's normal and that of what it stands for: a little less than upright.
 constexpr double least_cosine = 0.08;
 // A triangle of (u, v) is looked at in this many parts along each side.
 constexpr int parts = 4;
@@ -91,7 +91,7 @@ std::string SurfaceAgreement::text() const {
   std::string text;
   if (turned > 0)
     text = std::to_string(turned) + (turned == 1 ? " triangle is" : " triangles are") +
-           " turned over or stand least_cosine on the surface";
+           " turned over or stand upright on the surface";
   if (!leans()) return text;
   return text + (text.empty() ? "" : ", and ") + "triangles lean: they have " +
          (excess < infinity ? format_number(std::round(100 * (1 + excess)) / 100) + " times " : "far more than ") +

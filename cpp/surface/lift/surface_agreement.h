@@ -11,7 +11,7 @@ namespace carreau {
 
 /// What is wrong with a lifted patch.
 struct SurfaceAgreement {
-  /// Triangles that turn their backs on the surface they stand for, or stand least_cosine on it.
+  /// Triangles that turn their backs on the surface they stand for, or stand upright on it.
   std::int64_t turned = 0;
   /// Area of the mesh over that of the surface, less 1. Chords make a mesh smaller, not larger: it is larger where long
   /// edges leave the surface by as much as their neighbours are away, and triangles stand on it like scales (Schwarz's

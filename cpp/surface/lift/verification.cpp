@@ -192,7 +192,7 @@ bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, cons
 UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpace& space, Cad& cad,
                                       const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor) {
   const std::vector<Vec2>& vertices = mesh.plane.vertices;
-  auto missed = space.deserts(vertices.size(), [&](std::size_t v) { return vertices[v]; });
+  auto missed = space.undersampled_regions(vertices.size(), [&](std::size_t v) { return vertices[v]; });
   UndersampledRegions result;
   if (missed.empty()) return result;
   const SampledDomain domain = sampled_domain(input.domain->plane);

@@ -28,14 +28,14 @@ std::vector<Vec2> verify_lift(const PatchInput& input, const ControlSpace& space
 /// Whether two control spaces differ at one of these places by more than their tolerance explains.
 bool differ_at(const std::vector<Vec2>& places, const ControlSpace& before, const ControlSpace& after);
 
-/// What a mesh has missed (ControlSpace::deserts()).
+/// What a mesh has missed (ControlSpace::undersampled_regions()).
 struct UndersampledRegions {
   /// Those where the control space is right: to be handed to the plane mesher.
   std::vector<std::vector<Vec2>> confirmed;
   /// The places of others, where it is not: to be sampled again.
   std::vector<Vec2> mistaken;
 };
-/// Asks the prescribed metric at one place of each desert; at most 500.
+/// Asks the prescribed metric at one place of each region; at most 500.
 UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpace& space, Cad& cad,
                                       const SizeRules& rules, const PatchMesh& mesh, Monitor& monitor);
 

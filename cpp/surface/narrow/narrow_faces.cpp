@@ -18,7 +18,7 @@ namespace {
 constexpr double longest_end_cap = 2;
 // Sides are found by trying all pairs of ends: a face with more curves is not tried.
 constexpr std::size_t most_curves = 60;
-// Choices whose widths differ by less are equally near: the one with more curves in its end_caps is taken.
+// Choices whose widths differ by less are equally near: the one with more curves in its end caps is taken.
 constexpr double same_width = 1e-3;
 
 // A face is without width where its surface, halfway between two uses of a curve, is no farther from them than this
@@ -129,7 +129,7 @@ class Finder {
     std::size_t from, count;  // curves of the loop
   };
 
-  // All pairs of end_caps, a corner or a few short curves each; the nearest sides win.
+  // All pairs of end caps, a corner or a few short curves each; the nearest sides win.
   bool cut_loop(const Side& loop, NarrowFace& narrow) const {
     const std::size_t n = loop.size();
     std::vector<EndCap> end_caps;

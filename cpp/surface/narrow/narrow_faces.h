@@ -41,7 +41,7 @@ std::vector<NarrowFace> find_narrow_faces(const CurveModel& model, const std::ve
 struct NarrowModel {
   std::vector<NarrowFace> strips;  ///< with two sides
   std::vector<NarrowFace> points;  ///< near a point
-  /// The end_caps of strips and all curves of points, when their faces are to collapse.
+  /// The end caps of strips and all curves of points, when their faces are to collapse.
   VanishingCurves vanishing;
   std::vector<int> folded;  ///< faces without width (find_folded_faces()): nothing is meshed there, whatever is asked
 

@@ -22,7 +22,7 @@ SideRuler::SideRuler(const CurveModel& model, int face, const Side& side) : star
   }
 }
 
-SideRuler::Place SideRuler::place_of(Vec3 p) const {
+SideRuler::Place SideRuler::place_of(const Vec3& p) const {
   Place place;
   place.s = nearest_on_trace(points_, p).arc;
   place.part =

@@ -33,7 +33,7 @@ class SideRuler {
     return start_[part] + along * (start_[part + 1] - start_[part]);
   }
   /// The place nearest to a point of space.
-  [[nodiscard]] Place place_of(Vec3 p) const;
+  [[nodiscard]] Place place_of(const Vec3& p) const;
   [[nodiscard]] Vec3 point_at(double s) const;
   [[nodiscard]] const std::vector<Vec3>& points() const noexcept { return points_; }
 

@@ -185,9 +185,9 @@ class Evener {
 constexpr double least_kept = 0.5;
 
 /// Swaps edges of triangles that are turned over.
-class Righter {
+class TurnedTriangles {
  public:
-  Righter(const PlaneDomain& host, PatchMesh& mesh) : mesh_(mesh), editable_(host, mesh.plane, mesh.xyz) {}
+  TurnedTriangles(const PlaneDomain& host, PatchMesh& mesh) : mesh_(mesh), editable_(host, mesh.plane, mesh.xyz) {}
 
   void run(Monitor& monitor) {
     constexpr int most_passes = 20;
@@ -245,8 +245,8 @@ std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map
   std::vector<Vec2>& uv = mesh.plane.vertices;
   std::copy(host.vertices.begin(), host.vertices.end(), uv.begin());
   for (std::size_t v = host.vertices.size(); v < uv.size(); ++v) uv[v] = map.to_host(uv[v]);
-  const auto turned = [&mesh] { return Righter::turned_over(mesh.plane).size(); };
-  if (turned() > 0) Righter(host, mesh).run(monitor);
+  const auto turned = [&mesh] { return TurnedTriangles::turned_over(mesh.plane).size(); };
+  if (turned() > 0) TurnedTriangles(host, mesh).run(monitor);
   return turned();
 }
 

@@ -19,7 +19,7 @@ constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
 
 /// Along the meridian of a degenerate point: the parameter along which the surface does not stand still, if it does
 /// along the other; else towards the middle.
-Vec2 along_meridian(const SurfaceJet& jet, Vec2 to_middle, Vec2 half) noexcept {
+Vec2 along_meridian(const SurfaceJet& jet, const Vec2& to_middle, const Vec2& half) noexcept {
   constexpr double still = 1e-12;
   const double u = norm(jet.su), v = norm(jet.sv);
   if (u <= still * v) return {0, std::copysign(half.y(), to_middle.y())};
@@ -57,8 +57,8 @@ std::optional<Vec2> FaceMetric::beside(Vec2 uv, const SurfaceJet& jet) {
     const SampledDomain domain = sampled_domain(plane_);
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (const Vec2& p : domain.vertices) {
-      low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
-      high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
     }
     inside_.emplace(Inside{{domain.vertices, domain.edges}, 0.5 * (low + high), 0.5 * (high - low)});
   }

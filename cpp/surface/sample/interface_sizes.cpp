@@ -84,22 +84,22 @@ InterfaceSizes::InterfaceSizes(const PlaneDomain& domain, const std::vector<doub
   // Units of u and of v may have nothing in common.
   Vec2 high = low_ = mesh_.vertices.front();
   for (const Vec2& p : mesh_.vertices) {
-    low_ = {std::min(low_.x(), p.x()), std::min(low_.y(), p.y())};
-    high = {std::max(high.x(), p.x()), std::max(high.y(), p.y())};
+    low_ = low_.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
   scale_ = {1 / (high.x() - low_.x()), 1 / (high.y() - low_.y())};
   for (Vec2& p : mesh_.vertices) p = {(p.x() - low_.x()) * scale_.x(), (p.y() - low_.y()) * scale_.y()};
 }
 
 /// Barycentric coordinates.
-std::array<double, 3> InterfaceSizes::weights(int triangle, Vec2 uv) const {
+std::array<double, 3> InterfaceSizes::weights(int triangle, const Vec2& uv) const {
   const Triangle& c = mesh_.triangles[triangle];
   const Vec2 p = mesh_.vertices[c[0]], q = mesh_.vertices[c[1]], r = mesh_.vertices[c[2]];
   const double area = cross(q - p, r - p);
   return {cross(q - uv, r - uv) / area, cross(r - uv, p - uv) / area, cross(p - uv, q - uv) / area};
 }
 
-int InterfaceSizes::triangle_at(Vec2 p) const {
+int InterfaceSizes::triangle_at(const Vec2& p) const {
   int t = last_;
   // A walk in a constrained triangulation may meet the border first, or turn in circles: then every triangle is looked
   // at.
@@ -119,7 +119,7 @@ int InterfaceSizes::triangle_at(Vec2 p) const {
   return t;
 }
 
-double InterfaceSizes::operator()(Vec2 uv) const {
+double InterfaceSizes::operator()(const Vec2& uv) const {
   const Vec2 from{(uv.x() - low_.x()) * scale_.x(), (uv.y() - low_.y()) * scale_.y()};
   last_ = triangle_at(from);
   const Triangle& home = mesh_.triangles[last_];
@@ -156,7 +156,7 @@ double InterfaceSizes::operator()(Vec2 uv) const {
 }
 
 /// Into the neighbour: its two other edges, each between the directions in which it is seen.
-void InterfaceSizes::look_through(const View& view, Vec2 from) const {
+void InterfaceSizes::look_through(const View& view, const Vec2& from) const {
   const int t = neighbour_[view.triangle][view.side];
   int side = 0;
   while (neighbour_[t][side] != view.triangle) ++side;

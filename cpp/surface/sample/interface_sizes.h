@@ -24,7 +24,7 @@ class InterfaceSizes {
 
   /// Size at a point of the domain; a point outside is taken to be in the nearest triangle met. Remembers where it was
   /// last and keeps its memory: not for several threads at once.
-  double operator()(Vec2 uv) const;
+  double operator()(const Vec2& uv) const;
 
  private:
   using Triangle = std::array<int, 3>;
@@ -35,12 +35,12 @@ class InterfaceSizes {
   };
   struct Sums;
 
-  [[nodiscard]] std::array<double, 3> weights(int triangle, Vec2 p) const;
-  [[nodiscard]] int triangle_at(Vec2 p) const;
+  [[nodiscard]] std::array<double, 3> weights(int triangle, const Vec2& p) const;
+  [[nodiscard]] int triangle_at(const Vec2& p) const;
   [[nodiscard]] bool is_interface(const View& view) const {
     return across_[static_cast<std::size_t>(view.triangle)][static_cast<std::size_t>(view.side)] < 0;
   }
-  void look_through(const View& view, Vec2 from) const;
+  void look_through(const View& view, const Vec2& from) const;
   void add(const View& view, Vec2 from, Sums& sums) const;
 
   PlaneMesh mesh_;                   // (u, v) in units of the domain's box

@@ -44,8 +44,8 @@ class Points {
   explicit Points(const SampledDomain& domain) : locator_(domain.vertices, domain.edges) {
     low_ = high_ = domain.vertices[0];
     for (const Vec2& p : domain.vertices) {
-      low_ = {std::min(low_.x(), p.x()), std::min(low_.y(), p.y())};
-      high_ = {std::max(high_.x(), p.x()), std::max(high_.y(), p.y())};
+      low_ = low_.cwiseMin(p);
+      high_ = high_.cwiseMax(p);
     }
   }
   Vec2 inside() {

@@ -42,7 +42,7 @@ struct Scale {
   Vec2 low, by;
   explicit Scale(const Triangles& mesh) : low(mesh.vertices.front()) {
     Vec2 length;
-    for (const Vec2& p : mesh.vertices) low = {std::min(low.x(), p.x()), std::min(low.y(), p.y())};
+    for (const Vec2& p : mesh.vertices) low = low.cwiseMin(p);
     for (const auto& t : mesh.triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const Vec2 d = mesh.vertices[t[(i + 1) % 3]] - mesh.vertices[t[i]];

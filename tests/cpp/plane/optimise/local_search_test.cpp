@@ -17,10 +17,10 @@ namespace {
 
 using namespace testing;
 
-PlaneMesh meshed(const PlaneCase& c, bool trials) {
+PlaneMesh meshed(const PlaneCase& c, bool searched) {
   Monitor monitor;
   PlaneMesherOptions options;
-  options.shape_trials = trials;
+  options.shape_trials = searched;
   PlaneMesh mesh = mesh_plane(c.domain, control_space(c), options, monitor);
   EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
   return mesh;

@@ -45,16 +45,16 @@ TEST(Memo, TrianglesOfAGridHaveKeysOfTheirOwn) {
 }
 
 TEST(Memo, WhatIsNotKnownIsNotFound) {
-  Findings<double> findings;
-  findings.open();
+  Memo<double> memo;
+  memo.clear();
   const PlaceKey known = key_of_place({0.25, 0.5}), other = key_of_place({0.5, 0.25});
-  EXPECT_EQ(findings.find(known), nullptr);
-  findings.put(known, 0.75);
-  ASSERT_NE(findings.find(known), nullptr);
-  EXPECT_EQ(*findings.find(known), 0.75);
-  EXPECT_EQ(findings.find(other), nullptr);
-  findings.open();
-  EXPECT_EQ(findings.find(known), nullptr);
+  EXPECT_EQ(memo.find(known), nullptr);
+  memo.put(known, 0.75);
+  ASSERT_NE(memo.find(known), nullptr);
+  EXPECT_EQ(*memo.find(known), 0.75);
+  EXPECT_EQ(memo.find(other), nullptr);
+  memo.clear();
+  EXPECT_EQ(memo.find(known), nullptr);
 }
 
 }  // namespace

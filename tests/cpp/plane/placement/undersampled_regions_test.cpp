@@ -49,12 +49,12 @@ TEST_P(UndersampledRegions, AreMeshed) {
     options.frontal = frontal;
     Monitor monitor;
     PlaneMesh mesh = mesh_plane(c.domain, space, options, monitor);
-    std::vector<std::vector<Vec2>> deserts;
+    std::vector<std::vector<Vec2>> regions;
     for (int round = 0; round < 6; ++round) {
-      auto more = space.deserts(mesh.vertices.size(), [&](std::size_t v) { return mesh.vertices[v]; });
+      auto more = space.undersampled_regions(mesh.vertices.size(), [&](std::size_t v) { return mesh.vertices[v]; });
       if (more.empty()) break;
-      std::move(more.begin(), more.end(), std::back_inserter(deserts));
-      options.deserts = deserts;
+      std::move(more.begin(), more.end(), std::back_inserter(regions));
+      options.undersampled = regions;
       mesh = mesh_plane(c.domain, space, options, monitor);
     }
     EXPECT_EQ(find_plane_defects(c.domain, mesh), std::vector<std::string>{});
@@ -65,7 +65,7 @@ TEST_P(UndersampledRegions, AreMeshed) {
     EXPECT_GT(measure(c, mesh).mean, 0.85);
   }
 }
-// One of them about a vertex that rows place.
+// One of them about a vertex that the front places.
 INSTANTIATE_TEST_SUITE_P(Places, UndersampledRegions,
                          ::testing::Values(Vec2{0.37, 0.41}, Vec2{0.5, 0.5}, Vec2{0.71, 0.22}, Vec2{0.13, 0.83}));
 
@@ -74,7 +74,7 @@ TEST(UndersampledRegions, AreSquaresThatHoldTooFewVertices) {
   const ControlSpace space = space_of(c, {{0.37, 0.41}});
   const std::vector<Vec2> none;
   const auto count = [&](const std::vector<Vec2>& v) {
-    return space.deserts(v.size(), [&](std::size_t i) { return v[i]; });
+    return space.undersampled_regions(v.size(), [&](std::size_t i) { return v[i]; });
   };
   // All of the domain, whatever its squares: each place is in the spot or its own square has no smaller size.
   std::vector<Vec2> grid;
@@ -84,7 +84,7 @@ TEST(UndersampledRegions, AreSquaresThatHoldTooFewVertices) {
   ASSERT_FALSE(missed.empty());
   for (const std::vector<Vec2>& places : missed) EXPECT_LT(norm(places.front() - Vec2{0.37, 0.41}), 1.5 * radius);
   EXPECT_FALSE(count(none).empty());
-  EXPECT_TRUE(ControlSpace::constant({1e6, 0, 1e6}).deserts(0, [](std::size_t) { return Vec2{}; }).empty());
+  EXPECT_TRUE(ControlSpace::constant({1e6, 0, 1e6}).undersampled_regions(0, [](std::size_t) { return Vec2{}; }).empty());
 }
 
 }  // namespace

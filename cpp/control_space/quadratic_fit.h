@@ -1,0 +1,52 @@
+// The value at the origin of the quadratic polynomial that fits samples best.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "metric/metric2.h"
+
+namespace carreau::detail {
+
+/// Normal equations of a weighted fit by 1, x, y, x^2, x y, y^2, three right-hand sides. Only the constant term is
+/// wanted: an elimination that ends there is faster than Eigen's factors and solutions (`bench_algebra`).
+class QuadraticFit {
+ public:
+  void add(double x, double y, double weight, Metric2 value) noexcept {
+    const std::array<double, terms> basis{1, x, y, x * x, x * y, y * y};
+    for (std::size_t r = 0; r < terms; ++r) {
+      const double w = weight * basis[r];
+      for (std::size_t c = 0; c <= r; ++c) matrix_[r][c] += w * basis[c];
+      right_[r][0] += w * value.a;
+      right_[r][1] += w * value.b;
+      right_[r][2] += w * value.c;
+    }
+  }
+
+  /// Cholesky, U^T U of the reversed order; once only, it overwrites the equations.
+  Metric2 value_at_origin() noexcept {
+    const double total = matrix_[0][0];
+    for (std::size_t r = 1; r < terms; ++r) matrix_[r][r] += (r < 3 ? ridge_slope : ridge_curvature) * total;
+    for (std::size_t r = terms - 1; r > 0; --r) {
+      const double pivot = 1 / matrix_[r][r];
+      for (std::size_t i = 0; i < r; ++i) {
+        const double factor = matrix_[r][i] * pivot;
+        for (std::size_t c = 0; c <= i; ++c) matrix_[i][c] -= factor * matrix_[r][c];
+        for (std::size_t k = 0; k < 3; ++k) right_[i][k] -= factor * right_[r][k];
+      }
+    }
+    const double inverse = 1 / matrix_[0][0];
+    return {inverse * right_[0][0], inverse * right_[0][1], inverse * right_[0][2]};
+  }
+
+  static constexpr std::size_t terms = 6;
+  // Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
+  // pulls slopes and curvatures that they do not determine to zero.
+  static constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
+
+ private:
+  std::array<std::array<double, terms>, terms> matrix_{};
+  std::array<std::array<double, 3>, terms> right_{};
+};
+
+}  // namespace carreau::detail

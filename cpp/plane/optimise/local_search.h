@@ -1,0 +1,14 @@
+// Bad triangles that no single change mends: each change around them is tried with the moves and swaps that make room
+// for it, worst triangles first, and the best one is kept.
+#pragma once
+
+#include "control_space/sampled_normals.h"
+#include "plane/kernel/plane_work.h"
+
+namespace carreau::plane {
+
+/// Not where fields bend. On surfaces that are no planes, whose `normals` are given, no change adds an edge between two
+/// fixed vertices, nor edges along which the surface turns more than along those that were there: flat spots.
+void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals);
+
+}  // namespace carreau::plane

@@ -1,0 +1,56 @@
+#include "plane/optimise/optimise.h"
+
+#include "plane/optimise/bad_triangles.h"
+#include "plane/optimise/degree_pairs.h"
+#include "plane/optimise/degrees.h"
+#include "plane/optimise/delaunay_swaps.h"
+#include "plane/optimise/flat_triangles.h"
+#include "plane/optimise/smoothing.h"
+#include "plane/thresholds.h"
+
+namespace carreau::plane {
+
+namespace {
+
+// Shares of successive passes: long moves carry strain far, the short ones beside them take back the ripples that these
+// leave (Chebyshev's semi-iteration, its longest moves cut off for the sake of triangles that turn over).
+constexpr double far_first[] = {1.6, 1.6}, short_last[] = {1, 0.7};
+constexpr double spread[] = {1, 2.5, 1.4, 0.7}, once[] = {1};
+
+}  // namespace
+
+void optimise(PlaneWork& work) {
+  swap_to_delaunay(work);
+  Degrees degrees = count_degrees(work);
+  swap_to_degree_six(work, degrees);
+  SmoothingArrays arrays;
+  const Sizes sizes = work.shapes.classify();
+  if (sizes == Sizes::rough) {
+    const SmoothingAim aim{.pull = 0, .by_size = false};
+    smooth(work, arrays, far_first, aim);
+    update_metrics(work);
+    smooth(work, arrays, short_last, aim);
+    update_metrics(work);
+  } else if (sizes == Sizes::even) {
+    cancel_degree_pairs(work, degrees, pair_reach_even);
+    smooth(work, arrays, spread, {.pull = pull_even, .by_size = false});
+    update_metrics(work);
+  } else {
+    // There is more to relax. Where pairs cancel, what they held apart must move, and again after the removals. Metrics
+    // follow once: to ask where sizes change costs as much as two passes, and gains nothing before the long one.
+    const SmoothingAim aim{.pull = pull_graded, .by_size = true};
+    cancel_degree_pairs(work, degrees, pair_reach_graded);
+    smooth(work, arrays, once, aim);
+    remove_surplus_vertices(work, degrees);
+    cancel_degree_pairs(work, degrees, pair_reach_graded);
+    smooth_evenly(work, arrays, {.passes = 7, .slowest = 0.05}, aim);
+    update_metrics(work);
+    remove_crowded_vertices(work);  // smoothing mends more of the bad ones than single moves do
+    work.mesh.drop_removed();
+    smooth_evenly(work, arrays, {.passes = 2, .slowest = 0.5}, aim);
+  }
+  swap_to_delaunay(work);
+  raise_flat_triangles(work, mend_bad_triangles(work));
+}
+
+}  // namespace carreau::plane

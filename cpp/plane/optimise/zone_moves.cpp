@@ -1,0 +1,116 @@
+#include "plane/optimise/zone_moves.h"
+
+#include <algorithm>
+
+#include "plane/optimise/star_cost.h"
+#include "plane/thresholds.h"
+
+namespace carreau::plane {
+
+namespace {
+
+constexpr double steps[] = {0.15, 0.05};  // units
+
+// Goes from the place of v to the best of six at this distance, and so on as long as that helps. `best`: the cost of
+// the star.
+void search_at(SearchZone& zone, int v, double step, int turns, double& best) {
+  Vertex& P = zone.work.mesh.vertices[v];
+  for (int turn = 0; turn < turns; ++turn) {
+    const UnitCircle circle(P.metric());
+    const Vec2 centre = P.point();
+    bool any = false;
+    for (const Vec2& d : six_directions) {
+      const Vec2 kept = P.point(), to = centre + circle.vector(step * d);
+      P.x = to.x(), P.y = to.y();
+      const double now = star_cost(zone.work.shapes, v, zone.star.link, best, shape_cost, zone.shapes_asked);
+      if (now < best * (1 - tie))
+        best = now, any = true;
+      else
+        P.x = kept.x(), P.y = kept.y();
+    }
+    if (!any) break;
+  }
+}
+
+// Where v, whose star is collected, is best; its old place, if no other is better. `in_vain`: steps of the first
+// length.
+Vec2 best_place(SearchZone& zone, int v, bool quick, bool in_vain) {
+  Vertex& P = zone.work.mesh.vertices[v];
+  std::vector<std::int32_t>& link = zone.star.link;
+  const Vertex old = P;
+  double best = 0, most = 0;
+  std::size_t worst = 0;
+  const std::size_t n = link.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const double one = shape_cost(zone.shape(v, link[k], link[k + 1 < n ? k + 1 : 0]));
+    best += one;
+    if (one > most) most = one, worst = k;
+  }
+  if (best < static_cast<double>(n) * cheap_enough) return old.point();
+  // What is worst is asked first: most moves need no more.
+  std::rotate(link.begin(), link.begin() + static_cast<std::ptrdiff_t>(worst), link.end());
+  for (const double step : steps) {
+    if (in_vain && step == steps[0]) continue;
+    search_at(zone, v, step, quick ? 1 : turns_a_step, best);
+    if (quick) break;
+  }
+  const Vec2 found = P.point();
+  P = old;
+  return found;
+}
+
+void move(SearchZone& zone, int v, bool quick) {
+  const Triangulation& mesh = zone.work.mesh;
+  if (mesh.vertices[v].triangle < 0 || !zone.star.collect(mesh, v)) return;
+  const Vec2 from = mesh.at(v);
+  const PlaceKey star = key_of_star(v, zone.star.link, [&](int u) { return zone.places[u]; });
+  const PlaceKey key = quick ? star : star + 1;
+  Vec2 to{};
+  if (const Vec2* known = zone.known_moves.find(key)) {
+    to = *known;
+  } else {
+    const Vec2* quickly = quick ? nullptr : zone.known_moves.find(star);
+    to = best_place(zone, v, quick, quickly != nullptr && *quickly == from);
+    zone.known_moves.put(key, to);
+  }
+  if (to != from) zone.place(v, to);
+}
+
+// Whether the diagonal ab of the quadrilateral c a d b costs less when it is swapped: edge i of t.
+bool wants_swap(SearchZone& zone, int t, int i, int d) {
+  const Triangle& T = zone.work.mesh.triangles[t];
+  const int c = T.v[i], a = T.v[next3[i]], b = T.v[prev3[i]];
+  const PlaceKey key = key_of_diagonal(zone.places[c], zone.places[a], zone.places[b], zone.places[d]);
+  if (const bool* known = zone.known_swaps.find(key)) return *known;
+  bool swaps = false;
+  if (zone.work.mesh.can_swap(t, i)) {
+    const double before = (shape_cost(zone.shape(c, a, b)) + shape_cost(zone.shape(d, b, a))) * (1 - tie);
+    const double after = shape_cost(zone.shape(c, a, d));
+    swaps = after < before && after + shape_cost(zone.shape(c, d, b)) < before;
+  }
+  zone.known_swaps.put(key, swaps);
+  return swaps;
+}
+
+void swap(SearchZone& zone) {
+  Triangulation& mesh = zone.work.mesh;
+  for (const std::int32_t t : zone.triangles) mesh.triangles[t].mark = 1;
+  for (const std::int32_t t : zone.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Triangle& T = mesh.triangles[t];
+      if (T.v[0] < 0 || T.n[i] == no_edge || mesh.is_imposed(t, i)) continue;
+      const Triangle& U = mesh.triangles[T.n[i] >> 2];
+      if (U.mark != 0 && wants_swap(zone, t, i, U.v[T.n[i] & 3])) mesh.swap_edge(t, i);
+    }
+  for (const std::int32_t t : zone.triangles) mesh.triangles[t].mark = 0;
+}
+
+}  // namespace
+
+void relax_zone(SearchZone& zone, bool quick) {
+  swap(zone);
+  for (const std::int32_t v : zone.movable) move(zone, v, quick);
+  if (!quick) swap(zone);
+}
+
+}  // namespace carreau::plane

@@ -1,0 +1,11 @@
+// Moves and swaps by which a zone makes the best of a change.
+#pragma once
+
+#include "plane/optimise/search_zone.h"
+
+namespace carreau::plane {
+
+/// Swaps and moves, each kept if it costs less. `quick`: to see what a change promises.
+void relax_zone(SearchZone& zone, bool quick);
+
+}  // namespace carreau::plane

@@ -1,0 +1,12 @@
+// Circumcentre insertion: points in triangles that are left too large.
+#pragma once
+
+#include "plane/placement/insertion.h"
+
+namespace carreau::plane {
+
+/// A point at the circumcentre of each triangle of a larger circumradius than `radius`, at least `distance` from all
+/// vertices. Where sizes are graded, and points missing or too many, the radius is a little less or more.
+void insert_circumcentres(Placement& placement, double radius, double distance);
+
+}  // namespace carreau::plane

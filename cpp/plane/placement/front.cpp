@@ -1,0 +1,104 @@
+#include "plane/placement/front.h"
+
+namespace carreau::plane {
+
+namespace {
+
+constexpr std::int32_t none = -1, more_than_one = -2;
+
+// Whether nothing to be done lies beyond edge i of T.
+bool ends_at(const Triangulation& mesh, const Triangle& T, int i) {
+  const HalfEdge other = T.n[i];
+  return other == no_edge || (T.imposed >> i & 1) != 0 || mesh.triangles[other >> 2].done != Done::no;
+}
+
+}  // namespace
+
+void Front::find(const Placement& placement) {
+  const Triangulation& mesh = placement.mesh;
+  clear(mesh);
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) visit(mesh, t);
+  connect(mesh);
+}
+
+void Front::find_again(Placement& placement) {
+  Triangulation& mesh = placement.mesh;
+  clear(mesh);
+  for (const std::int32_t t : placement.touched) {
+    if (mesh.triangles[t].mark != 0) continue;
+    mesh.triangles[t].mark = 1;
+    visit(mesh, t);
+  }
+  for (const std::int32_t t : placement.touched) mesh.triangles[t].mark = 0;
+  placement.touched.clear();
+  connect(mesh);
+}
+
+void Front::clear(const Triangulation& mesh) {
+  for (const FrontEdge& e : edges) leaving[e.a] = none;
+  edges.clear();
+  several.clear();
+  leaving.resize(mesh.vertices.size(), none);
+}
+
+void Front::visit(const Triangulation& mesh, int t) {
+  const Triangle& T = mesh.triangles[t];
+  for (int i = 0; i < 3; ++i) {
+    const HalfEdge other = T.n[i];
+    if (T.done == Done::no) {
+      if (ends_at(mesh, T, i)) add(mesh, 4 * t + i);
+    } else if (other != no_edge && mesh.triangles[other >> 2].done == Done::no) {
+      add(mesh, other);
+    }
+  }
+}
+
+void Front::add(const Triangulation& mesh, HalfEdge he) {
+  const Triangle& T = mesh.triangles[he >> 2];
+  const int i = he & 3;
+  if ((T.degenerate >> i & 1) != 0) return;
+  const std::int32_t a = T.v[next3[i]], b = T.v[prev3[i]];
+  const auto id = static_cast<std::int32_t>(edges.size());
+  if (leaving[a] == none) {
+    leaving[a] = id;
+  } else {
+    if (leaving[a] >= 0) {
+      if (edges[leaving[a]].edge == he) return;
+      several.push_back(leaving[a]);
+      leaving[a] = more_than_one;
+    } else {
+      for (const std::int32_t other : several)
+        if (edges[other].edge == he) return;
+    }
+    several.push_back(id);
+  }
+  edges.push_back({he, a, b});
+}
+
+void Front::connect(const Triangulation& mesh) {
+  for (FrontEdge& e : edges) {
+    const std::int32_t next = leaving[e.b];
+    e.next = next == more_than_one ? next_around(mesh, e) : next;
+    if (e.next >= 0) edges[e.next].has_previous = true;
+  }
+}
+
+// Where several edges leave a vertex (loops that touch, the end of an internal curve), the next one is the first met by
+// turning round the vertex through triangles that are not done.
+std::int32_t Front::next_around(const Triangulation& mesh, const FrontEdge& edge) const {
+  int t = edge.edge >> 2, i = edge.edge & 3;
+  for (std::size_t turn = 0; turn < mesh.triangles.size(); ++turn) {
+    const int j = next3[i];
+    const Triangle& T = mesh.triangles[t];
+    if (ends_at(mesh, T, j)) {
+      for (const std::int32_t id : several)
+        if (edges[id].edge == 4 * t + j) return id;
+      return none;
+    }
+    t = T.n[j] >> 2;
+    i = T.n[j] & 3;
+  }
+  return none;
+}
+
+}  // namespace carreau::plane

@@ -1,0 +1,61 @@
+// Insertion of points into triangles that are too large.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "plane/kernel/plane_work.h"
+#include "plane/thresholds.h"
+
+namespace carreau::plane {
+
+/// An edge of the domain that is one point in space.
+struct DegenerateSide {
+  std::int32_t a, b;
+  int least_fan, wide_fan;  ///< triangles wanted around the point of space
+  bool surrounded = false;  ///< by a fan that is frozen
+};
+
+/// What the passes that place points have in common.
+struct Placement {
+  /// Caches the metric at the vertices.
+  Placement(PlaneWork& work, std::int64_t triangle_limit);
+
+  /// To be called often.
+  void tick() {
+    if (++ticks % insertions_between_checks == 0) monitor.checkpoint();
+  }
+
+  Triangulation& mesh;
+  const Field& field;
+  const Shapes& shapes;
+  Monitor& monitor;
+  std::int64_t max_triangles;
+  std::vector<DegenerateSide> degenerate;
+  std::vector<std::int32_t> degenerate_ends;  ///< keep no distance to new points (the edge does, as a whole)
+  std::vector<std::int32_t> touched;          ///< triangles made since a pass has cleared this
+  long ticks = 0;
+};
+
+/// A point to be inserted.
+struct Candidate {
+  Vec2 p;
+  Metric2 metric;  ///< near p
+  HalfEdge edge;   ///< the edge that it was placed on
+  std::int32_t a;  ///< start of that edge
+};
+
+/// Tells which triangles are small enough, by their circumradius.
+void judge(Placement& placement, int t);
+void judge_all(Placement& placement);
+
+/// Inserts p, which lies in triangle `start`, if its metric distance to all vertices of its cavity is at least
+/// `distance`, and it keeps its height over imposed edges. Judges the new triangles.
+bool try_insert(Placement& placement, Vec2 p, int start, double distance);
+/// The triangle is looked for from the candidate's edge on.
+bool try_insert(Placement& placement, const Candidate& candidate, double distance);
+
+/// Fills the cavity that was dug for p, and judges the new triangles.
+void fill_cavity(Placement& placement, Vec2 p, Metric2 metric, Bend bend);
+
+}  // namespace carreau::plane
