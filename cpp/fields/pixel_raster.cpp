@@ -41,7 +41,7 @@ std::vector<std::pair<int, int>> rows_of(std::span<const Vec2> vertices,
 // Where an edge crosses the line of a row; half-open, so that of two edges that meet on it one does. The same number
 // for both directions of the edge: neighbours share their pixels without gap or overlap.
 std::optional<double> crossing(const Vec2& p, const Vec2& q, double v) noexcept {
-  if (q.y() < p.y()) std::swap(p, q);
+  if (q.y() < p.y()) return crossing(q, p, v);
   if (!(p.y() <= v && v < q.y())) return {};
   return p.x() + (v - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
 }
