@@ -86,7 +86,7 @@ void advance_front(Placement& placement) {
     insert_layer(placement, layer.points);
     front.find_again(placement);
   }
-  insert_circumcentres(placement, large_radius, circumcentre_distance);
+  insert_circumcentres(placement, large_radius, point_distance);
   insert_circumcentres(placement, large_radius, last_distance);
 }
 

@@ -39,11 +39,11 @@ void split_long_edges(Placement& placement) {
         if (T.n[i] != no_edge && (T.n[i] >> 2) > t && (T.imposed >> i & 1) == 0) place_on_edge(placement, t, i, points);
     }
     const std::size_t before = mesh.vertices.size();
-    for (const Candidate& c : points) try_insert(placement, c, edge_distance);
+    for (const Candidate& c : points) try_insert(placement, c, point_distance);
     placement.touched.clear();
     if (mesh.vertices.size() == before) break;
   }
-  insert_circumcentres(placement, large_radius, edge_distance);
+  insert_circumcentres(placement, large_radius, point_distance);
 }
 
 }  // namespace carreau::plane
