@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "support/segment.h"
 
@@ -16,7 +17,8 @@ constexpr std::size_t deepest = 64;
 
 double distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) noexcept {
   const auto beyond = [](double x, double from, double to) { return std::max({from - x, x - to, 0.}); };
-  return norm(Vec3{beyond(p.x(), low.x(), high.x()), beyond(p.y(), low.y(), high.y()), beyond(p.z(), low.z(), high.z())});
+  return norm(
+      Vec3{beyond(p.x(), low.x(), high.x()), beyond(p.y(), low.y(), high.y()), beyond(p.z(), low.z(), high.z())});
 }
 
 }  // namespace
@@ -47,6 +49,28 @@ void EdgeSizes::build(int node) {
     nodes_.push_back({{}, {}, 0, middle, n.end, -1});
   }
   nodes_[node] = n;
+}
+
+double EdgeSizes::smallest() const noexcept {
+  return sources_.empty() ? std::numeric_limits<double>::infinity() : nodes_.front().h;
+}
+
+// With h = h(e) + s r: the integral of (2 pi r + 2 |e|) / h^2 for r up to the extent, over sqrt(3) / 4.
+double EdgeSizes::triangles_within(double extent) const noexcept {
+  double total = 0;
+  for (const Source& e : sources_) {
+    const double x = 1 + slope_ * extent / e.h;
+    const double rings = 2 * std::numbers::pi / (slope_ * slope_) * (std::log(x) + 1 / x - 1);
+    const double strips = 2 * norm(e.b - e.a) / (slope_ * e.h) * (1 - 1 / x);
+    total += (rings + strips) / (std::numbers::sqrt3 / 4);
+  }
+  return total;
+}
+
+EdgeSizes EdgeSizes::bounded_below(double h) const {
+  std::vector<Source> sources = sources_;
+  for (Source& s : sources) s.h = std::max(s.h, h);
+  return {std::move(sources), slope_};
 }
 
 double EdgeSizes::at(const Vec3& p, double most) const noexcept {
