@@ -88,6 +88,8 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
     constexpr std::size_t faces_told = 10;
     run.crossings = crossings_of(run.mesh, options.threads);
     for (const std::string& sentence : sentences_of(run.crossings, faces_told)) progress.warning(sentence);
+    if (run.crossings.pairs > 0)
+      progress.warning("smaller triangles cross there, too: faces cross in the geometry itself, or lie at one place");
   }
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }

@@ -227,6 +227,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "stagger_strips", 1);
   // The worst triangles are what users look for; half of the time again at most sizes.
   set(session, "shape_trials", 1);
+  // Coarse chords of two walls close to each other may cross: half the size there, until none does.
+  set(session, "crossing_rounds", 10);
   // Faces too narrow for the cuts above (slivers below the tolerance of a file, fillets of a micrometre) hold flat
   // triangles only.
   const double usual_ratio = real(session, "narrow_ratio");

@@ -71,7 +71,7 @@ struct SizeLimits {
   const GradedField* field = nullptr;  ///< null: no bound
   double factor = 1;
   double largest = std::numeric_limits<double>::infinity();
-  const EdgeSizes* edges = nullptr;  ///< of one face; isotropic sizes alone; null: no bound
+  const EdgeSizes* edges = nullptr;  ///< of one face; null: no bound
   /// Sizes by direction alone: largest tangent of the angle between triangles and the surface (bound_tilt).
   double tilt = std::numeric_limits<double>::infinity();
 

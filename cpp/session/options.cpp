@@ -82,6 +82,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.narrow_faces = narrow_faces_of(parameters.text("narrow_faces"));
   options.narrow_ratio = parameters.real("narrow_ratio");
   options.failing_faces_alone = leaves_out(parameters);
+  options.crossing_rounds = parameters.integer("crossing_rounds");
   options.frontal = parameters.integer("frontal") != 0;
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);

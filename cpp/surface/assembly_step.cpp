@@ -64,7 +64,7 @@ void say_what_is_remarkable(CompositeRun& run) {
     if (mesh.status != FaceStatus::meshed && mesh.status != FaceStatus::mended) continue;
     mesh.status = FaceStatus::mended;
     mesh.why += (mesh.why.empty() ? "" : "; ") + what;
-    run.monitor.message(Level::warning, what);
+    run.say(Level::warning, what);
   }
 }
 

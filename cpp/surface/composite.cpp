@@ -17,6 +17,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void mesh_discretised(CompositeRun& run) {
   refine_boundaries(run);
+  if (run.options.crossing_rounds > 0) run.cut_curves = run.curves;
   mesh_patches(run);
   assemble_patches(run);
 }
@@ -55,11 +56,17 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   grade_sizes(run);
   discretise_curves(run);
   find_narrow(run);
-  if (run.narrow.vanishing.curve.empty())
-    mesh_discretised(run);
-  else
-    mesh_without_narrow(run);
-  even_out(run);
+  const NarrowModel narrow = run.narrow;
+  const auto mesh = [&] {
+    run.narrow = narrow;
+    if (narrow.vanishing.curve.empty())
+      mesh_discretised(run);
+    else
+      mesh_without_narrow(run);
+    even_out(run);
+  };
+  mesh();
+  part_crossing_triangles(run, mesh);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

@@ -40,6 +40,8 @@ struct CompositeOptions {
   int proximity = 0;
   /// A face that the host fails on while its patch is meshed fails alone; false: its CallbackError comes out.
   bool failing_faces_alone = false;
+  /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
+  int crossing_rounds = 0;
   bool frontal = true;
   std::int64_t max_triangles = 0;  ///< 0: by memory
   /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called

@@ -26,6 +26,9 @@ std::vector<EdgeSizes::Source> short_edges(const FaceDomain& domain, const std::
   return edges;
 }
 
+// Ratio by which sizes grow from triangles that are to be smaller, where no growth is asked for.
+constexpr double usual_growth = 1.5;
+
 /// The faces at work, and the triangles that they may still have.
 struct PatchJobs {
   CompositeRun& run;
@@ -38,15 +41,21 @@ struct PatchJobs {
   FaceJob& job(std::size_t i) { return static_cast<FaceJob&>(*jobs[i]); }
 };
 
+EdgeSizes edges_to_grow_from(const CompositeRun& run, std::size_t f, const std::vector<Vec3>& on_curves) {
+  const double asked = run.options.edge_gradation;
+  std::vector<EdgeSizes::Source> sources;
+  if (asked > 0 && !run.rules.uses_metrics()) sources = short_edges(*run.domains.domain[f], on_curves);
+  if (!run.finer.empty()) sources.insert(sources.end(), run.finer[f].begin(), run.finer[f].end());
+  return {std::move(sources), slope_of_gradation(asked > 0 ? asked : usual_growth)};
+}
+
 PatchInput input_of(PatchJobs& work, std::size_t f) {
   const CompositeRun& run = work.run;
   const FaceDomain& domain = *run.domains.domain[f];
   std::vector<Vec3> on_curves = positions_on_curves(domain, run.curves, run.topology);
   SizeLimits bound = run.limits();
-  if (run.options.edge_gradation > 0 && !run.rules.uses_metrics()) {
-    work.short_edges[f] = {short_edges(domain, on_curves), slope_of_gradation(run.options.edge_gradation)};
-    if (!work.short_edges[f].empty()) bound.edges = &work.short_edges[f];
-  }
+  work.short_edges[f] = edges_to_grow_from(run, f, on_curves);
+  if (!work.short_edges[f].empty()) bound.edges = &work.short_edges[f];
   return {.face = static_cast<int>(f),
           .ref = run.model.faces[f].ref,
           .domain = &domain,

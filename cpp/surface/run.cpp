@@ -42,7 +42,11 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
 void CompositeRun::fail(std::size_t face, const std::string& why) {
   result.mesh.faces[face].status = FaceStatus::failed;
   result.mesh.faces[face].why = why;
-  monitor.message(Level::error, why);
+  say(Level::error, why);
+}
+
+void CompositeRun::say(Level level, const std::string& what) {
+  if (told.insert(what).second) monitor.message(level, what);
 }
 
 }  // namespace carreau

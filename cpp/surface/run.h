@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,8 @@ struct CompositeRun {
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
   /// Progress; `share` of what comes after the gradation.
   void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
+  /// Says something once.
+  void say(Level level, const std::string& what);
   /// The face has no mesh; others go on.
   void fail(std::size_t face, const std::string& why);
 
@@ -48,6 +52,11 @@ struct CompositeRun {
   std::vector<std::optional<PatchMesh>> patches;  ///< mesh_patches(); by face, empty for one that failed
   std::map<std::size_t, std::string> remarks;     ///< the same; what is to be known of a face that was meshed
   CompositeResult result;                         ///< assemble_patches()
+  /// What part_crossing_triangles() goes on from, and what it has done: the curves that the mesh was made with, and by
+  /// face what sizes inside grow from.
+  std::vector<DiscreteCurve> cut_curves;
+  std::vector<std::vector<EdgeSizes::Source>> finer;
+  std::set<std::string> told;  ///< once, however often something is meshed
 };
 
 /// Shares of the progress of what comes after the gradation.
@@ -72,5 +81,9 @@ void assemble_patches(CompositeRun& run);
 [[nodiscard]] bool collapse_narrow_together(CompositeRun& run);
 /// As many as can vanish, where all were meshed, end caps too.
 void collapse_narrow_one_by_one(CompositeRun& run);
+/// Where chords of two close faces cross and the surfaces do not, curves and faces get smaller triangles there, and
+/// all is meshed again, in options.crossing_rounds rounds, as long as fewer pairs of triangles cross and no more faces
+/// fail. What the geometry itself lets cross, or has twice at one place, stays.
+void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again);
 
 }  // namespace carreau

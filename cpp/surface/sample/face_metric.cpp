@@ -107,9 +107,12 @@ void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec
                          std::span<Metric2> metric) noexcept {
   for (std::size_t i = 0; i < uv.size(); ++i) {
     auto sizes = tangent_metric(jets[i], metric[i]);
+    const double beside =
+        limits.edges != nullptr ? limits.edges->at(jets[i].s) : std::numeric_limits<double>::infinity();
     if (!sizes) {
-      const double h = isotropic_size(jets[i], metric[i]);
-      const double graded = limits.field != nullptr ? std::min(h, limits.field->smaller_size(face, uv[i])) : h;
+      const double h = isotropic_size(jets[i], metric[i]), bounded = std::min(h, beside);
+      const double graded =
+          limits.field != nullptr ? std::min(bounded, limits.field->smaller_size(face, uv[i])) : bounded;
       const double k = h > 0 ? h / (limits.factor * graded) : 1 / limits.factor;
       metric[i] = (k * k) * metric[i];
       continue;
@@ -117,8 +120,8 @@ void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec
     const TangentMetric before = *sizes;
     if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv[i], jets[i].s, *sizes);
     if (std::isfinite(limits.tilt)) bound_tilt(jets[i], limits.tilt, *sizes);
-    sizes->h1 = std::min(limits.factor * sizes->h1, limits.largest);
-    sizes->h2 = std::min(limits.factor * sizes->h2, limits.largest);
+    sizes->h1 = std::min({limits.factor * sizes->h1, limits.largest, beside});
+    sizes->h2 = std::min({limits.factor * sizes->h2, limits.largest, beside});
     if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric[i] = metric_of(jets[i], *sizes);
   }
 }

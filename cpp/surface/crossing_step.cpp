@@ -1,0 +1,188 @@
+// Triangles of faces that are close to each other: chords that cross although the surfaces do not.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "mesh/intersections.h"
+#include "surface/run.h"
+
+namespace carreau {
+
+namespace {
+
+// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
+constexpr std::size_t most_pairs = 100'000;
+// Share of the larger sagitta. What two surfaces that coincide leave between their points over one place of a crossing
+// is of second order; walls as far apart as this share are told from them.
+constexpr double least_gap = 0.25;
+// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
+constexpr double no_sagitta = 1e-12;
+// Times. From one round to the next walls that are apart stay so.
+constexpr double most_fall_of_gap = 0.5;
+// Of the gap, what sagittas of both sides are to leave; they are as the squares of lengths. Shares of the longest edge
+// of a triangle that crosses another one, whatever the gap.
+constexpr double sagitta_share = 0.5, least_share = 0.25, most_share = 0.6;
+
+/// A triangle of the whole mesh, by its face.
+struct MeshTriangle {
+  int face = 0, local = 0;
+};
+
+struct WholeMesh {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<MeshTriangle> origin;
+};
+
+WholeMesh whole(const SurfaceMesh& mesh) {
+  WholeMesh all;
+  for (int f = 0; f < static_cast<int>(mesh.faces.size()); ++f) {
+    const FaceMesh& face = mesh.faces[static_cast<std::size_t>(f)];
+    for (int t = 0; t < static_cast<int>(face.triangles.size()); ++t) {
+      const auto& [a, b, c] = face.triangles[static_cast<std::size_t>(t)];
+      all.triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
+      all.origin.push_back({f, t});
+    }
+  }
+  return all;
+}
+
+/// The point of the surface over a place of a triangle.
+Vec3 surface_over(const CompositeRun& run, const MeshTriangle& which, const Vec3& place) {
+  const SurfaceMesh& mesh = run.result.mesh;
+  const FaceMesh& face = mesh.faces[static_cast<std::size_t>(which.face)];
+  const auto& [i, j, k] = face.triangles[static_cast<std::size_t>(which.local)];
+  const Vec3 a = mesh.vertices[face.vertex[i]], ab = mesh.vertices[face.vertex[j]] - a,
+             ac = mesh.vertices[face.vertex[k]] - a, n = cross(ab, ac), ap = place - a;
+  const double n2 = dot(n, n), s = dot(cross(ap, ac), n) / n2, t = dot(cross(ab, ap), n) / n2;
+  const Vec2 uv = (1 - s - t) * face.uv[i] + s * face.uv[j] + t * face.uv[k];
+  return surface_at(run.cad, face.ref, want_position, uv).s;
+}
+
+/// How far the surfaces are apart where two triangles cross; 0: not at all, seen from there, and smaller triangles do
+/// not part them. And by what edges are to be multiplied.
+struct Gap {
+  double width = 0, share = 1;
+};
+
+Gap gap_at(const CompositeRun& run, const MeshTriangle& s, const MeshTriangle& t, const Vec3& place) {
+  const Vec3 p = surface_over(run, s, place), q = surface_over(run, t, place);
+  const double on_s = norm(p - place), on_t = norm(q - place), sagitta = std::max(on_s, on_t), width = norm(p - q);
+  if (!(sagitta > no_sagitta * run.supports.diag && width >= least_gap * sagitta)) return {};
+  return {width, std::clamp(std::sqrt(sagitta_share * width / (on_s + on_t)), least_share, most_share)};
+}
+
+using Edge = std::pair<std::int32_t, std::int32_t>;
+
+/// What is to be finer: edges of triangles that cross, by face, and those of them that lie on curves.
+struct FinerPlaces {
+  std::vector<std::vector<EdgeSizes::Source>> sources;
+  std::set<Edge> edges;
+  double gap = 0;  ///< between the surfaces at crossings, the median
+};
+
+void add(const SurfaceMesh& mesh, const WholeMesh& all, std::int32_t triangle, double share, FinerPlaces& places) {
+  const std::array<std::int32_t, 3>& corners = all.triangles[static_cast<std::size_t>(triangle)];
+  const int face = all.origin[static_cast<std::size_t>(triangle)].face;
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    longest = std::max(longest, norm(mesh.vertices[corners[(k + 1) % 3]] - mesh.vertices[corners[k]]));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int32_t v = corners[k], w = corners[(k + 1) % 3];
+    places.sources[static_cast<std::size_t>(face)].push_back({mesh.vertices[v], mesh.vertices[w], share * longest});
+    places.edges.insert(std::minmax(v, w));
+  }
+}
+
+/// The mesh of the run with its crossings.
+struct Crossings {
+  explicit Crossings(const CompositeRun& run)
+      : all(whole(run.result.mesh)),
+        found(find_intersections(run.result.mesh.vertices, all.triangles,
+                                 {.limit = most_pairs, .threads = run.options.threads}, run.monitor)),
+        failed(std::count_if(run.result.mesh.faces.begin(), run.result.mesh.faces.end(),
+                             [](const FaceMesh& face) { return face.status == FaceStatus::failed; })) {}
+
+  [[nodiscard]] bool better_than(const Crossings& other) const {
+    return failed <= other.failed && found.count < other.found.count;
+  }
+
+  WholeMesh all;
+  Intersections found;
+  std::ptrdiff_t failed;  // faces
+};
+
+FinerPlaces places_to_refine(const CompositeRun& run, const Crossings& crossings) {
+  const WholeMesh& all = crossings.all;
+  FinerPlaces places;
+  places.sources.resize(run.model.faces.size());
+  std::vector<double> gaps;
+  for (const TriangleIntersection& pair : crossings.found.pairs) {
+    const auto [s, t] = pair.triangles;
+    const auto at = [&](std::int32_t i) { return all.origin[static_cast<std::size_t>(i)]; };
+    const Gap gap = gap_at(run, at(s), at(t), pair.place);
+    if (gap.width == 0) continue;
+    gaps.push_back(gap.width);
+    add(run.result.mesh, all, s, gap.share, places);
+    add(run.result.mesh, all, t, gap.share, places);
+  }
+  if (gaps.empty()) return places;
+  const auto middle = gaps.begin() + std::ssize(gaps) / 2;
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  places.gap = *middle;
+  return places;
+}
+
+// Segments of curves that are edges of such triangles.
+void split_curves(const CompositeRun& run, const std::set<Edge>& edges, std::vector<DiscreteCurve>& curves) {
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    const std::vector<std::int32_t>& v = run.result.mesh.curves[c].vertices;
+    if (static_cast<int>(v.size()) != curves[c].segments() + 1) continue;  // it has vanished
+    for (int k = curves[c].segments() - 1; k >= 0; --k) {
+      const auto i = static_cast<std::size_t>(k);
+      if (edges.contains(std::minmax(v[i], v[i + 1]))) split_segment(curves[c], k, run.curve_model);
+    }
+  }
+  if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, curves);
+}
+
+void make_finer(CompositeRun& run, const FinerPlaces& places) {
+  run.curves = run.cut_curves;
+  split_curves(run, places.edges, run.curves);
+  run.finer.resize(places.sources.size());
+  for (std::size_t f = 0; f < places.sources.size(); ++f)
+    run.finer[f].insert(run.finer[f].end(), places.sources[f].begin(), places.sources[f].end());
+}
+
+// Of surfaces that cross, gaps between points over crossings are sagittas, which fall by four when edges are halved.
+bool surfaces_cross(const FinerPlaces& before, const FinerPlaces& now) {
+  return now.gap < most_fall_of_gap * before.gap;
+}
+
+}  // namespace
+
+void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again) {
+  if (run.options.crossing_rounds == 0) return;
+  Crossings now(run), best = now;
+  std::optional<CompositeResult> best_result;  // empty: that of the run
+  FinerPlaces places = places_to_refine(run, now);
+  for (int round = 0; round < run.options.crossing_rounds && !places.edges.empty(); ++round) {
+    make_finer(run, places);
+    CompositeResult before = std::exchange(run.result, {});
+    run.result.graded = before.graded, run.result.report = before.report;
+    if (!best_result) best_result = std::move(before);
+    run.begin += (1 - run.begin) * (curves_share + patches_share);
+    mesh_again();
+    now = Crossings(run);
+    if (now.better_than(best)) best = now, best_result.reset();
+    const FinerPlaces next = places_to_refine(run, now);
+    if (best_result && surfaces_cross(places, next)) break;
+    places = next;
+  }
+  if (best_result) run.result = std::move(*best_result);
+}
+
+}  // namespace carreau

@@ -1,0 +1,101 @@
+// Coarse chords of surfaces close to each other cross; smaller triangles do not.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "geometric_run.h"
+#include "mesh/intersections.h"
+#include "session_of_size.h"
+
+namespace carreau {
+namespace {
+
+using std::numbers::pi;
+using testing::AnalyticCad;
+
+/// Spheres of radius 1 about 0 and of `radius` about (shift, 0, 0); their triangles are nowhere in step.
+AnalyticCad spheres(double radius, double shift) {
+  const auto sphere = [](double r, double x) {
+    return testing::AnalyticFace{[=](Vec2 p) {
+                                   SurfaceJet jet = testing::ellipsoid_jet(p, {r, r, r});
+                                   jet.s += Vec3{x, 0, 0};
+                                   return jet;
+                                 },
+                                 testing::rectangle({0, -pi / 2}, {2 * pi, pi / 2})};
+  };
+  AnalyticCad cad;
+  cad.faces[1] = sphere(1, 0);
+  cad.faces[2] = sphere(radius, shift);
+  return cad;
+}
+
+/// Each face glued to itself alone: the seam, and sides that are points.
+Model model_of_spheres() {
+  Model model;
+  for (int f = 0; f < 2; ++f) {
+    Face face;
+    face.ref = f + 1;
+    const int ref = 10 * f, south = 2 * f + 1, north = 2 * f + 2;
+    face.curves = {{.ref = ref + 1, .end1 = south, .end2 = south},
+                   {.ref = ref + 2, .end1 = south, .end2 = north},
+                   {.ref = ref + 3, .end1 = north, .end2 = north},
+                   {.ref = ref + 2, .end1 = north, .end2 = south}};
+    model.faces.push_back(face);
+  }
+  return model;
+}
+
+std::unique_ptr<Session> meshed(const AnalyticCad& cad, int rounds, int threads, Monitor& monitor) {
+  auto session = testing::session_of_command(cad, 0.5, monitor);
+  session->set_model(model_of_spheres());
+  session->parameters().set("crossing_rounds", rounds);
+  session->parameters().set("threads", threads);
+  session->make_mesh();
+  EXPECT_EQ(find_defects(session->mesh(), {.limit = 5}), std::vector<std::string>{});
+  return session;
+}
+
+std::int64_t crossings(const SurfaceMesh& mesh) {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const FaceMesh& face : mesh.faces)
+    for (const auto& [a, b, c] : face.triangles) triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
+  Monitor silent;
+  return find_intersections(mesh.vertices, triangles, {}, silent).count;
+}
+
+bool equal(const SurfaceMesh& a, const SurfaceMesh& b) {
+  if (a.vertices != b.vertices || a.faces.size() != b.faces.size()) return false;
+  for (std::size_t f = 0; f < a.faces.size(); ++f)
+    if (a.faces[f].triangles != b.faces[f].triangles) return false;
+  return true;
+}
+
+TEST(CloseWalls, ThatCrossByTheirChordsAreParted) {
+  for (const double gap : {0.03, 0.01}) {
+    SCOPED_TRACE(gap);
+    Monitor monitor;
+    const AnalyticCad cad = spheres(1 - gap, 0);
+    EXPECT_GT(crossings(meshed(cad, 0, 1, monitor)->mesh()), 50);
+    const auto parted = meshed(cad, 10, 1, monitor);
+    EXPECT_EQ(crossings(parted->mesh()), 0);
+    EXPECT_TRUE(equal(parted->mesh(), meshed(cad, 10, 4, monitor)->mesh()));
+    // An edge of length h leaves the sphere by h^2 / 8, a triangle by h^2 / 6: no need of edges below half of what
+    // parts the walls.
+    const double h = std::sqrt(6 * gap) / 2, area = 4 * pi * (1 + (1 - gap) * (1 - gap));
+    EXPECT_LT(static_cast<double>(parted->mesh().triangle_count()), area / (std::sqrt(3.) / 4 * h * h));
+  }
+}
+
+TEST(CloseWalls, ThatCrossOrCoincideThemselvesStayAsTheyAre) {
+  Monitor monitor;
+  for (const double shift : {0.0, 0.4}) {
+    SCOPED_TRACE(shift);
+    const AnalyticCad cad = spheres(1, shift);
+    const auto as_it_is = meshed(cad, 0, 1, monitor), tried = meshed(cad, 10, 1, monitor);
+    EXPECT_GT(crossings(as_it_is->mesh()), 0);
+    EXPECT_TRUE(equal(as_it_is->mesh(), tried->mesh()));
+  }
+}
+
+}  // namespace
+}  // namespace carreau
