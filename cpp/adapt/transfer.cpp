@@ -7,13 +7,14 @@
 #include <string>
 
 #include "mesh/triangle_search.h"
+#include "size/thresholds.h"
 #include "support/error.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double outside_share = 0.125;  // as for background meshes
+using thresholds::size::outside_share;  // as for background meshes
 // What is linear in (u, v) is carried over exactly: the place in (u, v) counts while the triangles of the old mesh are
 // not that many times as near elsewhere. The surface leaves them by an amount of second order, and so does this.
 constexpr double as_near = 4, rounding = 1e-14;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control_space/quadratic_fit.h"
 #include "metric/metric2_algebra.h"
+#include "support/infinity.h"
 
 namespace carreau::detail {
 
@@ -28,7 +28,7 @@ template <class Samples>
 Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
   // Of each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant over
   // trace.
-  double above = 0, below = std::numeric_limits<double>::infinity();
+  double above = 0, below = infinity;
   for (const auto& s : near) {
     const double trace = s.root.a + s.root.c;
     above = std::max(above, 0.5 * trace);
@@ -43,7 +43,7 @@ Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
   if (0.5 * (trace + s) < (1 - rounding) * most_extrapolation * above &&
       0.5 * (trace - s) > rounding * trace + below / most_extrapolation)
     return root;
-  double low = std::numeric_limits<double>::infinity(), high = 0;
+  double low = infinity, high = 0;
   for (const auto& sample : near) {
     const double major = 0.5 * (sample.root.a + sample.root.c + spread(sample.root));
     low = std::min(low, accurate_determinant(sample.root) / major);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "metric/metric2_algebra.h"
+#include "support/infinity.h"
 #include "support/pieces.h"
 
 namespace carreau::detail {
@@ -339,13 +340,13 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
-  if (width <= least_width) return std::numeric_limits<double>::infinity();
+  if (width <= least_width) return infinity;
   return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : allowed_half);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
   const double width2 = vertices * area_per_vertex;
-  if (width2 <= least_width * least_width) return std::numeric_limits<double>::infinity();
+  if (width2 <= least_width * least_width) return infinity;
   return options_.tolerance * std::max(1.0, plain_width * plain_width / width2);
 }
 

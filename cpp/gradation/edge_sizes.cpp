@@ -16,7 +16,8 @@ constexpr std::size_t deepest = 64;
 
 double distance_to_box(const Vec3& p, const Vec3& low, const Vec3& high) noexcept {
   const auto beyond = [](double x, double from, double to) { return std::max({from - x, x - to, 0.}); };
-  return norm(Vec3{beyond(p.x(), low.x(), high.x()), beyond(p.y(), low.y(), high.y()), beyond(p.z(), low.z(), high.z())});
+  return norm(
+      Vec3{beyond(p.x(), low.x(), high.x()), beyond(p.y(), low.y(), high.y()), beyond(p.z(), low.z(), high.z())});
 }
 
 }  // namespace

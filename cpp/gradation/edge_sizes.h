@@ -1,10 +1,10 @@
 // Sizes that grow from the edges of a boundary.
 #pragma once
 
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "support/infinity.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -25,7 +25,7 @@ class EdgeSizes {
 
   [[nodiscard]] bool empty() const noexcept { return sources_.empty(); }
   /// The size at p, or `most` where it is smaller. Logarithmic in the number of edges where few of them are near.
-  [[nodiscard]] double at(const Vec3& p, double most = std::numeric_limits<double>::infinity()) const noexcept;
+  [[nodiscard]] double at(const Vec3& p, double most = infinity) const noexcept;
 
  private:
   struct Node {

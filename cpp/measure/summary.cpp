@@ -4,13 +4,13 @@
 
 #include "measure/mesh_evaluation.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "support/short_number.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // What exceeds a limit by less than this share of it meets it.
 constexpr double rounding = 1e-9;
 constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "support/infinity.h"
 #include "support/segment.h"
 
 namespace carreau {
@@ -33,7 +34,7 @@ std::array<double, 3> nearest_weights(const Vec3& p, const std::array<Vec3, 3>& 
     }
   }
   std::array<double, 3> best{1, 0, 0};
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 from = corner[i], to = corner[(i + 1) % 3];
     const double t = fraction_on_segment(p, from, to);
@@ -60,9 +61,8 @@ struct TriangleSearch::Builder {
   std::vector<Vec3> centre;
 
   void enclose(Box& box) const {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    box.low = {far, far, far};
-    box.high = {-far, -far, -far};
+    box.low = {infinity, infinity, infinity};
+    box.high = {-infinity, -infinity, -infinity};
     for (std::int32_t k = box.first; k < box.first + box.count; ++k)
       for (const Vec3& p : tree.corners_[static_cast<std::size_t>(tree.order_[static_cast<std::size_t>(k)])])
         for (int axis = 0; axis < 3; ++axis) {

@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "support/infinity.h"
 #include "support/monitor.h"
 #include "support/vec.h"
 
@@ -17,7 +17,7 @@ struct NearestOnMesh {
   std::int32_t triangle = -1;
   std::array<double, 3> weight{1, 0, 0};  ///< barycentric: none negative, sum 1
   Vec3 point;
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = infinity;
 };
 
 /// The nearest point of one triangle, which may be flat: then of its sides. `triangle` of the result is -1.

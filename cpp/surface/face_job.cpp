@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <limits>
 
 #include "gradation/gradation.h"
 #include "plane/plane_mesher.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "surface/domain/domain_check.h"
 #include "surface/improve/refinement.h"
 #include "surface/improve/shape_in_space.h"
@@ -182,7 +182,7 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
 // they would jump. False: there is nothing more to try.
 bool FaceJob::sample_bounded(Monitor& monitor) {
   if (++bounded_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
-  input_.limits.tilt = most_lean;
+  input_.limits.lean = most_lean;
   if (bounded_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
   const Stopwatch watch(report_.seconds_sampling);
   space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor);
@@ -214,7 +214,7 @@ void FaceJob::add_remark(const std::string& what) {
 
 // Sources know the host's parameters only.
 double FaceJob::most_uneven() const noexcept {
-  if (rules_->asks_sources()) return std::numeric_limits<double>::infinity();
+  if (rules_->asks_sources()) return infinity;
   return evened_out_ && !even_ ? hopeless_speed : uneven_speed;
 }
 

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 
 #include "support/error.h"
+#include "support/infinity.h"
 #include "surface/domain/domain_check.h"
 
 namespace carreau {
@@ -90,7 +90,6 @@ class Builder {
 
   // An angle beside a length in millionths of a model's unit: both count by what the whole domain has of them.
   void measure_box() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
       for (const Vec2& p : uv_of(c)) {
@@ -208,7 +207,7 @@ class Builder {
   // Length of the shortest other curve that ends at the corner of a side; 0 when there is none.
   [[nodiscard]] double shortest_beside(int side) const {
     const auto corner_of = [this](int c) { return stand_in(topology_.curves[curve_of_[c]].end1); };
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = infinity;
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       const int far_end = stand_in(topology_.curves[curve_of_[c]].end2);
       if (c == side || is_left_out(c) || (corner_of(c) != corner_of(side) && far_end != corner_of(side))) continue;
@@ -220,7 +219,7 @@ class Builder {
   // Two junctions of one corner at which an odd number of curves end were torn apart by a gap: nearest ones first.
   void close_loops() {
     for (;;) {
-      double nearest = std::numeric_limits<double>::infinity();
+      double nearest = infinity;
       std::array<int, 2> pair{-1, -1};
       for (int i = 0; i < static_cast<int>(junctions_.size()); ++i)
         for (int j = i + 1; j < static_cast<int>(junctions_.size()); ++j) {

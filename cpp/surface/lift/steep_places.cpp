@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mesh/triangle_search.h"
 #include "predicates/polygon_locator.h"
+#include "support/infinity.h"
 #include "surface/lift/verification.h"
 #include "surface/sample/face_metric.h"
 
@@ -41,8 +41,7 @@ class SteepPlaces {
 
   // Places whose nearest point of the mesh may be that of the surface.
   std::vector<Foot> begin(const std::vector<SteepPlace>& places) {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     double longest = 0;
     for (const Vec3& p : mesh_.xyz) {
       low = low.cwiseMin(p);
@@ -78,7 +77,7 @@ class SteepPlaces {
     const SampledDomain domain = sampled_domain(input_.domain->plane);
     const PolygonLocator locator(domain.vertices, domain.edges);
     std::erase_if(feet, [&](const Foot& f) { return !locator.contains(f.uv); });
-    std::vector<double> distance(feet.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> distance(feet.size(), infinity);
     std::vector<std::size_t> moving;
     std::vector<Vec2> uv;
     const auto move = [&](std::size_t first, std::span<const Vec2>, std::span<const SurfaceJet> jets) {

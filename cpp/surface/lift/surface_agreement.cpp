@@ -2,15 +2,14 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "support/format.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Area beyond that of the surface that is told. Unit meshes by curvature have some 1e-4.
 constexpr double notable = 0.05;
 // Least cosine of a triangle's normal and that of what it stands for: a little less than upright.

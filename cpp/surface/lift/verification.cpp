@@ -71,7 +71,7 @@ class LiftCheck {
   }
   void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
     mesh_.normal[v] = unit_normal(jet).value_or(Vec3{});
-    const double h = mean_size(jet, metric);
+    const double h = geometric_mean_size(jet, metric);
     if (!(h > 0)) return;
     mesh_.size[v] = h;
     const Vec2 p = mesh_.plane.vertices[v];

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "metric/metric3_algebra.h"
 #include "model/traces.h"
 #include "model/union_find.h"
+#include "support/infinity.h"
 #include "surface/narrow/side_ruler.h"
 
 namespace carreau {
@@ -98,7 +98,7 @@ class Finder {
   }
 
   [[nodiscard]] double smallest_size() const {
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = infinity;
     for (const int c : model_.topology.curve_of[face_])
       for (const double h : curves_[c].size) smallest = std::min(smallest, h);
     return smallest;
@@ -136,7 +136,7 @@ class Finder {
     for (std::size_t from = 0; from < n; ++from)
       for (std::size_t count = 0; count + 2 <= n && length(loop, from, count) <= longest_end_cap * reach_; ++count)
         end_caps.push_back({from, count});
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     std::size_t most_in_end_caps = 0;
     for (std::size_t i = 0; i < end_caps.size(); ++i)
       for (std::size_t j = i + 1; j < end_caps.size(); ++j) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "support/infinity.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
 #include "surface/domain/domain_check.h"
@@ -311,7 +311,7 @@ class Refiner {
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
     const FaceDomain& domain = *result_.domain[f];
     struct Range {
-      double low = std::numeric_limits<double>::infinity(), high = 0;
+      double low = infinity, high = 0;
     };
     std::vector<Range> at(domain.plane.vertices.size());
     for (const PlaneEdge& edge : domain.plane.edges) {
@@ -385,8 +385,8 @@ class Refiner {
   std::set<int> turned_;  // of those
   std::map<int, int> turned_rounds_;
   struct Crossing {
-    double length = std::numeric_limits<double>::infinity();  // of the edges that cross others, in (u, v)
-    int fruitless = 0;                                        // halvings in a row that left it as it was
+    double length = infinity;  // of the edges that cross others, in (u, v)
+    int fruitless = 0;         // halvings in a row that left it as it was
   };
   std::map<int, Crossing> crossings_;
   std::optional<FinestLengths> finest_;              // before edges were balanced; none without metrics

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
 #include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
+#include "support/infinity.h"
 #include "surface/improve/bad_region.h"
 
 namespace carreau {
@@ -147,7 +147,7 @@ class Evener {
                              double total) const {
     const double width = high(axis) - low(axis);
     std::vector<double> x = {0}, u = {rows.front().at};
-    double reached = 0, fastest = 0, slowest = std::numeric_limits<double>::infinity();
+    double reached = 0, fastest = 0, slowest = infinity;
     for (std::size_t k = 0; k < chords.size(); ++k) {
       const double step = (rows[k + 1].at - rows[k].at) / width,
                    length = std::max(chords[k], least_speed * total * step);

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
+#include "support/infinity.h"
 #include "surface/sample/face_sampling.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // How far from a degenerate point limits are taken, in shares of the domain's box, and of that the part aside, towards
 // its middle: meridians may run along sides of the domain, which are straight but for rounding.
 constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
@@ -88,7 +87,7 @@ double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept {
   return first > 0 && second > 0 ? std::sqrt(first / second) : 0;
 }
 
-double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
+double geometric_mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
   const double density = accurate_determinant(metric), area = norm(cross(jet.su, jet.sv));
   return density > 0 && area > 0 ? std::sqrt(area / std::sqrt(density)) : 0;
 }
@@ -116,7 +115,7 @@ void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec
     }
     const TangentMetric before = *sizes;
     if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv[i], jets[i].s, *sizes);
-    if (std::isfinite(limits.tilt)) bound_tilt(jets[i], limits.tilt, *sizes);
+    if (std::isfinite(limits.lean)) bound_lean(jets[i], limits.lean, *sizes);
     sizes->h1 = std::min(limits.factor * sizes->h1, limits.largest);
     sizes->h2 = std::min(limits.factor * sizes->h2, limits.largest);
     if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric[i] = metric_of(jets[i], *sizes);
