@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "adapt/thresholds.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
 #include "support/infinity.h"
@@ -13,8 +14,7 @@ namespace carreau {
 
 namespace {
 
-constexpr double largest_step = 1e-4;  // of the diagonal
-constexpr double blind = 2;            // an edge longer than this times what its ends see
+using namespace thresholds::adapt;
 
 /// A mesh with the middles of its edges: each triangle becomes four.
 struct Refined {

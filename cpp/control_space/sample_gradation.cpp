@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "control_space/thresholds.h"
 #include "gradation/gradation.h"
 #include "gradation/metric_grading.h"
 #include "gradation/place_fans.h"
@@ -14,8 +15,7 @@ namespace carreau {
 
 namespace {
 
-// Changes below this share are rounding.
-constexpr double negligible = 1e-6;
+using namespace thresholds::control_space;
 
 /// What both kinds of bounds share: all of them once, then, from small to large, those of samples that have changed;
 /// at last the metrics. Returns the samples that have changed. Of `bounds`:
@@ -95,7 +95,7 @@ class IsotropicBounds {
   }
 
   void lower(std::int32_t s, double h) {
-    if (!(h < (1 - negligible) * h_[s])) return;
+    if (!(h < (1 - size_rounding) * h_[s])) return;
     h_[s] = h;
     queue_.push(h, s);
   }
@@ -186,9 +186,6 @@ class DirectedBounds {
   }
 
  private:
-  // What changes less is far below what polynomials between the samples do.
-  static constexpr double negligible_change = 1e-4;
-
   [[nodiscard]] double key(std::int32_t s) const noexcept { return at_[s].sizes.h1 * at_[s].sizes.h2; }
 
   /// A tangent of sample `to` rolled over to sample `from`.
@@ -211,7 +208,7 @@ class DirectedBounds {
     const auto limit = [&](double h, Vec3 d) {
       if (h <= growth * least(d)) return h;
       const double most = growth * told(d);
-      return h > (1 + negligible_change) * most ? most : h;
+      return h > (1 + directed_rounding) * most ? most : h;
     };
     const double h1 = limit(q.h1, q.d1), h2 = limit(q.h2, q.d2);
     if (h1 == q.h1 && h2 == q.h2) return;

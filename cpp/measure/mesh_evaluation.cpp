@@ -10,6 +10,7 @@
 #include "cad/fundamental_forms.h"
 #include "measure/degenerate_sides.h"
 #include "measure/gauss.h"
+#include "measure/thresholds.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
 #include "metric/field_length.h"
@@ -18,6 +19,8 @@
 namespace carreau {
 
 namespace {
+
+using namespace thresholds::measure;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -41,12 +44,6 @@ std::array<Barycentric, 7> triangle_rule() {
   }
   return rule;
 }
-
-// Gradations are judged over no less than this length: over a hundredth of a unit sizes that differ by a tenth, which
-// nobody could see, would have one of 14 000.
-constexpr double shortest_way = 0.1;
-// Trapezoids of a length in a control space are no longer than that.
-constexpr double fine_length = 0.1;
 
 double degrees(double radians) noexcept { return radians * 180 / std::numbers::pi; }
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }

@@ -21,11 +21,11 @@ inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor 
 
 // Background meshes (background, adapt/transfer)
 /// Share of the longest edge of the nearest triangle. What a surface may be away from the triangles that approximate
-/// it: arcs of 60 degrees are 0.13 of their chord away from it. [BackgroundField.PointsOutsideTakeTheNearest-
-/// ValueAndAreCounted]
+/// it: arcs of 60 degrees are 0.13 of their chord away from it.
+/// [BackgroundField.PointsOutsideTakeTheNearestValueAndAreCounted]
 inline constexpr double outside_share = 0.125;
-/// Ratio of sizes, from one vertex to the next, above which a place is steep. [BackgroundField.SteepPlacesAreWhere-
-/// TheFieldJumps]
+/// Ratio of sizes, from one vertex to the next, above which a place is steep.
+/// [BackgroundField.SteepPlacesAreWhereTheFieldJumps]
 inline constexpr double steep_ratio = 1.5;
 
 }  // namespace carreau::thresholds::size

@@ -50,9 +50,6 @@ struct CompositeRun {
   CompositeResult result;                         ///< assemble_patches()
 };
 
-/// Shares of the progress of what comes after the gradation.
-inline constexpr double curves_share = 0.1, patches_share = 0.85;
-
 /// The steps, in their order; composite.cpp calls them. Each throws what the host throws, LimitError and Cancelled.
 
 /// Grades the prescribed sizes of the whole model, where a gradation is asked for. One size everywhere obeys any.

@@ -9,18 +9,13 @@
 #include "support/error.h"
 #include "support/infinity.h"
 #include "surface/domain/domain_check.h"
+#include "surface/domain/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Ends of curves that are one point in space are one vertex of the domain when they are nearer than this share of the
-// shortest edge beside them: exact corners differ by rounding, seam corners by whole sides. Where loops do not close
-// by that, this share of the shortest curve counts: hosts have gaps that do not shrink with the size of edges.
-constexpr double joining_share = 0.25;
-// A curve that is one point in space is one in (u, v) as well when it is shorter than this share of the edges beside
-// it: tiny edges of CAD files are, sides at poles are not.
-constexpr double point_share = 1e-3;
+using namespace thresholds::domain;
 
 /// Ends of curves that are one vertex of the domain.
 struct Junction {

@@ -5,6 +5,7 @@
 #include "surface/lift/lift.h"
 #include "surface/lift/steep_places.h"
 #include "surface/sample/face_metric.h"
+#include "surface/sample/thresholds.h"
 
 namespace carreau::detail {
 
@@ -24,7 +25,7 @@ ControlSpace sample(GradingWork& work, const PatchInput& input, std::span<const 
   FaceMetric prescribed = unlimited_prescription_of(input, work.rules, work.monitor);
   std::vector<GradingWork::Sample>& samples = work.samples[input.face];
   std::vector<SurfaceJet> jets;
-  SpeedWatch speeds(work.rules.asks_sources() ? infinity : uneven_speed, 0);
+  SpeedWatch speeds(work.rules.asks_sources() ? infinity : thresholds::sample::uneven_speed, 0);
   const MetricSampler sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     jets.resize(uv.size());
     work.model.cad.surface(input.ref, want_position | prescribed.wants(), uv, jets);

@@ -6,16 +6,14 @@
 #include "mesh/triangle_search.h"
 #include "predicates/polygon_locator.h"
 #include "support/infinity.h"
+#include "surface/lift/thresholds.h"
 #include "surface/lift/verification.h"
 #include "surface/sample/face_metric.h"
 
 namespace carreau {
 namespace {
 
-constexpr std::size_t most_places = 500;
-constexpr int most_steps = 8;
-// Steps shorter than this share of a place's reach are the last.
-constexpr double last_step = 1e-3;
+using namespace thresholds::lift;
 
 /// A place on its way to the surface.
 struct Foot {
@@ -30,7 +28,7 @@ Vec2 step_towards(const SurfaceJet& jet, const Vec3& at) noexcept {
   const Vec3 away = at - jet.s;
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
   const double p = dot(jet.su, away), q = dot(jet.sv, away), det = e * g - f * f;
-  if (!(det > 1e-12 * e * g)) return {};
+  if (!(det > no_step * e * g)) return {};
   return {(g * p - f * q) / det, (e * q - f * p) / det};
 }
 

@@ -7,19 +7,17 @@
 #include "metric/metric3_algebra.h"
 #include "support/infinity.h"
 #include "surface/sample/face_sampling.h"
+#include "surface/sample/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// How far from a degenerate point limits are taken, in shares of the domain's box, and of that the part aside, towards
-// its middle: meridians may run along sides of the domain, which are straight but for rounding.
-constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
+using namespace thresholds::sample;
 
 /// Along the meridian of a degenerate point: the parameter along which the surface does not stand still, if it does
 /// along the other; else towards the middle.
 Vec2 along_meridian(const SurfaceJet& jet, const Vec2& to_middle, const Vec2& half) noexcept {
-  constexpr double still = 1e-12;
   const double u = norm(jet.su), v = norm(jet.sv);
   if (u <= still * v) return {0, std::copysign(half.y(), to_middle.y())};
   if (v <= still * u) return {std::copysign(half.x(), to_middle.x()), 0};

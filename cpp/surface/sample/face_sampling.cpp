@@ -5,13 +5,13 @@
 
 #include "support/infinity.h"
 #include "surface/sample/face_metric.h"
+#include "surface/sample/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Relative difference of a metric from that of one size, which rounding leaves.
-constexpr double same_size = 1e-6;
+using namespace thresholds::sample;
 
 // Whether the metric is that of a size which is the same in all directions.
 bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {

@@ -26,10 +26,6 @@ struct UnevenSpeed {
   double times;  ///< as fast
 };
 
-/// How many times faster than usual a parametrisation may be somewhere: else other parameters are looked for; and where
-/// there are none.
-inline constexpr double uneven_speed = 1000, hopeless_speed = 30'000;
-
 /// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
 class SpeedWatch {
  public:
