@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "support/segment.h"
 
@@ -23,6 +24,26 @@ EdgeSizes::EdgeSizes(std::vector<Source> sources, double slope) : slope_(slope) 
     for (std::int32_t k = node.first; k < node.first + node.count; ++k) least_[n] = std::min(least_[n], sources_[k].h);
     if (node.count == 0) least_[n] = std::min(least_[node.first], least_[node.first + 1]);
   }
+}
+
+double EdgeSizes::smallest() const noexcept { return sources_.empty() ? infinity : least_.front(); }
+
+// With h = h(e) + s r: the integral of (2 pi r + 2 |e|) / h^2 for r up to the extent, over sqrt(3) / 4.
+double EdgeSizes::triangles_within(double extent) const noexcept {
+  double total = 0;
+  for (const Source& e : sources_) {
+    const double x = 1 + slope_ * extent / e.h;
+    const double rings = 2 * std::numbers::pi / (slope_ * slope_) * (std::log(x) + 1 / x - 1);
+    const double strips = 2 * norm(e.b - e.a) / (slope_ * e.h) * (1 - 1 / x);
+    total += (rings + strips) / (std::numbers::sqrt3 / 4);
+  }
+  return total;
+}
+
+EdgeSizes EdgeSizes::bounded_below(double h) const {
+  std::vector<Source> sources = sources_;
+  for (Source& s : sources) s.h = std::max(s.h, h);
+  return {std::move(sources), slope_};
 }
 
 double EdgeSizes::at(const Vec3& p, double most) const noexcept {

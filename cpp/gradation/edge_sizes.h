@@ -24,6 +24,12 @@ class EdgeSizes {
   EdgeSizes(std::vector<Source> sources, double slope);
 
   [[nodiscard]] bool empty() const noexcept { return sources_.empty(); }
+  [[nodiscard]] double smallest() const noexcept;
+  /// Unit triangles that growth from one edge after the other asks for within `extent` of it, in a plane: the area of
+  /// each ring over that of its triangles, which edges beside each other share. An upper bound.
+  [[nodiscard]] double triangles_within(double extent) const noexcept;
+  /// The same edges with sizes of at least h.
+  [[nodiscard]] EdgeSizes bounded_below(double h) const;
   /// The size at p, or `most` where it is smaller. Logarithmic in the number of edges where few of them are near.
   [[nodiscard]] double at(const Vec3& p, double most = infinity) const noexcept;
 

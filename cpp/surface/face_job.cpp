@@ -15,6 +15,7 @@
 #include "surface/lift/steep_places.h"
 #include "surface/lift/verification.h"
 #include "surface/reparametrise/even_parameters.h"
+#include "surface/sample/edge_growth.h"
 #include "surface/sample/thresholds.h"
 #include "surface/thresholds.h"
 
@@ -69,18 +70,21 @@ void FaceJob::step(Monitor& monitor) {
       case Step::none:
         break;
     }
-  } catch (const LimitError&) {
-    if (!take_best(monitor)) throw;
-  } catch (const DomainError& error) {  // other faces go on
+  } catch (const LimitError& error) {  // other faces go on, as for a DomainError
     if (take_best(monitor)) return;
-    const std::string what = error.what();
-    failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
-    next_ = Step::none;
+    beyond_limit_ = error.where().face != 0 ? error : LimitError(Where{.face = input_.ref}, error.what());
+    fail(beyond_limit_->what());
+  } catch (const DomainError& error) {
+    if (!take_best(monitor)) fail(error.what());
   } catch (const CallbackError& error) {
     if (!options_.failing_faces_alone || error.where().face != input_.ref) throw;
-    failure_ = error.what();
-    next_ = Step::none;
+    fail(error.what());
   }
+}
+
+void FaceJob::fail(const std::string& what) {
+  failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
+  next_ = Step::none;
 }
 
 void FaceJob::sample(Monitor& monitor) {
@@ -100,9 +104,20 @@ void FaceJob::sample(Monitor& monitor) {
     return;  // and the same step again
   }
   input_.one_size = facts.isotropic;
+  bound_growth_from_edges(monitor);
   refuse_beyond_limit(space_->measure());
   normals_.index(*space_);
   next_ = Step::mesh;
+}
+
+void FaceJob::bound_growth_from_edges(Monitor& monitor) {
+  std::optional<EdgeSizes> bounded = bound_growth(input_, *cad_, *rules_, probe_points_, monitor, *space_);
+  if (!bounded) return;
+  const double asked = input_.limits.edges->smallest();
+  bounded_edges_ = std::move(*bounded);
+  input_.limits.edges = bounded_edges_.empty() ? nullptr : &bounded_edges_;
+  add_remark("sizes cannot grow from edges as short as " + format_number(asked) + " in these (u, v)" +
+             (bounded_edges_.empty() ? "" : "; they grow from " + format_number(bounded_edges_.smallest())));
 }
 
 void FaceJob::mesh(Monitor& monitor) {

@@ -8,6 +8,7 @@
 
 #include "cad/reparametrisation.h"
 #include "control_space/control_space.h"
+#include "support/error.h"
 #include "support/stepped_tasks.h"
 #include "surface/lift/surface_agreement.h"
 #include "surface/options.h"
@@ -20,22 +21,23 @@ namespace carreau {
 class FaceJob final : public SteppedTask {
  public:
   /// Keeps references to `cad` and `options`.
-  /// `max_triangles` may change until the job starts.
   FaceJob(PatchInput input, Cad& cad, const SizeRules& rules, const CompositeOptions& options, bool reentrant)
       : input_(std::move(input)),
         cad_(&cad),
         rules_(&rules),
         options_(options),
         reentrant_(reentrant),
-        given_slope_(input_.slope) {}
+        given_slope_(input_.slope),
+        most_triangles_(options.max_triangles) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
-  void limit_triangles(std::int64_t most) { most_triangles_ = most; }
   /// Why the domain could not be meshed; empty when it was.
   [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
+  /// Set when it failed because its mesh has more triangles than are allowed.
+  [[nodiscard]] const std::optional<LimitError>& beyond_limit() const noexcept { return beyond_limit_; }
   /// What is to be known of a mesh that could only be made in another way; empty: nothing.
   [[nodiscard]] const std::string& remark() const noexcept { return remark_; }
   /// Times and corrections.
@@ -51,6 +53,8 @@ class FaceJob final : public SteppedTask {
   void sample(Monitor& monitor);
   void mesh(Monitor& monitor);
   void lift(Monitor& monitor);
+  void fail(const std::string& what);
+  void bound_growth_from_edges(Monitor& monitor);
   void refuse_unsound(Monitor& monitor) const;
   void refuse_jumps(std::size_t most, Monitor& monitor) const;
   void check_agreement(const std::vector<int>& doubtful, Monitor& monitor);
@@ -83,7 +87,9 @@ class FaceJob final : public SteppedTask {
   const CompositeOptions& options_;
   bool reentrant_;
   double given_slope_;
-  std::int64_t most_triangles_ = 0;
+  std::int64_t most_triangles_;
+  EdgeSizes bounded_edges_;  // in place of those of input_, where these are too small
+  std::optional<LimitError> beyond_limit_;
   Step next_ = Step::sample;
   int corrections_ = 0, refills_ = 0;
   std::size_t vertices_when_refilled_ = 0;

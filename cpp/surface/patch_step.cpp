@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "surface/face_job.h"
 #include "surface/run.h"
@@ -29,8 +30,9 @@ struct PatchJobs {
   CompositeRun& run;
   std::vector<std::unique_ptr<SteppedTask>> jobs = {};
   std::vector<std::size_t> face_of = {};
-  std::vector<EdgeSizes> short_edges = {};  // by face
-  std::int64_t left = 0;                    // triangles still allowed
+  std::vector<EdgeSizes> short_edges = {};            // by face
+  std::int64_t left = 0;                              // triangles still allowed
+  std::optional<LimitError> first_beyond_limit = {};  // of faces that have too many by themselves
 
   FaceJob& job(std::size_t i) { return static_cast<FaceJob&>(*jobs[i]); }
 };
@@ -62,7 +64,6 @@ void make_jobs(PatchJobs& work) {
   for (std::size_t f = 0; f < run.model.faces.size(); ++f) {
     if (!run.domains.domain[f] || run.patches[f]) continue;
     work.jobs.push_back(std::make_unique<FaceJob>(input_of(work, f), run.cad, run.rules, run.options, reentrant));
-    work.job(work.jobs.size() - 1).limit_triangles(run.options.max_triangles);
     work.face_of.push_back(f);
   }
 }
@@ -107,8 +108,7 @@ void finish(PatchJobs& work, std::size_t i) {
     keep_patch(work, i);
   else
     run.fail(f, work.job(i).failure());
-  // One after the other, what is left is known before the next one starts.
-  if (run.options.threads == 1 && i + 1 < work.jobs.size()) work.job(i + 1).limit_triangles(work.left);
+  if (!work.first_beyond_limit) work.first_beyond_limit = work.job(i).beyond_limit();
   work.jobs[i].reset();
   tell_progress(work, i + 1);
 }
@@ -158,6 +158,8 @@ void mesh_patches(CompositeRun& run) {
                .order = order_of_jobs(work),
                .on_finished = [&](std::size_t i) { finish(work, i); }},
               run.monitor);
+  const bool none = std::none_of(run.patches.begin(), run.patches.end(), [](const auto& p) { return p.has_value(); });
+  if (none && work.first_beyond_limit) throw LimitError(*work.first_beyond_limit);
 }
 
 }  // namespace carreau

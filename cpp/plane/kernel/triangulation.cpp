@@ -10,13 +10,12 @@
 
 namespace carreau::plane {
 
-int Triangulation::locate(const Vec2& p, int hint) const noexcept {
+int Triangulation::walk(const Vec2& p, int hint, std::size_t most_steps) const noexcept {
   const Triangle* const T = triangles.data();
   const Vertex* const V = vertices.data();
   int t = hint, from = -1;
   std::uint32_t turn = 1;
-  const std::size_t limit = 2 * triangles.size() + 100;
-  for (std::size_t step = 0; step < limit; ++step) {
+  for (std::size_t step = 0; step < most_steps; ++step) {
     const Triangle& now = T[t];
     // In a triangulation that is not Delaunay a fixed order could go round in circles.
     int first = 0;
@@ -38,9 +37,20 @@ int Triangulation::locate(const Vec2& p, int hint) const noexcept {
       moved = true;
       break;
     }
-    if (!moved) return blocked ? -1 : t;
+    if (!moved) return blocked ? blocked_walk : t;
   }
+  return unfinished_walk;
+}
+
+int Triangulation::locate_near(const Vec2& p, int hint, int most_steps) const noexcept {
+  return std::max(walk(p, hint, static_cast<std::size_t>(most_steps)), blocked_walk);
+}
+
+int Triangulation::locate(const Vec2& p, int hint) const noexcept {
+  const int t = walk(p, hint, 2 * triangles.size() + 100);
+  if (t != unfinished_walk) return t;
   // Only a walk of unheard-of bad luck comes here.
+  const Triangle* const T = triangles.data();
   for (std::size_t s = 0; s < triangles.size(); ++s) {
     const Triangle& now = T[s];
     if (orientation(at(now.v[0]), at(now.v[1]), p) >= 0 && orientation(at(now.v[1]), at(now.v[2]), p) >= 0 &&

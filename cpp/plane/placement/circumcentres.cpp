@@ -46,7 +46,7 @@ bool shorten(Placement& placement, int t) {
 }
 
 bool insert_near(Placement& placement, Vec2 p, int t, double distance) {
-  const int start = is_finite(p) ? placement.mesh.locate(p, t) : -1;
+  const int start = is_finite(p) ? placement.mesh.locate_near(p, t, farthest_circumcentre) : -1;
   return start >= 0 && try_insert(placement, p, start, distance);
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -10,43 +12,68 @@
 
 namespace carreau {
 
-/// Vertices in the order of the coordinate along which they are spread most.
+/// The points in the order of a k-d tree: of each range the middle one parts the others, along x, y and z in turn.
 class NearVertices {
  public:
-  explicit NearVertices(const std::vector<Vec3>& points) : points_(points), order_(points.size()) {
-    Vec3 low = points.empty() ? Vec3{} : points.front(), high = low;
-    for (const Vec3& p : points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-    const Vec3 extent = high - low;
-    axis_ = extent.x() >= extent.y() && extent.x() >= extent.z() ? 0 : extent.y() >= extent.z() ? 1 : 2;
+  explicit NearVertices(const std::vector<Vec3>& points)
+      : points_(points), order_(points.size()), left_(fewest_looked_at + looked_at_a_point * std::ssize(points)) {
     std::iota(order_.begin(), order_.end(), 0);
-    std::sort(order_.begin(), order_.end(), [this](int v, int w) { return points_[v][axis_] < points_[w][axis_]; });
+    part(0, std::ssize(points), 0);
   }
 
-  /// Vertices within `reach` of the segment (a, b) that are at neither end of it, until `visit` says false.
+  /// Vertices within `reach` of the segment (a, b) that are at neither end of it, until `visit` says false. A boundary
+  /// that has hundreds of vertices beside each of its edges, as that of .2 sin(1 / x) has, cannot be helped by looking
+  /// at all of them: from some number of vertices on, counted over all calls, there are none.
   template <typename Visit>
-  void each_beside(Vec3 a, Vec3 b, double reach, Visit&& visit) const {
-    const double low = std::min(a[axis_], b[axis_]) - reach, high = std::max(a[axis_], b[axis_]) + reach;
-    auto it = std::lower_bound(order_.begin(), order_.end(), low,
-                               [this](int v, double value) { return points_[v][axis_] < value; });
-    for (; it != order_.end() && points_[*it][axis_] <= high; ++it) {
-      const Vec3 p = points_[*it];
-      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && !visit(*it)) return;
+  void each_beside(const Vec3& a, const Vec3& b, double reach, Visit&& visit) {
+    const Vec3 margin{reach, reach, reach}, low = a.cwiseMin(b) - margin, high = a.cwiseMax(b) + margin;
+    std::array<Range, deepest> stack;
+    std::size_t top = 0;
+    stack[top++] = {0, std::ssize(order_), 0};
+    while (top > 0) {
+      const auto [begin, end, axis] = stack[--top];
+      if (begin == end) continue;
+      if (--left_ < 0) return;
+      const std::ptrdiff_t middle = (begin + end) / 2;
+      const int v = order_[static_cast<std::size_t>(middle)];
+      const Vec3& p = points_[static_cast<std::size_t>(v)];
+      const int next = (axis + 1) % 3;
+      if (high[axis] >= p[axis]) stack[top++] = {middle + 1, end, next};
+      if (low[axis] <= p[axis]) stack[top++] = {begin, middle, next};
+      if (!(p == a) && !(p == b) && distance_to_segment(p, a, b) <= reach && !visit(v)) return;
     }
   }
 
-  [[nodiscard]] bool any_beside(const Vec3& a, const Vec3& b, double reach) const {
+  [[nodiscard]] bool any_beside(const Vec3& a, const Vec3& b, double reach) {
     bool any = false;
     each_beside(a, b, reach, [&](int) { return any = true, false; });
     return any;
   }
 
  private:
+  struct Range {
+    std::ptrdiff_t begin, end;
+    int axis;
+  };
+  // Twice as many as there are halves of halves.
+  static constexpr std::size_t deepest = 128;
+  // Vertices of the tree: sound boundaries of thousands of edges look at 30 a point.
+  static constexpr std::int64_t fewest_looked_at = 1'000'000, looked_at_a_point = 300;
+
+  void part(std::ptrdiff_t begin, std::ptrdiff_t end, int axis) {
+    if (end - begin < 2) return;
+    const std::ptrdiff_t middle = (begin + end) / 2;
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](int v, int w) {
+      const double x = points_[static_cast<std::size_t>(v)][axis], y = points_[static_cast<std::size_t>(w)][axis];
+      return x < y || (x == y && v < w);
+    });
+    part(begin, middle, (axis + 1) % 3);
+    part(middle + 1, end, (axis + 1) % 3);
+  }
+
   const std::vector<Vec3>& points_;
   std::vector<int> order_;
-  int axis_ = 0;
+  std::int64_t left_;
 };
 
 }  // namespace carreau

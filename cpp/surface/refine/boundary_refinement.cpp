@@ -281,7 +281,7 @@ class Refiner {
     const FaceDomain& domain = *result_.domain[f];
     const std::vector<Vec3> xyz = positions_on_curves(domain, curves_, topology_);
     if (xyz.size() < domain.origin.size()) return true;  // imposed points
-    const NearVertices near(xyz);
+    NearVertices near(xyz);
     for (const PlaneEdge& edge : domain.plane.edges) {
       if (edge.kind == PlaneEdgeKind::degenerate) continue;
       const Vec3 a = xyz[edge.a], b = xyz[edge.b];

@@ -36,7 +36,7 @@ std::vector<int> edges_to_split_for_bulges(const CurveModel& model, const std::v
   }
   std::vector<int> passed;
   if (bulging.empty()) return passed;
-  const NearVertices near(xyz);
+  NearVertices near(xyz);
   const PolygonLocator inside(plane.vertices, bounding_edges(plane));
   const auto normal_at = [&](Vec2 uv) {
     return unit_normal(surface_at(model.cad, model.model.faces[face].ref, want_first, uv)).value_or(Vec3{});

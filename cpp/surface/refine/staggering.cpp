@@ -27,7 +27,7 @@ class FacingCurves {
       : domain_(domain), xyz_(positions_on_curves(domain, curves, topology)) {}
 
   std::vector<Pair> find(const std::vector<DiscreteCurve>& curves) {
-    const NearVertices near(xyz_);
+    NearVertices near(xyz_);
     std::map<Pair, int> edges;
     for (const PlaneEdge& e : domain_.plane.edges) {
       if (e.kind == PlaneEdgeKind::degenerate || static_cast<std::size_t>(std::max(e.a, e.b)) >= xyz_.size()) continue;
@@ -67,7 +67,7 @@ struct Lack {
   double sum = 0, worst = 1;
   int edges = 0;
 
-  void add(const std::vector<Vec3>& line, const NearVertices& near, const std::vector<Vec3>& points) {
+  void add(const std::vector<Vec3>& line, NearVertices near, const std::vector<Vec3>& points) {
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Vec3 a = line[k], b = line[k + 1];
       double least_cosine = 1, quality = -1;  // none

@@ -29,7 +29,7 @@ class StripsInSpace {
     std::vector<Strip> strips;
     if (xyz_.size() < domain_.origin.size()) return strips;  // imposed points
     const PlaneDomain& plane = domain_.plane;
-    const NearVertices near(xyz_);
+    NearVertices near(xyz_);
     const PolygonLocator inside(plane.vertices, bounding_edges(plane));
     for (int e = 0; e < static_cast<int>(plane.edges.size()); ++e) {
       const PlaneEdge& edge = plane.edges[e];

@@ -22,4 +22,13 @@ inline constexpr double uneven_speed = 1000;
 /// Ratio of speeds. and where there are none. [UnevenParameters.ExtremeWeights]
 inline constexpr double hopeless_speed = 30'000;
 
+// Growth from the edges of a boundary (edge_growth)
+/// Triangles. Smaller meshes are made as they are: whether they are right is not worth sampling again. [limits_test]
+inline constexpr double few_triangles = 10'000;
+/// Times the triangles that sizes and growth ask for. Straight distances and rounding of a sound control space
+/// leave 1.3 at most. [limits_test]
+inline constexpr double most_growth_excess = 2;
+/// Times. Of the least size of edges, from one try to the next. [limits_test]
+inline constexpr double growth_raise = 8;
+
 }  // namespace carreau::thresholds::sample

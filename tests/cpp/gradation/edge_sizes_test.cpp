@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <random>
 
 #include "support/segment.h"
@@ -45,6 +46,29 @@ TEST(EdgeSizes, OfEqualEdgesAreTheirs) {
   const EdgeSizes sizes(std::vector<EdgeSizes::Source>(1000, {{0, 0, 0}, {1, 0, 0}, 0.5}), 2);
   EXPECT_EQ(sizes.at({0.5, 0, 0}), 0.5);
   EXPECT_EQ(sizes.at({3, 0, 0}), 4.5);
+}
+
+// Area over that of triangles, ring by ring.
+TEST(EdgeSizes, TrianglesOfGrowthAreTheIntegral) {
+  const double h = 0.01, slope = 0.4, extent = 30, length = 0.02;
+  double sum = 0;
+  constexpr int rings = 2'000'000;
+  for (int k = 0; k < rings; ++k) {
+    const double r = extent * (k + 0.5) / rings, size = h + slope * r;
+    sum += (2 * std::numbers::pi * r + 2 * length) / (std::numbers::sqrt3 / 4 * size * size) * extent / rings;
+  }
+  const EdgeSizes one({{{0, 0, 0}, {length, 0, 0}, h}}, slope);
+  EXPECT_NEAR(one.triangles_within(extent), sum, 1e-4 * sum);
+  EXPECT_EQ(EdgeSizes().triangles_within(extent), 0);
+}
+
+TEST(EdgeSizes, BoundedBelowGrowFromThere) {
+  const EdgeSizes sizes({{{0, 0, 0}, {1, 0, 0}, 0.1}, {{5, 0, 0}, {6, 0, 0}, 0.7}}, 0.5);
+  EXPECT_EQ(sizes.smallest(), 0.1);
+  const EdgeSizes bounded = sizes.bounded_below(0.3);
+  EXPECT_EQ(bounded.smallest(), 0.3);
+  EXPECT_DOUBLE_EQ(bounded.at({0.5, 1, 0}), 0.8);
+  EXPECT_DOUBLE_EQ(bounded.at({5.5, 0, 0}), 0.7);
 }
 
 }  // namespace
