@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "adapt/thresholds.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double largest_step = 1e-4;  // of the diagonal
-constexpr double blind = 2;            // an edge longer than this times what its ends see
+using namespace thresholds::adapt;
 
 /// A mesh with the middles of its edges: each triangle becomes four.
 struct Refined {
@@ -47,8 +47,7 @@ Refined refine(std::span<const Vec3> vertices, std::span<const std::array<std::i
 }
 
 std::vector<double> steps_of(const Refined& mesh) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec3 low{far, far, far}, high{-far, -far, -far};
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (const Vec3& p : mesh.vertices) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);

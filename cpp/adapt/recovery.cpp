@@ -6,16 +6,16 @@
 #include <cmath>
 #include <optional>
 
+#include "adapt/thresholds.h"
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
 
 namespace carreau {
 namespace {
 
+using namespace thresholds::adapt;
+
 constexpr int unknowns = 5;
-/// Smallest over largest diagonal entry of the triangular factor below which a fit is not determined.
-constexpr double least_pivot = 0.02;
-constexpr int most_rings = 3;
 
 using Coefficients = Eigen::Matrix<double, unknowns, 1>;
 
@@ -101,7 +101,8 @@ class Fitter {
     [[nodiscard]] Vec2 gradient(double x, double y) const noexcept { return x * first + y * second; }
     [[nodiscard]] Metric2 hessian(double xx, double xy, double yy) const noexcept {
       const Vec2 p = xx * first + xy * second, q = xy * first + yy * second;
-      return {p.x() * first.x() + q.x() * second.x(), p.x() * first.y() + q.x() * second.y(), p.y() * first.y() + q.y() * second.y()};
+      return {p.x() * first.x() + q.x() * second.x(), p.x() * first.y() + q.x() * second.y(),
+              p.y() * first.y() + q.y() * second.y()};
     }
   };
 

@@ -6,17 +6,18 @@
 #include <map>
 #include <string>
 
+#include "adapt/thresholds.h"
 #include "mesh/triangle_search.h"
+#include "size/thresholds.h"
 #include "support/error.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double outside_share = 0.125;  // as for background meshes
-// What is linear in (u, v) is carried over exactly: the place in (u, v) counts while the triangles of the old mesh are
-// not that many times as near elsewhere. The surface leaves them by an amount of second order, and so does this.
-constexpr double as_near = 4, rounding = 1e-14;
+using namespace thresholds::adapt;
+
+using thresholds::size::outside_share;  // as for background meshes
 
 using Triangle = std::array<std::int32_t, 3>;
 
@@ -157,7 +158,7 @@ class Transfer {
     if (space != nullptr) {
       const NearestOnMesh nearer = space->nearest(to_.vertices[vertex], found.triangle);
       const double away = norm(place_of(piece, found) - to_.vertices[vertex]);
-      if (away > as_near * nearer.distance + rounding * largest_coordinate_) found = nearer;
+      if (away > as_near * nearer.distance + place_rounding * largest_coordinate_) found = nearer;
     }
     const Triangle& carrier = piece.carriers[static_cast<std::size_t>(found.triangle)];
     for (std::size_t c = 0; c < components_; ++c) {

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "metric/thresholds.h"
+
 namespace carreau {
 
 namespace {
 
-/// A derivative this many times (squared) shorter than the other is what rounding left of zero.
-constexpr double collapsed = 1e-24;
-/// sin^2 of the angle below which the derivatives are parallel.
-constexpr double parallel = 1e-20;
+using namespace thresholds::degenerate;
 
 /// Su x Sv, or nothing where the parametrisation is degenerate.
 std::optional<Vec3> regular_normal(const SurfaceJet& jet) noexcept {

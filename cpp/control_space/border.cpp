@@ -2,25 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control_space/quadratic_fit.h"
+#include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
+#include "support/infinity.h"
 
 namespace carreau::detail {
 
 namespace {
 
-// Neighbours wanted before a quadratic is fitted.
-constexpr std::size_t enough = 10;
-// As many as there usually are.
-constexpr std::size_t usual_neighbours = 48;
-// So many sampled nodes are gone through faster than the places of a grid are looked up.
-constexpr std::size_t few_nodes = 400;
-// Reach of the neighbourhood in units of the size asked for, and how much the weights prefer near samples.
-constexpr double reach_in_sizes = 2.2, near_share = 0.5, softness = 0.04;
-// Eigenvalues of the fit against those of the samples that it was made from.
-constexpr double most_extrapolation = 2;
+using namespace thresholds::control_space;
 
 // A root between these bounds of the eigenvalues of others, where it usually is: they are found only where it may not
 // be.
@@ -28,7 +20,7 @@ template <class Samples>
 Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
   // Of each sample: the larger eigenvalue is at least half of the trace, the smaller at most twice determinant over
   // trace.
-  double above = 0, below = std::numeric_limits<double>::infinity();
+  double above = 0, below = infinity;
   for (const auto& s : near) {
     const double trace = s.root.a + s.root.c;
     above = std::max(above, 0.5 * trace);
@@ -38,12 +30,11 @@ Metric2 clamped_to(const Samples& near, Metric2 root) noexcept {
     const double across = m.a - m.c;
     return std::sqrt(across * across + 4 * m.b * m.b);
   };
-  constexpr double rounding = 1e-6;
   const double trace = root.a + root.c, s = spread(root);
-  if (0.5 * (trace + s) < (1 - rounding) * most_extrapolation * above &&
-      0.5 * (trace - s) > rounding * trace + below / most_extrapolation)
+  if (0.5 * (trace + s) < (1 - eigenvalue_rounding) * most_extrapolation * above &&
+      0.5 * (trace - s) > eigenvalue_rounding * trace + below / most_extrapolation)
     return root;
-  double low = std::numeric_limits<double>::infinity(), high = 0;
+  double low = infinity, high = 0;
   for (const auto& sample : near) {
     const double major = 0.5 * (sample.root.a + sample.root.c + spread(sample.root));
     low = std::min(low, accurate_determinant(sample.root) / major);
@@ -134,7 +125,7 @@ Metric2 BorderSamples::fit(Vec2 position, std::int32_t size) {
   // At widened reaches the grid is looked at with the spacing of wider cells.
   std::int32_t spacing = std::max(size / 2, 1);
   collect(position, reach_in_sizes * scale, spacing, near);
-  while (near.size() < enough && scale < widest) {
+  while (near.size() < enough_neighbours && scale < widest) {
     scale *= 2;
     if (spacing < lattice_.step()) spacing *= 2;
     std::vector<Sample> more;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "control_space/thresholds.h"
 #include "metric/metric2.h"
 
 namespace carreau::detail {
@@ -26,7 +27,9 @@ class QuadraticFit {
   /// Cholesky, U^T U of the reversed order; once only, it overwrites the equations.
   Metric2 value_at_origin() noexcept {
     const double total = matrix_[0][0];
-    for (std::size_t r = 1; r < terms; ++r) matrix_[r][r] += (r < 3 ? ridge_slope : ridge_curvature) * total;
+    for (std::size_t r = 1; r < terms; ++r)
+      matrix_[r][r] +=
+          (r < 3 ? thresholds::control_space::ridge_slope : thresholds::control_space::ridge_curvature) * total;
     for (std::size_t r = terms - 1; r > 0; --r) {
       const double pivot = 1 / matrix_[r][r];
       for (std::size_t i = 0; i < r; ++i) {
@@ -40,9 +43,6 @@ class QuadraticFit {
   }
 
   static constexpr std::size_t terms = 6;
-  // Regularisation relative to the sum of weights: without effect where the samples determine the polynomial, and
-  // pulls slopes and curvatures that they do not determine to zero.
-  static constexpr double ridge_slope = 1e-6, ridge_curvature = 1e-4;
 
  private:
   std::array<std::array<double, terms>, terms> matrix_{};

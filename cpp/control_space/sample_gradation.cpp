@@ -2,79 +2,81 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
-#include <span>
 #include <utility>
 
+#include "control_space/thresholds.h"
 #include "gradation/gradation.h"
 #include "gradation/metric_grading.h"
 #include "gradation/place_fans.h"
+#include "gradation/smallest_first.h"
+#include "support/incidence.h"
 
 namespace carreau {
 
 namespace {
 
-// Changes below this share are rounding.
-constexpr double negligible = 1e-6;
-constexpr std::size_t steps_between_checks = 1 << 14;
+using namespace thresholds::control_space;
 
-/// For each sample what it belongs to.
-class Incidence {
- public:
-  template <std::size_t N>
-  Incidence(std::size_t samples, const std::vector<std::array<std::int32_t, N>>& members) : start_(samples + 1, 0) {
-    for (const auto& m : members)
-      for (const std::int32_t s : m) ++start_[s + 1];
-    for (std::size_t s = 0; s < samples; ++s) start_[s + 1] += start_[s];
-    of_.resize(N * members.size());
-    std::vector<std::int32_t> fill(start_.begin(), start_.end() - 1);
-    for (std::size_t k = 0; k < members.size(); ++k)
-      for (const std::int32_t s : members[k]) of_[fill[s]++] = static_cast<std::int32_t>(k);
+/// What both kinds of bounds share: all of them once, then, from small to large, those of samples that have changed;
+/// at last the metrics. Returns the samples that have changed. Of `bounds`:
+/// look_at(t)           bounds the corners of a triangle by each other, as far as that may be needed;
+/// by_corner(s, t)      bounds the other corners of t by s;
+/// bound(from, to)      bounds one end of a link by the other one; all of them push() samples that they lower;
+/// counts(size, s)      whether s still has the size with which it was pushed;
+/// apply(s)             gives the sample its metric; whether it has changed.
+template <typename Bounds>
+std::vector<std::int32_t> bound_all(Bounds bounds, SampledField& field, Monitor& monitor) {
+  const Incidence triangles(field.samples.size(), field.triangles), links(field.samples.size(), field.links);
+  for (const auto& t : field.triangles) bounds.look_at(t);
+  for (const auto& link : field.links) {
+    bounds.bound(link[0], link[1]);
+    bounds.bound(link[1], link[0]);
   }
-  [[nodiscard]] std::span<const std::int32_t> of(std::int32_t sample) const noexcept {
-    return std::span(of_).subspan(static_cast<std::size_t>(start_[sample]),
-                                  static_cast<std::size_t>(start_[sample + 1] - start_[sample]));
-  }
+  const auto hand_on = [&](std::int32_t s) {
+    for (const std::int32_t t : triangles.of(s)) bounds.by_corner(s, field.triangles[t]);
+    for (const std::int32_t l : links.of(s)) bounds.bound(s, field.links[l][field.links[l][0] == s ? 1 : 0]);
+  };
+  bounds.queue().run([&](double size, std::int32_t s) { return bounds.counts(size, s); }, hand_on, monitor);
+  std::vector<std::int32_t> changed;
+  for (std::int32_t s = 0; s < static_cast<std::int32_t>(field.samples.size()); ++s)
+    if (bounds.apply(s)) changed.push_back(s);
+  return changed;
+}
 
- private:
-  std::vector<std::int32_t> start_, of_;
-};
+using Triangle = std::array<std::int32_t, 3>;
 
-class Bounding {
+class IsotropicBounds {
  public:
-  Bounding(SampledField& field, double slope, Monitor& monitor)
-      : field_(field),
-        slope_(slope),
-        monitor_(monitor),
-        triangles_(field.samples.size(), field.triangles),
-        links_(field.samples.size(), field.links) {
+  IsotropicBounds(SampledField& field, double slope) : field_(field), slope_(slope) {
     // The trace: where the parametrisation is degenerate the other direction still tells.
     for (const auto& s : field.samples) h_.push_back(std::sqrt((s.form.a + s.form.c) / (s.metric.a + s.metric.c)));
+    before_ = h_;
   }
 
-  std::vector<std::int32_t> run() {
-    const std::vector<double> before = h_;
-    for (const auto& t : field_.triangles)
-      if (too_steep(t))
-        for (int i = 0; i < 3; ++i) bound(t, i);
-    for (const auto& link : field_.links) {
-      bound(link[0], link[1]);
-      bound(link[1], link[0]);
-    }
-    spread();
-    std::vector<std::int32_t> changed;
-    for (std::size_t s = 0; s < h_.size(); ++s) {
-      if (!(h_[s] < before[s])) continue;
-      changed.push_back(static_cast<std::int32_t>(s));
-      const double k = before[s] / h_[s];
-      field_.samples[s].metric = (k * k) * field_.samples[s].metric;
-    }
-    return changed;
+  void look_at(const Triangle& t) {
+    if (too_steep(t))
+      for (int i = 0; i < 3; ++i) bound_corner(t, i);
+  }
+  void by_corner(std::int32_t s, const Triangle& t) {
+    for (int i = 0; i < 3; ++i)
+      if (t[i] != s) bound_corner(t, i);
+  }
+  void bound(std::int32_t from, std::int32_t to) {
+    const auto &a = field_.samples[from], &b = field_.samples[to];
+    lower(to, h_[from] + slope_ * length(0.5 * (a.form + b.form), b.uv - a.uv));
+  }
+  [[nodiscard]] bool counts(double size, std::int32_t s) const noexcept { return size == h_[s]; }
+  [[nodiscard]] SmallestFirst& queue() noexcept { return queue_; }
+  bool apply(std::int32_t s) {
+    if (!(h_[s] < before_[s])) return false;
+    const double k = before_[s] / h_[s];
+    field_.samples[s].metric = (k * k) * field_.samples[s].metric;
+    return true;
   }
 
  private:
   /// The triangle rolled into a plane, its first corner at the origin.
-  [[nodiscard]] std::array<Vec3, 3> unrolled(const std::array<std::int32_t, 3>& t) const noexcept {
+  [[nodiscard]] std::array<Vec3, 3> unrolled(const Triangle& t) const noexcept {
     const auto &a = field_.samples[t[0]], &b = field_.samples[t[1]], &c = field_.samples[t[2]];
     const Metric2 g = (1. / 3) * (a.form + b.form + c.form);
     const double root = std::sqrt(std::max(g.a, 0.)), mixed = root > 0 ? g.b / root : 0;
@@ -83,7 +85,7 @@ class Bounding {
     return {Vec3{}, place(b.uv - a.uv), place(c.uv - a.uv)};
   }
 
-  [[nodiscard]] bool too_steep(const std::array<std::int32_t, 3>& t) const noexcept {
+  [[nodiscard]] bool too_steep(const Triangle& t) const noexcept {
     const std::array<Vec3, 3> p = unrolled(t);
     const double area = p[1].x() * p[2].y() - p[1].y() * p[2].x();
     const double b = h_[t[1]] - h_[t[0]], c = h_[t[2]] - h_[t[0]];
@@ -93,45 +95,22 @@ class Bounding {
   }
 
   void lower(std::int32_t s, double h) {
-    if (!(h < (1 - negligible) * h_[s])) return;
+    if (!(h < (1 - size_rounding) * h_[s])) return;
     h_[s] = h;
-    queue_.emplace(h, s);
+    queue_.push(h, s);
   }
 
   // Corner i by the opposite side.
-  void bound(const std::array<std::int32_t, 3>& t, int i) {
+  void bound_corner(const Triangle& t, int i) {
     const std::array<Vec3, 3> p = unrolled(t);
     const int a = (i + 1) % 3, b = (i + 2) % 3;
     lower(t[i], size_from_segment(h_[t[a]], h_[t[b]], p[b] - p[a], p[i] - p[a], slope_));
   }
 
-  void bound(std::int32_t from, std::int32_t to) {
-    const auto &a = field_.samples[from], &b = field_.samples[to];
-    lower(to, h_[from] + slope_ * length(0.5 * (a.form + b.form), b.uv - a.uv));
-  }
-
-  // From small to large: few samples are lowered twice.
-  void spread() {
-    std::size_t steps = 0;
-    while (!queue_.empty()) {
-      const auto [h, s] = queue_.top();
-      queue_.pop();
-      if (h != h_[s]) continue;
-      if (++steps % steps_between_checks == 0) monitor_.checkpoint();
-      for (const std::int32_t k : triangles_.of(s))
-        for (int i = 0; i < 3; ++i)
-          if (field_.triangles[k][i] != s) bound(field_.triangles[k], i);
-      for (const std::int32_t k : links_.of(s)) bound(s, field_.links[k][field_.links[k][0] == s ? 1 : 0]);
-    }
-  }
-
   SampledField& field_;
   double slope_;
-  Monitor& monitor_;
-  Incidence triangles_, links_;
-  std::vector<double> h_;
-  using Entry = std::pair<double, std::int32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  std::vector<double> h_, before_;
+  SmallestFirst queue_;
 };
 
 /// A sample in the tangent plane.
@@ -168,45 +147,45 @@ struct DirectedSample {
   }
 };
 
-class DirectedBounding {
+class DirectedBounds {
  public:
-  DirectedBounding(SampledField& field, double slope, Monitor& monitor)
-      : field_(field),
-        slope_(slope),
-        monitor_(monitor),
-        triangles_(field.samples.size(), field.triangles),
-        links_(field.samples.size(), field.links) {
+  DirectedBounds(SampledField& field, double slope) : field_(field), slope_(slope), changed_(field.samples.size(), 0) {
     at_.reserve(field.samples.size());
     for (const auto& s : field.samples) at_.emplace_back(s);
   }
 
-  std::vector<std::int32_t> run() {
-    changed_.assign(at_.size(), 0);
-    for (const auto& t : field_.triangles)
-      for (int i = 0; i < 3; ++i) {
-        const std::int32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
-        bound_by_sample(a, b);
-        bound_by_sample(b, a);
-        bound_by_middle(a, b, c);
-      }
-    for (const auto& link : field_.links) {
-      bound_by_sample(link[0], link[1]);
-      bound_by_sample(link[1], link[0]);
+  void look_at(const Triangle& t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
+      bound(a, b);
+      bound(b, a);
+      bound_by_middle(a, b, c);
     }
-    spread();
-    std::vector<std::int32_t> changed;
-    for (std::size_t s = 0; s < at_.size(); ++s) {
-      if (changed_[s] == 0) continue;
-      changed.push_back(static_cast<std::int32_t>(s));
-      field_.samples[s].metric = metric_of(at_[s].jet(), at_[s].sizes);
+  }
+  void by_corner(std::int32_t s, const Triangle& t) {
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t to = t[i], other = t[(i + 1) % 3];
+      if (to == s) continue;
+      bound(s, to);
+      bound_by_middle(s, other == s ? t[(i + 2) % 3] : other, to);
     }
-    return changed;
+  }
+  void bound(std::int32_t from, std::int32_t to) {
+    if (!at_[from].sound || !at_[to].sound) return;
+    const auto &a = field_.samples[from], &b = field_.samples[to];
+    const Vec2 e = b.uv - a.uv;
+    bound_by(
+        to, e, at_[from].along(e), 0.5 * (a.form + b.form), [&](Vec3 w) { return matched(from, w, to); },
+        [&](Vec3 w) { return least(from, w, to); });
+  }
+  [[nodiscard]] bool counts(double size, std::int32_t s) const noexcept { return size == key(s); }
+  [[nodiscard]] SmallestFirst& queue() noexcept { return queue_; }
+  bool apply(std::int32_t s) {
+    if (changed_[s] != 0) field_.samples[s].metric = metric_of(at_[s].jet(), at_[s].sizes);
+    return changed_[s] != 0;
   }
 
  private:
-  // What changes less is far below what polynomials between the samples do.
-  static constexpr double negligible_change = 1e-4;
-
   [[nodiscard]] double key(std::int32_t s) const noexcept { return at_[s].sizes.h1 * at_[s].sizes.h2; }
 
   /// A tangent of sample `to` rolled over to sample `from`.
@@ -223,29 +202,20 @@ class DirectedBounding {
   // `e`: the offset that leads to the sample from where the size along it is `along`; `told` are sizes of a direction
   // there, `least` what they are at least, which costs less and mostly is enough.
   template <typename Told, typename Least>
-  void bound(std::int32_t to, Vec2 e, double along, Metric2 form, const Told& told, const Least& least) {
+  void bound_by(std::int32_t to, Vec2 e, double along, Metric2 form, const Told& told, const Least& least) {
     TangentMetric& q = at_[to].sizes;
     const double growth = 1 + slope_ * length(form, e) / along;
     const auto limit = [&](double h, Vec3 d) {
       if (h <= growth * least(d)) return h;
       const double most = growth * told(d);
-      return h > (1 + negligible_change) * most ? most : h;
+      return h > (1 + directed_rounding) * most ? most : h;
     };
     const double h1 = limit(q.h1, q.d1), h2 = limit(q.h2, q.d2);
     if (h1 == q.h1 && h2 == q.h2) return;
     q.h1 = h1, q.h2 = h2;
     at_[to].set_ratio();
     changed_[to] = 1;
-    queue_.emplace(key(to), to);
-  }
-
-  void bound_by_sample(std::int32_t from, std::int32_t to) {
-    if (!at_[from].sound || !at_[to].sound) return;
-    const auto &a = field_.samples[from], &b = field_.samples[to];
-    const Vec2 e = b.uv - a.uv;
-    bound(
-        to, e, at_[from].along(e), 0.5 * (a.form + b.form), [&](Vec3 w) { return matched(from, w, to); },
-        [&](Vec3 w) { return least(from, w, to); });
+    queue_.push(key(to), to);
   }
 
   // From the middle between two samples, where sizes are the means.
@@ -253,48 +223,27 @@ class DirectedBounding {
     if (!at_[a].sound || !at_[b].sound || !at_[to].sound) return;
     const auto &p = field_.samples[a], &q = field_.samples[b], &r = field_.samples[to];
     const Vec2 e = r.uv - lerp(p.uv, q.uv, 0.5);
-    bound(
+    bound_by(
         to, e, 0.5 * (at_[a].along(e) + at_[b].along(e)), 0.25 * (p.form + q.form) + 0.5 * r.form,
         [&](Vec3 w) { return 0.5 * (matched(a, w, to) + matched(b, w, to)); },
         [&](Vec3 w) { return 0.5 * (least(a, w, to) + least(b, w, to)); });
   }
 
-  void spread() {
-    std::size_t steps = 0;
-    while (!queue_.empty()) {
-      const auto [k, s] = queue_.top();
-      queue_.pop();
-      if (k != key(s)) continue;
-      if (++steps % steps_between_checks == 0) monitor_.checkpoint();
-      for (const std::int32_t t : triangles_.of(s))
-        for (int i = 0; i < 3; ++i) {
-          const std::int32_t to = field_.triangles[t][i], other = field_.triangles[t][(i + 1) % 3];
-          if (to == s) continue;
-          bound_by_sample(s, to);
-          bound_by_middle(s, other == s ? field_.triangles[t][(i + 2) % 3] : other, to);
-        }
-      for (const std::int32_t l : links_.of(s)) bound_by_sample(s, field_.links[l][field_.links[l][0] == s ? 1 : 0]);
-    }
-  }
-
   SampledField& field_;
   double slope_;
-  Monitor& monitor_;
-  Incidence triangles_, links_;
   std::vector<DirectedSample> at_;
   std::vector<char> changed_;
-  using Entry = std::pair<double, std::int32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  SmallestFirst queue_;
 };
 
 }  // namespace
 
 std::vector<std::int32_t> bound_slopes_by_direction(SampledField& field, double slope, Monitor& monitor) {
-  return DirectedBounding(field, slope, monitor).run();
+  return bound_all(DirectedBounds(field, slope), field, monitor);
 }
 
 std::vector<std::int32_t> bound_slopes(SampledField& field, double slope, Monitor& monitor) {
-  return Bounding(field, slope, monitor).run();
+  return bound_all(IsotropicBounds(field, slope), field, monitor);
 }
 
 }  // namespace carreau

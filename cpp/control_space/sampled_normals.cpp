@@ -5,21 +5,13 @@
 #include <limits>
 #include <numbers>
 
+#include "control_space/thresholds.h"
+
 namespace carreau {
 
 namespace {
 
-constexpr std::size_t most_samples = 16'384;
-// Sine of the angle between normals of a plane, which rounding leaves.
-constexpr double flat_angle = 1e-6;
-constexpr double samples_per_bucket = 2;
-// Reaches, in spacings of samples, and how many samples are enough.
-constexpr double first_reach = 1, growth = 1.5;
-constexpr int most_growths = 8, enough_samples = 6;
-// Weight of a sample at the place itself beside that of one a reach away.
-constexpr double nearest = 1e-12;
-// Determinant of their second moments, over the square of the trace: samples along a line tell nothing across it.
-constexpr double least_spread = 1e-3;
+using namespace thresholds::control_space;
 
 }  // namespace
 
@@ -35,14 +27,14 @@ class SampledNormals::Fit {
     const double x = x_ * d.x() + skew_ * d.y(), y = y_ * d.y(), r2 = x * x + y * y;
     if (!(r2 < 1)) return;
     ++count_;
-    const double w = (1 - r2) * (1 - r2) / (r2 * r2 + nearest);
+    const double w = (1 - r2) * (1 - r2) / (r2 * r2 + nearest_normal);
     weight_ += w, px_ += w * x, py_ += w * y, xx_ += w * x * x, xy_ += w * x * y, yy_ += w * y * y;
     sum_ = sum_ + w * normal, sum_x_ = sum_x_ + (w * x) * normal, sum_y_ = sum_y_ + (w * y) * normal;
   }
   [[nodiscard]] int count() const noexcept { return count_; }
   /// Whether samples do not lie on a line.
   [[nodiscard]] bool is_sound() const noexcept {
-    if (count_ < enough_samples) return false;
+    if (count_ < enough_normals) return false;
     const Moments m = moments();
     return m.xx * m.yy - m.xy * m.xy > least_spread * (m.xx + m.yy) * (m.xx + m.yy);
   }
@@ -77,10 +69,10 @@ class SampledNormals::Fit {
 void SampledNormals::add(Vec2 uv, Vec3 normal) {
   const double length = norm(normal);
   if (!(length > 0) || !std::isfinite(length)) return;
-  if (samples_.size() >= most_samples && differ_) return;
+  if (samples_.size() >= most_normals && differ_) return;
   const Vec3 unit = (1 / length) * normal;
   if (!samples_.empty() && !differ_) differ_ = norm(cross(samples_.front().normal, unit)) > flat_angle;
-  if (samples_.size() < most_samples) samples_.push_back({uv, unit});
+  if (samples_.size() < most_normals) samples_.push_back({uv, unit});
 }
 
 void SampledNormals::index(const ControlSpace& space) {
@@ -128,7 +120,7 @@ Vec3 SampledNormals::at(const Vec2& uv) const noexcept {
   if (samples_.empty()) return {};
   const Metric2 metric = space_->at(uv);
   double reach = first_reach * spacing_;
-  for (int k = 0;; ++k, reach *= growth) {
+  for (int k = 0;; ++k, reach *= reach_growth) {
     Fit fit(metric, reach);
     gather(uv, metric, reach, fit);
     if (fit.is_sound()) return fit.linear();

@@ -4,60 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
+#include "support/infinity.h"
 #include "support/pieces.h"
 
 namespace carreau::detail {
 
 namespace {
 
-constexpr std::size_t batch = 4096;
-
-// Exploration: a cell for each so many vertices; beyond many vertices, their number grows with the square root.
-constexpr double usual_vertices_per_cell = 10, many_vertices = 10'000, least_cells = 25;
-// Samples that a cell of a uniform grid costs: a node, its centre, its share of the border.
-constexpr double samples_per_cell = 2.4;
-// Coarsest cells along a side, and units of the finest grid.
-constexpr int least_side = 3, most_side = 1024;
-constexpr std::int32_t most_units = 1 << 29, most_step = 1 << 20;
-// A cell that holds this many times the vertices wanted is split without asking.
-constexpr double crowded = 1.6;
-
-// Lengths of a cell below this many edges do not matter.
-constexpr double negligible_length = 0.03;
-// The error allowed where prediction is checked, in tolerances: of cells wider than an edge of the mesh, than half an
-// edge, than the least width. Smaller cells serve nobody.
-constexpr double allowed_wide = 0.25, allowed_edge = 0.5, allowed_half = 1, least_width = 0.25;
-// The error that is refined for whatever it costs is the tolerance in cells at least so many edges wide. Below it grows
-// with the inverse square of the width: an edge feels the mean along it, and few edges pass a small cell.
-constexpr double plain_width = 2.5;
-// What is left of a cell's error when its centre is known: a cubic along a side errs by half as much as one for the
-// centre, to which both directions contribute.
-constexpr double left_by_centre = 0.5;
-// Ratio of sizes from which on a field is sampled thoroughly: cells as wide as an edge is on the average are many of
-// the shortest edges wide.
-constexpr double much_stretched = 30;
-// A boundary sample is compared with an extrapolation that does not know it; later it takes part.
-constexpr double border_relief = 0.25;
-
-// Errors of cells fall from a cell to its parts by at most and at least so much; where less than this share of the
-// error allowed is expected, a sample need not confirm it.
-constexpr double fastest_decay = 1.0 / 16, slowest_decay = 0.5, trusted = 0.25;
-
-// Samples that splitting a cell costs: usually, and at most (4 middles, 4 centres, 8 boundary vertices); those of
-// testing it.
-constexpr double usual_cost = 7, worst_cost = 16, test_cost = 3;
-// Where errors are no larger than edges can show these may be used beyond the samples for each vertex; in a large mesh
-// only so many vertices count, and a share of the others.
-constexpr double spare_samples = 100, vertices_that_count = 1500, share_of_others = 1.0 / 12;
-// The same where the tolerance is violated.
-constexpr double most_spare_samples = 800, most_samples_per_vertex = 4;
-// Gradation leaves more kinks, and promises something of each.
-constexpr double most_graded_samples_per_vertex = 6;
-constexpr std::size_t least_of_max_samples = 1000;
-// Cells at probe points are split while they are wider than this, in edges of the mesh.
-constexpr double probe_width = 0.5;
-constexpr int most_looks = 24;
+using namespace thresholds::control_space;
 
 }  // namespace
 
@@ -159,7 +115,7 @@ void ControlSpaceSampling::choose_grid(const Survey& s) {
 std::vector<Metric2> ControlSpaceSampling::ask(std::span<const Vec2> uv) {
   std::vector<Metric2> metric(uv.size());
   if (on_surface_) last_tangents_.resize(uv.size());
-  for_pieces(uv.size(), batch, [&](std::size_t start, std::size_t n) {
+  for_pieces(uv.size(), asked_at_once, [&](std::size_t start, std::size_t n) {
     monitor_.checkpoint();
     sampler_(uv.subspan(start, n), std::span(metric).subspan(start, n),
              on_surface_ ? std::span(last_tangents_).subspan(start, n) : std::span<SurfaceTangents>{});
@@ -339,13 +295,13 @@ double ControlSpaceSampling::error_between(Metric2 root, Metric2 truth, const Tr
 
 double ControlSpaceSampling::allowed_error(double vertices) const noexcept {
   const double width = std::sqrt(vertices * area_per_vertex);
-  if (width <= least_width) return std::numeric_limits<double>::infinity();
+  if (width <= least_width) return infinity;
   return options_.tolerance * (width > 1 ? allowed_wide : width > 0.5 ? allowed_edge : allowed_half);
 }
 
 double ControlSpaceSampling::tolerated_error(double vertices) const noexcept {
   const double width2 = vertices * area_per_vertex;
-  if (width2 <= least_width * least_width) return std::numeric_limits<double>::infinity();
+  if (width2 <= least_width * least_width) return infinity;
   return options_.tolerance * std::max(1.0, plain_width * plain_width / width2);
 }
 

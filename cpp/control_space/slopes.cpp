@@ -1,9 +1,9 @@
 // The part of sampling that is about gradation.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "control_space/sampling.h"
+#include "support/infinity.h"
 
 namespace carreau::detail {
 
@@ -98,7 +98,7 @@ Metric2 ControlSpaceSampling::within_slopes(std::int32_t node, const TreeCell& l
   if (!lattice_->sampled(first) || !lattice_->sampled(last)) return root;
   const Metric2 on_surface = 0.5 * (root_of_form(at_node_[first].form) + root_of_form(at_node_[last].form));
   const double h = (on_surface.a + on_surface.c) / (root.a + root.c);
-  double low = 0, high = std::numeric_limits<double>::infinity();
+  double low = 0, high = infinity;
   const Vec2 uv = lattice_->sampling_point(node);
   for (const std::int32_t n : {first, last, leaf.centre()}) {
     if (!lattice_->sampled(n)) continue;

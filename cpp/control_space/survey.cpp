@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
 #include "support/error.h"
 
@@ -14,16 +15,7 @@ const double area_per_vertex = 0.5 * std::numbers::sqrt3;
 
 namespace {
 
-constexpr std::size_t most_border_points = 8;
-// Inner points along each side of the box; points along each side to find the share of the box.
-constexpr int inner_points = 3, share_points = 16;
-
-// A length of the whole box in any direction is at least this many edges, or this share of what is usual if that is
-// less: metrics are clamped where the parametrisation is degenerate (HDR sec. 4.5.4).
-// How far the cells may differ from squares of the metric where the field varies more in one direction.
-constexpr double most_stretch = 6, least_change = 1e-3;
-
-constexpr double least_box_length = 1e-2, least_share_of_usual = 1e-3;
+using namespace thresholds::control_space;
 
 void find_box(const SampledDomain& domain, Survey& s) {
   if (domain.edges.empty()) throw DomainError("the parameter domain has no boundary");
@@ -52,7 +44,6 @@ std::vector<Vec2> inner_grid(const Survey& s, const PolygonLocator& locator, int
 // How many points of that grid are inside. Row by row, from the crossings of the boundary with the row; points that are
 // too near to it for that are located.
 int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLocator& locator, int n) {
-  constexpr double near = 1e-9;
   const Vec2 w = s.high - s.low;
   const auto at = [&](int k, double low, double width) { return low + (k + 0.5) / n * width; };
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(n));
@@ -63,9 +54,9 @@ int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLoca
     const int first = std::max(0, static_cast<int>((p.y() - s.low.y()) / w.y() * n) - 1);
     for (int j = first; j < n; ++j) {
       const double y = at(j, s.low.y(), w.y());
-      if (y < p.y() - near * w.y()) continue;
-      if (y > q.y() + near * w.y()) break;
-      if (y < p.y() + near * w.y() || y > q.y() - near * w.y())
+      if (y < p.y() - same_height * w.y()) continue;
+      if (y > q.y() + same_height * w.y()) break;
+      if (y < p.y() + same_height * w.y() || y > q.y() - same_height * w.y())
         doubtful[static_cast<std::size_t>(j)] = 1;
       else
         crossings[static_cast<std::size_t>(j)].push_back(p.x() + (y - p.y()) / (q.y() - p.y()) * (q.x() - p.x()));
@@ -78,7 +69,7 @@ int count_inside(const SampledDomain& domain, const Survey& s, const PolygonLoca
       bool inside = false, close = doubtful[static_cast<std::size_t>(j)] != 0;
       for (const double crossing : crossings[static_cast<std::size_t>(j)]) {
         if (crossing < x) inside = !inside;
-        close = close || std::abs(crossing - x) < near * w.x();
+        close = close || std::abs(crossing - x) < same_height * w.x();
       }
       if (close) inside = locator.contains({x, y});
       count += inside ? 1 : 0;

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control_space/thresholds.h"
+
 namespace carreau::detail {
 
 namespace {
 
-// Cells are widened by this share of their size before they are compared with an edge: rounding must not lose one.
-constexpr double widening = 1e-9;
+using namespace thresholds::control_space;
 
 }  // namespace
 

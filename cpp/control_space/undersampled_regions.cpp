@@ -2,18 +2,14 @@
 #include <algorithm>
 
 #include "control_space/control_space.h"
+#include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
 
 namespace carreau {
 
 namespace {
 
-// Squares smaller than this many vertices of a unit mesh may well be without any.
-constexpr double crowd = 4;
-// A mesh whose edges are twice as long as asked has a quarter of the vertices; where sizes change much within an edge
-// good meshes have half of them.
-constexpr double least_share = 0.25;
-constexpr double triangles_per_vertex = 2;
+using namespace thresholds::control_space;
 
 }  // namespace
 

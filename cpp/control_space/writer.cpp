@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "control_space/thresholds.h"
 #include "metric/metric2_algebra.h"
 
 namespace carreau {
@@ -15,27 +16,19 @@ using detail::TreeCell;
 
 namespace {
 
-// Inner Bernstein coefficients have eigenvalues of at least this share of those of the values beside them: all
-// coefficients being definite, so is the polynomial.
-constexpr double least_share = 0.1;
-// Steps in which a side or a cell is straightened until it is so.
-constexpr int straightening_steps = 8;
-// Entries of the table for each leaf, at most.
-constexpr std::size_t table_per_leaf = 2;
-// Points along each side of a cut leaf that tell which part of it is inside.
-constexpr int share_points = 4;
+using namespace thresholds::control_space;
 
 double smaller_eigenvalue(Metric2 m) noexcept {
   const double half = 0.5 * (m.a - m.c);
   return 0.5 * (m.a + m.c) - std::sqrt(half * half + m.b * m.b);
 }
 
-// Cheap and nearly always enough to tell that the smaller eigenvalue of `inner` exceeds least_share of those of p and
-// q: it is larger than determinant over trace, those are no larger than half of a trace; a factor of two is left for
-// rounding.
+// Cheap and nearly always enough to tell that the smaller eigenvalue of `inner` exceeds least_inner_share of those of p
+// and q: it is larger than determinant over trace, those are no larger than half of a trace; a factor of two is left
+// for rounding.
 bool surely_definite(Metric2 inner, Metric2 p, Metric2 q) noexcept {
   const double trace = inner.a + inner.c;
-  return trace > 0 && determinant(inner) > least_share * std::min(p.a + p.c, q.a + q.c) * trace;
+  return trace > 0 && determinant(inner) > least_inner_share * std::min(p.a + p.c, q.a + q.c) * trace;
 }
 
 // straight + theta (bent - straight) with the largest theta of 1, 7/8, ... 0 for which it is definite enough.
@@ -184,7 +177,7 @@ void ControlSpaceWriter::straighten_sides() {
       const Metric2 mean = 0.5 * (a + b);
       const Metric2 inner = 2.0 * middle + -1.0 * mean;
       if (surely_definite(inner, a, b)) continue;
-      const double least = least_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
+      const double least = least_inner_share * std::min(smaller_eigenvalue(a), smaller_eigenvalue(b));
       if (smaller_eigenvalue(inner) >= least) continue;
       lattice_.fix(at, 0.5 * (mean + definite_between(mean, inner, least)));
     }
@@ -215,7 +208,7 @@ ControlSpaceWriter::Nine ControlSpaceWriter::values_in(const TreeCell& cell) con
   const Metric2 straight = 0.25 * inner_sides;
   const Metric2 inner = 4.0 * v[4] + -0.25 * corners + -0.5 * inner_sides;
   if (surely_definite(inner, straight, straight)) return v;
-  const double least = least_share * smaller_eigenvalue(straight);
+  const double least = least_inner_share * smaller_eigenvalue(straight);
   if (smaller_eigenvalue(inner) < least) {
     const Metric2 definite = definite_between(straight, inner, least);
     v[4] = 0.0625 * corners + 0.125 * inner_sides + 0.25 * definite;
@@ -233,13 +226,13 @@ double ControlSpaceWriter::measure_of(const TreeCell& cell, const Nine& v) const
   const bool cut = cell.edges_begin != cell.edges_end;
   if (cut && std::any_of(cell.node.begin(), cell.node.end(), [this](std::int32_t n) { return !lattice_.inside(n); })) {
     int inside = 0;
-    for (int k = 0; k < share_points * share_points; ++k) {
-      const double x = (k % share_points + 0.5) / share_points, y = (k / share_points + 0.5) / share_points;
+    for (int k = 0; k < cut_leaf_points * cut_leaf_points; ++k) {
+      const double x = (k % cut_leaf_points + 0.5) / cut_leaf_points, y = (k / cut_leaf_points + 0.5) / cut_leaf_points;
       const Vec2 p{lattice_.low().x() + (cell.i + x * cell.size) / lattice_.step() * lattice_.cell().x(),
                    lattice_.low().y() + (cell.j + y * cell.size) / lattice_.step() * lattice_.cell().y()};
       inside += sampling_.locator().contains(p) ? 1 : 0;
     }
-    share = static_cast<double>(inside) / (share_points * share_points);
+    share = static_cast<double>(inside) / (cut_leaf_points * cut_leaf_points);
   }
   return share * sum * side * side / (0.25 * std::numbers::sqrt3);
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -55,7 +56,7 @@ double slope_at(const std::vector<double>& t, const std::vector<double>& s, std:
   while (last + 1 < s.size() && last - first < 4 && s[last] < s[last + 1]) ++last;
   while (first > 0 && last - first < 4 && s[first - 1] < s[first]) --first;
   if (first == last) return 0;
-  double least = std::numeric_limits<double>::infinity();
+  double least = infinity;
   if (first < i) least = std::min(least, (t[i] - t[i - 1]) / (s[i] - s[i - 1]));
   if (i < last) least = std::min(least, (t[i + 1] - t[i]) / (s[i + 1] - s[i]));
   const double slope = derivative_at(t, s, first, last, i);

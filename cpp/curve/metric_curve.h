@@ -22,8 +22,6 @@ class MetricCurve {
   /// number is not finite, or a metric is not positive definite.
   MetricCurve(std::vector<V> points, std::vector<double> abscissae, std::vector<M> metrics, MetricLaw law);
 
-  /// Usual length.
-  [[nodiscard]] double usual_length() const noexcept { return arc_.back(); }
   [[nodiscard]] V point_at(double s) const noexcept;
   /// Interpolated between the two metrics around s (RR-2818 sec. 4.3.3).
   [[nodiscard]] M metric_at(double s) const;

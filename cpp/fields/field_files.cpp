@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <optional>
 
 #include "fields/field_samples.h"
 #include "io/files.h"
 #include "support/error.h"
+#include "support/infinity.h"
 #include "support/part_monitor.h"
 
 namespace carreau {
@@ -182,8 +182,7 @@ class FieldWriter {
 }  // namespace
 
 double diag_of_curves(const Model& model, Cad& cad, Monitor& monitor) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec3 low{far, far, far}, high{-far, -far, -far};
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (const Face& face : model.faces) {
     const std::vector<Vec2> uv = shape_of(face, {}, cad, monitor).lines.vertices;
     std::vector<SurfaceJet> jets(uv.size());

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
+
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -13,8 +14,7 @@ namespace {
 constexpr int samples_of_curve = 257;
 
 void set_box(FieldShape& shape) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec2 low{far, far}, high{-far, -far};
+  Vec2 low{infinity, infinity}, high{-infinity, -infinity};
   for (const Vec2& p : shape.loops.vertices) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
@@ -71,7 +71,8 @@ class LoopCloser {
     const double tolerance = 1e-9 * extent;
     std::vector<std::size_t> order(ends_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [this](std::size_t i, std::size_t j) { return at(i).x() < at(j).x(); });
+    std::stable_sort(order.begin(), order.end(),
+                     [this](std::size_t i, std::size_t j) { return at(i).x() < at(j).x(); });
     for (std::size_t a = 0; a < order.size(); ++a)
       for (std::size_t b = a + 1; b < order.size() && taken_[order[a]] == 0; ++b) {
         if (at(order[b]).x() - at(order[a]).x() > tolerance) break;

@@ -14,6 +14,7 @@
 #include "io/files.h"
 #include "io/png.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -128,7 +129,7 @@ class Painter {
 
 // How dark the sides of a triangle make a pixel, 0 to 1.
 double ink_of_triangle(const std::array<Vec2, 3>& corner, const Vec2& pixel) {
-  double nearest = std::numeric_limits<double>::infinity(), longest = 0;
+  double nearest = infinity, longest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     nearest = std::min(nearest, distance_to_segment(pixel, corner[i], corner[(i + 1) % 3]));
     longest = std::max(longest, norm(corner[(i + 1) % 3] - corner[i]));
@@ -200,7 +201,7 @@ void FieldImage::State::probe() {
   probing.sample(uv, jets, metric);
 
   double length_u = 0, length_v = 0;
-  smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  smallest = infinity, largest = 0;
   const auto extend = [&](double h) {
     if (h > 0 && std::isfinite(h)) smallest = std::min(smallest, h), largest = std::max(largest, h);
   };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "support/infinity.h"
+
 namespace carreau {
 
 namespace {
@@ -20,7 +22,8 @@ std::vector<std::pair<int, int>> rows_of(const PlaneSegments& lines, const Pixel
   std::vector<std::pair<int, int>> rows;
   rows.reserve(lines.segments.size());
   for (const auto& [a, b] : lines.segments) {
-    const double p = lines.vertices[static_cast<std::size_t>(a)].y(), q = lines.vertices[static_cast<std::size_t>(b)].y();
+    const double p = lines.vertices[static_cast<std::size_t>(a)].y(),
+                 q = lines.vertices[static_cast<std::size_t>(b)].y();
     rows.push_back(rows_between(grid, std::min(p, q), std::max(p, q), margin));
   }
   return rows;
@@ -116,7 +119,7 @@ void TriangleRaster::triangles(int first, int rows, std::span<std::uint32_t> out
     const auto pixels = out.begin() + static_cast<std::ptrdiff_t>(row - first) * grid_.width;
     for (const std::uint32_t t : bands_.around(row)) {
       const std::array<std::int32_t, 3>& c = triangles_[t];
-      double from = std::numeric_limits<double>::infinity(), to = -from;
+      double from = infinity, to = -from;
       for (int i = 0; i < 3; ++i)
         if (const auto u = crossing(vertices_[c[i]], vertices_[c[(i + 1) % 3]], v))
           from = std::min(from, *u), to = std::max(to, *u);

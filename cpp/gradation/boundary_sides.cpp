@@ -1,17 +1,15 @@
 #include "gradation/boundary_sides.h"
 
 #include <algorithm>
-#include <numbers>
 
+#include "gradation/thresholds.h"
 #include "model/union_find.h"
 
 namespace carreau {
 
 namespace {
 
-// A boundary that turns by less than this goes straight on (cosine): below it are arcs of a few edges, above it the
-// corners of polygons.
-constexpr double straight_on = std::numbers::sqrt2 / 2;
+using thresholds::gradation::straight_on;
 
 bool goes_straight_on(const Vec3& before, const Vec3& at, const Vec3& after) noexcept {
   const Vec3 p = at - before, q = after - at;

@@ -1,10 +1,10 @@
 // Sizes that grow from the edges of a boundary.
 #pragma once
 
-#include <limits>
-#include <utility>
 #include <vector>
 
+#include "support/box_tree.h"
+#include "support/infinity.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -31,19 +31,12 @@ class EdgeSizes {
   /// The same edges with sizes of at least h.
   [[nodiscard]] EdgeSizes bounded_below(double h) const;
   /// The size at p, or `most` where it is smaller. Logarithmic in the number of edges where few of them are near.
-  [[nodiscard]] double at(const Vec3& p, double most = std::numeric_limits<double>::infinity()) const noexcept;
+  [[nodiscard]] double at(const Vec3& p, double most = infinity) const noexcept;
 
  private:
-  struct Node {
-    Vec3 low, high;  // of its edges
-    double h = 0;    // the smallest of theirs
-    int first = 0, end = 0;
-    int children = -1;  // two of them, one after the other; -1: a leaf
-  };
-  void build(int node);
-
-  std::vector<Source> sources_;
-  std::vector<Node> nodes_;  // the root first
+  std::vector<Source> sources_;  // in the order of the tree
+  BoxTree tree_;
+  std::vector<double> least_;  // by node: the smallest size of its edges
   double slope_ = 0;
 };
 

@@ -4,17 +4,14 @@
 #include <cmath>
 #include <optional>
 
+#include "gradation/thresholds.h"
 #include "mesh/triangle_search.h"
 
 namespace carreau {
 
 namespace {
 
-// Normals of faces that face each other (cosine), as for fronts that meet in narrow zones of one face.
-constexpr double head_on = 0.8;
-// A normal that meets an edge between two triangles meets one of them: of their weights.
-constexpr double rounding = 1e-9;
-constexpr std::size_t places_between_checks = 1 << 12;
+using namespace thresholds::gradation;
 
 class Facing {
  public:
@@ -59,7 +56,7 @@ class Facing {
     std::array<double, 3> w{};
     for (int i = 0; i < 3; ++i) {
       w[i] = dot(cross(x[(i + 2) % 3] - x[(i + 1) % 3], at - x[(i + 1) % 3]), normal) / (area * area);
-      if (w[i] < -rounding) return {};
+      if (w[i] < -edge_rounding) return {};
     }
     return FacingPlace{place, std::abs(way + bulge(c, x, w, normal) * area / steep), t, at};
   }

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <queue>
-#include <utility>
 
 #include "gradation/place_fans.h"
+#include "gradation/smallest_first.h"
+#include "gradation/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/incidence.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -17,13 +17,7 @@ namespace {
 
 using detail::roll;
 
-// The line from a source to a vertex passes near the vertex before it when they see it within this angle (cosine): the
-// six neighbours of a vertex of a good mesh leave at most 30 degrees.
-constexpr double seen_from_beside = 0.7;
-// Two fronts are one when their directions agree that well (cosine).
-constexpr double same_front = 0.7;
-constexpr std::size_t vertices_between_checks = 1 << 14;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using namespace thresholds::gradation;
 
 Vec3 resized(const Vec3& v, double length) noexcept {
   const double l = norm(v);
@@ -36,9 +30,13 @@ Vec3 resized(const Vec3& v, double length) noexcept {
 class Grading {
  public:
   Grading(const GradationGraph& graph, const std::vector<double>& h, double slope, Monitor& monitor)
-      : graph_(graph), slope_(slope), monitor_(monitor), fans_(graph), front_(graph.xyz.size()) {
+      : graph_(graph),
+        slope_(slope),
+        monitor_(monitor),
+        fans_(graph),
+        segments_(graph.xyz.size(), graph.segments),
+        front_(graph.xyz.size()) {
     for (std::size_t v = 0; v < h.size(); ++v) front_[v].h = front_[v].source_h = h[v];
-    collect_segments();
   }
 
   void add(const GradationSource& s, int id) {
@@ -53,28 +51,10 @@ class Grading {
         front_[v].source = static_cast<int>(v);
         front_[v].place = fans_.first(static_cast<int>(v));
       }
-      if (std::isfinite(front_[v].h)) queue_.emplace(front_[v].h, static_cast<int>(v));
+      if (std::isfinite(front_[v].h)) queue_.push(front_[v].h, static_cast<int>(v));
     }
-    std::size_t done = 0;
-    while (!queue_.empty()) {
-      const auto [h, v] = queue_.top();
-      queue_.pop();
-      if (front_[v].accepted || h != front_[v].h) continue;
-      front_[v].accepted = true;
-      leave(v);
-      if (++done % vertices_between_checks == 0) monitor_.checkpoint();
-    }
-  }
-
-  [[nodiscard]] std::vector<GradedSize> sizes() const {
-    std::vector<GradedSize> sizes(front_.size());
-    for (std::size_t v = 0; v < front_.size(); ++v) {
-      sizes[v].h = front_[v].h;
-      Vec3 line;
-      if (fans_.first(static_cast<int>(v)) >= 0 && carry(static_cast<int>(v), fans_.first(static_cast<int>(v)), line))
-        sizes[v].slope = resized(line, slope_);
-    }
-    return sizes;
+    queue_.run([this](double h, int v) { return !front_[v].accepted && h == front_[v].h; }, [this](int v) { leave(v); },
+               monitor_);
   }
 
   [[nodiscard]] GradationFronts fronts() const {
@@ -107,15 +87,6 @@ class Grading {
     bool accepted = false;
   };
 
-  void collect_segments() {
-    segment_start_.assign(graph_.xyz.size() + 1, 0);
-    for (const auto& s : graph_.segments) ++segment_start_[s[0] + 1], ++segment_start_[s[1] + 1];
-    for (std::size_t v = 0; v < graph_.xyz.size(); ++v) segment_start_[v + 1] += segment_start_[v];
-    segment_end_.resize(2 * graph_.segments.size());
-    std::vector<int> fill(segment_start_.begin(), segment_start_.end() - 1);
-    for (const auto& s : graph_.segments) segment_end_[fill[s[0]]++] = s[1], segment_end_[fill[s[1]]++] = s[0];
-  }
-
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
   [[nodiscard]] Vec3 normal(int place) const noexcept { return graph_.places[place].normal; }
   [[nodiscard]] Front& front_at(int place) noexcept { return front_[graph_.places[place].vertex]; }
@@ -127,6 +98,7 @@ class Grading {
   }
 
   void leave(int v) {
+    front_[v].accepted = true;
     for (int p = fans_.first(static_cast<int>(v)); p >= 0; p = fans_.next(p)) {
       Front from = front_[v];
       from.place = p;
@@ -138,8 +110,8 @@ class Grading {
         through_triangle(from, a, b);
       }
     }
-    for (int k = segment_start_[v]; k < segment_start_[v + 1]; ++k) {
-      const int to = segment_end_[k];
+    for (const std::int32_t s : segments_.of(v)) {
+      const int to = graph_.segments[s][graph_.segments[s][0] == v ? 1 : 0];
       const double length = norm(graph_.xyz[to] - graph_.xyz[v]);
       improve(to, {front_[v].h + slope_ * length, front_[v].h + slope_ * length, {}, fans_.first(to), v, false});
     }
@@ -152,7 +124,7 @@ class Grading {
   void improve(int v, const Front& candidate) {
     if (front_[v].accepted || !(candidate.h < front_[v].h)) return;
     front_[v] = candidate;
-    queue_.emplace(candidate.h, v);
+    queue_.push(candidate.h, v);
   }
 
   /// The edge from `from` to place `to` in the tangent plane of `from`, as long as the arc above it.
@@ -185,7 +157,7 @@ class Grading {
     if (!other.accepted || front_at(to).accepted || other.source == from.source) return;
     Vec3 line;
     if (!carry(graph_.places[beside].vertex, beside, line)) return;
-    if (dot(from.line, line) < same_front * norm(from.line) * norm(line)) return;
+    if (dot(from.line, line) < same_wave * norm(from.line) * norm(line)) return;
     const Vec3 a = position(from.place), ab = position(beside) - a, ac = position(to) - a;
     const double width = norm(ab);
     if (!(width > 0)) return;
@@ -209,15 +181,13 @@ class Grading {
   double slope_;
   Monitor& monitor_;
   detail::PlaceFans fans_;
+  Incidence segments_;
   std::vector<Front> front_;
-  std::vector<int> segment_start_, segment_end_;
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  SmallestFirst queue_;
 };
 
 void check(const GradationGraph& graph, const std::vector<double>& h, double slope) {
-  if (!(slope > 0) || !std::isfinite(slope))
-    throw InvalidArgument("the slope of a gradation must be positive; it is " + format_number(slope));
+  detail::check_slope(slope);
   if (h.size() != graph.xyz.size())
     throw InvalidArgument("a gradation has " + std::to_string(h.size()) + " sizes for " +
                           std::to_string(graph.xyz.size()) + " vertices");
@@ -235,6 +205,11 @@ void check(const GradationGraph& graph, const std::vector<double>& h, double slo
 
 }  // namespace
 
+void detail::check_slope(double slope) {
+  if (!(slope > 0) || !std::isfinite(slope))
+    throw InvalidArgument("the slope of a gradation must be positive; it is " + format_number(slope));
+}
+
 double slope_of_gradation(double beta) {
   if (!(beta > 1) || !std::isfinite(beta))
     throw InvalidArgument("a gradation must be greater than 1; it is " + format_number(beta));
@@ -250,14 +225,6 @@ double size_from_segment(double h_a, double h_b, const Vec3& edge, const Vec3& d
   double foot = climb >= 1 ? 0. : climb <= -1 ? length : along - climb * up / std::sqrt(1 - climb * climb);
   foot = std::clamp(foot, 0., length);
   return h_a + (h_b - h_a) * (foot / length) + slope * std::hypot(along - foot, up);
-}
-
-std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
-                                    Monitor& monitor) {
-  check(graph, h, slope);
-  Grading grading(graph, h, slope, monitor);
-  grading.run();
-  return grading.sizes();
 }
 
 GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h,

@@ -22,13 +22,6 @@ struct GradationGraph {
   std::vector<std::array<int, 2>> segments;  ///< vertices joined by a curve, for curves without triangles; may be empty
 };
 
-/// What the grading says at a vertex.
-struct GradedSize {
-  double h = 0;
-  /// Derivative of h in space, in the tangent plane of the vertex's first place; zero where h is the vertex's own size.
-  Vec3 slope;
-};
-
 /// How a size comes to a place: h = source_h + slope |line|.
 struct GradationFront {
   double source_h = 0;
@@ -53,12 +46,10 @@ double slope_of_gradation(double beta);
 /// Sizes are linear along it. `edge`: from a to b; `d`: from a to the place. +infinity where a and b are one.
 double size_from_segment(double h_a, double h_b, const Vec3& edge, const Vec3& d, double slope) noexcept;
 
-/// The largest field below `h` (one a vertex, +infinity: unknown) whose derivative along the surface is at most
-/// `slope`: h(x) = min over y of h(y) + slope * distance(x, y). Distances are those of straight lines on the unfolded
-/// triangles, within about 2 % on triangles that are not far from equilateral and turn by less than 30 degrees. Throws
-/// InvalidArgument unless slope > 0 and the arrays fit.
-std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
-                                    Monitor& monitor);
+namespace detail {
+/// Throws InvalidArgument unless it is positive and finite.
+void check_slope(double slope);
+}  // namespace detail
 
 /// A size known beside a place: h = source_h + slope |line| there.
 struct GradationSource {
@@ -66,9 +57,12 @@ struct GradationSource {
   GradationFront front;
 };
 
-/// The same, with the line that brings the size to each place: between vertices the size is the smallest of
-/// source_h + slope |line + step| over the places around (GradedField). `sources`: sizes known elsewhere than at
-/// vertices, seen from the places around.
+/// The largest field below `h` (one a vertex, +infinity: unknown) whose derivative along the surface is at most
+/// `slope`: h(x) = min over y of h(y) + slope * distance(x, y), and the line that brings the size to each place:
+/// between vertices the size is the smallest of source_h + slope |line + step| over the places around (GradedField).
+/// `sources`: sizes known elsewhere than at vertices, seen from the places around. Distances are those of straight
+/// lines on the unfolded triangles, within about 2 % on triangles that are not far from equilateral and turn by less
+/// than 30 degrees. Throws InvalidArgument unless slope > 0 and the arrays fit.
 GradationFronts grade_fronts(const GradationGraph& graph, const std::vector<double>& h,
                              const std::vector<GradationSource>& sources, double slope, Monitor& monitor);
 

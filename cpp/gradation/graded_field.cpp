@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
+#include "gradation/thresholds.h"
+#include "support/infinity.h"
+
 namespace carreau {
 
 namespace {
 
-// Lines that are one wave from a line of sources, not two cones (cosine).
-constexpr double same_wave = 0.7;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using thresholds::gradation::same_wave;
 
 bool is_source(const GradationFront& f) noexcept { return dot(f.line, f.line) == 0; }
 

@@ -3,13 +3,13 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "gradation/edge_sizes.h"
 #include "gradation/gradation.h"
 #include "gradation/metric_grading.h"
 #include "gradation/triangle_tree.h"
+#include "support/infinity.h"
 #include "support/monitor.h"
 #include "support/vec.h"
 
@@ -70,14 +70,13 @@ class GradedField {
 struct SizeLimits {
   const GradedField* field = nullptr;  ///< null: no bound
   double factor = 1;
-  double largest = std::numeric_limits<double>::infinity();
+  double largest = infinity;
   const EdgeSizes* edges = nullptr;  ///< of one face; null: no bound
-  /// Sizes by direction alone: largest tangent of the angle between triangles and the surface (bound_tilt).
-  double tilt = std::numeric_limits<double>::infinity();
+  /// Sizes by direction alone: largest tangent of the angle between triangles and the surface (bound_lean).
+  double lean = infinity;
 
   [[nodiscard]] bool idle() const noexcept {
-    return field == nullptr && edges == nullptr && factor == 1 && largest == std::numeric_limits<double>::infinity() &&
-           tilt == std::numeric_limits<double>::infinity();
+    return field == nullptr && edges == nullptr && factor == 1 && largest == infinity && lean == infinity;
   }
   [[nodiscard]] bool want_places() const noexcept { return field != nullptr || edges != nullptr; }
   /// The isotropic size at (u, v) in a face, whose image is xyz, where h is prescribed: bounded by field and edges.

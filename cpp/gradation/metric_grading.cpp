@@ -1,14 +1,14 @@
 #include "gradation/metric_grading.h"
 
 #include <algorithm>
-#include <queue>
 #include <utility>
 
 #include "gradation/graded_field.h"
 #include "gradation/place_fans.h"
+#include "gradation/smallest_first.h"
+#include "gradation/thresholds.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
-#include "support/format.h"
 
 namespace carreau {
 
@@ -16,12 +16,7 @@ namespace {
 
 using detail::roll;
 
-// Paths run along edges and from the middles of edges: every 30 degrees, so that they are up to 1 / cos(15 degrees)
-// = 1.035 times too long. Half of that is taken from the slope.
-constexpr double detour = 1.0175;
-// Changes below this share are not followed.
-constexpr double negligible = 1e-3;
-constexpr std::size_t steps_between_checks = 1 << 12;
+using namespace thresholds::gradation;
 
 class MetricGrading {
  public:
@@ -36,16 +31,8 @@ class MetricGrading {
 
   std::vector<TangentMetric> run() {
     for (std::size_t p = 0; p < sizes_.size(); ++p) enqueue(static_cast<int>(p));
-    std::size_t steps = 0;
-    while (!queue_.empty()) {
-      const int p = queue_.top().second;
-      queue_.pop();
-      // Not by the sizes that it was put there with: changes that are negligible come in between.
-      if (waits_[p] == 0) continue;
-      waits_[p] = 0;
-      if (++steps % steps_between_checks == 0) monitor_.checkpoint();
-      leave(p);
-    }
+    // Not by the sizes that it was put there with: changes that are negligible come in between.
+    queue_.run([this](double, int p) { return waits_[p] != 0; }, [this](int p) { leave(p); }, monitor_);
     return std::move(sizes_);
   }
 
@@ -53,7 +40,7 @@ class MetricGrading {
   [[nodiscard]] double smaller(int p) const noexcept { return sizes_[p].h1 * sizes_[p].h2; }
   void enqueue(int p) {
     if (!std::isfinite(smaller(p))) return;
-    queue_.emplace(smaller(p), p);
+    queue_.push(smaller(p), p);
     waits_[p] = 1;
   }
   [[nodiscard]] Vec3 position(int place) const noexcept { return graph_.xyz[graph_.places[place].vertex]; }
@@ -77,6 +64,7 @@ class MetricGrading {
   }
 
   void leave(int p) {
+    waits_[p] = 0;
     const Vec3 n = graph_.places[p].normal;
     for (const auto& [a, b] : fans_.triangles(p)) {
       if (graph_.places[a].vertex == graph_.places[p].vertex || graph_.places[b].vertex == graph_.places[p].vertex)
@@ -120,8 +108,7 @@ class MetricGrading {
   Monitor& monitor_;
   detail::PlaceFans fans_;
   std::vector<char> waits_;  // by place: it is in the queue, and has not left yet
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+  SmallestFirst queue_;
 };
 
 }  // namespace
@@ -162,7 +149,7 @@ Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept {
   return {a * a + c * c, a * b + c * d, b * b + d * d};
 }
 
-void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexcept {
+void bound_lean(const SurfaceJet& jet, double lean, TangentMetric& sizes) noexcept {
   if (!(sizes.h2 > sizes.h1)) return;
   // In (u, v): the tangent d is x Su + y Sv.
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv), area2 = e * g - f * f;
@@ -178,14 +165,13 @@ void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexce
     return norm(s - dot(s, sizes.d2) * sizes.d2);
   };
   const double bend = aside(y, y), turn = aside(x, y);
-  if (bend > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, std::sqrt(8 * tilt * sizes.h1 / bend)));
-  if (turn > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, 2 * tilt / turn));
+  if (bend > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, std::sqrt(8 * lean * sizes.h1 / bend)));
+  if (turn > 0) sizes.h2 = std::max(sizes.h1, std::min(sizes.h2, 2 * lean / turn));
 }
 
 std::vector<TangentMetric> grade_metrics(const GradationGraph& graph, std::vector<TangentMetric> sizes,
                                          const std::vector<MetricSource>& sources, double slope, Monitor& monitor) {
-  if (!(slope > 0) || !std::isfinite(slope))
-    throw InvalidArgument("the slope of a gradation must be positive; it is " + format_number(slope));
+  detail::check_slope(slope);
   if (sizes.size() != graph.places.size())
     throw InvalidArgument("a gradation has " + std::to_string(sizes.size()) + " metrics for " +
                           std::to_string(graph.places.size()) + " places");

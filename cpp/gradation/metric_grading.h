@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "cad/cad.h"
 #include "gradation/gradation.h"
 #include "metric/metric2.h"
+#include "support/infinity.h"
 #include "support/monitor.h"
 
 namespace carreau {
@@ -18,7 +18,7 @@ namespace carreau {
 /// A metric of a tangent plane by its sizes along two orthogonal unit tangents.
 struct TangentMetric {
   Vec3 d1, d2;
-  double h1 = std::numeric_limits<double>::infinity(), h2 = h1;
+  double h1 = infinity, h2 = h1;
 
   /// Size along a unit tangent.
   [[nodiscard]] double along(const Vec3& w) const noexcept {
@@ -45,11 +45,11 @@ std::optional<TangentMetric> tangent_metric(const SurfaceJet& jet, Metric2 metri
 /// The inverse. The parametrisation must not be degenerate.
 Metric2 metric_of(const SurfaceJet& jet, const TangentMetric& sizes) noexcept;
 
-/// Shrinks h2, down to h1 at most, until triangles of these sizes lean against the surface by at most `tilt` (a
+/// Shrinks h2, down to h1 at most, until triangles of these sizes lean against the surface by at most `lean` (a
 /// tangent), and their normals turn by at most as much on half an edge. An edge of length L along d2 leaves its image
 /// by L^2 / 8 times the second derivative along it, in the normal plane and aside (where images of segments of (u, v)
 /// bend), and the vertices beside it are h1 away. The jet holds first and second derivatives.
-void bound_tilt(const SurfaceJet& jet, double tilt, TangentMetric& sizes) noexcept;
+void bound_lean(const SurfaceJet& jet, double lean, TangentMetric& sizes) noexcept;
 
 /// A metric known beside a place, `way` from it in its tangent plane.
 struct MetricSource {

@@ -3,14 +3,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "gradation/thresholds.h"
+
 namespace carreau::detail {
 
-namespace {
-
-// Normals of places that are one smooth surface (cosine).
-constexpr double smooth_corner = 0.9;
-
-}  // namespace
+using namespace thresholds::gradation;
 
 Vec3 roll(const Vec3& v, const Vec3& n, const Vec3& m) noexcept { return v - (dot(v, m) / (1 + dot(n, m))) * (n + m); }
 
@@ -53,7 +50,7 @@ bool PlaceFans::carry(int from, int to, Vec3& v) const noexcept {
   const Vec3 inside = inward_[from] - dot(inward_[from], n) * n, into = inward_[to];
   for (const double side : {1., -1.}) {
     const Vec3 k = side * m;
-    if (dot(n, k) < -0.999 || dot(roll(inside, n, k), into) >= 0) continue;
+    if (dot(n, k) < least_unfolded || dot(roll(inside, n, k), into) >= 0) continue;
     v = roll(v, n, k);
     return true;
   }

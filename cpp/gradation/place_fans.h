@@ -1,4 +1,5 @@
-// Places of a gradation's graph that belong to one vertex, and how vectors come from one to another. Private to size/.
+// Places of a gradation's graph that belong to one vertex, and how vectors come from one to another. Private to the
+// gradations.
 #pragma once
 
 #include <cstddef>

@@ -9,22 +9,14 @@
 #include <span>
 
 #include "gradation/boundary_sides.h"
+#include "gradation/thresholds.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
 
-// Fronts that meet within this angle of head on (cosine).
-constexpr double head_on = 0.8;
-// Angle of a corner whose sides are near each other because it is a corner; its reach in gaps.
-constexpr double sharp_corner = 100 * std::numbers::pi / 180, reach_of_corner = 2;
-// Below this the reach in gaps does not hold the tip: there the gap is 2 tan(angle / 2) of the distance from it.
-constexpr double wedge = 28 * std::numbers::pi / 180;
-// Ways of fronts near corners may be shorter than those between their feet by this factor: feet are vertices.
-constexpr double one_wave = 1.05;
-// Of a square, in its sides.
-constexpr double half_diagonal = std::numbers::sqrt2 / 2;
-constexpr std::size_t triangles_between_checks = 1 << 14;
+using namespace thresholds::gradation;
 
 Vec3 unit(const Vec3& v) noexcept {
   const double l = norm(v);
@@ -46,7 +38,7 @@ class NarrowZones {
     mark_boundaries();
     send_fronts();
     for (std::size_t t = 0; t < graph_.triangles.size(); ++t) {
-      if (t % triangles_between_checks == 0) monitor_.checkpoint();
+      if (t % places_between_checks == 0) monitor_.checkpoint();
       for (int i = 0; i < 3; ++i) {
         const int a = graph_.triangles[t][i], b = graph_.triangles[t][(i + 1) % 3],
                   c = graph_.triangles[t][(i + 2) % 3];
@@ -99,7 +91,7 @@ class NarrowZones {
 
   // Sizes that grow by one for each unit of length are distances.
   void send_fronts() {
-    std::vector<double> start(graph_.xyz.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> start(graph_.xyz.size(), infinity);
     for (std::size_t v = 0; v < start.size(); ++v)
       if (on_boundary_[v] != 0) start[v] = std::numeric_limits<double>::min();
     fronts_ = grade_fronts(graph_, start, {}, 1, monitor_);
@@ -131,7 +123,7 @@ class NarrowZones {
       at_end = true;
     }
     // Fronts of two sides pass a corner of the graph as one wave, whose way is too short there.
-    if (at_end && std::abs(dot(other - foot, across)) > one_wave * gap) return;
+    if (at_end && std::abs(dot(other - foot, across)) > longer_between_feet * gap) return;
     reports_.push_back({gap, across, sides, others, vertices, at_end});
   }
 

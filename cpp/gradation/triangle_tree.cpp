@@ -4,17 +4,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "gradation/thresholds.h"
+
 namespace carreau {
 
-namespace {
-
-// Of the extent: what rounding may make of the point of a triangle that is the point itself.
-constexpr double rounding = 1e-14;
-// Points so many roundings inside a triangle are in no other one. Walks that are longer are left to the search.
-constexpr double clearly = 1e5;
-constexpr int most_steps = 32;
-
-}  // namespace
+using namespace thresholds::gradation;
 
 TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<std::array<std::int32_t, 3>>& triangles,
                            Monitor& monitor) {
@@ -33,10 +27,11 @@ TriangleTree::TriangleTree(const std::vector<Vec2>& vertices, const std::vector<
   const double edges = 3 * static_cast<double>(triangles.size());
   low_ = low;
   scale_ = {length.x() > 0 ? edges / length.x() : 1, length.y() > 0 ? edges / length.y() : 1};
-  inside_ = rounding * std::max((high.x() - low.x()) * scale_.x(), (high.y() - low.y()) * scale_.y());
+  inside_ = point_rounding * std::max((high.x() - low.x()) * scale_.x(), (high.y() - low.y()) * scale_.y());
   std::vector<Vec3> scaled;
   scaled.reserve(vertices.size());
-  for (const Vec2& p : vertices) scaled.push_back({(p.x() - low_.x()) * scale_.x(), (p.y() - low_.y()) * scale_.y(), 0});
+  for (const Vec2& p : vertices)
+    scaled.push_back({(p.x() - low_.x()) * scale_.x(), (p.y() - low_.y()) * scale_.y(), 0});
   search_ = TriangleSearch(scaled, triangles, &monitor);
   corners_.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -93,14 +88,15 @@ std::size_t TriangleTree::start_near(const Vec2& p) const noexcept {
   const auto cell = [](double x, std::int32_t count) {
     return x > 0 ? static_cast<std::size_t>(std::min(x, count - 1.0)) : 0;
   };
-  return cell(p.y() * start_scale_.y(), rows_) * static_cast<std::size_t>(columns_) + cell(p.x() * start_scale_.x(), columns_);
+  return cell(p.y() * start_scale_.y(), rows_) * static_cast<std::size_t>(columns_) +
+         cell(p.x() * start_scale_.x(), columns_);
 }
 
 // The only triangle that holds a point; -1 where that is not clear, or the way there is long or leaves the domain.
 std::int32_t TriangleTree::walk(const Vec2& p) const noexcept {
-  const double clear = clearly * inside_;
+  const double clear = clearly_inside * inside_;
   std::int32_t t = starts_[start_near(p)];
-  for (int step = 0; step < most_steps && t >= 0; ++step) {
+  for (int step = 0; step < longest_walk && t >= 0; ++step) {
     const Corners& c = corners_[static_cast<std::size_t>(t)];
     std::int32_t next = -1;
     bool holds = true;

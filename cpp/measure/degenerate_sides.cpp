@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "support/infinity.h"
+
 namespace carreau {
 
 DegenerateSides::DegenerateSides(const FaceMesh& face) : face_(&face) {
@@ -17,14 +19,15 @@ DegenerateSides::DegenerateSides(const FaceMesh& face) : face_(&face) {
   sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
 }
 
-std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Vec2& a, const Vec3& su, const Vec3& sv, const Vec3& chord) const {
+std::optional<Vec2> DegenerateSides::arrival(std::int32_t p, const Vec2& a, const Vec3& su, const Vec3& sv,
+                                             const Vec3& chord) const {
   constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
   // The step of (u, v) whose image is the chord, but for its part across the tangent plane. Not the way that is
   // shortest in a metric: around a pole whose metric differs by direction that is a spiral.
   const double e = dot(su, su), f = dot(su, sv), g = dot(sv, sv), x = dot(su, chord), y = dot(sv, chord);
   const Vec2 way{g * x - f * y, e * y - f * x};  // times the determinant
   std::optional<Vec2> best;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   for (auto side = std::lower_bound(sides_.begin(), sides_.end(), std::array{p, least});
        side != sides_.end() && (*side)[0] == p; ++side) {
     const Vec2 from = face_->uv[p], along = face_->uv[(*side)[1]] - from;

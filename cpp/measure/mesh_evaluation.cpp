@@ -10,13 +10,17 @@
 #include "cad/fundamental_forms.h"
 #include "measure/degenerate_sides.h"
 #include "measure/gauss.h"
+#include "measure/thresholds.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
 #include "metric/field_length.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
+
+using namespace thresholds::measure;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -40,12 +44,6 @@ std::array<Barycentric, 7> triangle_rule() {
   }
   return rule;
 }
-
-// Gradations are judged over no less than this length: over a hundredth of a unit sizes that differ by a tenth, which
-// nobody could see, would have one of 14 000.
-constexpr double shortest_way = 0.1;
-// Trapezoids of a length in a control space are no longer than that.
-constexpr double fine_length = 0.1;
 
 double degrees(double radians) noexcept { return radians * 180 / std::numbers::pi; }
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
@@ -96,7 +94,7 @@ class Measurement {
       of(kind).assign(m, 0);
     find_neighbours();
     above_.resize(n * gauss_.node.size());
-    shortest_.assign(mesh_.vertices.size(), std::numeric_limits<double>::infinity());
+    shortest_.assign(mesh_.vertices.size(), infinity);
     longest_.assign(mesh_.vertices.size(), 0);
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       face_index_ = static_cast<int>(f);
@@ -157,13 +155,15 @@ class Measurement {
   }
 
   // The size that is prescribed along d at a vertex; NaN at a singular one.
-  [[nodiscard]] double size_along(std::int32_t v, const Vec2& d) const { return size_along(v, d, at_vertex_[v].metric); }
+  [[nodiscard]] double size_along(std::int32_t v, const Vec2& d) const {
+    return size_along(v, d, at_vertex_[v].metric);
+  }
   [[nodiscard]] double size_along(std::int32_t v, const Vec2& d, Metric2 metric) const {
     return normal_[v] ? norm(d.x() * at_vertex_[v].su + d.y() * at_vertex_[v].sv) / length(metric, d) : nan;
   }
 
   // The size of the circle of the same area as the unit ellipse of the tangent plane at a vertex.
-  [[nodiscard]] double mean_size(std::int32_t v) const {
+  [[nodiscard]] double geometric_mean_size(std::int32_t v) const {
     const AtVertex& place = at_vertex_[v];
     return std::sqrt(norm(cross(place.su, place.sv)) / std::sqrt(determinant(place.metric)));
   }
@@ -270,7 +270,7 @@ class Measurement {
   void note_lengths(std::int32_t a, std::int32_t b) {
     double l = norm(position(b) - position(a));
     // At a singular vertex directions of (u, v) are none of space: lengths as they are.
-    const double stretch = normal_[a] ? mean_size(a) / size_along(a, face_->uv[b] - face_->uv[a]) : 1;
+    const double stretch = normal_[a] ? geometric_mean_size(a) / size_along(a, face_->uv[b] - face_->uv[a]) : 1;
     if (stretch > 0 && std::isfinite(stretch)) l *= stretch;
     const std::int32_t v = face_->vertex[a];
     shortest_[v] = std::min(shortest_[v], l);

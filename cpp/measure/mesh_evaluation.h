@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include "mesh/surface_mesh.h"
 #include "metric/metric2.h"
 #include "size/size_law.h"
+#include "support/infinity.h"
 #include "support/monitor.h"
 
 namespace carreau {
@@ -77,10 +77,10 @@ struct EvaluationOptions {
   /// Points on each edge at which its length is integrated: exact up to degree 2 n - 1 in the speed.
   int gauss_points = 3;
   /// Prescriptions to be checked; infinity: none.
-  double edge_angle_limit = std::numeric_limits<double>::infinity();    ///< degrees
-  double gradation_limit = std::numeric_limits<double>::infinity();     ///< ratio
-  double length_ratio_limit = std::numeric_limits<double>::infinity();  ///< ratio
-  double deviation_limit = std::numeric_limits<double>::infinity();     ///< model length
+  double edge_angle_limit = infinity;    ///< degrees
+  double gradation_limit = infinity;     ///< ratio
+  double length_ratio_limit = infinity;  ///< ratio
+  double deviation_limit = infinity;     ///< model length
   /// Edges of this length in space and shorter ones are as short as the smallest size lets them be, whatever angle they
   /// exceed: at an apex, where there is no tangent plane, all do.
   double shortest_for_angle = 0;
@@ -114,7 +114,7 @@ Spread spread_of(std::span<const double> values, std::span<const double> inner);
 struct Delivery {
   std::vector<double> values;
   Spread spread;
-  double limit = std::numeric_limits<double>::infinity();  ///< asked; infinity: nothing was
+  double limit = infinity;  ///< asked; infinity: nothing was
   /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
   std::int64_t beyond = 0;
   double tolerance = 0;  ///< share of the limit that may be exceeded

@@ -3,17 +3,16 @@
 #include <numbers>
 
 #include "measure/mesh_evaluation.h"
+#include "measure/thresholds.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "support/short_number.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// What exceeds a limit by less than this share of it meets it.
-constexpr double rounding = 1e-9;
-constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;
+using namespace thresholds::measure;
 
 // Powers of ten from below the smallest positive value, at most six of them, to above the largest.
 std::vector<double> decades(std::span<const double> values) {
@@ -62,7 +61,7 @@ std::string part_of(std::int64_t part, std::int64_t all, const char* entities) {
 }
 
 std::int64_t count_above(const std::vector<double>& values, double limit) {
-  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + rounding); });
+  return std::count_if(values.begin(), values.end(), [&](double x) { return x > limit * (1 + limit_rounding); });
 }
 
 }  // namespace
@@ -147,13 +146,13 @@ void summarise(MeshEvaluation& d) {
         break;
     }
     one.spread = spread_of(one.values, bounds);
-    one.tolerance = measure.kind == EvaluationKind::gradation ? 0.02 : rounding;
+    one.tolerance = measure.kind == EvaluationKind::gradation ? gradation_tolerance : limit_rounding;
     one.beyond = std::count_if(one.values.begin(), one.values.end(), [&one](double x) { return one.exceeds(x); });
   }
   const std::vector<double>& length = d[EvaluationKind::length].values;
   d.long_edges = count_above(length, long_limit);
   d.short_edges =
-      std::count_if(length.begin(), length.end(), [](double l) { return l < short_limit / (1 + rounding); });
+      std::count_if(length.begin(), length.end(), [](double l) { return l < short_limit / (1 + limit_rounding); });
   d.folded_triangles = count_above(d[EvaluationKind::angle].values, 90);
 }
 

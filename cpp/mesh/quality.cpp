@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "support/infinity.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -41,8 +42,8 @@ struct Part {
     double cotangent = 0;  // of the angle between them: falls from 0 to 180 degrees, and costs less than the angle
   };
   double area = 0;
-  Corner sharpest{.p = {}, .q = {}, .cotangent = -std::numeric_limits<double>::infinity()};
-  Corner bluntest{.p = {}, .q = {}, .cotangent = std::numeric_limits<double>::infinity()};
+  Corner sharpest{.p = {}, .q = {}, .cotangent = -infinity};
+  Corner bluntest{.p = {}, .q = {}, .cotangent = infinity};
 
   void measure(const FlatMesh& mesh, std::size_t triangle, double& q1, double& q2) {
     const auto& t = mesh.triangles[triangle];
@@ -82,7 +83,7 @@ void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
   std::sort(keys.begin(), keys.end());
   std::vector<int> degree(mesh.vertices.size(), 0);
   std::vector<char> border(mesh.vertices.size(), 0);
-  double sum = 0, low = std::numeric_limits<double>::infinity(), high = 0;
+  double sum = 0, low = infinity, high = 0;
   for (std::size_t i = 0; i < keys.size();) {
     std::size_t j = i;
     while (j < keys.size() && keys[j] == keys[i]) ++j;

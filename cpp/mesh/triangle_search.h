@@ -3,10 +3,10 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "support/box_tree.h"
 #include "support/monitor.h"
 #include "support/vec.h"
 
@@ -17,13 +17,13 @@ struct NearestOnMesh {
   std::int32_t triangle = -1;
   std::array<double, 3> weight{1, 0, 0};  ///< barycentric: none negative, sum 1
   Vec3 point;
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = infinity;
 };
 
 /// The nearest point of one triangle, which may be flat: then of its sides. `triangle` of the result is -1.
 NearestOnMesh nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) noexcept;
 
-/// Boxes around triangles of space, halved down to a few triangles. Plane meshes have z = 0: a point of one lies in the
+/// The triangles of space in a BoxTree. Plane meshes have z = 0: a point of one lies in the
 /// triangle that is nearest. Copies what it is given. nearest() is safe from several threads.
 class TriangleSearch {
  public:
@@ -33,7 +33,7 @@ class TriangleSearch {
   TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                  Monitor* monitor = nullptr);
 
-  [[nodiscard]] bool empty() const noexcept { return corners_.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return tree_.empty(); }
   /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found
   /// nearby), saves time and changes nothing. Not for an empty tree.
   [[nodiscard]] NearestOnMesh nearest(const Vec3& p, std::int32_t guess = 0) const noexcept;
@@ -45,19 +45,10 @@ class TriangleSearch {
   [[nodiscard]] double longest_edge(std::int32_t triangle) const noexcept;
 
  private:
-  struct Box {
-    Vec3 low, high;
-    std::int32_t first = 0;  ///< of two children; or of order_, in a leaf
-    std::int32_t count = 0;  ///< triangles of a leaf; 0: not a leaf
-  };
-  struct Builder;
-  static double squared_distance(const Box& box, const Vec3& p) noexcept;
-  static bool meets(const Box& box, const Vec3& p, const Vec3& q) noexcept;
   void look_at(std::int32_t triangle, Vec3 p, NearestOnMesh& best) const noexcept;
 
   std::vector<std::array<Vec3, 3>> corners_;
-  std::vector<std::int32_t> order_;  // triangles, leaf by leaf
-  std::vector<Box> boxes_;           // the root first; children in pairs
+  BoxTree tree_;
 };
 
 }  // namespace carreau

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "metric/thresholds.h"
+
 namespace carreau {
 
 namespace {
@@ -235,7 +237,7 @@ Metric3 metric_of_sizes(const Vec3& direction, double h1, double h2) noexcept {
 }
 
 std::optional<TangentFrame> TangentFrame::of(const Vec3& su, const Vec3& sv) noexcept {
-  constexpr double collapsed = 1e-24, parallel = 1e-20;
+  using namespace thresholds::degenerate;
   const double e = dot(su, su), g = dot(sv, sv);
   const Vec3 n = cross(su, sv);
   const double det = dot(n, n);

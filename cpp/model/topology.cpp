@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "model/places.h"
@@ -10,6 +9,7 @@
 #include "model/union_find.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -23,7 +23,6 @@ constexpr double point_share_of_loop = 1e-3;
 constexpr double rounding_share = 1e-7;
 // Fractions of the length at which closed curves are compared: more than a symmetric shape can hide.
 constexpr int probes = 23;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class TopologyBuilder {
  public:

@@ -1,9 +1,9 @@
 #include "model/traces.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "model/places.h"
+#include "support/infinity.h"
 #include "support/segment.h"
 
 namespace carreau {
@@ -62,7 +62,7 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
   double worst = negligible;
   std::size_t nearest = 1;  // segment that ends there: near the next point too, as a rule
   for (const Vec3& p : from) {
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     // A point that is no farther than another one was does not matter.
     const auto look = [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last && best > worst * worst; ++i) {
@@ -97,8 +97,7 @@ double trace_extent(std::span<const Vec3> trace) {
 }
 
 double traces_diagonal(const CurveTraces& traces) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec3 low{far, far, far}, high{-far, -far, -far};
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (const auto& of_face : traces)
     for (const auto& trace : of_face)
       for (const Vec3& p : trace) {

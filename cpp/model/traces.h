@@ -1,11 +1,11 @@
 // Measures on polylines.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "model/topology.h"
+#include "support/infinity.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -19,7 +19,7 @@ Vec3 trace_point(std::span<const Vec3> trace, double fraction);
 /// The nearest point of a trace.
 struct TracePlace {
   double arc = 0;  ///< usual length from its start
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = infinity;
 };
 TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p);
 /// Largest distance of a vertex of `from` to the polyline `to` (HDR sec. 4.5.1); may stop early once it exceeds

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "cad/derivative_check.h"
 #include "session/left_out.h"
+#include "support/infinity.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -17,8 +17,7 @@ struct Box {
 };
 
 Box box_of(const std::vector<CurveSupport>& supports) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Box box{{far, far}, {-far, -far}};
+  Box box{{infinity, infinity}, {-infinity, -infinity}};
   for (const CurveSupport& support : supports)
     for (const Vec2& p : support.uv) {
       box.low = box.low.cwiseMin(p);

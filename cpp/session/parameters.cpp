@@ -10,11 +10,11 @@
 #include "io/text.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Stands for "greater than 0": bounds are allowed values.
 constexpr double kPositive = std::numeric_limits<double>::min();
 
@@ -25,7 +25,7 @@ constexpr ParameterInfo real_row(const char* name, double minimum, double maximu
   return {name, ParameterType::real, minimum, maximum, value, false, "", nullptr, help};
 }
 constexpr ParameterInfo diag_row(const char* name, double minimum, double factor, const char* help) {
-  return {name, ParameterType::real, minimum, kInfinity, factor, true, "", nullptr, help};
+  return {name, ParameterType::real, minimum, infinity, factor, true, "", nullptr, help};
 }
 constexpr ParameterInfo text_row(const char* name, const char* value, const char* choices, const char* help) {
   return {name, ParameterType::text, 0, 0, 0, false, value, choices, help};
@@ -42,8 +42,8 @@ constexpr std::array kTable = {
                 "number of passes that check that each parameter domain is well defined"),
     real_row("CoefRectangle", 0, 10, 0.25, "thickness of the rectangles of CheckCloseEdges, as a share of the edge"),
     real_row("LSS", 1e-3, 10, 0.5, "longest sub-segment, in the metric, when the length of an edge is integrated"),
-    real_row("adapt_hmax", 0, kInfinity, 0, "call adapt: largest size (0: a fifth of the diagonal of its mesh)"),
-    real_row("adapt_hmin", 0, kInfinity, 0, "call adapt: smallest size (0: 1/500 of the diagonal of its mesh)"),
+    real_row("adapt_hmax", 0, infinity, 0, "call adapt: largest size (0: a fifth of the diagonal of its mesh)"),
+    real_row("adapt_hmin", 0, infinity, 0, "call adapt: smallest size (0: 1/500 of the diagonal of its mesh)"),
     text_row("adapt_mesh", "", nullptr, "call adapt: mesh file that adapt_sol belongs to (\"\": the mesh made last)"),
     text_row("adapt_out", "", nullptr, "call adapt: .sol file for the field on the new mesh (\"\": none)"),
     integer_row("adapt_relative", 0, 1, 0, "call adapt: 1: adapt_tolerance is a share of the field's absolute value"),
@@ -52,25 +52,25 @@ constexpr std::array kTable = {
     text_row("adapt_sol", "", nullptr, "call adapt: file of a field at the vertices of adapt_mesh"),
     text_row("adapt_source", "hessian", "hessian|curvature|deformation",
              "call adapt: what the error is estimated from"),
-    real_row("adapt_tolerance", kPositive, kInfinity, 0.01, "call adapt: error of the field (curvature: degrees)"),
+    real_row("adapt_tolerance", kPositive, infinity, 0.01, "call adapt: error of the field (curvature: degrees)"),
     real_row("angle_mesh", 0.01, 89, 8, "angle between the mesh and the tangents of surfaces and curves, degrees"),
     real_row("angle_smo", 0.001, 89, 1, "angle between the supports of curves and their tangents, degrees"),
-    real_row("anisotropy_max", 1, kInfinity, 1000,
+    real_row("anisotropy_max", 1, infinity, 1000,
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
     integer_row("crossing_rounds", 0, 20, 0,
                 "rounds in which triangles that cross, but need not, become smaller (0: none is looked for)"),
     integer_row("curve_groups", 0, 1, 1, "1: .msh files have the curves and corners too, as groups; 0: faces only"),
-    real_row("edge_gradation", 0, kInfinity, 0,
+    real_row("edge_gradation", 0, infinity, 0,
              "largest ratio of sizes one unit edge apart, inward from short edges of curves, greater than 1 (0: any)"),
     text_row("element", "p1", "p1", "type of the elements: triangles of three nodes"),
     diag_row("eps_chord", kPositive, 1.0 / 5000,
              "distance between the mesh and the surface or curve (geo_rule chord and both), model length"),
-    real_row("eps_collapse", 0, kInfinity, 0, "curves shorter than this are removed, model length (0: none)"),
+    real_row("eps_collapse", 0, infinity, 0, "curves shorter than this are removed, model length (0: none)"),
     diag_row("eps_ends", 0, 1.0 / 500, "curves whose ends are nearer than this are reported, model length"),
     diag_row("eps_glue", 0, 1.0 / 500, "points nearer than this are one when references are sought, model length"),
-    real_row("eps_glue_open", 0, kInfinity, 0,
+    real_row("eps_glue_open", 0, infinity, 0,
              "curves that stay open are one within this and a tenth of their lengths, model length (0: eps_glue)"),
     text_row("failing_faces", "stop", "stop|leave_out",
              "a face whose geometry fails or whose curves break a rule: ends the run, or is left out of the mesh"),
@@ -84,7 +84,7 @@ constexpr std::array kTable = {
              "geometric sizes from: angle_mesh, eps_chord, the smaller of both, or the principal radii (RR-2928)"),
     integer_row("glue_open", 0, 1, 0,
                 "1: curves that one face only has are glued too (eps_glue) when the model has references"),
-    real_row("gradation", 0, kInfinity, 0,
+    real_row("gradation", 0, infinity, 0,
              "largest ratio of sizes one unit edge apart, greater than 1 (0: no gradation)"),
     integer_row("hgeo_flag", 0, 2, 0, "geometric size: 0 ignored, 1 from the curvature, 2 from cad_rads and cad_radc"),
     diag_row("hgeomax", kPositive, 1.0 / 5, "largest geometric size, model length"),
@@ -160,7 +160,7 @@ void check_range(const ParameterInfo& info, double value) {
     fail("greater than 1, or 0 (no gradation)");
   if (value >= info.minimum && value <= info.maximum) return;
   if (info.minimum == kPositive) fail("greater than 0");
-  if (info.maximum == kInfinity) fail("at least " + format_number(info.minimum));
+  if (info.maximum == infinity) fail("at least " + format_number(info.minimum));
   fail("between " + format_number(info.minimum) + " and " + format_number(info.maximum));
 }
 

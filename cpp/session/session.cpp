@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "cad/checked_cad.h"
@@ -21,6 +20,7 @@
 #include "session/messages.h"
 #include "session/options.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "support/part_monitor.h"
 
 namespace carreau {
@@ -99,8 +99,7 @@ namespace {
 // Finite differences of a host without derivatives stay inside the box of each domain.
 void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad) {
   for (std::size_t f = 0; f < model.faces.size(); ++f) {
-    constexpr double far = std::numeric_limits<double>::infinity();
-    Vec2 low{far, far}, high{-far, -far};
+    Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (const CurveSupport& support : supports.of_face[f])
       for (const Vec2& p : support.uv) {
         low = low.cwiseMin(p);

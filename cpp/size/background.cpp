@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "metric/metric3_algebra.h"
+#include "size/thresholds.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -12,12 +13,7 @@ namespace carreau {
 
 namespace {
 
-/// Share of the longest edge of the nearest triangle: what a surface may be away from the triangles that approximate
-/// it (arcs of 60 degrees are 0.13 of their chord away from it).
-constexpr double outside_share = 0.125;
-
-/// Change from one vertex to the next above which a place is steep.
-constexpr double steep_ratio = 1.5;
+using namespace thresholds::size;
 
 std::string vertex_name(std::size_t v) { return "the background mesh: vertex " + std::to_string(v) + " (from 0) "; }
 

@@ -1,17 +1,14 @@
 // Radii of curvature of surfaces and of curves on them (declared in size_rules.h).
 #include <cmath>
-#include <limits>
 
+#include "metric/thresholds.h"
 #include "size/size_rules.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
 
-/// A first derivative this many times (squared) shorter than the other has collapsed: only rounding is left of it.
-constexpr double collapsed = 1e-24;
-/// sin^2 of the angle between the first derivatives below which they are parallel.
-constexpr double parallel = 1e-20;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using namespace thresholds::degenerate;
 
 }  // namespace
 

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "cad/fundamental_forms.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double radians(double degrees) noexcept { return degrees * std::numbers::pi / 180; }
 

@@ -27,11 +27,6 @@ struct GeometricRule {
   double angle_factor = 1, chord_factor = 1;
 };
 
-/// Factors for which at least 99.5 % of the edges (angle) or triangles (chord) fulfil the criterion, coarse meshes of
-/// whole spheres included, and none exceeds it by 25 % or 30 %: edges of a unit mesh are not all of unit length, and a
-/// triangle is farther from a sphere than its edges, by 4/3. Measured: tests/cpp/surface/guarantees_test.cpp.
-inline constexpr double guaranteed_angle_factor = 0.75, guaranteed_chord_factor = 0.65;
-
 /// Size where the smallest radius of curvature is `radius` > 0 (may be infinite): HDR eq. 2.31/4.28 (chord, a radius
 /// below eps0 counting as eps0), 2.33/4.35 (angle and radii). Not clamped.
 double geometric_size(const GeometricRule& rule, double radius) noexcept;

@@ -1,7 +1,6 @@
 // Sizes that may differ by direction: sources of prescriptions, anisotropic geometry, and their combination.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "size/size_rules.h"
@@ -9,10 +8,6 @@
 
 namespace carreau {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-/// How far towards the middle of a curve a surface is looked at when the curve's end is a pole.
-constexpr double way_inside = 1e-3;
 
 constexpr Metric2 isotropic(double h) noexcept { return {1 / (h * h), 0, 1 / (h * h)}; }
 
@@ -178,13 +173,7 @@ SizeRules::Answers SizeRules::answers_at_point(int point) {
     }
   }
   if (parameters_.physical == PhysicalSizes::asked) {
-    if (const auto size = cad_.point_size(p.ref)) {
-      if (!std::isfinite(*size)) {
-        throw CallbackError(where,
-                            "cad_hphyp returned the size " + format_number(*size) + ", which is not a finite number");
-      }
-      answers.push_back(Prescription::of_size(*size));
-    }
+    if (const auto size = ask_point(point)) answers.push_back(Prescription::of_size(*size));
   }
   return answers;
 }
@@ -297,12 +286,9 @@ void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span
     metric[i] = frame->induced(m);
   }
   for (const std::size_t i : degenerate) {
-    double h = geometric ? parameters_.hgeomax : infinity, nearest = infinity;
-    for (const std::size_t k : sound) {
-      const double distance = norm(uv[k] - uv[i]);
-      if (distance < nearest) nearest = distance, h = smallest[k];
-    }
-    metric[i] = degenerate_metric(answers_at(i), jets[i], h);
+    const auto k = nearest_of(sound, uv, uv[i]);
+    const double otherwise = geometric ? parameters_.hgeomax : infinity;
+    metric[i] = degenerate_metric(answers_at(i), jets[i], k ? smallest[*k] : otherwise);
   }
 }
 
@@ -311,10 +297,9 @@ void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span
 /// At a pole, the place a little way towards the curve's middle.
 SizeRules::CurvePlace SizeRules::place_on(const CurveUse& use, double t) {
   const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
-  const Interval i = cad_.curve_interval(ref, use.curve + 1);
   const unsigned wants = want_first | surface_wants();
   CurvePlace place;
-  for (const double at : {t, t + way_inside * (i.a + (i.b - i.a) / 2 - t)}) {
+  for (const double at : {t, towards_middle(use, t)}) {
     const CurveJet plane = cad_.curve(ref, use.curve + 1, want_position | want_first, at);
     place.uv = plane.c;
     place.jet = surface_at(cad_, ref, wants, plane.c);

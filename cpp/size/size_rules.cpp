@@ -3,22 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <string>
 
-#include "support/error.h"
+#include "size/thresholds.h"
 #include "support/format.h"
 
 namespace carreau {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned both_derivatives = want_first | want_second;
-/// How far towards the middle of a curve its surfaces are asked when its end is a pole, as a fraction of the way.
-constexpr double way_inside = 1e-3;
-/// Corners of one face nearer than this fraction of the box of its corners are one.
-constexpr double same_corner = 1e-6;
+using namespace thresholds::size;
 
 void check_bounds(const char* name, double least, double most) {
   if (least > 0 && least <= most && std::isfinite(most)) return;
@@ -162,6 +157,24 @@ Where SizeRules::where_of(const CurveUse& use, double t) const {
           .t = t};
 }
 
+/// Where the surface beside a curve is asked when the curve's end is a pole.
+double SizeRules::towards_middle(const CurveUse& use, double t) const {
+  const Interval i = cad_.curve_interval(model_.faces[static_cast<std::size_t>(use.face)].ref, use.curve + 1);
+  return t + way_inside * (i.a + (i.b - i.a) / 2 - t);
+}
+
+/// Of the points of a batch that have a value, the nearest one to p, which takes it; the first of equally near ones.
+std::optional<std::size_t> SizeRules::nearest_of(std::span<const std::size_t> sound, std::span<const Vec2> uv,
+                                                 const Vec2& p) {
+  std::optional<std::size_t> found;
+  double nearest = infinity;
+  for (const std::size_t k : sound) {
+    const double distance = norm(uv[k] - p);
+    if (distance < nearest) nearest = distance, found = k;
+  }
+  return found;
+}
+
 // ---- physical sizes (RT-0232 sec. 3.1.3 a) ----
 
 std::optional<double> SizeRules::ask_surface(int face, const Vec2& uv) const {
@@ -169,6 +182,12 @@ std::optional<double> SizeRules::ask_surface(int face, const Vec2& uv) const {
   const auto answer = checked_size(cad_.surface_size(ref, uv), "cad_hphys", Where{.face = ref, .uv = uv});
   if (!answer) return {};
   return clamped_physical(*answer);
+}
+
+/// As the host has it; to be clamped.
+std::optional<double> SizeRules::ask_point(int point) const {
+  const int ref = topology_.points[static_cast<std::size_t>(point)].ref;
+  return checked_size(cad_.point_size(ref), "cad_hphyp", Where{.point = ref});
 }
 
 /// The uses of a curve are asked in their order, the first being the one that defines it; the first answer counts.
@@ -247,10 +266,7 @@ double SizeRules::compute_physical_at_point(int point) {
   if (uses_metrics()) return metric_physical_at_point(point);
   const double usual = clamped_physical(parameters_.hphydef);
   if (parameters_.physical == PhysicalSizes::uniform) return usual;
-  const int ref = topology_.points[static_cast<std::size_t>(point)].ref;
-  if (const auto answer = checked_size(cad_.point_size(ref), "cad_hphyp", Where{.point = ref})) {
-    return clamped_physical(*answer);
-  }
+  if (const auto answer = ask_point(point)) return clamped_physical(*answer);
   const std::vector<CurveEnd> ends = ends_at(point);
   std::vector<double> answers;
   int answered = -1;  // a closed curve counts once
@@ -280,13 +296,24 @@ double SizeRules::interpolated_on_curve(int curve, double r) {
   return interpolate_size(law(), physical_at_point(c.end1), physical_at_point(c.end2), r);
 }
 
+/// The physical part of ask_on_curve().
+CurveSizes SizeRules::ask_physical_on_curve(int curve, std::span<const double> t, double r) {
+  switch (parameters_.physical) {
+    case PhysicalSizes::ignored:
+      return {.answered = true, .physical = infinity};
+    case PhysicalSizes::uniform:
+      return {.answered = true, .physical = clamped_physical(parameters_.hphydef)};
+    case PhysicalSizes::asked:
+      break;
+  }
+  auto answer = ask_curve(curve, t);
+  if (!answer) answer = ask_surfaces_beside(curve, t);
+  return {.answered = answer.has_value(), .physical = answer ? *answer : interpolated_on_curve(curve, r)};
+}
+
 double SizeRules::physical_on_curve(int curve, std::span<const double> t, double r) {
   if (parameters_.physical == PhysicalSizes::ignored) return infinity;
-  if (uses_metrics()) return ask_on_curve(curve, t, r).physical;
-  if (parameters_.physical == PhysicalSizes::uniform) return clamped_physical(parameters_.hphydef);
-  if (const auto answer = ask_curve(curve, t)) return *answer;
-  if (const auto answer = ask_surfaces_beside(curve, t)) return *answer;
-  return interpolated_on_curve(curve, r);
+  return uses_metrics() ? metric_sizes_on_curve(curve, t, r).physical : ask_physical_on_curve(curve, t, r).physical;
 }
 
 // ---- geometric sizes (RT-0232 sec. 3.1.3 b) ----
@@ -322,9 +349,7 @@ std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, co
   const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
   const auto uv_at = [&](double at) { return cad_.curve(ref, use.curve + 1, want_position, at).c; };
   if (const auto radius = radius_in_face(use.face, uv_at(t), jet)) return radius;
-  const Interval i = cad_.curve_interval(ref, use.curve + 1);
-  const double inside = t + way_inside * (i.a + (i.b - i.a) / 2 - t);
-  return radius_in_face(use.face, uv_at(inside), nullptr);
+  return radius_in_face(use.face, uv_at(towards_middle(use, t)), nullptr);
 }
 
 /// `jet` becomes that of the first use, which defines the curve's shape, when it had to be evaluated.
@@ -368,15 +393,7 @@ double SizeRules::at_point(int point) {
 
 CurveSizes SizeRules::ask_on_curve(int curve, std::span<const double> t, double r) {
   if (uses_metrics()) return metric_sizes_on_curve(curve, t, r);
-  CurveSizes sizes{.answered = true, .physical = infinity};
-  if (parameters_.physical == PhysicalSizes::asked) {
-    auto answer = ask_curve(curve, t);
-    if (!answer) answer = ask_surfaces_beside(curve, t);
-    sizes.answered = answer.has_value();
-    sizes.physical = answer ? *answer : interpolated_on_curve(curve, r);
-  } else if (parameters_.physical == PhysicalSizes::uniform) {
-    sizes.physical = clamped_physical(parameters_.hphydef);
-  }
+  CurveSizes sizes = ask_physical_on_curve(curve, t, r);
   sizes.h = std::min(sizes.physical, geometric_on_curve(curve, t));
   return sizes;
 }
@@ -393,15 +410,8 @@ void SizeRules::geometric_on_surface(int face, std::span<const Vec2> uv, std::sp
     if (known) radius[i] = *known;
     (known ? sound : degenerate).push_back(i);
   }
-  for (const std::size_t i : degenerate) {
-    double nearest = infinity;
-    for (const std::size_t k : sound) {
-      const double distance = norm(uv[k] - uv[i]);
-      if (!(distance < nearest)) continue;
-      nearest = distance;
-      radius[i] = radius[k];
-    }
-  }
+  for (const std::size_t i : degenerate)
+    if (const auto k = nearest_of(sound, uv, uv[i])) radius[i] = radius[*k];
   for (std::size_t i = 0; i < uv.size(); ++i) h[i] = std::min(h[i], clamped_geometric(radius[i]));
 }
 

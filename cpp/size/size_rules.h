@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "size/geometric_metric.h"
 #include "size/size_law.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -45,7 +45,7 @@ struct SizeParameters {
   double angle_mesh = 8;  ///< degrees
   GeometricCriterion geo_rule = GeometricCriterion::angle;
   double eps_chord = 0;          ///< A0, model length; > 0 where geo_rule is chord or both
-  bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor, guaranteed_chord_factor
+  bool geo_guarantee = false;    ///< sizes times guaranteed_angle_factor or guaranteed_chord_factor (thresholds.h)
   bool geo_anisotropic = false;  ///< sizes by both principal radii
   double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
   MetricCombination metric_combination = MetricCombination::intersection;
@@ -55,9 +55,9 @@ struct SizeParameters {
 
 /// What a geometric rule asks of a mesh (HDR sec. 4.3); infinity: nothing.
 struct GeometricLimits {
-  double edge_angle_deg = std::numeric_limits<double>::infinity();  ///< of edges with tangent planes at their ends
-  double deviation = std::numeric_limits<double>::infinity();       ///< A0 of triangles, model length
-  double shortest_divided = 0;  ///< edges below it are as short as hgeomin lets them be, whatever they exceed
+  double edge_angle_deg = infinity;  ///< of edges with tangent planes at their ends
+  double deviation = infinity;       ///< A0 of triangles, model length
+  double shortest_divided = 0;       ///< edges below it are as short as hgeomin lets them be, whatever they exceed
 
   [[nodiscard]] bool any() const noexcept { return std::isfinite(edge_angle_deg) || std::isfinite(deviation); }
 };
@@ -174,9 +174,14 @@ class SizeRules {
 
   [[nodiscard]] double clamped_physical(double h) const noexcept;
   [[nodiscard]] Where where_of(const CurveUse& use, double t) const;
+  [[nodiscard]] double towards_middle(const CurveUse& use, double t) const;
+  static std::optional<std::size_t> nearest_of(std::span<const std::size_t> sound, std::span<const Vec2> uv,
+                                               const Vec2& p);
   std::optional<double> ask_surface(int face, const Vec2& uv) const;
+  std::optional<double> ask_point(int point) const;
   std::optional<double> ask_curve(int curve, std::span<const double> t);
   std::optional<double> ask_surfaces_beside(int curve, std::span<const double> t);
+  CurveSizes ask_physical_on_curve(int curve, std::span<const double> t, double r);
   std::optional<double> mean_of(const std::vector<double>& answers) const;
   double compute_physical_at_point(int point);
   double compute_geometric_at_point(int point);

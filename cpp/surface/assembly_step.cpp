@@ -9,6 +9,7 @@
 #include "surface/assembly/shared_chords.h"
 #include "surface/lift/verification.h"
 #include "surface/run.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 
@@ -82,7 +83,7 @@ std::vector<FaceCollapse> collapses(CompositeRun& run) {
 }  // namespace
 
 void assemble_patches(CompositeRun& run) {
-  run.tell(Phase::assembly, 0, curves_share + patches_share);
+  run.tell(Phase::assembly, 0, thresholds::patches::curves_share + thresholds::patches::patches_share);
   separate_chords(run.model, run.topology, run.domains, run.curves, run.cad, run.patches, run.options.threads,
                   run.monitor);
   refuse_degenerate(run);

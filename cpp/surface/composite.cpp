@@ -6,6 +6,7 @@
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
 #include "surface/run.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 
@@ -28,7 +29,7 @@ void mesh_without_narrow(CompositeRun& run) {
   const std::vector<DiscreteCurve> before = run.curves;
   mesh_discretised(run);
   if (collapse_narrow_together(run)) return;
-  run.begin += (1 - run.begin) * (curves_share + patches_share);
+  run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
   run.narrow.vanishing = {};
   run.curves = before;
   mesh_discretised(run);

@@ -9,23 +9,13 @@
 
 #include "mesh/intersections.h"
 #include "surface/run.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
-constexpr std::size_t most_pairs = 100'000;
-// Share of the larger sagitta. What two surfaces that coincide leave between their points over one place of a crossing
-// is of second order; walls as far apart as this share are told from them.
-constexpr double least_gap = 0.25;
-// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
-constexpr double no_sagitta = 1e-12;
-// Times. From one round to the next walls that are apart stay so.
-constexpr double most_fall_of_gap = 0.5;
-// Of the gap, what sagittas of both sides are to leave; they are as the squares of lengths. Shares of the longest edge
-// of a triangle that crosses another one, whatever the gap.
-constexpr double sagitta_share = 0.5, least_share = 0.25, most_share = 0.6;
+using namespace thresholds::crossings;
 
 /// A triangle of the whole mesh, by its face.
 struct MeshTriangle {
@@ -168,6 +158,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
   if (run.options.crossing_rounds == 0) return;
   Crossings now(run), best = now;
   std::optional<CompositeResult> best_result;  // empty: that of the run
+  const std::size_t first = now.all.triangles.size();
   FinerPlaces places = places_to_refine(run, now);
   for (int round = 0; round < run.options.crossing_rounds && !places.edges.empty(); ++round) {
     make_finer(run, places);
@@ -178,6 +169,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     mesh_again();
     now = Crossings(run);
     if (now.better_than(best)) best = now, best_result.reset();
+    if (now.all.triangles.size() > most_growth * first) break;
     const FinerPlaces next = places_to_refine(run, now);
     if (best_result && surfaces_cross(places, next)) break;
     places = next;

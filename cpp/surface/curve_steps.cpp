@@ -5,15 +5,13 @@
 #include "support/stepped_tasks.h"
 #include "surface/narrow/thin_bodies.h"
 #include "surface/run.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Curves that are cut between two reports of progress where several threads cut them.
-constexpr std::size_t curves_at_once = 64;
-// Share of the whole that the gradation takes before the curves, when there is one.
-constexpr double gradation_share = 0.3;
+using namespace thresholds::patches;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
-#include <limits>
 
 #include "gradation/gradation.h"
 #include "plane/plane_mesher.h"
 #include "support/format.h"
+#include "support/infinity.h"
 #include "surface/domain/domain_check.h"
 #include "surface/improve/refinement.h"
 #include "surface/improve/shape_in_space.h"
@@ -16,26 +16,20 @@
 #include "surface/lift/verification.h"
 #include "surface/reparametrise/even_parameters.h"
 #include "surface/sample/edge_growth.h"
+#include "surface/sample/thresholds.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 namespace {
 
-// Times that a patch is meshed again because the lift disagrees.
-constexpr int most_corrections = 3;
-// Times that it is because it has missed places of small sizes; each time those beside the ones found come to light.
-constexpr int most_refills = 6;
-// A mesh that would become so many times larger has not missed a place: its sizes are damaged nearly everywhere.
-constexpr double most_growth = 1000;
+using namespace thresholds::patches;
 
 /// Whether the surface jumps between two places: of halves of an edge, the longer one each time, the chord shrinks on
 /// a surface that is continuous, however small its derivatives are at the ends (cusps of offset surfaces).
 bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
-  constexpr int halvings = 30;     // 1e-9 of the edge; more would compare numbers that are rounded
-  constexpr double shrunk = 0.1;   // a surface as steep as a square root leaves 3e-5
-  constexpr double noise = 1e-10;  // of coordinates, more than what evaluators leave
   Vec3 p = surface_at(cad, face, want_position, from).s, q = surface_at(cad, face, want_position, to).s;
   const double whole = norm(q - p);
-  for (int i = 0; i < halvings; ++i) {
+  for (int i = 0; i < jump_halvings; ++i) {
     const Vec2 middle = 0.5 * (from + to);
     const Vec3 m = surface_at(cad, face, want_position, middle).s;
     if (norm(m - p) > norm(q - m))
@@ -43,21 +37,8 @@ bool jumps(Cad& cad, int face, Vec2 from, Vec2 to) {
     else
       from = middle, p = m;
   }
-  return norm(q - p) > shrunk * whole + noise * std::max(norm(p), norm(q));
+  return norm(q - p) > jump_share * whole + jump_noise * std::max(norm(p), norm(q));
 }
-
-// Edges that are looked at for jumps before a patch is corrected; after that, all are.
-constexpr std::size_t most_looked_at_first = 30;
-
-// Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
-constexpr double most_lean = 0.5;
-// Ratio by which sizes then grow from one edge to the next: where the curvature vanishes along a line they would jump.
-constexpr double gentle = 1.5;
-// A mesh that follows the surface may have so many times more triangles.
-constexpr double most_growth_bounded = 64;
-
-// A patch of less than this share of its extent squared is what rounding leaves of a line.
-constexpr double no_area = 1e-14;
 
 /// Adds the time of its life.
 class Stopwatch {
@@ -197,7 +178,7 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
 // they would jump. False: there is nothing more to try.
 bool FaceJob::sample_bounded(Monitor& monitor) {
   if (++bounded_rounds_ > (given_slope_ > 0 ? 1 : 2)) return false;
-  input_.limits.tilt = most_lean;
+  input_.limits.lean = most_lean;
   if (bounded_rounds_ == 2) input_.slope = slope_of_gradation(gentle);
   const Stopwatch watch(report_.seconds_sampling);
   space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor);
@@ -229,8 +210,8 @@ void FaceJob::add_remark(const std::string& what) {
 
 // Sources know the host's parameters only.
 double FaceJob::most_uneven() const noexcept {
-  if (rules_->asks_sources()) return std::numeric_limits<double>::infinity();
-  return evened_out_ && !even_ ? hopeless_speed : uneven_speed;
+  if (rules_->asks_sources()) return infinity;
+  return evened_out_ && !even_ ? thresholds::sample::hopeless_speed : thresholds::sample::uneven_speed;
 }
 
 void FaceJob::even_out(const UnevenSpeed& speed, Monitor& monitor) {

@@ -104,7 +104,7 @@ class FaceJob final : public SteppedTask {
     PatchMesh mesh;
     ControlSpace space;
     SurfaceAgreement agreement;
-    bool bounded = false;  // by SizeLimits::tilt
+    bool bounded = false;  // by SizeLimits::lean
   };
   std::optional<Attempt> best_;
   SurfaceAgreement prescribed_;  // of the mesh of the sizes prescribed

@@ -6,14 +6,13 @@
 
 #include "surface/face_job.h"
 #include "surface/run.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Edges that are shorter than this share of the size prescribed at both ends let sizes grow from them. Those of a curve
-// that is one edge or several are at least 0.7 and 0.8 of it.
-constexpr double short_share = 0.7;
+using namespace thresholds::patches;
 
 std::vector<EdgeSizes::Source> short_edges(const FaceDomain& domain, const std::vector<Vec3>& xyz) {
   std::vector<EdgeSizes::Source> edges;

@@ -4,14 +4,15 @@
 
 #if defined(__unix__)
 #include <unistd.h>
+
+#include "surface/thresholds.h"
 #endif
 
 namespace carreau {
 
 namespace {
 
-// What a triangle may cost while a patch is meshed, the mesh itself and copies included.
-constexpr double bytes_per_triangle = 300;
+using namespace thresholds::patches;
 
 std::int64_t triangles_by_memory() {
 #if defined(__unix__)

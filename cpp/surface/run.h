@@ -59,9 +59,6 @@ struct CompositeRun {
   std::set<std::string> told;  ///< once, however often something is meshed
 };
 
-/// Shares of the progress of what comes after the gradation.
-inline constexpr double curves_share = 0.1, patches_share = 0.85;
-
 /// The steps, in their order; composite.cpp calls them. Each throws what the host throws, LimitError and Cancelled.
 
 /// Grades the prescribed sizes of the whole model, where a gradation is asked for. One size everywhere obeys any.

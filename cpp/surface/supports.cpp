@@ -1,8 +1,8 @@
 #include "surface/supports.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "support/infinity.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
@@ -27,8 +27,7 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
     }
   };
   run_each(model.faces.size(), !cad.reentrant(), threads, build_or_say_why, monitor);
-  constexpr double far = std::numeric_limits<double>::infinity();
-  Vec3 low{far, far, far}, high{-far, -far, -far};
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
   for (const auto& of_face : supports.of_face)
     for (const CurveSupport& support : of_face)
       for (const Vec3& p : support.xyz) {

@@ -2,18 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "plane/optimise/zone_moves.h"
 #include "plane/thresholds.h"
+#include "support/infinity.h"
 
 namespace carreau::plane {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Change {
   enum class Kind : std::uint8_t { none, swap, collapse, split } kind;

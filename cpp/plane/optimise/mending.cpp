@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "plane/optimise/star_cost.h"
 #include "plane/thresholds.h"
+#include "support/infinity.h"
 
 namespace carreau::plane {
 
 namespace {
 
 // What moves make small: bad triangles weigh much; one that is turned over outweighs everything.
-double penalty(double quality) noexcept {
-  return quality > 0 ? 1 / (quality * quality) : std::numeric_limits<double>::infinity();
-}
+double penalty(double quality) noexcept { return quality > 0 ? 1 / (quality * quality) : infinity; }
 
 double shape(const Mending& m, const Triangle& T) { return m.work.shapes.quality_at_centroid(T.v[0], T.v[1], T.v[2]); }
 
@@ -43,7 +41,7 @@ bool move_to_best(Mending& m, int v) {
   const auto cost = [&](double enough) {
     return star_cost(m.work.shapes, v, m.star.link, enough, penalty, m.shapes_asked);
   };
-  const double before = cost(std::numeric_limits<double>::infinity());
+  const double before = cost(infinity);
   double best = before;
   for (double step = 0.24; step > 0.02; step *= 0.5) {
     const UnitCircle circle(P.metric());

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,12 +10,13 @@
 #include "plane/kernel/plane_work.h"
 #include "plane/kernel/star.h"
 #include "plane/optimise/memo.h"
+#include "support/infinity.h"
 
 namespace carreau::plane {
 
 /// Cost of a triangle of this shape. The worst weigh most: 2.8 at .8, 0.36 at .95. Equilateral triangles cost nothing.
 inline double shape_cost(double quality) noexcept {
-  if (!(quality > 0)) return std::numeric_limits<double>::infinity();
+  if (!(quality > 0)) return infinity;
   const double inverse2 = 1 / (quality * quality);
   return inverse2 * inverse2 * inverse2 - 1;
 }

@@ -1,11 +1,11 @@
 #include "plane/placement/undersampled_regions.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
 #include "plane/thresholds.h"
+#include "support/infinity.h"
 
 namespace carreau::plane {
 
@@ -16,7 +16,7 @@ int triangle_at(const Triangulation& mesh, const Vec2& p) {
   const int t = mesh.locate(p, mesh.vertices.back().triangle);
   if (t >= 0) return t;
   int nearest = 0;
-  double best = std::numeric_limits<double>::infinity();
+  double best = infinity;
   for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
     const Vec2 d = mesh.at(v) - p;
     if (dot(d, d) < best) best = dot(d, d), nearest = v;

@@ -12,6 +12,7 @@
 #include "model/union_find.h"
 #include "support/error.h"
 #include "support/format.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -181,7 +182,7 @@ class Collapser {
     for (const CurveMesh& curve : new_.mesh.curves)
       if (!curve.uses.empty())
         for (const std::int32_t v : curve.vertices) use(v);
-    std::vector<double> smallest(old_.vertices.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> smallest(old_.vertices.size(), infinity);
     for (std::size_t v = 0; v < old_.vertices.size(); ++v) {
       double& size = smallest[merged(static_cast<std::int32_t>(v))];
       size = std::min(size, old_size_[v]);

@@ -12,9 +12,11 @@ namespace carreau {
 
 namespace {
 
-// Halvings of the interval that holds the middle of a chord in space.
+// Halvings of the interval that holds the middle of a chord in space: a 64th of it. [tests/cpp/surface:
+// Coarse.TwoSheetsOverOneSquareEncloseAVolume, as below]
 constexpr int middle_steps = 6;
-constexpr int most_passes = 10;
+// Passes, each of which divides the chords that are left; a division may make another one.
+constexpr int chord_passes = 10;
 
 using Key = std::array<std::int64_t, 2>;
 
@@ -54,7 +56,7 @@ class Separator {
 
   std::int64_t run() {
     // A new vertex may see both sides of a seam: the next pass finds that.
-    for (int pass = 0; pass < most_passes; ++pass) {
+    for (int pass = 0; pass < chord_passes; ++pass) {
       const std::int64_t before = added_;
       chords_.clear();
       std::vector<std::vector<Chord>> of_face(patches_.size());

@@ -4,23 +4,18 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <map>
 
 #include "support/error.h"
+#include "support/infinity.h"
 #include "surface/domain/domain_check.h"
+#include "surface/domain/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Ends of curves that are one point in space are one vertex of the domain when they are nearer than this share of the
-// shortest edge beside them: exact corners differ by rounding, seam corners by whole sides. Where loops do not close
-// by that, this share of the shortest curve counts: hosts have gaps that do not shrink with the size of edges.
-constexpr double joining_share = 0.25;
-// A curve that is one point in space is one in (u, v) as well when it is shorter than this share of the edges beside
-// it: tiny edges of CAD files are, sides at poles are not.
-constexpr double point_share = 1e-3;
+using namespace thresholds::domain;
 
 /// Ends of curves that are one vertex of the domain.
 struct Junction {
@@ -90,7 +85,6 @@ class Builder {
 
   // An angle beside a length in millionths of a model's unit: both count by what the whole domain has of them.
   void measure_box() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Vec2 low{infinity, infinity}, high{-infinity, -infinity};
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c)
       for (const Vec2& p : uv_of(c)) {
@@ -208,7 +202,7 @@ class Builder {
   // Length of the shortest other curve that ends at the corner of a side; 0 when there is none.
   [[nodiscard]] double shortest_beside(int side) const {
     const auto corner_of = [this](int c) { return stand_in(topology_.curves[curve_of_[c]].end1); };
-    double shortest = std::numeric_limits<double>::infinity();
+    double shortest = infinity;
     for (int c = 0; c < static_cast<int>(face_.curves.size()); ++c) {
       const int far_end = stand_in(topology_.curves[curve_of_[c]].end2);
       if (c == side || is_left_out(c) || (corner_of(c) != corner_of(side) && far_end != corner_of(side))) continue;
@@ -220,7 +214,7 @@ class Builder {
   // Two junctions of one corner at which an odd number of curves end were torn apart by a gap: nearest ones first.
   void close_loops() {
     for (;;) {
-      double nearest = std::numeric_limits<double>::infinity();
+      double nearest = infinity;
       std::array<int, 2> pair{-1, -1};
       for (int i = 0; i < static_cast<int>(junctions_.size()); ++i)
         for (int j = i + 1; j < static_cast<int>(junctions_.size()); ++j) {

@@ -56,11 +56,6 @@ bool orient_loops(PlaneDomain& domain, int seed, bool left);
 /// same vertices (HDR sec. 3.3.1). Never a degenerate edge. Increasing.
 std::vector<int> edges_to_split_for_crossings(const PlaneDomain& domain);
 
-/// Zones narrower than this share of the size are left to long triangles: edges as short as such a zone asks for, six
-/// hundred times shorter than the size, would spoil the faces beside it and not even fill it well. The narrowest that
-/// edges are cut for, a sliver of 1e-4 of a model at a size of a fifth of it, has 5e-4.
-inline constexpr double narrowest_share = 4e-4;
-
 /// CoefRectangle for what is `width` from an edge (in sizes). Below .1, in zones narrower than a 250th of the size, it
 /// falls with the width, so that edges get no shorter the narrower the zone is, down to a fiftieth, where triangles
 /// have Q2 of .035. A wire 1000 long and .01 thick would have a hundred thousand triangles else at a size of 15.
@@ -69,8 +64,8 @@ inline constexpr double narrowest_share = 4e-4;
 /// Edges longer than what is close to them allows: a vertex that is none of its ends lies within coef * length of the
 /// edge (coefficient_of_width), on the domain's side, lengths in the metric at the edge's midpoint (HDR sec. 3.3.2).
 /// The band is narrower where an acute corner explains the closeness, so that splitting in halves and checking again
-/// ends (README); what is nearer than narrowest_share is not looked at. Needs loops that are turned and do not cross.
-/// Never a degenerate edge. Increasing. coef: CoefRectangle; none when it is not positive.
+/// ends (README); what is nearer than narrowest_share (thresholds.h) is not looked at. Needs loops that are turned and
+/// do not cross. Never a degenerate edge. Increasing. coef: CoefRectangle; none when it is not positive.
 std::vector<int> edges_to_split_for_closeness(const PlaneDomain& domain, const ControlSpace& metric, double coef);
 
 /// Edges more than `ratio` times longer, in the metric at the midpoints, than the next edge of their curve or loop (HDR

@@ -10,23 +10,12 @@
 #include "predicates/predicates.h"
 #include "surface/domain/domain_check.h"
 #include "surface/domain/domain_graph.h"
+#include "surface/domain/thresholds.h"
 
 namespace carreau {
 namespace {
 
-/// Largest coefficient among neighbours along the boundary. Below one half a split only makes edges that are longer
-/// than some edge beside them, so that splitting ends (README).
-constexpr double most_among_neighbours = 0.45;
-/// Two sides of a corner of angle t are at least s sin(t) apart at distance s; curved sides and a varying metric need a
-/// reserve.
-constexpr double corner_reserve = 0.25;
-/// Width in sizes below which the coefficient falls, and what it falls to.
-constexpr double thin_width = 4e-3;
-constexpr double least_coefficient = 0.02;
-/// A coefficient from which on shapes are wanted at any price: it holds at any width, as in the manual.
-constexpr double least_wanted_coefficient = 0.1;
-/// A path along the boundary at most this many times longer than the direct way is no narrow zone.
-constexpr double longest_detour = 4;
+using namespace thresholds::domain;
 
 /// Boundary and internal edges as chains without acute corners, measured by arc length in the metric. Ends of
 /// degenerate edges are one point.
@@ -258,8 +247,10 @@ bool ClosenessCheck::is_too_long(int edge) const {
   if (!(delta > 0) || !(det > 0)) return false;
   // Half-axes of the box about the ellipse of radius delta.
   const Vec2 reach{delta * std::sqrt(m.c / det), delta * std::sqrt(m.a / det)};
-  const int left = grid_.column_of(std::min(a.x(), b.x()) - reach.x()), right = grid_.column_of(std::max(a.x(), b.x()) + reach.x());
-  const int bottom = grid_.row_of(std::min(a.y(), b.y()) - reach.y()), top = grid_.row_of(std::max(a.y(), b.y()) + reach.y());
+  const int left = grid_.column_of(std::min(a.x(), b.x()) - reach.x()),
+            right = grid_.column_of(std::max(a.x(), b.x()) + reach.x());
+  const int bottom = grid_.row_of(std::min(a.y(), b.y()) - reach.y()),
+            top = grid_.row_of(std::max(a.y(), b.y()) + reach.y());
   for (int row = bottom; row <= top; ++row)
     for (int column = left; column <= right; ++column)
       for (const int vertex : grid_.edges_in(column, row))

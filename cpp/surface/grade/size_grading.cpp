@@ -5,37 +5,17 @@
 #include <cstdint>
 
 #include "curve/unit_discretisation.h"
-#include "surface/grade/grading_round.h"
+#include "surface/grade/grading_work.h"
+#include "surface/grade/kinds.h"
+#include "surface/grade/thresholds.h"
 
-namespace carreau::detail {
+namespace carreau {
 
-namespace {
+namespace detail {
 
-constexpr std::size_t most_size_minima = 50;
-// Samples of a curve's sizes on each of its edges in the graph.
-constexpr int samples_per_edge = 4;
+using namespace thresholds::grade;
 
-}  // namespace
-
-// Where some size is another vertex's, or some sample not what the corners of its triangle make of it, the
-// prescribed sizes do not obey the gradation.
-void GradingRound::find_rough(std::size_t f) {
-  GradedFace& face = faces_[f];
-  const auto prescribed = [&](std::int32_t v) { return prescribed_h_[graph_.places[place_of_[f] + v].vertex]; };
-  for (std::size_t t = 0; t < face.triangles.size(); ++t)
-    for (const std::int32_t v : face.triangles[t])
-      if (dot(face.front[v].line, face.front[v].line) > 0 || face.h[v] < (1 - roughness) * prescribed(v))
-        face.smooth[t] = 0;
-  for (const Sample& s : samples_[f]) {
-    double linear = 0;
-    for (int i = 0; i < 3; ++i) linear += s.promised[i] * face.h[face.triangles[s.triangle][i]];
-    if (std::abs(linear - s.h) > roughness * s.h) face.smooth[s.triangle] = 0;
-  }
-  widen_rough(face);
-}
-
-// Nor do they beside: samples are few.
-void GradingRound::widen_rough(GradedFace& face) {
+void widen_rough(GradedFace& face) {
   std::vector<char> beside(face.uv.size(), 0);
   for (std::size_t t = 0; t < face.triangles.size(); ++t)
     if (face.smooth[t] == 0)
@@ -45,80 +25,32 @@ void GradingRound::widen_rough(GradedFace& face) {
       if (beside[v] != 0) face.smooth[t] = 0;
 }
 
-// A vertex that is the source of all its neighbours.
-void GradingRound::find_size_minima(GradedFace& face) {
-  std::vector<char> minimum(face.uv.size(), 1);
-  for (const auto& t : face.triangles)
-    for (int i = 0; i < 3; ++i)
-      for (int k = 1; k < 3; ++k) {
-        const std::int32_t v = t[i], w = t[(i + k) % 3];
-        if (face.xyz[v] == face.xyz[w]) continue;  // a pole has several vertices
-        const GradationFront& f = face.front[w];
-        if (dot(f.line, f.line) == 0 || f.source_h != face.h[v]) minimum[v] = 0;
-      }
-  for (std::size_t v = 0; v < minimum.size() && face.size_minima.size() < most_size_minima; ++v)
-    if (minimum[v] != 0) face.size_minima.push_back(face.uv[v]);
-}
+namespace {
 
-GradedModel GradingRound::grade(const std::vector<SizeSamples>& raw) {
-  const double slope = slope_of_gradation(options_.gradation);
-  const GradationFronts fronts = grade_fronts(graph_, h_, sources_, slope, monitor_);
-  for (const auto& t : graph_.triangles)
+/// A graph whose sizes are graded.
+struct Round {
+  GradedModel graded;
+  std::size_t long_edges = 0;  ///< of the graph, for the graded sizes
+};
+
+template <typename Kind>
+std::size_t count_long_edges(const GradationGraph& graph, const Kind& kind) {
+  std::size_t count = 0;
+  for (const auto& t : graph.triangles)
     for (int i = 0; i < 3; ++i) {
-      const int a = graph_.places[t[i]].vertex, b = graph_.places[t[(i + 1) % 3]].vertex;
-      long_edges_ +=
-          normalised_length(SizeLaw::linear, fronts.h[a], fronts.h[b], norm(graph_.xyz[a] - graph_.xyz[b])) > too_long;
+      const int a = t[i], b = t[(i + 1) % 3];
+      const Vec3 e = graph.xyz[graph.places[b].vertex] - graph.xyz[graph.places[a].vertex];
+      count += normalised_length(SizeLaw::linear, kind.along(a, unit(e)), kind.along(b, unit(e)), norm(e)) > too_long;
     }
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (std::size_t v = 0; v < faces_[f].uv.size(); ++v) {
-      faces_[f].front.push_back(fronts.front[place_of_[f] + v]);
-      faces_[f].h.push_back(fronts.h[graph_.places[place_of_[f] + v].vertex]);
-    }
-    find_rough(f);
-    find_size_minima(faces_[f]);
-  }
-  GradedModel result;
-  result.triangles = graph_.triangles.size();
-  result.field = std::make_shared<GradedField>(slope, std::move(faces_));
-  for (std::size_t c = 0; c < raw.size(); ++c) result.curves.push_back(bounded(c, raw[c], fronts.h, *result.field));
-  return result;
-}
-
-// Sizes along a curve, between the graded ones at its vertices in the graph.
-SizeSamples GradingRound::bounded(std::size_t c, const SizeSamples& raw, const std::vector<double>& h,
-                                  const GradedField& field) const {
-  const DiscreteCurve& d = curves_[c];
-  const Curve& curve = model_.topology.curves[c];
-  SizeSamples result;
-  const auto add = [&](double r, double size) {
-    result.r.push_back(r);
-    result.h.push_back(size);
-    result.physical.push_back(raw.physical_at(r));
-  };
-  for (std::size_t k = 0; k + 1 < d.r.size(); ++k) {
-    const double left = h[node_of_[c][k]], right = h[node_of_[c][k + 1]];
-    add(d.r[k], left);
-    if (d.indivisible) continue;
-    for (const double r : between(d.r[k], d.r[k + 1], raw.r)) {
-      const double w = (r - d.r[k]) / (d.r[k + 1] - d.r[k]);
-      double size = std::lerp(left, right, w);
-      const Vec3 xyz = lerp(d.xyz[k], d.xyz[k + 1], w);
-      for (std::size_t u = 0; u < curve.uses.size(); ++u)
-        size = std::min(
-            size, field.size(curve.uses[u].face, lerp(d.uv_of_use[u][k], d.uv_of_use[u][k + 1], w), xyz, infinity));
-      add(r, size);
-    }
-  }
-  add(d.r.back(), h[node_of_[c].back()]);
-  return result;
+  return count;
 }
 
 // Where the sizes of a curve are sampled inside an edge of the graph: at equal distances and where they are known.
-std::vector<double> GradingRound::between(double from, double to, const std::vector<double>& known) {
+std::vector<double> between(double from, double to, const std::vector<double>& known) {
   std::vector<double> at;
   for (int i = 1; i < samples_per_edge; ++i)
     at.push_back(std::lerp(from, to, static_cast<double>(i) / samples_per_edge));
-  const double least = 1e-6 * (to - from);
+  const double least = one_sample * (to - from);
   for (const double r : known)
     if (r > from + least && r < to - least) at.push_back(r);
   std::sort(at.begin(), at.end());
@@ -126,20 +58,63 @@ std::vector<double> GradingRound::between(double from, double to, const std::vec
   return at;
 }
 
-}  // namespace carreau::detail
+// Sizes along a curve, between the graded ones at its vertices in the graph.
+template <typename Kind>
+SizeSamples graded_along(const DiscreteCurve& d, std::size_t c, const SizeSamples& raw, const Kind& kind,
+                         const GradedField& field) {
+  SizeSamples result;
+  const auto add = [&](double r, double size) {
+    result.r.push_back(r);
+    result.h.push_back(size);
+    result.physical.push_back(raw.physical_at(r));
+  };
+  std::vector<double> h;
+  for (std::size_t k = 0; k < d.r.size(); ++k) h.push_back(kind.at_node(c, k, raw));
+  for (std::size_t k = 0; k + 1 < d.r.size(); ++k) {
+    add(d.r[k], h[k]);
+    if (d.indivisible) continue;
+    for (const double r : between(d.r[k], d.r[k + 1], raw.r)) {
+      const double w = (r - d.r[k]) / (d.r[k + 1] - d.r[k]);
+      add(r, kind.between_nodes(c, k, w, std::lerp(h[k], h[k + 1], w), raw.size_at(r), field));
+    }
+  }
+  add(d.r.back(), h.back());
+  return result;
+}
 
-namespace carreau {
+/// The driver of both kinds.
+template <typename Kind>
+Round grade(GradingWork& work, const std::vector<SizeSamples>& raw) {
+  const double slope = slope_of_gradation(work.options.gradation);
+  Kind kind(work);
+  kind.run(raw, slope);
+  Round round;
+  round.long_edges = count_long_edges(work.graph, kind);
+  for (std::size_t f = 0; f < work.faces.size(); ++f) kind.give_to_face(f);
+  round.graded.triangles = work.graph.triangles.size();
+  round.graded.field = std::make_shared<GradedField>(slope, std::move(work.faces));
+  for (std::size_t c = 0; c < raw.size(); ++c)
+    round.graded.curves.push_back(graded_along(work.curves[c], c, raw[c], kind, *round.graded.field));
+  round.graded.missed = std::move(work.missed);
+  return round;
+}
 
-namespace {
-
-constexpr int most_rounds = 5;
-// So many edges a triangle may be too long after the first round.
-constexpr double few_edges = 0.01;
+Round run_round(GradingWork& work, const std::vector<SizeSamples>& raw, const GradedModel& before) {
+  make_graph(work, raw, before);
+  if (work.options.proximity > 0) {
+    bound_narrow_zones(work);
+    bound_facing_faces(work);
+  }
+  return work.by_direction ? grade<DirectionalGrading>(work, raw) : grade<IsotropicGrading>(work, raw);
+}
 
 }  // namespace
 
+}  // namespace detail
+
 GradedModel grade_model(const CurveModel& model, SizeRules& rules, const CompositeOptions& options, double diag,
                         Monitor& monitor) {
+  using namespace thresholds::grade;
   std::vector<SizeSamples> raw;
   for (std::size_t c = 0; c < model.topology.curves.size(); ++c) {
     monitor.checkpoint();
@@ -148,16 +123,17 @@ GradedModel grade_model(const CurveModel& model, SizeRules& rules, const Composi
   GradedModel graded;
   std::size_t long_before = SIZE_MAX;
   double triangles_before = 0;
-  for (int round = 1; round <= most_rounds; ++round) {
-    detail::GradingRound next(model, rules, options, diag, monitor);
-    graded = next.run(raw, graded);
-    graded.rounds = round;
-    if (next.long_edges() == 0) break;
+  for (int number = 1; number <= most_rounds; ++number) {
+    detail::GradingWork work(model, rules, options, diag, monitor);
+    auto [now, long_edges] = detail::run_round(work, raw, graded);
+    graded = std::move(now);
+    graded.rounds = number;
+    if (long_edges == 0) break;
     // Those of a pole stay, and a few others change nothing.
     const double change = static_cast<double>(graded.triangles) / std::max(triangles_before, 1.) - 1;
-    const bool few = static_cast<double>(next.long_edges()) < few_edges * static_cast<double>(graded.triangles);
-    if ((round > 1 && few) || (std::abs(change) < 0.1 && 2 * next.long_edges() > long_before)) break;
-    long_before = next.long_edges();
+    const bool few = static_cast<double>(long_edges) < few_edges * static_cast<double>(graded.triangles);
+    if ((number > 1 && few) || (std::abs(change) < same_graph && 2 * long_edges > long_before)) break;
+    long_before = long_edges;
     triangles_before = static_cast<double>(graded.triangles);
   }
   return graded;

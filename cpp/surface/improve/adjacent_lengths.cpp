@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
 #include "mesh/quality.h"
+#include "support/infinity.h"
 #include "surface/improve/assembled_search.h"
 #include "surface/improve/thresholds.h"
 #include "surface/sample/face_metric.h"
@@ -23,7 +23,7 @@ using Vertices = std::vector<std::int32_t>;
 
 /// Vertices whose edges differ too much; all edges, by their squares.
 Vertices find_uneven(double limit, const SurfaceMesh& mesh, Monitor& monitor) {
-  std::vector<double> low(mesh.vertices.size(), std::numeric_limits<double>::infinity()), high(low.size(), 0);
+  std::vector<double> low(mesh.vertices.size(), infinity), high(low.size(), 0);
   for (const FaceMesh& face : mesh.faces) {
     monitor.checkpoint();
     for (const auto& t : face.triangles)
@@ -67,7 +67,7 @@ class LengthRatio {
       : limit_(limit), positions_(positions), search_(search), mesh_(search.mesh()), size_(sizes) {}
 
   [[nodiscard]] double excess(std::int32_t v) const {
-    double low = std::numeric_limits<double>::infinity(), high = 0;
+    double low = infinity, high = 0;
     for (const std::int32_t w : mesh_.ring(v)) {
       const double l = norm(positions_.vertices[w] - positions_.vertices[v]);
       low = std::min(low, l), high = std::max(high, l);
@@ -131,10 +131,10 @@ class LengthEvening {
       uneven = improve_ring_by_ring(
           std::move(uneven), {}, search_.budget(), monitor_, [this](std::int32_t v) { return is_uneven(v); },
           [this, change](std::int32_t v) { return (this->*change)(v); },
-          [this](std::int32_t v) {  // what is left of it, or has been left to others
-            Vertices around = mesh_.with_ring(v);
-            std::erase_if(around, [this](std::int32_t w) { return !mesh_.is_known(w) || !is_uneven(w); });
-            return around;
+          [this](std::int32_t v) {
+            Vertices left = search_.left_around(v);
+            std::erase_if(left, [this](std::int32_t w) { return !is_uneven(w); });
+            return left;
           });
     search_.update_sizes(isotropic_size, monitor_);
   }
@@ -194,13 +194,12 @@ class LengthEvening {
     Judgement best;
     for_edges_near(v, [&](const Quad& q) {
       const auto around = mesh_.corners(q);
-      const Judgement before = ratio_.judge(around);
-      const Vec3 mean = mesh_.mean_normal(q.places());
       const std::size_t edits = mesh_.edits();
-      if (!mesh_.swap(q)) return;
-      const Judgement after = ratio_.judge(around);
-      if (after.improves(before) && search_.agree(q.places(), mean) && (!found || after.better_than(best)))
-        found = q, best = after;
+      Judgement after;
+      if (!search_.swap_if_better(
+              q, ratio_.judge(around), [&] { return ratio_.judge(around); }, after))
+        return;
+      if (!found || after.better_than(best)) found = q, best = after;
       mesh_.undo(edits);
     });
     return found && mesh_.swap(*found);

@@ -183,7 +183,7 @@ class SizeEvening {
       gradation_.set_range(range);
       steep = mend(std::move(steep));
     }
-    search_.update_sizes(mean_size, monitor_);
+    search_.update_sizes(geometric_mean_size, monitor_);
   }
 
  private:
@@ -195,11 +195,7 @@ class SizeEvening {
     return improve_ring_by_ring(
         std::move(steep), {.ascending = true, .most = most_rings}, search_.budget(), monitor_,
         [this](std::int32_t v) { return is_steep(v); }, [this](std::int32_t v) { return move(v) || swap_one(v); },
-        [this](std::int32_t v) {  // what is left of it, or has been left to others
-          std::vector<std::int32_t> around = mesh_.with_ring(v);
-          std::erase_if(around, [this](std::int32_t w) { return !mesh_.is_known(w); });
-          return around;
-        });
+        [this](std::int32_t v) { return search_.left_around(v); });
   }
 
   [[nodiscard]] bool is_steep(std::int32_t v) const {
@@ -253,12 +249,10 @@ class SizeEvening {
       for (const int side : {i, (i + 2) % 3}) {
         const auto q = mesh_.quad(p, side);
         if (!q || !(gradation_.excess(q->face, q->a, q->b) > 0)) continue;
-        const Judgement before = of_quad(*q, q->a, q->b);
-        const Vec3 mean = mesh_.mean_normal(q->places());
-        const std::size_t edits = mesh_.edits();
-        if (!mesh_.swap(*q)) continue;
-        if (of_quad(*q, q->c, q->d).improves(before) && search_.agree(q->places(), mean)) return true;
-        mesh_.undo(edits);
+        Judgement after;
+        if (search_.swap_if_better(
+                *q, of_quad(*q, q->a, q->b), [&] { return of_quad(*q, q->c, q->d); }, after))
+          return true;
       }
     }
     return false;

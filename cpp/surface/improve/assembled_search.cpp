@@ -37,6 +37,12 @@ bool AssembledSearch::agree(std::span<const Place> places, const Vec3& mean) con
   });
 }
 
+std::vector<std::int32_t> AssembledSearch::left_around(std::int32_t v) const {
+  std::vector<std::int32_t> around = mesh_.with_ring(v);
+  std::erase_if(around, [this](std::int32_t w) { return !mesh_.is_known(w); });
+  return around;
+}
+
 void AssembledSearch::update_sizes(double (*size_of)(const SurfaceJet&, Metric2), Monitor& monitor) {
   std::sort(changed_.begin(), changed_.end());
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());

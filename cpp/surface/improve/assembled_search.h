@@ -34,6 +34,21 @@ class AssembledSearch {
   /// None of the triangles is turned much from `mean`, the mean normal of those that they replace.
   [[nodiscard]] bool agree(std::span<const Place> places, const Vec3& mean) const;
 
+  /// The vertex and its neighbours, where something may be left to do after a change; without those beyond the edits.
+  [[nodiscard]] std::vector<std::int32_t> left_around(std::int32_t v) const;
+  /// Swaps the diagonal of a quadrilateral if that improves on `before` and turns no triangle much; else nothing
+  /// changes. `judge()`: of what is there, `after`.
+  template <typename Judge, typename Judgement>
+  bool swap_if_better(const EditableMesh::Quad& quad, const Judgement& before, const Judge& judge, Judgement& after) {
+    const Vec3 mean = mesh_.mean_normal(quad.places());
+    const std::size_t edits = mesh_.edits();
+    if (!mesh_.swap(quad)) return false;
+    after = judge();
+    if (after.improves(before) && agree(quad.places(), mean)) return true;
+    mesh_.undo(edits);
+    return false;
+  }
+
   /// The size of such a vertex is to be asked for.
   void note_changed(Vertex v) { changed_.push_back(v); }
   /// Asks for them: by `size_of` a metric at a point.

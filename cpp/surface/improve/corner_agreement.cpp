@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+
+#include "support/infinity.h"
 
 namespace carreau {
 
 KeptAgreement::KeptAgreement(const GeometricLimits& kept)
-    : sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180)
-                                               : std::numeric_limits<double>::infinity()),
+    : sine_(std::isfinite(kept.edge_angle_deg) ? std::sin(kept.edge_angle_deg * std::numbers::pi / 180) : infinity),
       deviation_(kept.deviation) {}
 
 double KeptAgreement::share(const std::array<Vec3, 3>& corners, const std::array<Vec3, 3>& normals) const noexcept {

@@ -43,7 +43,7 @@ inline constexpr double first_step = 0.4, last_step = 0.01;
 inline constexpr double least_agreement = 0.5;
 }  // namespace smoothing
 
-/// Triangles that leave the surface (upright_test, guarantees_test, lift/surface_agreement_test).
+/// Triangles that leave the surface (agreement_test, guarantees_test, lift/surface_agreement_test).
 namespace refinement {
 /// Cosine of a triangle's normal and the surface's: 85 degrees.
 inline constexpr double least_agreement = 0.08;

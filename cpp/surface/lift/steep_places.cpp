@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mesh/triangle_search.h"
 #include "predicates/polygon_locator.h"
+#include "support/infinity.h"
+#include "surface/lift/thresholds.h"
 #include "surface/lift/verification.h"
 #include "surface/sample/face_metric.h"
 
 namespace carreau {
 namespace {
 
-constexpr std::size_t most_places = 500;
-constexpr int most_steps = 8;
-// Steps shorter than this share of a place's reach are the last.
-constexpr double last_step = 1e-3;
+using namespace thresholds::lift;
 
 /// A place on its way to the surface.
 struct Foot {
@@ -30,7 +28,7 @@ Vec2 step_towards(const SurfaceJet& jet, const Vec3& at) noexcept {
   const Vec3 away = at - jet.s;
   const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
   const double p = dot(jet.su, away), q = dot(jet.sv, away), det = e * g - f * f;
-  if (!(det > 1e-12 * e * g)) return {};
+  if (!(det > no_step * e * g)) return {};
   return {(g * p - f * q) / det, (e * q - f * p) / det};
 }
 
@@ -41,8 +39,7 @@ class SteepPlaces {
 
   // Places whose nearest point of the mesh may be that of the surface.
   std::vector<Foot> begin(const std::vector<SteepPlace>& places) {
-    constexpr double inf = std::numeric_limits<double>::infinity();
-    Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
+    Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
     double longest = 0;
     for (const Vec3& p : mesh_.xyz) {
       low = low.cwiseMin(p);
@@ -78,7 +75,7 @@ class SteepPlaces {
     const SampledDomain domain = sampled_domain(input_.domain->plane);
     const PolygonLocator locator(domain.vertices, domain.edges);
     std::erase_if(feet, [&](const Foot& f) { return !locator.contains(f.uv); });
-    std::vector<double> distance(feet.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> distance(feet.size(), infinity);
     std::vector<std::size_t> moving;
     std::vector<Vec2> uv;
     const auto move = [&](std::size_t first, std::span<const Vec2>, std::span<const SurfaceJet> jets) {

@@ -2,21 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "support/format.h"
+#include "support/infinity.h"
+#include "surface/lift/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// Area beyond that of the surface that is told. Unit meshes by curvature have some 1e-4.
-constexpr double notable = 0.05;
-// Least cosine of a triangle's normal and that of what it stands for: a little less than upright.
-constexpr double least_cosine = 0.08;
-// A triangle of (u, v) is looked at in this many parts along each side.
-constexpr int parts = 4;
+using namespace thresholds::lift;
 
 /// The surface over a triangle of (u, v), by the middles of its parts.
 struct Piece {
@@ -80,7 +75,7 @@ double excess_by_corners(const PatchMesh& mesh) noexcept {
 
 }  // namespace
 
-bool SurfaceAgreement::leans() const noexcept { return excess > notable; }
+bool SurfaceAgreement::leans() const noexcept { return excess > notable_area; }
 
 bool SurfaceAgreement::better_than(const SurfaceAgreement& other) const noexcept {
   if (leans() != other.leans()) return other.leans();
@@ -104,9 +99,9 @@ SurfaceAgreement measure_agreement(const PatchInput& input, Cad& cad, const std:
   Pieces pieces(input, cad, mesh);
   for (const int t : doubtful) {
     const Vec3 n = normal_of(mesh, static_cast<std::size_t>(t)), m = pieces.over(t).vector;
-    if (!(dot(n, m) >= least_cosine * norm(n) * norm(m))) ++agreement.turned;
+    if (!(dot(n, m) >= least_agreement * norm(n) * norm(m))) ++agreement.turned;
   }
-  if (!(excess_by_corners(mesh) > notable)) return agreement;
+  if (!(excess_by_corners(mesh) > notable_area)) return agreement;
   double area = 0, of_surface = 0;
   for (std::size_t t = 0; t < mesh.plane.triangles.size(); ++t) {
     if (t % 256 == 0) monitor.checkpoint();

@@ -8,24 +8,14 @@
 #include "cad/fundamental_forms.h"
 #include "predicates/polygon_locator.h"
 #include "support/format.h"
+#include "surface/lift/thresholds.h"
 #include "surface/sample/face_metric.h"
 
 namespace carreau {
 
 namespace {
 
-// True length over promised length. An arc of 150 degrees is 1.36 times its chord.
-constexpr double too_long = 1.3, too_short = 0.65;
-// Edges so many times longer than promised are looked at: where the surface is continuous between their ends, nothing
-// becomes of it.
-constexpr double excess = 8;
-constexpr std::size_t most_places = 500;
-constexpr std::size_t triangles_between_checks = 1 << 16;
-// A change of the control space, in relative length, that is worth another mesh.
-constexpr double notable_change = 0.1;
-// An edge that is so much shorter than another of its triangle is a point of space: triangles of prescribed metrics are
-// some ten thousand times longer than wide at most.
-constexpr double one_point = 1e-6;
+using namespace thresholds::lift;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -71,7 +61,7 @@ class LiftCheck {
   }
   void compare_at(std::size_t v, const SurfaceJet& jet, Metric2 metric) {
     mesh_.normal[v] = unit_normal(jet).value_or(Vec3{});
-    const double h = mean_size(jet, metric);
+    const double h = geometric_mean_size(jet, metric);
     if (!(h > 0)) return;
     mesh_.size[v] = h;
     const Vec2 p = mesh_.plane.vertices[v];

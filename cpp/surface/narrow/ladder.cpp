@@ -1,10 +1,10 @@
 // One layer of triangles between the two sides of a narrow face.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mesh/quality.h"
 #include "predicates/predicates.h"
+#include "support/infinity.h"
 #include "surface/narrow/narrow_faces.h"
 #include "surface/narrow/side_ruler.h"
 
@@ -152,7 +152,7 @@ class Ladder {
     triangles().insert(triangles().end(), way.begin(), way.end());
   }
   [[nodiscard]] double worst_of(const std::vector<Triangle>& some) const {
-    double worst = std::numeric_limits<double>::infinity();
+    double worst = infinity;
     for (const Triangle& t : some)
       if (!is_flattened(t)) worst = std::min(worst, quality(t));
     return worst;

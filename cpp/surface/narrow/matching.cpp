@@ -5,16 +5,13 @@
 
 #include "surface/narrow/narrow_faces.h"
 #include "surface/narrow/side_ruler.h"
+#include "surface/narrow/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Vertices on two sides stand for one place when they are as near along the sides as this many widths: farther apart,
-// triangles between them would be the worse for it, and a collapse would move them more than it must.
-constexpr double same_place = 3;
-// And never farther than this share of the sides, whatever the width.
-constexpr double rounding = 1e-9;
+using namespace thresholds::narrow;
 
 class SideMatcher {
  public:
@@ -72,7 +69,7 @@ class SideMatcher {
   }
 
   static double tolerance(const NarrowFace& narrow, const SideRuler& side) {
-    return std::max(same_place * narrow.width, rounding * side.length());
+    return std::max(same_place * narrow.width, place_rounding * side.length());
   }
   static bool is_near(const std::vector<Vertex>& vertices, double s, double tolerance, double period) {
     return std::any_of(vertices.begin(), vertices.end(), [&](const Vertex& v) {

@@ -3,27 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "metric/metric3_algebra.h"
 #include "model/traces.h"
 #include "model/union_find.h"
+#include "support/infinity.h"
 #include "surface/narrow/side_ruler.h"
+#include "surface/narrow/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// A round or bent end of a strip is longer than the strip is wide: half a circle has 1.57 times its diameter.
-constexpr double longest_end_cap = 2;
-// Sides are found by trying all pairs of ends: a face with more curves is not tried.
-constexpr std::size_t most_curves = 60;
-// Choices whose widths differ by less are equally near: the one with more curves in its end caps is taken.
-constexpr double same_width = 1e-3;
-
-// A face is without width where its surface, halfway between two uses of a curve, is no farther from them than this
-// many times their gap, or this share of their length.
-constexpr double folded_gap = 4, folded_share = 1e-9;
+using namespace thresholds::narrow;
 
 // Boundary curves end to end in the parameter plane, where loops have no ambiguity.
 std::vector<Side> find_loops(const std::vector<CurveSupport>& supports) {
@@ -98,7 +90,7 @@ class Finder {
   }
 
   [[nodiscard]] double smallest_size() const {
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = infinity;
     for (const int c : model_.topology.curve_of[face_])
       for (const double h : curves_[c].size) smallest = std::min(smallest, h);
     return smallest;
@@ -136,7 +128,7 @@ class Finder {
     for (std::size_t from = 0; from < n; ++from)
       for (std::size_t count = 0; count + 2 <= n && length(loop, from, count) <= longest_end_cap * reach_; ++count)
         end_caps.push_back({from, count});
-    double best = std::numeric_limits<double>::infinity();
+    double best = infinity;
     std::size_t most_in_end_caps = 0;
     for (std::size_t i = 0; i < end_caps.size(); ++i)
       for (std::size_t j = i + 1; j < end_caps.size(); ++j) {
@@ -185,7 +177,6 @@ class Finder {
     // Both run the same way when places on one follow each other on the other one.
     const SideRuler one(model_, face_, loops[0]), other(model_, face_, loops[1]);
     int along = 0;
-    constexpr int probes = 12;
     for (int i = 0; i < probes; ++i) {
       const double here = other.place_of(one.point_at(one.length() * i / probes)).s;
       const double next = other.place_of(one.point_at(one.length() * (i + 1) / probes)).s;

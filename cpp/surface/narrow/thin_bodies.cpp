@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "surface/domain/domain_builder.h"
+#include "surface/narrow/thresholds.h"
 
 namespace carreau {
 namespace {
 
-// Two neighbours lie back to back when the directions in which they leave the strip differ by less than 26 degrees.
-constexpr double back_to_back = 0.9;
+using namespace thresholds::narrow;
 
 class Bodies {
  public:

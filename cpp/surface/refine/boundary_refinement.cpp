@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "support/infinity.h"
 #include "support/segment.h"
 #include "support/stepped_tasks.h"
 #include "surface/domain/domain_check.h"
@@ -16,27 +16,13 @@
 #include "surface/refine/seam_loops.h"
 #include "surface/refine/staggering.h"
 #include "surface/refine/strips.h"
+#include "surface/refine/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Each iteration halves the edges that cross: 2^-16 of an edge is below the accuracy of any support.
-constexpr int most_halvings = 16;
-
-// Around a true crossing the edges that cross get shorter with every halving, and where curves only come near each
-// other they stop crossing: after this many halvings that changed nothing the curves lie on each other, and would be
-// cut for ever.
-constexpr int most_fruitless_halvings = 6;
-constexpr double fruitless_share = 0.75;  // of the length that crossed before
-
-// And those of a boundary that is inside out: a model that is wrong stays so.
-constexpr int most_turned_rounds = 6;
-// Straight distances in space are taken this much shorter than lengths in the metric of a curved surface.
-constexpr double straight_reserve = 2;
-// Ratio of lengths from which the balance of edges is looked at in the metric, whose chords are not the curves'
-// lengths; there it may be 2.
-constexpr double balance_to_look_at = 1.6;
+using namespace thresholds::refine;
 
 /// Segments to split, by curve.
 using Splits = std::map<int, std::set<int>>;
@@ -311,7 +297,7 @@ class Refiner {
     const double half_slope = rules_.constant() ? 0 : 0.5 * limits_.field->slope();
     const FaceDomain& domain = *result_.domain[f];
     struct Range {
-      double low = std::numeric_limits<double>::infinity(), high = 0;
+      double low = infinity, high = 0;
     };
     std::vector<Range> at(domain.plane.vertices.size());
     for (const PlaneEdge& edge : domain.plane.edges) {
@@ -385,8 +371,8 @@ class Refiner {
   std::set<int> turned_;  // of those
   std::map<int, int> turned_rounds_;
   struct Crossing {
-    double length = std::numeric_limits<double>::infinity();  // of the edges that cross others, in (u, v)
-    int fruitless = 0;                                        // halvings in a row that left it as it was
+    double length = infinity;  // of the edges that cross others, in (u, v)
+    int fruitless = 0;         // halvings in a row that left it as it was
   };
   std::map<int, Crossing> crossings_;
   std::optional<FinestLengths> finest_;              // before edges were balanced; none without metrics

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <vector>
 
 #include "curve/discrete_curve.h"
 #include "model/topology.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -17,7 +17,7 @@ namespace carreau {
 class FinestLengths {
  public:
   FinestLengths(const Topology& topology, const std::vector<DiscreteCurve>& curves) : at_(curves.size()) {
-    std::vector<double> at_point(topology.points.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> at_point(topology.points.size(), infinity);
     const auto bound = [&](int point, double length) { at_point[point] = std::min(at_point[point], length); };
     for (std::size_t c = 0; c < curves.size(); ++c) {
       const DiscreteCurve& d = curves[c];
@@ -36,7 +36,7 @@ class FinestLengths {
   /// Whether a segment of a curve, which may have been cut since, is as short as the shortest edge at one of its ends
   /// was.
   [[nodiscard]] bool reached_by(const DiscreteCurve& curve, int segment) const {
-    double finest = std::numeric_limits<double>::infinity();
+    double finest = infinity;
     for (const int node : {segment, segment + 1})
       if (const auto known = at_[curve.curve].find(curve.r[node]); known != at_[curve.curve].end())
         finest = std::min(finest, known->second);

@@ -8,9 +8,13 @@
 #include <utility>
 
 #include "surface/domain/domain_check.h"
+#include "surface/domain/thresholds.h"
+#include "surface/refine/thresholds.h"
 
 namespace carreau {
 namespace {
+
+using namespace thresholds::refine;
 
 // The first two uses of a curve in a face; -1, -1 when it is no seam.
 std::pair<int, int> sides_of(const Curve& shape, int face) {
@@ -22,9 +26,6 @@ std::pair<int, int> sides_of(const Curve& shape, int face) {
   }
   return {-1, -1};
 }
-
-// A pole explains thickness that falls no faster towards it than to this share of what it is elsewhere on the way.
-constexpr double pole_reserve = 0.25;
 
 /// A place on a seam: at a vertex (even ranks) or halfway between two.
 struct Place {
@@ -44,7 +45,8 @@ std::vector<Place> places_on(const CurveModel& model, const DiscreteCurve& seam,
     places.push_back({.s = length * 0.5 * (seam.r[k] + seam.r[next]),
                       .around = std::numbers::pi * norm(at(lerp(p, q, 0.5)) - at(p))});
     // Left to long triangles, or a pole.
-    places.back().looked_at = places.back().around >= narrowest_share * std::min(seam.size[k], length);
+    places.back().looked_at =
+        places.back().around >= thresholds::domain::narrowest_share * std::min(seam.size[k], length);
   }
   return places;
 }

@@ -10,24 +10,13 @@
 #include "support/stepped_tasks.h"
 #include "surface/domain/domain_graph.h"
 #include "surface/domain/near_vertices.h"
+#include "surface/refine/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Sides farther apart than this many edges leave place for a row of vertices between them.
-constexpr double widest = 1.2;
-// Halves at both ends of shorter curves would be most of them.
-constexpr int fewest_segments = 3;
-// What a curve must gain, summed up over triangles: the half edges at its ends cost as much in the faces beside it.
-constexpr double least_gain = 1;
-// Where vertices come to lie on the chords of arcs that bulge across the strip, triangles become flat: the worst one
-// must not fall below this share, whatever is gained elsewhere.
-constexpr double largest_fall = 0.5, ruin = -1e9;
-constexpr int most_passes = 8;
-// Cosine of the angle from which on a half edge at a corner, beside a whole one, leaves a triangle worse than 0.75 (Q2;
-// 0.95 between two whole ones).
-constexpr double sharp_cosine = 0.6;
+using namespace thresholds::refine;
 
 using Pair = std::pair<int, int>;  // curves, the lower index first
 
@@ -165,13 +154,13 @@ std::vector<int> curves_to_stagger(const CurveModel& model, const std::vector<Di
     beside[pair.second].emplace_back(pair.first, g);
   }
   std::vector<char> moved(curves.size(), 0);
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < staggering_passes; ++pass) {
     bool any = false;
     for (const auto& [c, others] : beside) {
       if (may_move[c] == 0) continue;
       double sum = 0;  // of a change of this one
       for (const auto& [d, g] : others) sum += moved[c] == moved[d] ? g : -g;
-      if (moved[c] != 0 ? sum + least_gain <= 0 : sum <= least_gain) continue;
+      if (moved[c] != 0 ? sum + least_curve_gain <= 0 : sum <= least_curve_gain) continue;
       moved[c] = moved[c] == 0 ? 1 : 0;
       any = true;
     }

@@ -8,12 +8,12 @@
 #include "surface/domain/domain_graph.h"
 #include "surface/domain/near_vertices.h"
 #include "surface/refine/bulging_edges.h"
+#include "surface/refine/thresholds.h"
 
 namespace carreau {
 namespace {
 
-// Curves that leave a corner at less than this slope are its tip.
-constexpr double bluntest_corner = 0.1;
+using namespace thresholds::refine;
 
 class StripsInSpace {
  public:

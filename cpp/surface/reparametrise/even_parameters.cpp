@@ -3,35 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "mesh/editable_mesh.h"
 #include "mesh/local_search.h"
 #include "predicates/polygon_locator.h"
 #include "predicates/predicates.h"
+#include "support/infinity.h"
 #include "surface/improve/bad_region.h"
+#include "surface/reparametrise/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Along each parameter: first places, as many at boundary vertices, and lines across at such places.
-constexpr std::size_t first_places = 16;
-// No piece of a parameter has a longer chord than this share of all, unless it is as narrow as that of the domain.
-constexpr double finest = 1.0 / 128, narrowest = 1e-13;
-constexpr std::size_t most_places = 3000;
-// A chord that is this share of all although its piece is of the narrowest kind is a jump.
-constexpr double jump_share = finest;
-// Where all lines of a family together are so many times as long as the longest one, what is fast in one is not in the
-// others.
-constexpr double most_detours = 8;
-// A parameter is left as it is where speeds along it differ by less.
-constexpr double even = 30;
-// Where lines stand still they are taken to be as fast as this share of the mean.
-constexpr double least_speed = 0.02;
-// Shorter pieces, in shares of the whole, are joined to the next ones.
-constexpr double shortest = 1e-7;
+using namespace thresholds::reparametrise;
 
 /// One parameter: 0 is u, 1 is v.
 double of(const Vec2& p, int axis) noexcept { return axis == 0 ? p.x() : p.y(); }
@@ -130,7 +116,7 @@ class Evener {
         const double a = finer.back().at, b = rows[k + 1].at, middle = 0.5 * (a + b);
         if (b - a > narrowest * std::max(std::abs(a), std::abs(b)) && middle > a && middle < b)
           finer.push_back(row(axis, middle, lines));
-        else if (chords[k] > jump_share * total)
+        else if (chords[k] > finest * total)
           refuse_jump(axis, 0.5 * (a + b), finer.back(), rows[k + 1], lines);
       }
       const bool done = finer.size() == rows.size() || finer.size() > most_places;
@@ -147,7 +133,7 @@ class Evener {
                              double total) const {
     const double width = high(axis) - low(axis);
     std::vector<double> x = {0}, u = {rows.front().at};
-    double reached = 0, fastest = 0, slowest = std::numeric_limits<double>::infinity();
+    double reached = 0, fastest = 0, slowest = infinity;
     for (std::size_t k = 0; k < chords.size(); ++k) {
       const double step = (rows[k + 1].at - rows[k].at) / width,
                    length = std::max(chords[k], least_speed * total * step);
@@ -181,18 +167,15 @@ class Evener {
   std::array<std::vector<double>, 2> boundary_;  // sorted coordinates of its vertices
 };
 
-// Of the quality in space of two triangles, what a swap must leave.
-constexpr double least_kept = 0.5;
-
 /// Swaps edges of triangles that are turned over.
 class TurnedTriangles {
  public:
   TurnedTriangles(const PlaneDomain& host, PatchMesh& mesh) : mesh_(mesh), editable_(host, mesh.plane, mesh.xyz) {}
 
   void run(Monitor& monitor) {
-    constexpr int most_passes = 20;
     improve_in_passes(
-        most_passes, monitor, [this] { return turned_over(mesh_.plane); }, [this](std::int32_t t) { return mend(t); });
+        turned_passes, monitor, [this] { return turned_over(mesh_.plane); },
+        [this](std::int32_t t) { return mend(t); });
   }
 
   [[nodiscard]] static std::vector<std::int32_t> turned_over(const PlaneMesh& mesh) {
@@ -252,7 +235,6 @@ std::size_t return_to_host(const PlaneDomain& host, const Reparametrisation& map
 
 ControlSpace returned_to_host(const PlaneDomain& host, const Reparametrisation& map, const ControlSpace& space,
                               Monitor& monitor) {
-  constexpr std::size_t most_samples = 20'000;
   const auto sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     for (std::size_t k = 0; k < uv.size(); ++k) {
       const Vec2 p = map.from_host(uv[k]);

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
+#include "surface/sample/thresholds.h"
+
 namespace carreau {
 
 namespace {
 
-// Triangles. Smaller meshes are made as they are: whether they are right is not worth sampling again.
-constexpr double few_triangles = 10'000;
-// Times. Straight distances and rounding of a sound control space leave 1.3 at most (tests/cpp/surface/sample).
-constexpr double most_excess = 2;
-// Times. Of one try to the next.
-constexpr double raise = 8;
+using namespace thresholds::sample;
 
 double extent_of(const std::vector<Vec3>& points) {
   if (points.empty()) return 0;
@@ -32,10 +29,10 @@ std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const S
   tried.limits.edges = nullptr;
   ControlSpace without = sample_face(tried, cad, rules, probe_points, monitor);
   const auto bearable = [&](const ControlSpace& s) {
-    return s.measure() <= most_excess * (without.measure() + edges.triangles_within(extent));
+    return s.measure() <= most_growth_excess * (without.measure() + edges.triangles_within(extent));
   };
   if (bearable(space)) return {};
-  for (double least = raise * edges.smallest(); least < extent; least *= raise) {
+  for (double least = growth_raise * edges.smallest(); least < extent; least *= growth_raise) {
     edges = edges.bounded_below(least);
     tried.limits.edges = &edges;
     space = sample_face(tried, cad, rules, probe_points, monitor);

@@ -2,25 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
+#include "support/infinity.h"
 #include "surface/sample/face_sampling.h"
+#include "surface/sample/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// How far from a degenerate point limits are taken, in shares of the domain's box, and of that the part aside, towards
-// its middle: meridians may run along sides of the domain, which are straight but for rounding.
-constexpr double ways_inside[] = {1e-4, 1e-6}, aside = 1e-6;
+using namespace thresholds::sample;
 
 /// Along the meridian of a degenerate point: the parameter along which the surface does not stand still, if it does
 /// along the other; else towards the middle.
 Vec2 along_meridian(const SurfaceJet& jet, const Vec2& to_middle, const Vec2& half) noexcept {
-  constexpr double still = 1e-12;
   const double u = norm(jet.su), v = norm(jet.sv);
   if (u <= still * v) return {0, std::copysign(half.y(), to_middle.y())};
   if (v <= still * u) return {std::copysign(half.x(), to_middle.x()), 0};
@@ -88,7 +85,7 @@ double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept {
   return first > 0 && second > 0 ? std::sqrt(first / second) : 0;
 }
 
-double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
+double geometric_mean_size(const SurfaceJet& jet, Metric2 metric) noexcept {
   const double density = accurate_determinant(metric), area = norm(cross(jet.su, jet.sv));
   return density > 0 && area > 0 ? std::sqrt(area / std::sqrt(density)) : 0;
 }
@@ -107,8 +104,7 @@ void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec
                          std::span<Metric2> metric) noexcept {
   for (std::size_t i = 0; i < uv.size(); ++i) {
     auto sizes = tangent_metric(jets[i], metric[i]);
-    const double beside =
-        limits.edges != nullptr ? limits.edges->at(jets[i].s) : std::numeric_limits<double>::infinity();
+    const double beside = limits.edges != nullptr ? limits.edges->at(jets[i].s) : infinity;
     if (!sizes) {
       const double h = isotropic_size(jets[i], metric[i]), bounded = std::min(h, beside);
       const double graded =
@@ -119,7 +115,7 @@ void apply_metric_limits(const SizeLimits& limits, int face, std::span<const Vec
     }
     const TangentMetric before = *sizes;
     if (limits.field != nullptr) *sizes = limits.field->sizes(face, uv[i], jets[i].s, *sizes);
-    if (std::isfinite(limits.tilt)) bound_tilt(jets[i], limits.tilt, *sizes);
+    if (std::isfinite(limits.lean)) bound_lean(jets[i], limits.lean, *sizes);
     sizes->h1 = std::min({limits.factor * sizes->h1, limits.largest, beside});
     sizes->h2 = std::min({limits.factor * sizes->h2, limits.largest, beside});
     if (sizes->h1 != before.h1 || sizes->h2 != before.h2) metric[i] = metric_of(jets[i], *sizes);

@@ -31,7 +31,7 @@ class FaceMetric {
   /// The Want bits that the jets of at() must hold.
   [[nodiscard]] unsigned wants() const noexcept {
     return want_first | rules_.surface_wants() | (limits_.want_places() ? want_position : 0U) |
-           (std::isfinite(limits_.tilt) ? want_second : 0U);
+           (std::isfinite(limits_.lean) ? want_second : 0U);
   }
 
   /// J^T J / h^2 (RR-2928 eq. 27) at each point, or what metrics induce (HDR eq. 4.64, 4.66), within the limits; asks
@@ -87,7 +87,7 @@ inline FaceMetric unlimited_prescription_of(const PatchInput& input, const SizeR
 double isotropic_size(const SurfaceJet& jet, Metric2 metric) noexcept;
 
 /// sqrt(h1 h2) of a metric of any kind; 0 where the parametrisation is degenerate.
-double mean_size(const SurfaceJet& jet, Metric2 metric) noexcept;
+double geometric_mean_size(const SurfaceJet& jet, Metric2 metric) noexcept;
 
 /// Bounds isotropic metrics of a face in place. The jets hold first derivatives, and positions where there is a field.
 void apply_limits(const SizeLimits& limits, int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/infinity.h"
 #include "surface/sample/face_metric.h"
+#include "surface/sample/thresholds.h"
 
 namespace carreau {
 
 namespace {
 
-// Relative difference of a metric from that of one size, which rounding leaves.
-constexpr double same_size = 1e-6;
+using namespace thresholds::sample;
 
 // Whether the metric is that of a size which is the same in all directions.
 bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
@@ -25,7 +26,7 @@ bool has_one_size(const SurfaceJet& jet, Metric2 m) noexcept {
 double usual_square(std::vector<double>& squares) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
-  return *middle > 0 ? *middle : std::numeric_limits<double>::infinity();
+  return *middle > 0 ? *middle : infinity;
 }
 
 }  // namespace
@@ -82,8 +83,9 @@ std::vector<double> prescribed_sizes(const PatchInput& input, Cad& cad, const Si
   if (input.constant_size) return std::vector<double>(uv.size(), *input.constant_size);
   FaceMetric prescribed = prescription_of(input, rules, monitor);
   std::vector<double> sizes(uv.size());
-  prescribed.sample(cad, input.ref, 0, uv,
-                    [&](std::size_t k, const SurfaceJet& jet, Metric2 metric) { sizes[k] = mean_size(jet, metric); });
+  prescribed.sample(cad, input.ref, 0, uv, [&](std::size_t k, const SurfaceJet& jet, Metric2 metric) {
+    sizes[k] = geometric_mean_size(jet, metric);
+  });
   return sizes;
 }
 

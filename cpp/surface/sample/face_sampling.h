@@ -1,11 +1,11 @@
 // The metric of a face, sampled over its domain.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "control_space/sampled_normals.h"
+#include "support/infinity.h"
 #include "surface/patch.h"
 
 namespace carreau {
@@ -17,7 +17,7 @@ struct SampledFacts {
   /// Stops with UnevenSpeed where a derivative is so many times as long as it is usual: as `usual_speed`; 0: as it is
   /// along that parameter at the first samples.
   double usual_speed = 0;
-  double most_uneven = std::numeric_limits<double>::infinity();
+  double most_uneven = infinity;
 };
 
 /// A place where the parametrisation is far faster than elsewhere. Not an error: sampling starts again in others.
@@ -25,10 +25,6 @@ struct UnevenSpeed {
   Vec2 uv;
   double times;  ///< as fast
 };
-
-/// How many times faster than usual a parametrisation may be somewhere: else other parameters are looked for; and where
-/// there are none.
-inline constexpr double uneven_speed = 1000, hopeless_speed = 30'000;
 
 /// Lengths of derivatives at the first samples, all over the domain, and at those that follow.
 class SpeedWatch {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cad/host_cad.h"
+#include "support/infinity.h"
 #include "surfaces.h"
 
 namespace carreau {
@@ -13,7 +14,6 @@ namespace {
 using namespace testing;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Answers every size and radius with one number.
 struct SizedCad : FaceCad {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "cad/checked_cad.h"
+#include "support/infinity.h"
 #include "surfaces.h"
 
 namespace carreau {
@@ -150,7 +150,7 @@ TEST(HostCad, HearsSizesOfACadMModuleAndItsSilence) {
     if (*refp == 4) *h = 0.125;
   };
   table.cad_rads = [](const std::int32_t* refs, const double*, double* rho) {
-    if (*refs == 1) *rho = std::numeric_limits<double>::infinity();
+    if (*refs == 1) *rho = infinity;
   };
   table.cad_radc = [](const std::int32_t* refs, const std::int32_t*, const double* t, double* rho) {
     if (*refs == 1) *rho = 10 * *t;
@@ -159,7 +159,7 @@ TEST(HostCad, HearsSizesOfACadMModuleAndItsSilence) {
   EXPECT_EQ(cad.surface_size(1, {0.25, 0.5}), 0.75);
   EXPECT_EQ(cad.curve_size(1, 3, 0.5), 1.5);
   EXPECT_EQ(cad.point_size(4), 0.125);
-  EXPECT_EQ(cad.surface_radius(1, {0, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(cad.surface_radius(1, {0, 0}), infinity);
   EXPECT_EQ(cad.curve_radius(1, 1, 2), 20);
   EXPECT_FALSE(cad.surface_size(2, {0.25, 0.5}));
   EXPECT_FALSE(cad.curve_size(2, 3, 0.5));

@@ -36,7 +36,9 @@ TEST(QuadraticFit, ItsValueIsTheConstantTermOfEigensSolution) {
       right += s.weight * basis * Eigen::RowVector3d(s.value.a, s.value.b, s.value.c);
     }
     const double total = left(0, 0);
-    for (int r = 1; r < 6; ++r) left(r, r) += (r < 3 ? QuadraticFit::ridge_slope : QuadraticFit::ridge_curvature) * total;
+    for (int r = 1; r < 6; ++r)
+      left(r, r) +=
+          (r < 3 ? thresholds::control_space::ridge_slope : thresholds::control_space::ridge_curvature) * total;
     const Eigen::Matrix<double, 6, 3> exact = left.ldlt().solve(right);
     const Metric2 value = fit.value_at_origin();
     EXPECT_NEAR(value.a, exact(0, 0), 1e-13);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -17,12 +16,13 @@
 #include "gradation/place_fans.h"
 #include "plane/plane_mesher.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
 
 using std::numbers::pi;
-constexpr double unknown = std::numeric_limits<double>::infinity();
+constexpr double unknown = infinity;
 using Map = std::function<Vec3(Vec2)>;
 
 // A polygon with `n` edges a side, meshed with unit edges of a field of sizes in the plane.
@@ -61,7 +61,8 @@ class Builder {
       const auto [at, fresh] = vertex_at_.emplace(key, static_cast<int>(graph.xyz.size()));
       if (fresh) graph.xyz.push_back(x);
       constexpr double d = 1e-5;
-      const Vec3 su = map({p.x() + d, p.y()}) - map({p.x() - d, p.y()}), sv = map({p.x(), p.y() + d}) - map({p.x(), p.y() - d});
+      const Vec3 su = map({p.x() + d, p.y()}) - map({p.x() - d, p.y()}),
+                 sv = map({p.x(), p.y() + d}) - map({p.x(), p.y() - d});
       const Vec3 n = cross(su, sv);
       graph.places.push_back({at->second, (turned / norm(n)) * n});
     }
@@ -77,6 +78,25 @@ class Builder {
  private:
   std::map<std::tuple<long long, long long, long long>, int> vertex_at_;
 };
+
+/// What grade_fronts says at a vertex.
+struct GradedSize {
+  double h;
+  Vec3 slope;  // derivative of h in the tangent plane of the vertex's first place
+};
+
+std::vector<GradedSize> grade_sizes(const GradationGraph& graph, const std::vector<double>& h, double slope,
+                                    Monitor& monitor) {
+  const GradationFronts fronts = grade_fronts(graph, h, {}, slope, monitor);
+  std::vector<GradedSize> sizes;
+  for (const double size : fronts.h) sizes.push_back({size, {}});
+  for (std::size_t p = graph.places.size(); p-- > 0;) {
+    const Vec3& line = fronts.front[p].line;
+    const double length = norm(line);
+    sizes[graph.places[p].vertex].slope = length > 0 ? Vec3((slope / length) * line) : Vec3{};
+  }
+  return sizes;
+}
 
 // Largest relative error of the graded sizes of one source against h0 + slope * distance.
 double cone_error(const GradationGraph& graph, int source, double h0, double slope,
@@ -157,10 +177,11 @@ TEST(Gradation, ConeAcrossTheSeamOfACylinder) {
   const int source = b.nearest({std::cos(0.4), std::sin(0.4), 1.2});
   const Vec3 s = b.graph.xyz[source];
   const double turn = std::atan2(s.y(), s.x());
-  EXPECT_LT(
-      cone_error(b.graph, source, 0.01, std::log(1.3),
-                 [&](Vec3 x) { return std::hypot(std::remainder(std::atan2(x.y(), x.x()) - turn, 2 * pi), x.z() - s.z()); }),
-      0.02);
+  EXPECT_LT(cone_error(b.graph, source, 0.01, std::log(1.3),
+                       [&](Vec3 x) {
+                         return std::hypot(std::remainder(std::atan2(x.y(), x.x()) - turn, 2 * pi), x.z() - s.z());
+                       }),
+            0.02);
 }
 
 TEST(Gradation, ConeAcrossACreaseWhateverTheSidesOfTheFaces) {

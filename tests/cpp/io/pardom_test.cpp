@@ -6,6 +6,7 @@
 
 #include "io/files.h"
 #include "io_test_support.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -188,7 +189,7 @@ TEST(Pardom, ReadsInEveryLocale) {
 
 TEST(Pardom, APointThatIsNotFiniteIsNotWritten) {
   Model model = read_pardom_text("1 4 1 1 1 0 0 0 1 1 0.5 0.5", "p");
-  model.faces[0].points[0].uv.x() = std::numeric_limits<double>::infinity();
+  model.faces[0].points[0].uv.x() = infinity;
   EXPECT_THROW(pardom_text(model), InvalidArgument);
 }
 

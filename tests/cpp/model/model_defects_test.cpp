@@ -2,9 +2,9 @@
 
 #include <climits>
 #include <functional>
-#include <limits>
 
 #include "models.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -166,7 +166,7 @@ TEST(FindModelDefects, WantsBoundariesThatClose) {
 }
 
 TEST(FindModelDefects, WantsInternalPointsThatAreFiniteAndApart) {
-  EXPECT_EQ(defects_after([](Model& m) { m.faces[0].points[0].uv.y() = std::numeric_limits<double>::infinity(); }),
+  EXPECT_EQ(defects_after([](Model& m) { m.faces[0].points[0].uv.y() = infinity; }),
             Sentences{"x.pardom, line 7, face 1: the coordinates of internal point 1 are not finite"});
   EXPECT_EQ(
       defects_after([](Model& m) {

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
+#include "support/infinity.h"
 #include "support/segment.h"
 
 namespace carreau {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // A curve that winds back on itself, so that the nearest segment jumps; shaken by up to `noise`.
 std::vector<Vec3> winding(int points, double noise, bool backwards, unsigned seed) {

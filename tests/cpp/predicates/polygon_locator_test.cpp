@@ -10,6 +10,7 @@
 #include <set>
 
 #include "predicates/predicates.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -45,7 +46,9 @@ int position(const Polygon& polygon, Vec2 p) {
     Vec2 a = polygon.vertices[i], b = polygon.vertices[j];
     if (a.y() > b.y()) std::swap(a, b);
     const int s = orientation(a, b, p);
-    if (s == 0 && p.y() >= a.y() && p.y() <= b.y() && p.x() >= std::min(a.x(), b.x()) && p.x() <= std::max(a.x(), b.x())) return 0;
+    if (s == 0 && p.y() >= a.y() && p.y() <= b.y() && p.x() >= std::min(a.x(), b.x()) &&
+        p.x() <= std::max(a.x(), b.x()))
+      return 0;
     if (a.y() <= p.y() && p.y() < b.y() && s > 0) inside = !inside;
   }
   return inside ? 1 : -1;
@@ -85,9 +88,10 @@ TEST(PolygonLocator, AgreesWithTheDefinitionOnAStarWithHolesAndIslands) {
   for (int i = 0; i < 3000; ++i) {
     const double w = unit(random);
     const auto& [a, b] = polygon.edges[random() % polygon.edges.size()];
-    for (const Vec2& p : {Vec2{11 * unit(random), 11 * unit(random)}, Vec2{4 + 2e-6 * unit(random), 2e-6 * unit(random)},
-                         lerp(polygon.vertices[a], polygon.vertices[b], w),
-                         Vec2{polygon.vertices[a].x(), polygon.vertices[b].y()}, polygon.vertices[a]})
+    for (const Vec2& p :
+         {Vec2{11 * unit(random), 11 * unit(random)}, Vec2{4 + 2e-6 * unit(random), 2e-6 * unit(random)},
+          lerp(polygon.vertices[a], polygon.vertices[b], w), Vec2{polygon.vertices[a].x(), polygon.vertices[b].y()},
+          polygon.vertices[a]})
       ASSERT_EQ(locator.contains(p), position(polygon, p) >= 0) << p.x() << ' ' << p.y();
   }
   EXPECT_TRUE(locator.contains({0, 0}));
@@ -96,7 +100,7 @@ TEST(PolygonLocator, AgreesWithTheDefinitionOnAStarWithHolesAndIslands) {
   EXPECT_FALSE(locator.contains({4, 0}));
   EXPECT_FALSE(locator.contains({11, 0}));
   EXPECT_FALSE(locator.contains({std::numeric_limits<double>::quiet_NaN(), 0}));
-  EXPECT_FALSE(locator.contains({0, std::numeric_limits<double>::infinity()}));
+  EXPECT_FALSE(locator.contains({0, infinity}));
 }
 
 TEST(PolygonLocator, KnowsTheInsideOfEveryEdgeWhateverItsDirection) {
@@ -188,11 +192,11 @@ TEST(EdgeGrid, ListsEveryEdgeInEveryCellThatItMeets) {
         for (int e = 0; e < static_cast<int>(polygon.edges.size()); ++e) {
           // Separating axes: the two of the box and the edge's normal.
           const Vec2 a = polygon.vertices[polygon.edges[e].first], b = polygon.vertices[polygon.edges[e].second];
-          if (std::max(a.x(), b.x()) < low.x() || std::min(a.x(), b.x()) > high.x() || std::max(a.y(), b.y()) < low.y() ||
-              std::min(a.y(), b.y()) > high.y())
+          if (std::max(a.x(), b.x()) < low.x() || std::min(a.x(), b.x()) > high.x() ||
+              std::max(a.y(), b.y()) < low.y() || std::min(a.y(), b.y()) > high.y())
             continue;
-          const int s0 = orientation(a, b, low), s1 = orientation(a, b, high), s2 = orientation(a, b, {low.x(), high.y()}),
-                    s3 = orientation(a, b, {high.x(), low.y()});
+          const int s0 = orientation(a, b, low), s1 = orientation(a, b, high),
+                    s2 = orientation(a, b, {low.x(), high.y()}), s3 = orientation(a, b, {high.x(), low.y()});
           if (s0 == s1 && s1 == s2 && s2 == s3 && s0 != 0) continue;
           ASSERT_EQ(listed.count(e), 1U) << e;
         }

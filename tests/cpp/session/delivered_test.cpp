@@ -13,6 +13,7 @@
 #include "io/delivered_json.h"
 #include "io/mesh_files.h"
 #include "session/session.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -154,7 +155,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
 
 TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
   MeshEvaluation nothing;
-  nothing[Kind::deviation].values = {std::nan(""), std::numeric_limits<double>::infinity()};
+  nothing[Kind::deviation].values = {std::nan(""), infinity};
   summarise(nothing);
   const Json json = Json::parse(delivered_json({}, {}, nothing));
   EXPECT_TRUE(json["measures"]["A0"]["mean"].is_null());

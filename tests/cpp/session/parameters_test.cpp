@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -122,7 +122,7 @@ TEST(Parameters, RefuseValuesOutOfRangeAndKeepTheOldOne) {
   EXPECT_EQ(sentence_of([&] { parameters.set("eps_glue", -1); }), "parameter eps_glue must be at least 0; -1 is not");
   EXPECT_EQ(sentence_of([&] { parameters.set("hphydef", std::nan("")); }),
             "parameter hphydef must be a finite number; nan is not");
-  EXPECT_EQ(sentence_of([&] { parameters.set("hphydef", std::numeric_limits<double>::infinity()); }),
+  EXPECT_EQ(sentence_of([&] { parameters.set("hphydef", infinity); }),
             "parameter hphydef must be a finite number; inf is not");
   EXPECT_EQ(sentence_of([&] { parameters.set("element", "q1"); }), "parameter element must be 'p1'; 'q1' is not");
   EXPECT_EQ(sentence_of([&] { parameters.set("option", "all"); }),

@@ -3,19 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "common/analytic_cad.h"
 #include "cpp/cad/surfaces.h"
 #include "metric/metric3_algebra.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
 
 using namespace testing;
 constexpr double pi = std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array criteria{GeometricCriterion::angle, GeometricCriterion::chord, GeometricCriterion::both,
                               GeometricCriterion::radii};
 

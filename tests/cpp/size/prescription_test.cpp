@@ -8,7 +8,9 @@
 
 #include "common/field_source.h"
 #include "four_patches.h"
+#include "size/thresholds.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace {
 
@@ -18,7 +20,6 @@ using carreau::testing::field_of_space;
 using carreau::testing::FieldSource;
 using std::numbers::pi;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 const std::array<double, 2> middle{0.4, 0.6};
 
 SizeParameters geometric(bool anisotropic) {
@@ -36,7 +37,9 @@ Metric2 metric_at(SizeRules& rules, AnalyticCad& cad, int face, Vec2 uv) {
 }
 
 /// Size along a direction of the parameter plane.
-double size_along(Metric2 m, const SurfaceJet& jet, Vec2 d) { return norm(d.x() * jet.su + d.y() * jet.sv) / length(m, d); }
+double size_along(Metric2 m, const SurfaceJet& jet, Vec2 d) {
+  return norm(d.x() * jet.su + d.y() * jet.sv) / length(m, d);
+}
 
 void expect_near(Metric2 m, Metric2 expected, double tolerance) {
   const double scale = std::abs(expected.a) + std::abs(expected.c);
@@ -128,8 +131,8 @@ TEST(GeometricMetrics, APoleTakesTheSizeOfTheNearestSoundPoint) {
 TEST(GeometricMetrics, AreInvariantUnderReparametrisationRotationAndScale) {
   const double a = 0.6, b = -0.4, c = 0.3, d = 0.8, angle = 0.7, scale = 4;
   const auto moved = [&](Vec3 v) {
-    return scale *
-           Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.z()};
+    return scale * Vec3{std::cos(angle) * v.x() - std::sin(angle) * v.z(), v.y(),
+                        std::sin(angle) * v.x() + std::cos(angle) * v.z()};
   };
   const Surface plain = paraboloid();
   const Surface other{[&](Vec2 q) {
@@ -182,8 +185,8 @@ TEST(GeometricMetrics, ACurveIsKeptByItsOwnCurvature) {
     EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), 2 * std::sqrt(0.003 * (2 * radius - 0.003)), 1e-6);
     p.geo_guarantee = true;
     p.geo_rule = GeometricCriterion::angle;
-    EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4), guaranteed_angle_factor * 2 * std::sin(8 * pi / 180) * radius,
-                1e-6);
+    EXPECT_NEAR(s.rules(p).on_curve(0, middle, 0.4),
+                thresholds::size::guaranteed_angle_factor * 2 * std::sin(8 * pi / 180) * radius, 1e-6);
   }
 }
 

@@ -3,20 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "../curve/analytic_cad.h"
 #include "four_patches.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace {
 
 using namespace carreau;
 using namespace carreau::testing_cad;
 using std::numbers::pi;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 const double middle[] = {0.4, 0.6};
 

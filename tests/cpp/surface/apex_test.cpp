@@ -2,9 +2,8 @@
 // bounded there, whatever rule they come from, and no gradation makes them vanish.
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "geometric_run.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -63,7 +62,7 @@ TEST_P(Apex, IsMeshedByEveryGeometricRule) {
           const FaceMesh& face = run.session->mesh().faces[0];
           EXPECT_EQ(face.why, "");
           EXPECT_GT(face.triangles.size(), 10U);
-          double shortest = std::numeric_limits<double>::infinity();
+          double shortest = infinity;
           for (const auto& t : face.triangles)
             for (std::size_t k = 0; k < 3; ++k) {
               const std::int32_t a = face.vertex[t[k]], b = face.vertex[t[(k + 1) % 3]];

@@ -14,6 +14,7 @@
 #include "measure/mesh_evaluation.h"
 #include "session/session.h"
 #include "size/geometric_metric.h"
+#include "size/thresholds.h"
 
 namespace carreau {
 namespace {
@@ -34,8 +35,8 @@ struct Rule {
             .anisotropic = anisotropic,
             .angle_deg = angle,
             .eps0 = chord,
-            .angle_factor = guarantee ? guaranteed_angle_factor : 1,
-            .chord_factor = guarantee ? guaranteed_chord_factor : 1};
+            .angle_factor = guarantee ? thresholds::size::guaranteed_angle_factor : 1,
+            .chord_factor = guarantee ? thresholds::size::guaranteed_chord_factor : 1};
   }
 };
 

@@ -12,6 +12,7 @@
 
 #include "domain_cases.h"
 #include "support/error.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -327,7 +328,7 @@ TEST(FindLoopDefects, SaysWhatIsWrong) {
 
   expect_sentence(find_loop_defects(PlaneDomain{}), {"no boundary"});
   d = square;
-  d.vertices[1].x() = std::numeric_limits<double>::infinity();
+  d.vertices[1].x() = infinity;
   expect_sentence(find_loop_defects(d), {"vertex 1", "not finite"});
   d = square;
   d.edges[1].b = 9;

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <memory>
 #include <numbers>
 
 #include "common/analytic_cad.h"
 #include "session/session.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
@@ -71,7 +71,7 @@ double metric_length(BackgroundField& field, Vec3 p, Vec3 q) {
 }
 
 struct Lengths {
-  double in_range = 0, longest = 0, nearest_vertex = std::numeric_limits<double>::infinity();
+  double in_range = 0, longest = 0, nearest_vertex = infinity;
 };
 
 /// Metric lengths of edges that end within `around` of a place, and that from the place to the nearest vertex.
@@ -172,7 +172,7 @@ TEST(SteepPlaces, SizesGrowFromSpotsInAllFaces) {
     for (std::size_t v = 0; v < session.mesh().vertices.size(); ++v) {
       const Vec3 x = session.mesh().vertices[v];
       if (x.x() < 1) continue;
-      double away = std::numeric_limits<double>::infinity();
+      double away = infinity;
       for (const Vec3& s : spot) away = std::min(away, norm(x - s));
       steepest = std::max(steepest, session.vertex_sizes()[v] / std::min(coarse, fine + std::log(gradation) * away));
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -16,12 +15,13 @@
 #include "measure/mesh_evaluation.h"
 #include "metric/metric3_algebra.h"
 #include "session/session.h"
+#include "support/infinity.h"
 
 namespace carreau {
 namespace {
 
 using namespace testing;
-constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi;
 
 // ---- the bound ----
 
@@ -35,27 +35,27 @@ SurfaceJet polar_jet(Vec2 p) {
   return {{p.x() * c, p.x() * s, 0},  {c, s, 0}, {-p.x() * s, p.x() * c, 0}, {}, {-s, c, 0},
           {-p.x() * c, -p.x() * s, 0}};
 }
-double bounded(const SurfaceJet& jet, Vec3 short_way, Vec3 long_way, double h1, double h2, double tilt) {
+double bounded(const SurfaceJet& jet, Vec3 short_way, Vec3 long_way, double h1, double h2, double lean) {
   TangentMetric sizes{short_way, long_way, h1, h2};
-  bound_tilt(jet, tilt, sizes);
+  bound_lean(jet, lean, sizes);
   EXPECT_EQ(sizes.h1, h1);
   return sizes.h2;
 }
 
 // The arrow of a chord of length L of a circle of radius R is L^2 / (8 R), to second order.
-TEST(BoundOfTilt, IsThatOfTheArrowOfAChord) {
+TEST(BoundOfLean, IsThatOfTheArrowOfAChord) {
   for (const double radius : {0.1, 1., 30.})
     for (const double h : {1e-4, 1e-3})
-      for (const double tilt : {0.2, 0.5, 1.}) {
+      for (const double lean : {0.2, 0.5, 1.}) {
         const SurfaceJet jet = cylinder_jet({0.3, 0.1}, radius);
         const Vec3 around = (1 / radius) * jet.su, along = jet.sv;
-        EXPECT_NEAR(bounded(jet, along, around, h * radius, infinity, tilt), std::sqrt(8 * tilt * h) * radius,
+        EXPECT_NEAR(bounded(jet, along, around, h * radius, infinity, lean), std::sqrt(8 * lean * h) * radius,
                     1e-12 * radius);
-        EXPECT_EQ(bounded(jet, around, along, h * radius, 1e3 * radius, tilt), 1e3 * radius);
+        EXPECT_EQ(bounded(jet, around, along, h * radius, 1e3 * radius, lean), 1e3 * radius);
       }
 }
 
-TEST(BoundOfTilt, LeavesWhatIsShortAndNeverGoesBelowTheOtherSize) {
+TEST(BoundOfLean, LeavesWhatIsShortAndNeverGoesBelowTheOtherSize) {
   const SurfaceJet jet = cylinder_jet({0, 0}, 1);
   EXPECT_EQ(bounded(jet, {0, 0, 1}, {0, 1, 0}, 0.01, 0.05, 0.5), 0.05);
   EXPECT_EQ(bounded(jet, {0, 0, 1}, {0, 1, 0}, 20, 21, 0.5), 20);
@@ -64,7 +64,7 @@ TEST(BoundOfTilt, LeavesWhatIsShortAndNeverGoesBelowTheOtherSize) {
 
 // In the plane, too, images of segments of (u, v) bend where the parametrisation does: circles about a pole. They turn
 // by half a radian at most.
-TEST(BoundOfTilt, KnowsHowImagesOfSegmentsBend) {
+TEST(BoundOfLean, KnowsHowImagesOfSegmentsBend) {
   for (const double r : {0.02, 1., 5.}) {
     const SurfaceJet jet = polar_jet({r, 0.7});
     const double h = 1e-3, most = std::min(std::sqrt(8 * 0.5 * h * r), r);
@@ -73,7 +73,7 @@ TEST(BoundOfTilt, KnowsHowImagesOfSegmentsBend) {
 }
 
 // Under (u, v) -> A (u, v) nothing changes.
-TEST(BoundOfTilt, DoesNotDependOnALinearChangeOfParameters) {
+TEST(BoundOfLean, DoesNotDependOnALinearChangeOfParameters) {
   const SurfaceJet j = torus_jet({0.4, 1.1}, 3, 1);
   const double a = 2, b = 0.7, c = -0.3, d = 5;
   SurfaceJet k = j;
@@ -152,11 +152,11 @@ struct Turning {
   }
 };
 
-class Tilted : public ::testing::TestWithParam<Graph> {};
+class Leaning : public ::testing::TestWithParam<Graph> {};
 
 // Edges of a hundred times the short size leave the surface by more than that: with the sizes prescribed areas are 12
 // to 16 % too large.
-TEST_P(Tilted, TrianglesOfRatio100LieOnTheSurface) {
+TEST_P(Leaning, TrianglesOfRatio100LieOnTheSurface) {
   Turning run(GetParam(), 0.01, 100);
   EXPECT_EQ(find_defects(run.session.mesh()), std::vector<std::string>{});
   EXPECT_LE(run.area(), 1.05 * run.of_surface);
@@ -170,14 +170,14 @@ TEST_P(Tilted, TrianglesOfRatio100LieOnTheSurface) {
 }
 
 // What lies on the surface is left alone.
-TEST_P(Tilted, ShortEdgesAreNotBounded) {
+TEST_P(Leaning, ShortEdgesAreNotBounded) {
   Turning run(GetParam(), 0.02, 5);
   EXPECT_LE(run.area(), 1.02 * run.of_surface);
   EXPECT_EQ(run.face().status, FaceStatus::meshed) << run.face().why;
   EXPECT_TRUE(run.monitor.told.empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Tilted, ::testing::Values(Graph{"waves", waves}, Graph{"bowl", bowl}),
+INSTANTIATE_TEST_SUITE_P(Surfaces, Leaning, ::testing::Values(Graph{"waves", waves}, Graph{"bowl", bowl}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 }  // namespace

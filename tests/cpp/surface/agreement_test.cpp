@@ -52,7 +52,7 @@ const Surface surfaces_that_bend[] = {
     {"sphere", sphere}, {"torus", torus},   {"paraboloid", wide_paraboloid},  {"ellipsoid", ellipsoid},
     {"waves", waves},   {"gutter", gutter}, {"monkey_saddle", monkey_saddle}, {"thick_torus", thick_torus}};
 
-void expect_upright(const GeometricRun& run, const AnalyticCad& cad) {
+void expect_agreement(const GeometricRun& run, const AnalyticCad& cad) {
   const SurfaceMesh& mesh = run.session->mesh();
   const FaceMesh& face = mesh.faces[0];
   ASSERT_FALSE(face.triangles.empty());
@@ -66,9 +66,9 @@ void expect_upright(const GeometricRun& run, const AnalyticCad& cad) {
   }
 }
 
-class Upright : public ::testing::TestWithParam<Surface> {};
+class SurfaceAgreement : public ::testing::TestWithParam<Surface> {};
 
-TEST_P(Upright, WhateverTheGeometricRule) {
+TEST_P(SurfaceAgreement, WhateverTheGeometricRule) {
   const AnalyticCad cad = GetParam().make();
   for (const char* rule : {"angle", "chord", "both", "radii"})
     for (const int by_direction : {0, 1})
@@ -84,12 +84,12 @@ TEST_P(Upright, WhateverTheGeometricRule) {
             p.set("eps_chord", 2e-3 * scale * scale);
             p.set("hgeomin", 1e-2);
           });
-          expect_upright(run, cad);
+          expect_agreement(run, cad);
           EXPECT_EQ(run.session->delivered().folded_triangles, 0);  // nor anywhere else
         }
 }
 
-TEST_P(Upright, OfOneSize) {
+TEST_P(SurfaceAgreement, OfOneSize) {
   const AnalyticCad cad = GetParam().make();
   for (const double h : {0.05, 0.2, 0.4, 0.8}) {
     SCOPED_TRACE(h);
@@ -98,7 +98,7 @@ TEST_P(Upright, OfOneSize) {
       p.set("hphy_flag", 1);
       p.set("hphydef", h);
     });
-    expect_upright(run, cad);
+    expect_agreement(run, cad);
   }
 }
 
@@ -111,7 +111,7 @@ TEST(Guaranteed, NothingIsDividedBelowTheSmallestSize) {
                                  [](Vec2 p) {
                                    const double c = std::cos(p.x()), s = std::sin(p.x()), r = 1 - p.y() + 1e-12;
                                    return SurfaceJet{{r * c, r * s, 3 * p.y()}, {-r * s, r * c, 0}, {-c, -s, 3},
-                                                     {-r * c, -r * s, 0},     {s, -c, 0},         {}};
+                                                     {-r * c, -r * s, 0},       {s, -c, 0},         {}};
                                  },
                                  rectangle({0, 0}, {2 * pi, 1})),
                              [&](Parameters& p) {
@@ -135,7 +135,7 @@ TEST(Guaranteed, NothingIsDividedBelowTheSmallestSize) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Surfaces, Upright, ::testing::ValuesIn(surfaces_that_bend),
+INSTANTIATE_TEST_SUITE_P(Surfaces, SurfaceAgreement, ::testing::ValuesIn(surfaces_that_bend),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 /// A fillet in a corner that turns inwards, of u from 0 to `angle`: edges of `outer` on its outer side, of 1.3 on the
@@ -168,7 +168,7 @@ void by_direction(Parameters& p, double angle) {
 
 // One edge on the outer side and seven on the inner one: the chord of that edge passes inside of the inner side, and
 // the outer curve outside of it.
-TEST(UprightBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
+TEST(AgreementBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
   for (const bool directed : {false, true}) {
     SCOPED_TRACE(directed ? "by direction" : "one size");
     Fillet run(1.3, 12, [&](Parameters& p) {
@@ -181,9 +181,9 @@ TEST(UprightBesideChords, EdgesThatBulgePastTheOtherSideOfAFillet) {
   }
 }
 
-// As it is where such edges are left alone: no division makes the triangles on them upright, and none goes on until
-// vertices coincide. That they are turned over is told.
-TEST(UprightBesideChords, AreNotDividedForEver) {
+// As it is where such edges are left alone: no division makes the triangles on them agree with the surface, and none
+// goes on until vertices coincide. That they are turned over is told.
+TEST(AgreementBesideChords, AreNotDividedForEver) {
   Fillet run(2 * pi, 8.8, [](Parameters& p) {
     by_direction(p, 40);
     p.set("hgeomin", 0.01);

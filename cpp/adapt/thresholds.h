@@ -1,0 +1,30 @@
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+namespace carreau::thresholds::adapt {
+
+// In brackets: the tests that rest on it, all of tests/cpp/adapt.
+
+// Recovery of derivatives
+/// Ratio of the smallest to the largest diagonal entry of the triangular factor, below which a fit is not determined.
+/// [Recovery.SaysWhereNeighboursAreTooFew]
+inline constexpr double least_pivot = 0.02;
+/// Rings of neighbours that a fit may take. [Recovery.IsExactOnQuadraticsUpToTheBorder]
+inline constexpr int most_rings = 3;
+
+// Functions of the host (differences)
+/// Share of the diagonal. Largest step of differences. [EstimateFunction.IsExactForQuadratics]
+inline constexpr double largest_step = 1e-4;
+/// Ratio. An edge so many times longer than what its ends see of the function is blind.
+/// [EstimateFunction.SeesBetweenVertices]
+inline constexpr double blind = 2;
+
+// Transfer
+/// Ratio. What is linear in (u, v) is carried over exactly: the place in (u, v) counts while the triangles of the old
+/// mesh are not so many times as near elsewhere. The surface leaves them by an amount of second order, and so does
+/// this. [TransferField.IsOfSecondOrderAroundPoles]
+inline constexpr double as_near = 4;
+/// Share of coordinates. What is nearer is there. [TransferField.KeepsValuesAtVerticesThatStay]
+inline constexpr double place_rounding = 1e-14;
+
+}  // namespace carreau::thresholds::adapt

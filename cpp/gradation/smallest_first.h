@@ -1,0 +1,39 @@
+// Dijkstra's order, in which all gradations hand sizes on.
+#pragma once
+
+#include <functional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "gradation/thresholds.h"
+#include "support/monitor.h"
+
+namespace carreau {
+
+/// Places that wait to hand their sizes on: the smallest size first, of equal ones the lowest number. From small to
+/// large few sizes are bounded twice.
+class SmallestFirst {
+ public:
+  void push(double size, int place) { queue_.emplace(size, place); }
+
+  /// Until none waits. `counts(size, place)`: whether the place still has that size to hand on; `leave(place)` does it
+  /// and pushes those whose sizes it has changed. Throws Cancelled.
+  template <typename Counts, typename Leave>
+  void run(const Counts& counts, const Leave& leave, Monitor& monitor) {
+    std::size_t steps = 0;
+    while (!queue_.empty()) {
+      const auto [size, place] = queue_.top();
+      queue_.pop();
+      if (!counts(size, place)) continue;
+      if (++steps % thresholds::gradation::places_between_checks == 0) monitor.checkpoint();
+      leave(place);
+    }
+  }
+
+ private:
+  using Entry = std::pair<double, int>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+}  // namespace carreau

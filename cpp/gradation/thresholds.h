@@ -1,0 +1,68 @@
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+
+namespace carreau::thresholds::gradation {
+
+// In brackets: the tests that rest on it, of tests/cpp/gradation and tests/cpp/surface/grade.
+
+// Fronts of one size (gradation, graded_field)
+/// Cosine. The line from a source to a vertex passes near the vertex before it when they see it within this angle: the
+/// six neighbours of a vertex of a good mesh leave at most 30 degrees. [Gradation.ConeOnATriangulationOfVaryingSize]
+inline constexpr double seen_from_beside = 0.7;
+/// Cosine. Lines that agree so well are one wave from a line of sources, not two cones.
+/// [Gradation.RidgeBetweenTwoSourcesAndPlaneWaveFromALine]
+inline constexpr double same_wave = 0.7;
+/// Cosine. Normals of places of a vertex that are one smooth surface, where more than two faces meet.
+/// [Gradation.ConeOnASphereOfTwoPatches]
+inline constexpr double smooth_corner = 0.9;
+/// Cosine. Tangent planes that are turned farther, by 177 degrees, have no rolling between them.
+/// [Gradation.ConeAcrossACreaseWhateverTheSidesOfTheFaces]
+inline constexpr double least_unfolded = -0.999;
+
+// Metrics (metric_grading)
+/// Ratio. Paths run along edges and from the middles of edges: every 30 degrees, so that they are up to 1 / cos(15
+/// degrees) = 1.035 times too long. Half of that is taken from the slope. [Gradation.ByDirectionNoEdgeIsSteeper]
+inline constexpr double detour = 1.0175;
+/// Share of a size. Smaller changes are not followed. [Gradation.ByDirectionNoEdgeIsSteeper; far below the
+/// roughness of surface/grade]
+inline constexpr double negligible = 1e-3;
+
+// Narrow zones and faces that face each other (boundary_sides, proximity, facing)
+/// Cosine. A boundary that turns by less goes straight on: below it are arcs of a few edges, above it the corners of
+/// polygons. [Proximity.NarrowZonesHoldTheLayersAskedFor]
+inline constexpr double straight_on = std::numbers::sqrt2 / 2;
+/// Cosine. Fronts, or normals of faces, that meet within this angle of head on. [as above]
+inline constexpr double head_on = 0.8;
+/// Radians. Angle of a corner whose sides are near each other because it is a corner,
+/// [Proximity.WideDomainsAreLeftAlone]
+inline constexpr double sharp_corner = 100 * std::numbers::pi / 180;
+/// Gaps. and its reach. [Proximity.WideDomainsAreLeftAlone]
+inline constexpr double reach_of_corner = 2;
+/// Radians. Below, the reach in gaps does not hold the tip: there the gap is 2 tan(angle / 2) of the distance from it.
+/// [Proximity.WedgesEndInATriangle]
+inline constexpr double wedge = 28 * std::numbers::pi / 180;
+/// Ratio. Ways of fronts near corners may be shorter by it than those between their feet, which are vertices. [models:
+/// corners are no zones]
+inline constexpr double longer_between_feet = 1.05;
+/// Sides of a square. What fills up between ways that are a gap apart. [geometry]
+inline constexpr double half_diagonal = std::numbers::sqrt2 / 2;
+/// Weight. A normal that meets an edge between two triangles meets one of them. [rounding]
+inline constexpr double edge_rounding = 1e-9;
+
+// Places in a face (triangle_tree)
+/// Share of the extent. What rounding may make of the point of a triangle that is the point itself.
+/// [TriangleTreePlaces.AtVerticesAndOnSides...]
+inline constexpr double point_rounding = 1e-14;
+/// Roundings. A point so far inside a triangle is in no other one. [TriangleTreePlaces.AreThoseOfTheNearestTriangle]
+inline constexpr double clearly_inside = 1e5;
+/// Triangles. Longer walks are left to the search. [time only]
+inline constexpr int longest_walk = 32;
+
+// Stops
+/// Vertices, places or triangles between two looks at the monitor. [GradedModel.TellsItsProgressAndStops]
+inline constexpr std::size_t places_between_checks = 1 << 12;
+
+}  // namespace carreau::thresholds::gradation

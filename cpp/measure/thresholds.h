@@ -1,0 +1,23 @@
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+#include <numbers>
+
+namespace carreau::thresholds::measure {
+
+// In brackets: the tests that rest on it, all of tests/cpp/measure.
+
+/// Unit edges. Gradations are judged over no less: over a hundredth of a unit sizes that differ by a tenth, which
+/// nobody could see, would have one of 14 000. [DeliveredPlane.GradationOfTinyEdgesIsThatOfATenthOfAUnit]
+inline constexpr double shortest_way = 0.1;
+/// Unit edges. Trapezoids of a length in a control space are no longer. [DeliveredPlane.QuadratureHasItsOrder]
+inline constexpr double fine_length = 0.1;
+/// Share of a limit. What exceeds it by less meets it: rounding; [DeliveredPlane.UniformLengthsAreExact]
+inline constexpr double limit_rounding = 1e-9;
+/// Share of a limit. of gradations, which are measured by trapezoids.
+/// [DeliveredPlane.GradationsBetweenTwoCurvesAreForced]
+inline constexpr double gradation_tolerance = 0.02;
+/// Unit edges. Lengths in range are between these (HDR eq. 2.14). [DeliveredPlane.UniformLengthsAreExact]
+inline constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;
+
+}  // namespace carreau::thresholds::measure

@@ -1,0 +1,77 @@
+// One graph of the gradation of a model: a mesh of its own whose vertices know what is prescribed. Private to this
+// room.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gradation/metric_grading.h"
+#include "surface/grade/size_grading.h"
+#include "surface/refine/boundary_refinement.h"
+#include "surface/sample/face_sampling.h"
+
+namespace carreau::detail {
+
+inline Vec3 unit(const Vec3& v) noexcept {
+  const double l = norm(v);
+  return l > 0 ? (1 / l) * v : Vec3{};
+}
+
+/// What the passes below work on, in their order: curves, domains and plane meshes of all faces. Used once.
+struct GradingWork {
+  /// What the host has said at a place of a face.
+  struct Sample {
+    Vec2 uv;
+    Vec3 xyz;
+    double h = 0;
+    TangentMetric sizes{};  // instead of h where sizes differ by direction
+    std::int32_t triangle = 0;
+    std::array<double, 3> promised{};  // weights of its corners
+  };
+
+  GradingWork(const CurveModel& curve_model, SizeRules& size_rules, const CompositeOptions& composite_options,
+              double diag, Monitor& run_monitor);
+
+  const CurveModel& model;
+  SizeRules& rules;
+  CompositeOptions options;
+  Monitor& monitor;
+  bool by_direction;  // sizes may differ by direction
+  double largest;     // edge of the graph
+
+  // make_graph()
+  std::vector<DiscreteCurve> curves;
+  RefinedDomains domains;
+  GradationGraph graph;
+  std::vector<std::uint8_t> sides;        // of the graph's triangles: those on curves
+  std::vector<std::vector<int>> node_of;  // [curve][node]: vertex of the graph
+  std::vector<GradedFace> faces;
+  std::vector<std::size_t> place_of;  // first place of a face
+  std::vector<std::vector<Sample>> samples;
+  std::vector<std::vector<Vec2>> missed;  // as GradedModel
+  std::vector<double> h;                  // prescribed at the vertices of the graph
+  std::vector<TangentMetric> metric;      // of places, where sizes differ by direction
+  std::vector<GradationSource> sources;
+  std::vector<MetricSource> metric_sources;
+  std::vector<double> prescribed_h;         // before any bound
+  std::vector<TangentMetric> prescribed;    // the same of `metric`
+  std::vector<std::vector<int>> places_of;  // of vertices, where sizes differ by direction
+};
+
+/// `raw`: prescribed sizes of the curves; `before`: what the graph is made with.
+void make_graph(GradingWork& work, const std::vector<SizeSamples>& raw, const GradedModel& before);
+/// The plane mesh of a face in the graph's own control space; what the host says meanwhile is kept in work.samples.
+PlaneMesh mesh_in_graph(GradingWork& work, const PatchInput& input);
+
+/// So many layers as options.proximity between two boundaries of a face, and between faces that face each other.
+void bound_narrow_zones(GradingWork& work);
+void bound_facing_faces(GradingWork& work);
+
+/// Of a place of the graph.
+int face_of(const GradingWork& work, int place);
+/// What is rough is so beside too: samples are few.
+void widen_rough(GradedFace& face);
+
+}  // namespace carreau::detail

@@ -1,0 +1,88 @@
+// Bounds by how far boundaries and faces are from each other.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gradation/facing.h"
+#include "gradation/proximity.h"
+#include "surface/grade/grading_work.h"
+#include "surface/grade/thresholds.h"
+
+namespace carreau::detail {
+
+using thresholds::grade::graph_share;
+
+// So many layers n between two boundaries, where sizes differ by direction across the gap only. Edges of a unit mesh
+// are up to sqrt(2) sizes long: a way of n - 1 of them does not cross the gap if (n - 1) sqrt(2) h is less than it. Up
+// to three layers a size of gap / n is enough.
+void bound_narrow_zones(GradingWork& work) {
+  const double layers = work.options.proximity, share = 1 / std::max(layers, (layers - 1) * std::numbers::sqrt2);
+  std::vector<double> wanted = work.h;  // diag where nothing is known
+  for (double& h : wanted) h = std::min(h, work.largest / graph_share);
+  for (const NarrowPlace& n : find_narrow_places(work.graph, work.sides, wanted, work.monitor)) {
+    const double h = n.gap * share;
+    if (!work.by_direction) {
+      work.h[n.vertex] = std::min(work.h[n.vertex], h);
+      continue;
+    }
+    for (const int p : work.places_of[n.vertex]) {
+      const Vec3 normal = work.graph.places[p].normal, across = unit(n.across - dot(n.across, normal) * normal);
+      work.metric[p].bound_along(across, h);
+    }
+  }
+}
+
+namespace {
+
+double smallest_size(const GradingWork& work) {
+  const SizeParameters& size = work.options.size;
+  if (size.physical == PhysicalSizes::ignored) return size.hgeomin;
+  return size.geometric == GeometricSizes::ignored ? size.hphymin : std::min(size.hphymin, size.hgeomin);
+}
+
+}  // namespace
+
+// As many layers between two faces that face each other: a size of the gap over their number in all directions of both.
+void bound_facing_faces(GradingWork& work) {
+  std::vector<std::vector<int>> points(work.model.model.faces.size());
+  for (const Curve& c : work.model.topology.curves)
+    for (const CurveUse& use : c.uses) points[use.face].insert(points[use.face].end(), {c.end1, c.end2});
+  const auto apart = [&](int p, int q) {
+    const int f = face_of(work, p), g = face_of(work, q);
+    if (f == g) return false;
+    return std::find_first_of(points[f].begin(), points[f].end(), points[g].begin(), points[g].end()) ==
+           points[f].end();
+  };
+  const double layers = work.options.proximity;
+  const auto reach = [&](int p) {
+    const double h =
+        work.by_direction ? std::max(work.metric[p].h1, work.metric[p].h2) : work.h[work.graph.places[p].vertex];
+    return layers * std::min(h, work.largest / graph_share);  // diag where nothing is known
+  };
+  for (const FacingPlace& f : find_facing_places(work.graph, reach, apart, work.monitor)) {
+    const double h = f.gap / layers;
+    // What no size that is allowed can resolve is contact.
+    if (h < smallest_size(work)) continue;
+    if (work.by_direction) {
+      work.metric[f.place].h1 = std::min(work.metric[f.place].h1, h);
+      work.metric[f.place].h2 = std::min(work.metric[f.place].h2, h);
+      continue;
+    }
+    double& known = work.h[work.graph.places[f.place].vertex];
+    known = std::min(known, h);
+    // The other face may have no vertex near the foot.
+    for (const int p : work.graph.triangles[f.triangle]) {
+      const Vec3 way =
+          step_on_surface(work.graph.places[p].normal, f.foot - work.graph.xyz[work.graph.places[p].vertex]);
+      work.sources.push_back({p, {h, -1 * way}});
+    }
+  }
+}
+
+// Places of a face are numbered together; a face without any has the first of the next one.
+int face_of(const GradingWork& work, int place) {
+  const auto after = std::upper_bound(work.place_of.begin(), work.place_of.end(), static_cast<std::size_t>(place));
+  return static_cast<int>(after - work.place_of.begin()) - 1;
+}
+
+}  // namespace carreau::detail

@@ -1,0 +1,35 @@
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+#include <cstddef>
+
+namespace carreau::thresholds::narrow {
+
+// In brackets: the tests that rest on it, all of tests/cpp/surface/narrow.
+
+/// Widths. A round or bent end of a strip is longer than the strip is wide: half a circle has 1.57 times its diameter.
+/// [Narrow.WedgeCollapses]
+inline constexpr double longest_end_cap = 2;
+/// Curves. Sides are found by trying all pairs of ends: a face with more is not tried. [time only]
+inline constexpr std::size_t most_curves = 60;
+/// Share of a width. Choices whose widths differ by less are equally near: the one with more curves in its end caps is
+/// taken. [Narrow.ChamferOfABoxCollapses]
+inline constexpr double same_width = 1e-3;
+/// Places on a loop that tell in which sense the other one runs. [Narrow.RingBetweenCylindersCollapses]
+inline constexpr int probes = 12;
+/// Gaps. A face is without width where its surface, halfway between two uses of a curve, is no farther from them,
+/// [Folded.FaceWithoutWidthIsNoFailure]
+inline constexpr double folded_gap = 4;
+/// Share of their length. or than this. [Folded.SeamsAreNot]
+inline constexpr double folded_share = 1e-9;
+/// Widths. Vertices on two sides stand for one place when they are as near along the sides: farther apart, triangles
+/// between them would be the worse for it, and a collapse would move them more than it must.
+/// [Narrow.ChainOfSliversHasOneLayerEach]
+inline constexpr double same_place = 3;
+/// Share of the sides. And never farther than this, whatever the width. [rounding]
+inline constexpr double place_rounding = 1e-9;
+/// Cosine. Two neighbours lie back to back when the directions in which they leave the strip differ by less than 26
+/// degrees. [Narrow.ThinPlateKeepsItsRim]
+inline constexpr double back_to_back = 0.9;
+
+}  // namespace carreau::thresholds::narrow

@@ -1,0 +1,34 @@
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+namespace carreau::thresholds::sample {
+
+// In brackets: the tests that rest on it, of tests/cpp/surface.
+
+/// Shares of the domain's box. How far from a degenerate point limits are taken; the second where the first is outside.
+/// [FaceMetric.OfAPoleIsTheLimitAlongItsMeridian]
+inline constexpr double ways_inside[] = {1e-4, 1e-6};
+/// Share of that way. The part aside, towards the middle of the box: meridians may run along sides of the domain, which
+/// are straight but for rounding. [as above]
+inline constexpr double aside = 1e-6;
+/// Ratio of derivatives. The surface stands still along the shorter one. [as above]
+inline constexpr double still = 1e-12;
+/// Relative difference of a metric from that of one size, which rounding leaves.
+/// [VertexSizes.AreThePrescribedOneWhenItIsConstant]
+inline constexpr double same_size = 1e-6;
+/// Ratio of speeds. How many times faster than usual a parametrisation may be somewhere: else other parameters are
+/// looked for; [UnevenParameters]
+inline constexpr double uneven_speed = 1000;
+/// Ratio of speeds. and where there are none. [UnevenParameters.ExtremeWeights]
+inline constexpr double hopeless_speed = 30'000;
+
+// Growth from the edges of a boundary (edge_growth)
+/// Triangles. Smaller meshes are made as they are: whether they are right is not worth sampling again. [limits_test]
+inline constexpr double few_triangles = 10'000;
+/// Times the triangles that sizes and growth ask for. Straight distances and rounding of a sound control space
+/// leave 1.3 at most. [limits_test]
+inline constexpr double most_growth_excess = 2;
+/// Times. Of the least size of edges, from one try to the next. [limits_test]
+inline constexpr double growth_raise = 8;
+
+}  // namespace carreau::thresholds::sample

@@ -1,0 +1,82 @@
+// Thresholds of the recipe itself: what they are, in which unit, why, and what supports them.
+#pragma once
+
+#include <cstddef>
+
+namespace carreau::thresholds::patches {
+
+// In brackets: the tests that rest on it, of tests/cpp/surface.
+
+// A face meshed again (face_job)
+/// Times that a patch is meshed again because the lift disagrees.
+/// [Verification.DipsOfTheSizesThatNoSampleHitsAreMeshed]
+inline constexpr int most_corrections = 3;
+/// Times that it is because it has missed places of small sizes; each time those beside the ones found come to light.
+/// [Verification.BumpsThatNoSampleHitsAreMeshedAtTheirSize]
+inline constexpr int most_refills = 6;
+/// Ratio of triangles. A mesh that would become so many times larger has not missed a place: its sizes are damaged
+/// nearly everywhere. [BadModels.SurfaceThatJumpsInManyPlaces]
+inline constexpr double most_growth = 1000;
+/// Tangent of the angle by which triangles may lean where long sizes are bounded for it: a ninth more area at worst.
+/// [Leaning.TrianglesOfRatio100LieOnTheSurface]
+inline constexpr double most_lean = 0.5;
+/// Ratio by which sizes then grow from one edge to the next: where the curvature vanishes along a line they would jump.
+/// [Leaning.ShortEdgesAreNotBounded]
+inline constexpr double gentle = 1.5;
+/// Ratio of triangles of a mesh that follows the surface so. [Leaning.TrianglesOfRatio100LieOnTheSurface]
+inline constexpr double most_growth_bounded = 64;
+/// Share of the extent squared. A patch of less area is what rounding leaves of a line. [BadModels.SurfaceWithoutArea]
+inline constexpr double no_area = 1e-14;
+
+// Jumps of a surface (face_job)
+/// Edges that are looked at before a patch is corrected; after that, all are. [BadModels.SurfaceThatJumpsInManyPlaces]
+inline constexpr std::size_t most_looked_at_first = 30;
+/// Halvings of an edge, to 1e-9 of it; more would compare numbers that are rounded.
+/// [BadModels.DerivativesThatVanishOnABorderAreNoJump]
+inline constexpr int jump_halvings = 30;
+/// Share of the chord that must be left; a surface as steep as a square root leaves 3e-5. [as above]
+inline constexpr double jump_share = 0.1;
+/// Share of coordinates, more than what evaluators leave. [as above]
+inline constexpr double jump_noise = 1e-10;
+
+// Short edges (patch_step)
+/// Share of the size prescribed at both ends. Shorter edges let sizes grow from them; those of a curve that is one edge
+/// or several are at least 0.7 and 0.8 of it. [ShortEdges.WithoutThemNothingChanges]
+inline constexpr double short_share = 0.7;
+
+// Progress (curve_steps, run)
+/// Curves that are cut between two reports where several threads cut them. [time only]
+inline constexpr std::size_t curves_at_once = 64;
+/// Shares of the whole: of the gradation, where there is one; and, of what comes after it, of curves and of patches.
+/// [GradedModel.TellsItsProgressAndStops]
+inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share = 0.85;
+
+// Memory (run)
+/// Bytes that a triangle may cost while a patch is meshed, the mesh itself and copies included.
+/// [Memory.AMillionTrianglesNeedAtMostTwoHundredBytesEachAboveTheMesh]
+inline constexpr double bytes_per_triangle = 300;
+
+}  // namespace carreau::thresholds::patches
+
+namespace carreau::thresholds::crossings {
+
+// Triangles that cross (crossing_step). [CloseWalls.*]
+
+/// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
+inline constexpr std::size_t most_pairs = 100'000;
+/// Share of the larger sagitta. What two surfaces that coincide leave between their points over one place of a crossing
+/// is of second order; walls as far apart as this share are told from them.
+inline constexpr double least_gap = 0.25;
+/// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
+inline constexpr double no_sagitta = 1e-12;
+/// Ratio of gaps from one round to the next. Walls that are apart stay so.
+inline constexpr double most_fall_of_gap = 0.5;
+/// Share of the gap that sagittas of both sides are to leave; they are as the squares of lengths.
+inline constexpr double sagitta_share = 0.5;
+/// Shares of the longest edge of a triangle that crosses another one, whatever the gap.
+inline constexpr double least_share = 0.25, most_share = 0.6;
+/// Ratio of triangles to those of the first mesh. No round follows on a larger one: clearances of bolts in an assembly
+/// meshed coarsely would ask for all of its triangles to be small.
+inline constexpr std::size_t most_growth = 4;
+
+}  // namespace carreau::thresholds::crossings
