@@ -165,7 +165,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     CompositeResult before = std::exchange(run.result, {});
     run.result.graded = before.graded, run.result.report = before.report;
     if (!best_result) best_result = std::move(before);
-    run.begin += (1 - run.begin) * (curves_share + patches_share);
+    run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
     mesh_again();
     now = Crossings(run);
     if (now.better_than(best)) best = now, best_result.reset();
