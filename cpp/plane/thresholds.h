@@ -215,6 +215,8 @@ inline constexpr double thinned_quality = 0.45;
 /// Of a parallelogram in the metric (ideal: 0.87). After a move; else it is taken back. [0.16: lengths in range on
 /// rough sizes 91.5 to 92.2 %; 0.25: longest edges on turning fields 2.5 to 2.2]
 inline constexpr double least_area = 0.2;
+/// Rounds. Then all moves of the pass are taken back.
+inline constexpr int undo_rounds = 20;
 /// Share. Of unit lengths in the aim, the rest being equilateral triangles; [0.04 and 0.06: lengths in range on
 /// turning fields - 0.3 %]
 inline constexpr double pull_even = 0.05;
@@ -268,6 +270,8 @@ inline constexpr double flat_height = 1e-7;
 // Local search (optimise/local_search, search_zone, zone_moves)
 /// Q2. Better triangles are left alone. [LocalSearch; 0.92: twice the time, and no worst one is raised]
 inline constexpr double searched_quality = 0.88;
+/// Passes. [with none here and below, the mesh of frame.step by 8 degrees changes]
+inline constexpr int search_passes = 8;
 /// Shapes. Work is bounded by a multiple of the mesh, [time only, as the next four]
 inline constexpr std::int64_t search_shapes = 16'000;
 /// Shapes.
@@ -283,6 +287,8 @@ inline constexpr double change_gain = 0.01;
 /// Share of the mean cost. and a round of moves after it, to be followed by another one. [0.8 to 1.25 times: no
 /// figure changes; ends the rounds]
 inline constexpr double round_gain = 0.02;
+/// Rounds. up to these. [as above]
+inline constexpr int relaxing_rounds = 4;
 /// Changes. Followed through. [2: one of 17 meshes changes for the better, one for the worse; 10: as 5]
 inline constexpr std::size_t most_promising = 5;
 /// Squared units. Of edges that a change leaves, unless some were longer [3: longest edge of rough sizes 1.75 to

@@ -129,11 +129,12 @@ bool improve_around(SearchZone& zone, int t, bool on_surface) {
   apply(zone, *best);
   relax_zone(zone, false);
   ZoneCost now = zone.cost(infinity);
-  double before = infinity;
-  while (now.mean < before * (1 - round_gain)) {
-    before = now.mean;
+  for (int round = 1; round < relaxing_rounds; ++round) {
     relax_zone(zone, false);
-    now = zone.cost(infinity);
+    const ZoneCost next = zone.cost(infinity);
+    const bool more = next.mean < now.mean * (1 - round_gain);
+    now = next;
+    if (!more) break;
   }
   if (target.is_met(now, target.before.mean)) return true;
   zone.restore();
@@ -163,8 +164,8 @@ void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals)
   std::int64_t allowed = first_search_shapes + first_search_shapes_a_triangle * total;
   SearchZone zone(work, normals);
   std::vector<char> in_vain(mesh.triangles.size(), 0);
-  for (bool any = true; any;) {
-    any = false;
+  for (int pass = 0; pass < search_passes; ++pass) {
+    bool any = false;
     for (const auto& [rank, t] : list_bad(work, in_vain)) {
       if (zone.shapes_asked > std::min(budget, allowed)) return;
       work.monitor.checkpoint();
@@ -178,6 +179,7 @@ void search_around_bad_triangles(PlaneWork& work, const SampledNormals* normals)
       for (const std::int32_t s : zone.triangles) in_vain[s] = 0;
       any = true;
     }
+    if (!any) break;
   }
 }
 

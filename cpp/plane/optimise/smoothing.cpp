@@ -172,17 +172,17 @@ void find_spoiled(const PlaneWork& work, SmoothingArrays& arrays) {
   }
 }
 
-// The vertices of the triangles listed go back, then those of triangles around them that are spoiled by that, and so
-// on: each goes back once at most.
+// The vertices of the triangles listed go back, then those of triangles around them that are spoiled by that.
 template <bool bends>
 void undo_spoiling_moves(PlaneWork& work, SmoothingArrays& arrays) {
   std::vector<std::int32_t>& spoiled = arrays.spoiled;
   Star star;
-  do {
+  for (int round = 0; round < undo_rounds; ++round) {
     arrays.undone.clear();
     for (const std::int32_t t : spoiled)
       if (!is_sound<bends>(work, arrays, static_cast<std::size_t>(t)))
         for (const std::int32_t v : work.mesh.triangles[t].v) take_back(work, arrays, v);
+    if (arrays.undone.empty()) return;
     spoiled.clear();
     for (const std::int32_t v : arrays.undone) {
       star.collect(work.mesh, v);
@@ -190,7 +190,8 @@ void undo_spoiling_moves(PlaneWork& work, SmoothingArrays& arrays) {
     }
     std::sort(spoiled.begin(), spoiled.end());
     spoiled.erase(std::unique(spoiled.begin(), spoiled.end()), spoiled.end());
-  } while (!spoiled.empty());
+  }
+  for (int v = work.fixed; v < static_cast<int>(work.mesh.vertices.size()); ++v) take_back(work, arrays, v);
 }
 
 struct SmoothingPass {
