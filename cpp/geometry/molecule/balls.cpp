@@ -85,6 +85,14 @@ std::vector<int> without_concentric(std::span<const Ball> balls, std::vector<int
 
 }  // namespace
 
+Vec3 across(const Vec3& n) {
+  const Vec3 axis = std::abs(n.x()) <= std::abs(n.y()) && std::abs(n.x()) <= std::abs(n.z()) ? Vec3{1, 0, 0}
+                    : std::abs(n.y()) <= std::abs(n.z())                                     ? Vec3{0, 1, 0}
+                                                                                             : Vec3{0, 0, 1};
+  const Vec3 e = cross(n, axis);
+  return e / norm(e);
+}
+
 void check_balls(std::span<const Ball> balls) {
   if (balls.empty()) throw InvalidArgument("there is no atom");
   double largest = 0;

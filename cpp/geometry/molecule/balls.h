@@ -14,6 +14,9 @@ struct Ball {
   double radius = 0;
 };
 
+/// A unit vector at a right angle to a unit vector, by a rule.
+Vec3 across(const Vec3& unit);
+
 /// Throws InvalidArgument, naming the ball (from 1): a centre or a radius that is not finite, a radius that is not
 /// positive or is below 1e-9 of the largest one; no ball at all.
 void check_balls(std::span<const Ball> balls);

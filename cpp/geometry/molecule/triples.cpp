@@ -10,15 +10,6 @@ namespace {
 
 constexpr double rounding = 1e-13;  // of products of three or four lengths of one size
 
-/// Any unit vector at a right angle to a unit vector.
-Vec3 across(const Vec3& n) {
-  const Vec3 axis = std::abs(n.x()) <= std::abs(n.y()) && std::abs(n.x()) <= std::abs(n.z()) ? Vec3{1, 0, 0}
-                    : std::abs(n.y()) <= std::abs(n.z())                                     ? Vec3{0, 1, 0}
-                                                                                             : Vec3{0, 0, 1};
-  const Vec3 e = cross(n, axis);
-  return e / norm(e);
-}
-
 /// Of the circle's plane from the centre of p: HDR sec. 4.6.2, step 1.
 double plane_offset(const Ball& p, const Ball& q, double distance) {
   return (distance + (p.radius - q.radius) * ((p.radius + q.radius) / distance)) / 2;

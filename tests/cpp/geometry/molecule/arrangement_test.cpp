@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 #include <random>
 
 #include "geometry/molecule/areas.h"
+#include "balls_from_files.h"
 #include "support/error.h"
 
 namespace carreau::molecule {
@@ -18,13 +18,6 @@ constexpr double pi = std::numbers::pi;
 Arrangement of(const std::vector<Ball>& balls, int threads = 1) {
   Monitor silent;
   return arrange(balls, threads, silent);
-}
-
-std::vector<Ball> read(const std::string& name, double probe = 0) {
-  std::ifstream in(std::string(CARREAU_TEST_DATA) + "/molecule/" + name);
-  std::vector<Ball> balls;
-  for (double x, y, z, r; in >> x >> y >> z >> r;) balls.push_back({{x, y, z}, r + probe});
-  return balls;
 }
 
 std::vector<Ball> random_balls(int n, double density, unsigned seed) {
@@ -68,12 +61,13 @@ TEST(Arrange, VolumeOfTwoBallsIsTheirSumLessTheLens) {
 }
 
 TEST(Arrange, MoleculesHaveTheAreasAndVolumesOfSampling) {
-  const UnionMeasures caffeine = measure(of(read("caffeine.xyzr"))), around = measure(of(read("caffeine.xyzr", 1.4)));
+  const UnionMeasures caffeine = measure(of(read_balls("caffeine.xyzr"))),
+                      around = measure(of(read_balls("caffeine.xyzr", 1.4)));
   EXPECT_NEAR(caffeine.area, 219.08, 2e-4 * 219.08);
   EXPECT_NEAR(caffeine.volume, 171.31, 2e-4 * 171.31);
   EXPECT_NEAR(around.area, 387.87, 2e-4 * 387.87);
   EXPECT_NEAR(around.volume, 588.82, 2e-4 * 588.82);
-  const UnionMeasures dna = measure(of(read("1bna.xyzr"))), wet = measure(of(read("1bna.xyzr", 1.4)));
+  const UnionMeasures dna = measure(of(read_balls("1bna.xyzr"))), wet = measure(of(read_balls("1bna.xyzr", 1.4)));
   EXPECT_NEAR(dna.area, 5614.9, 2e-4 * 5614.9);
   EXPECT_NEAR(dna.volume, 4844.6, 2e-4 * 4844.6);
   EXPECT_NEAR(wet.area, 4659.5, 2e-4 * 4659.5);
@@ -82,15 +76,15 @@ TEST(Arrange, MoleculesHaveTheAreasAndVolumesOfSampling) {
 }
 
 TEST(Arrange, CountsThePairsThatMeet) {
-  EXPECT_EQ(of(read("caffeine.xyzr")).meeting_pairs, 84U);
-  EXPECT_EQ(of(read("caffeine.xyzr", 1.4)).meeting_pairs, 207U);
-  EXPECT_EQ(of(read("1bna.xyzr")).meeting_pairs, 1751U);
-  EXPECT_EQ(of(read("1bna.xyzr", 1.4)).meeting_pairs, 9077U);
+  EXPECT_EQ(of(read_balls("caffeine.xyzr")).meeting_pairs, 84U);
+  EXPECT_EQ(of(read_balls("caffeine.xyzr", 1.4)).meeting_pairs, 207U);
+  EXPECT_EQ(of(read_balls("1bna.xyzr")).meeting_pairs, 1751U);
+  EXPECT_EQ(of(read_balls("1bna.xyzr", 1.4)).meeting_pairs, 9077U);
 }
 
 TEST(Arrange, AreasDoNotDependOnTheAxes) {
   for (const double probe : {0.0, 1.4}) {
-    const std::vector<Ball> balls = read("1bna.xyzr", probe);
+    const std::vector<Ball> balls = read_balls("1bna.xyzr", probe);
     const UnionMeasures m = measure(of(balls)), t = measure(of(turned(balls, 0.7, 1.9)));
     EXPECT_NEAR(m.area, t.area, 1e-9 * m.area);
     EXPECT_NEAR(m.volume, t.volume, 1e-9 * m.volume);
@@ -132,7 +126,7 @@ TEST(Arrange, AgreesWithSamplingOfRandomBalls) {
 }
 
 TEST(Arrange, VerticesAndArcsLieOnTheirSpheresAndInNone) {
-  const std::vector<Ball> balls = read("1bna.xyzr", 1.4);
+  const std::vector<Ball> balls = read_balls("1bna.xyzr", 1.4);
   const Arrangement a = of(balls);
   for (const Vertex& v : a.vertices)
     for (const int b : v.balls) EXPECT_NEAR(norm(v.x - balls[b].centre), balls[b].radius, 1e-12);
@@ -146,9 +140,9 @@ TEST(Arrange, VerticesAndArcsLieOnTheirSpheresAndInNone) {
 }
 
 TEST(Arrange, EulerNumberCountsShells) {
-  EXPECT_EQ(of(read("caffeine.xyzr", 1.4)).euler_number(), 2);
-  EXPECT_EQ(of(read("caffeine.xyzr")).euler_number(), 0);  // a hydrogen touches an oxygen: a handle
-  std::vector<Ball> ring;                                  // a torus of balls
+  EXPECT_EQ(of(read_balls("caffeine.xyzr", 1.4)).euler_number(), 2);
+  EXPECT_EQ(of(read_balls("caffeine.xyzr")).euler_number(), 0);  // a hydrogen touches an oxygen: a handle
+  std::vector<Ball> ring;                                        // a torus of balls
   for (int k = 0; k < 12; ++k) ring.push_back({{4 * std::cos(k * pi / 6), 4 * std::sin(k * pi / 6), 0}, 1.3});
   EXPECT_EQ(of(ring).euler_number(), 0);
   ring.push_back({{50, 0, 0}, 2});
