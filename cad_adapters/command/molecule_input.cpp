@@ -17,7 +17,7 @@ namespace {
 carreau_molecule_options options_of(const MoleculeChoice& choice) {
   carreau_molecule_options options{};
   options.struct_size = sizeof options;
-  options.surface = choice.surface == "sas" ? CARREAU_SAS : CARREAU_VWS;
+  options.surface = choice.surface == "vws" ? CARREAU_VWS : choice.surface == "sas" ? CARREAU_SAS : CARREAU_SES;
   options.drop_cavities = choice.drop_cavities ? 1 : 0;
   options.probe = choice.probe;
   return options;
