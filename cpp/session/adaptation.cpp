@@ -6,8 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "io/files.h"
 #include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
+#include "io/plane/plane_files.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"
 
@@ -243,7 +245,10 @@ Solution read_field(const std::string& path, std::size_t vertices, const std::st
 
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path) {
   FlatMesh flat = read_mesh(mesh_path);
-  const Solution solution = read_solution(sol_path, SolutionUse::prescription);
+  const std::string suffix = suffix_of(sol_path);
+  const bool of_bl2d = suffix == ".h" || suffix == ".hc" || suffix == ".hg";
+  const Solution solution = of_bl2d ? read_bl2d_sizes_text(read_file(sol_path), sol_path)
+                                    : read_solution(sol_path, SolutionUse::prescription);
   if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a background mesh needs triangles; it has none");
   if (solution.dimension != flat.dimension)
     throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +

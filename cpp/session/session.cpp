@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "cad/checked_cad.h"
@@ -394,8 +395,15 @@ FlatMesh Session::exported(const MeshEvaluation* delivered) const {
   const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports,
                             delivered};
   const Parameters& p = state_->parameters;
-  return export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
+  FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
+  if (source.model.plane) flat.dimension = 2;
+  const std::map<int, int>& shown = shown_points();
+  for (std::int32_t& ref : flat.vertex_refs)
+    if (const auto found = shown.find(ref); found != shown.end()) ref = found->second;
+  return flat;
 }
+
+const std::map<int, int>& Session::shown_points() const { return (void)mesh(), state_->meshed.model.shown_points; }
 
 void Session::write(const std::string& path) {
   if (suffix_of(path) == ".exr") {

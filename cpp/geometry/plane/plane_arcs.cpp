@@ -17,7 +17,7 @@ std::string place(const Vec2& p) { return "(" + format_number(p.x()) + ", " + fo
 
 Where where_of(const PlaneDomainInput& input, int line) {
   Where where;
-  if (line > 0) where.file = input.source, where.line = line;
+  where.file = input.source, where.line = line;
   return where;
 }
 

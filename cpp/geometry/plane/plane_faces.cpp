@@ -32,7 +32,7 @@ class Subdomains {
 
   [[nodiscard]] Where where(int line) const {
     Where place;
-    if (line > 0) place.file = input_.source, place.line = line;
+    place.file = input_.source, place.line = line;
     return place;
   }
 
@@ -62,8 +62,10 @@ class Subdomains {
     if (side.curve < 0 || side.curve >= static_cast<int>(input_.curves.size()))
       throw InvalidModel(where(side.line), "a side names the curve " + std::to_string(side.curve + 1) + ", which does not exist");
     const std::string curve = name_of_curve(input_, side.curve), which = side.left ? "left" : "right";
-    for (std::size_t a = 0; a < arcs_.size(); ++a) {
-      if (arcs_[a].curve != side.curve) continue;
+    // Arcs are in the order of their curves.
+    auto a = static_cast<std::size_t>(
+        std::lower_bound(arcs_.begin(), arcs_.end(), side.curve, [](const PlaneArc& arc, int c) { return arc.curve < c; }) - arcs_.begin());
+    for (; a < arcs_.size() && arcs_[a].curve == side.curve; ++a) {
       const int half_edge = 2 * static_cast<int>(a) + (side.left ? 0 : 1);
       const int face = graph_.face_of(half_edge);
       if (face == PlaneGraph::unbounded || face == graph_.face_of(half_edge ^ 1)) {

@@ -66,7 +66,7 @@ class Builder {
  private:
   [[nodiscard]] Where where(int line) const {
     Where place;
-    if (line > 0) place.file = input_.source, place.line = line;
+    place.file = input_.source, place.line = line;
     return place;
   }
 
