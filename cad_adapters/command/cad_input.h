@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "face_list.h"
+#include "molecule_input.h"
 
 namespace command {
 
@@ -74,12 +75,12 @@ bool needs_host(const std::string& path);
 /// Throws Failure when the name of an input is empty or that of a mesh.
 void check_geometry_name(const std::string& path);
 
-/// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; or
-/// what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
+/// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; a
+/// molecule; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
 /// the share that is done, where it is known.
 using ReadingProgress = std::function<void(double fraction)>;
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
-                                     const ReadingProgress& progress = {});
+                                     const ReadingProgress& progress = {}, const MoleculeChoice& molecule = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);

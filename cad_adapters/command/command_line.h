@@ -36,7 +36,9 @@ class CommandLine {
   void add_mesh();
   /// What governs a mesh: of `mesh` and `fields`.
   static void add_mesh_options(CLI::App* app, MeshOptions& options);
+  static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
   void add_info();
+  void add_areas();
   void add_picture();
   void add_check();
   void add_fields();
@@ -52,6 +54,7 @@ class CommandLine {
   CLI::App app_;
   MeshOptions mesh_;
   InfoOptions info_;
+  AreasOptions areas_;
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
   CheckOptions check_;

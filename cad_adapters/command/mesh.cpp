@@ -122,8 +122,8 @@ int mesh(const MeshOptions& options) {
   progress.line("reading " + options.input);
   progress.part(0, read_at);
   const Stopwatch reading;
-  const std::unique_ptr<CadInput> input =
-      open_input(options.input, options.host, [&](double fraction) { progress.reading(fraction); });
+  const std::unique_ptr<CadInput> input = open_input(
+      options.input, options.host, [&](double fraction) { progress.reading(fraction); }, options.molecule);
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
