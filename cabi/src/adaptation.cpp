@@ -138,7 +138,7 @@ FieldFunction function_of(carreau_field_fn field, void* user, const carreau::Mon
 carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path, const char* sol_path) {
   return guarded(session, [&] {
     session->session.set_background(
-        carreau::read_background(required(mesh_path, "mesh_path"), required(sol_path, "sol_path")));
+        carreau::read_background(required(mesh_path, "mesh_path"), required(sol_path, "sol_path"), session->model().plane));
   });
 }
 

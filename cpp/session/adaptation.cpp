@@ -243,7 +243,8 @@ Solution read_field(const std::string& path, std::size_t vertices, const std::st
 
 }  // namespace
 
-std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path) {
+std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
+                                                 bool one_plane) {
   FlatMesh flat = read_mesh(mesh_path);
   const std::string suffix = suffix_of(sol_path);
   const bool of_bl2d = suffix == ".h" || suffix == ".hc" || suffix == ".hg";
@@ -260,7 +261,7 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
   mesh.dimension = flat.dimension;
   mesh.vertices = std::move(flat.vertices);
   mesh.triangles = std::move(flat.triangles);
-  if (flat.dimension == 2) mesh.faces = std::move(flat.triangle_refs);
+  if (flat.dimension == 2 && !one_plane) mesh.faces = std::move(flat.triangle_refs);
   mesh.values = values_of(solution);
   return std::make_shared<BackgroundField>(mesh);
 }

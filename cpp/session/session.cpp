@@ -112,13 +112,13 @@ void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad&
 }
 
 // Files named by parameters come before what the host has set.
-std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
+std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters, bool one_plane,
                                                    const std::shared_ptr<BackgroundField>& set) {
   const std::string mesh = parameters.text("background_mesh"), sol = parameters.text("background_sol");
   if (mesh.empty() != sol.empty())
     throw InvalidArgument(std::string("background_mesh and background_sol name two files of one field, but only ") +
                           (mesh.empty() ? "background_sol" : "background_mesh") + " is set");
-  return mesh.empty() ? set : read_background(mesh, sol);
+  return mesh.empty() ? set : read_background(mesh, sol, one_plane);
 }
 
 // x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
@@ -263,7 +263,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
     model = collapse_tiny_curves(model, traces, eps, &remarks);
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
   CompositeOptions options = composite_options(s.parameters, supports.diag);
-  const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, s.background);
+  const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -350,7 +350,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   std::optional<ModelSupports> supports;
   std::shared_ptr<BackgroundField> background;
   try {
-    background = background_of_run(parameters, s.background);
+    background = background_of_run(parameters, s.model.plane, s.background);
     supports = build_supports(s.model, cad, parameters.real("angle_smo"), threads_of(s.parameters), s.monitor);
     set_parameter_boxes(s.model, *supports, cad);
   } catch (const Cancelled&) {

@@ -62,7 +62,8 @@ struct PlaneDomainInput {
   std::vector<PlaneSide> sides;
   std::vector<PlaneSeed> seeds;
   PlaneRest rest = PlaneRest::parity;
-  std::string source;  ///< name of the file; empty: from memory
+  std::string source;    ///< name of the file; empty: from memory
+  bool is_mesh = false;  ///< a mesh whose triangles cover the domain: sizes at its points hold inside, too
 };
 
 /// "point 3" or "point 'A'".

@@ -6,6 +6,7 @@
 #include "io/plane/plane_files.h"
 #include "io/plane/tokens.h"
 #include "io/text.h"
+#include "support/error.h"
 
 namespace carreau {
 

@@ -51,7 +51,8 @@ class MeshDomain {
       if (triangle_ref(sides.left) != triangle_ref(sides.right) && !known_.contains(edge)) add_edge(edge.first, edge.second, 0);
     if (input_.curves.empty()) throw FileError({.file = name_}, "the mesh has neither edges nor triangles: it bounds no domain");
     input_.rest = mesh_.triangles.empty() ? PlaneRest::parity : PlaneRest::outside;
-    if (mesh_.triangles.empty())
+    input_.is_mesh = !mesh_.triangles.empty();
+    if (!input_.is_mesh)
       for (PlanePoint& point : input_.points) point.imposed = point.may_drop = true;
     return std::move(input_);
   }
@@ -64,7 +65,8 @@ class MeshDomain {
   void add_edge(int a, int b, int ref) {
     if (a == b || !known_.insert({ordered(a, b), 0}).second) return;
     const int curve = static_cast<int>(input_.curves.size());
-    input_.curves.push_back({.points = {a, b}, .ref = ref});
+    PlaneCurve& added = input_.curves.emplace_back();
+    added.points = {a, b}, added.ref = ref;
     const auto found = beside_.find(ordered(a, b));
     if (found == beside_.end()) return;
     const auto [left, right] = found->second;
