@@ -136,6 +136,7 @@ carreau_status carreau_load_plane_domain(carreau_session* session, const char* p
                                          double corner_angle) {
   return guarded(session, [&] {
     required(path, "path");
+    if (sizes != nullptr && *sizes == '\0') sizes = nullptr;
     constexpr double half_turn = 180;
     if (!(corner_angle >= 0 && corner_angle <= half_turn)) throw InvalidArgument("the corner_angle must lie between 0 and 180 degrees");
     check_empty(*session);
