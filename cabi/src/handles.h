@@ -112,6 +112,7 @@ struct carreau_session {
   carreau::Session session;
   const carreau::Parameters* parameters;
   bool has_cad = false;
+  bool plane_has_sizes = false;  // of the last plane domain
   std::shared_ptr<carreau::Cad> built;                             // the geometry, when the library evaluates it itself
   std::optional<carreau::molecule::MoleculeSummary> molecule = {};  // the last one
   carreau::Model draft;  // changed since the session got its model

@@ -12,6 +12,7 @@
 
 #include "face_list.h"
 #include "molecule_input.h"
+#include "plane_input.h"
 
 namespace command {
 
@@ -64,6 +65,8 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::int32_t> parts(std::int32_t face) const { return {face}; }
   /// Faces that bend inside and could not be cut there, which curvatures do not tell: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
+  /// Whether the geometry, or a file beside it, prescribes sizes of its own, when hphy_flag = 2.
+  [[nodiscard]] virtual bool has_sizes() const { return false; }
   /// Whether each edge of the file has two faces.
   [[nodiscard]] virtual bool closed() const { return false; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.

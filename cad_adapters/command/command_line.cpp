@@ -15,7 +15,7 @@
 namespace command {
 namespace {
 
-constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh or .msh2";
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2 or .bl2d";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
     ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif";
@@ -123,6 +123,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
       "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
       "command: carreau help COMMAND. Manual: man carreau");
   add_mesh();
+  add_plane();
   add_info();
   add_areas();
   add_check();
@@ -155,6 +156,32 @@ void CommandLine::add_mesh() {
       ->type_name(kind::file);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
+}
+
+void CommandLine::add_plane() {
+  plane_.plane.is_plane = true;
+  CLI::App* plane = add("plane", "Mesh a domain of the plane: Triangle's .poly, a plane mesh's edges, BL2D's files");
+  plane->add_option("DOMAIN", plane_.input, "File .poly, .mesh, .meshb or .bl2d of dimension 2, .data or .g")
+      ->required()
+      ->type_name(kind::file);
+  repeated(plane->add_option("-o,--output", plane_.outputs,
+                             "File to write: .mesh or .meshb (dimension 2), .bl2d, .vtu, .stl, .msh (Gmsh 4.1), .msh2 "
+                             "(2.2) or .exr (fields); may be repeated"))
+      ->required()
+      ->type_name(kind::file);
+  plane
+      ->add_flag("--smooth{50}", plane_.plane.corner_angle,
+                 "Polygons become splines that end where they turn by more than 50 degrees; --smooth=DEGREES: by more "
+                 "than these")
+      ->check(CLI::Range(0.1, 180.0));
+  plane
+      ->add_option("--sol", plane_.plane.sizes,
+                   "Sizes or metrics at the vertices of the file: .sol, .solb, or BL2D's .hg or .h")
+      ->check(not_empty)
+      ->type_name(kind::file);
+  add_mesh_options(plane, plane_);
+  plane->add_flag("--json", plane_.json, "Print a summary as JSON on the standard output");
+  plane->add_flag("-q,--quiet", plane_.quiet, "Tell errors only");
 }
 
 void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
@@ -374,6 +401,7 @@ int CommandLine::run(int argc, char** argv) {
 
 int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) return mesh(mesh_);
+  if (app_.got_subcommand("plane")) return mesh(plane_);
   if (app_.got_subcommand("info")) return info(info_);
   if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("check")) return check(check_);

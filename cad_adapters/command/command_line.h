@@ -34,6 +34,7 @@ class CommandLine {
  private:
   CLI::App* add(const char* name, const char* description);
   void add_mesh();
+  void add_plane();
   /// What governs a mesh: of `mesh` and `fields`.
   static void add_mesh_options(CLI::App* app, MeshOptions& options);
   static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
@@ -52,7 +53,7 @@ class CommandLine {
                                         const std::vector<std::string>& words) const;
 
   CLI::App app_;
-  MeshOptions mesh_;
+  MeshOptions mesh_, plane_;
   InfoOptions info_;
   AreasOptions areas_;
   PictureOptions picture_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "molecule_input.h"
+#include "plane_input.h"
 #include "scene.h"
 
 namespace command {
@@ -25,6 +26,7 @@ struct MeshOptions {
   std::string input;
   std::string host;         ///< shared library, of a .pardom
   MoleculeChoice molecule;  ///< of a molecule
+  PlaneChoice plane;        ///< of a plane domain
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given

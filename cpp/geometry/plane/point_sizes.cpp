@@ -1,0 +1,70 @@
+#include "geometry/plane/point_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carreau {
+
+PointSizes::PointSizes(const PlaneDomainInput& input, std::shared_ptr<const PlaneCad> cad, std::map<int, int> points)
+    : cad_(std::move(cad)), points_(std::move(points)) {
+  for (const PlanePoint& point : input.points) {
+    std::optional<Value>& value = value_.emplace_back();
+    if (point.metric) value = Value{*point.metric, false};
+    else if (point.size) value = Value{{1 / (*point.size * *point.size), 0, 1 / (*point.size * *point.size)}, true};
+  }
+  const std::vector<PlaneArc>& arcs = cad_->arcs();
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    std::vector<double>& lengths = lengths_.emplace_back(1, 0.0);
+    const std::vector<Vec2>& line = arcs[a].polyline;
+    for (std::size_t k = 1; k < line.size(); ++k) lengths.push_back(lengths.back() + norm(Vec2(line[k] - line[k - 1])));
+    Known& known = known_.emplace_back();
+    const std::vector<int>& passed = input.curves[arcs[a].curve].points;
+    for (std::size_t i = 0; i <= arcs[a].pieces.size(); ++i) {
+      const std::optional<Value>& value = value_[passed[static_cast<std::size_t>(arcs[a].first) + i]];
+      if (!value) continue;
+      known.length.push_back(length_at(arcs[a], static_cast<int>(a), static_cast<double>(i)));
+      known.value.push_back(*value);
+    }
+  }
+}
+
+double PointSizes::length_at(const PlaneArc& arc, int index, double t) const {
+  const std::vector<double>&at = arc.parameter, &lengths = lengths_[index];
+  const auto above = std::upper_bound(at.begin(), at.end(), t);
+  if (above == at.end()) return lengths.back();
+  if (above == at.begin()) return 0;
+  const auto k = static_cast<std::size_t>(above - at.begin());
+  return std::lerp(lengths[k - 1], lengths[k], (t - at[k - 1]) / (at[k] - at[k - 1]));
+}
+
+Prescription PointSizes::answer(const Value& value) {
+  return value.is_size ? Prescription::of_size(1 / std::sqrt(value.metric.a)) : Prescription::of_parameter(value.metric);
+}
+
+Prescription PointSizes::on_surface(int /*face*/, Vec2 /*uv*/, Vec3 /*xyz*/) { return {}; }
+
+Prescription PointSizes::on_curve(int face, int ic, double t, Vec2 /*uv*/, Vec3 /*xyz*/) {
+  const int index = cad_->arc_of(face, ic);
+  const Known& known = known_[index];
+  if (known.value.empty()) return {};
+  const double length = length_at(cad_->arcs()[index], index, t);
+  const auto above = std::upper_bound(known.length.begin(), known.length.end(), length);
+  if (above == known.length.begin()) return answer(known.value.front());
+  if (above == known.length.end()) return answer(known.value.back());
+  const auto k = static_cast<std::size_t>(above - known.length.begin());
+  const Value &p = known.value[k - 1], &q = known.value[k];
+  const double share = (length - known.length[k - 1]) / (known.length[k] - known.length[k - 1]);
+  return answer({interpolate(p.metric, q.metric, share, law_), p.is_size && q.is_size});
+}
+
+Prescription PointSizes::at_point(int point, Vec3 /*xyz*/) {
+  const auto found = points_.find(point);
+  if (found == points_.end() || !value_[found->second]) return {};
+  const Value& value = *value_[found->second];
+  if (value.is_size) return answer(value);
+  // At a point there is no parameter plane to speak of: the plane z = 0 of space.
+  const Metric2& m = value.metric;
+  return Prescription::of_space({m.a, m.b, 0, m.c, 0, (m.a + m.c) / 2});
+}
+
+}  // namespace carreau
