@@ -7,7 +7,7 @@
 #include "geometry/molecule/face_builder.h"
 #include "geometry/molecule/molecule.h"
 #include "geometry/molecule/poles.h"
-#include "geometry/molecule/ses_model.h"
+#include "geometry/molecule/excluded/ses_model.h"
 #include "geometry/molecule/sphere_patch.h"
 #include "model/union_find.h"
 #include "support/error.h"

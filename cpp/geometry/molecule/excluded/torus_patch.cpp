@@ -1,4 +1,4 @@
-#include "geometry/molecule/torus_patch.h"
+#include "geometry/molecule/excluded/torus_patch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "geometry/molecule/ses_model.h"
+#include "geometry/molecule/excluded/ses_model.h"
 
 #include <cmath>
 
+#include "geometry/molecule/excluded/probes.h"
+#include "geometry/molecule/excluded/torus_patch.h"
 #include "geometry/molecule/face_builder.h"
 #include "geometry/molecule/poles.h"
-#include "geometry/molecule/probes.h"
 #include "geometry/molecule/sphere_patch.h"
-#include "geometry/molecule/torus_patch.h"
 #include "support/error.h"
 
 namespace carreau::molecule {

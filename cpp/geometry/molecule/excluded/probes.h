@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "geometry/molecule/torus_patch.h"
+#include "geometry/molecule/excluded/torus_patch.h"
 
 namespace carreau::molecule {
 

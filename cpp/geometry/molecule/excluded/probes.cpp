@@ -1,4 +1,4 @@
-#include "geometry/molecule/probes.h"
+#include "geometry/molecule/excluded/probes.h"
 
 #include <algorithm>
 #include <map>
