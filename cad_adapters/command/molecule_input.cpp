@@ -83,6 +83,9 @@ class MoleculeInput final : public ModelInput {
 
   [[nodiscard]] bool closed() const override { return true; }
 
+  /// Short arcs are exact, and no mistake of a file.
+  [[nodiscard]] double ends_tolerance() const override { return 1e-9 * diagonal(); }
+
  private:
   [[nodiscard]] std::string kind(std::int32_t) const override { return "sphere"; }
   carreau_status give_geometry(carreau_session* session) override { return give_to(session); }
