@@ -9,8 +9,10 @@ PointSizes::PointSizes(const PlaneDomainInput& input, std::shared_ptr<const Plan
     : cad_(std::move(cad)), points_(std::move(points)) {
   for (const PlanePoint& point : input.points) {
     std::optional<Value>& value = value_.emplace_back();
-    if (point.metric) value = Value{*point.metric, false};
-    else if (point.size) value = Value{{1 / (*point.size * *point.size), 0, 1 / (*point.size * *point.size)}, true};
+    if (point.metric)
+      value = Value{*point.metric, false};
+    else if (point.size)
+      value = Value{{1 / (*point.size * *point.size), 0, 1 / (*point.size * *point.size)}, true};
   }
   const std::vector<PlaneArc>& arcs = cad_->arcs();
   for (std::size_t a = 0; a < arcs.size(); ++a) {
@@ -38,7 +40,8 @@ double PointSizes::length_at(const PlaneArc& arc, int index, double t) const {
 }
 
 Prescription PointSizes::answer(const Value& value) {
-  return value.is_size ? Prescription::of_size(1 / std::sqrt(value.metric.a)) : Prescription::of_parameter(value.metric);
+  return value.is_size ? Prescription::of_size(1 / std::sqrt(value.metric.a))
+                       : Prescription::of_parameter(value.metric);
 }
 
 Prescription PointSizes::on_surface(int /*face*/, Vec2 /*uv*/, Vec3 /*xyz*/) { return {}; }
