@@ -77,53 +77,55 @@ CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int
 
 /* What is the domain where neither a side nor a seed says so. */
 enum {
-  CARREAU_REST_PARITY = 0,  /* what curves enclose; inside of it a loop that nothing joins to it bounds a hole, and so on */
-  CARREAU_REST_INSIDE = 1,  /* all that curves enclose, but for holes */
-  CARREAU_REST_OUTSIDE = 2  /* nothing else */
+  CARREAU_REST_PARITY =
+      0, /* what curves enclose; inside of it a loop that nothing joins to it bounds a hole, and so on */
+  CARREAU_REST_INSIDE = 1, /* all that curves enclose, but for holes */
+  CARREAU_REST_OUTSIDE = 2 /* nothing else */
 };
 
 /* A domain of the plane. Indices of points and curves count from 0. An array may be NULL where this says so. References
  * are the caller's: 0 is none, and several entities may have the same. */
 typedef struct carreau_plane_domain {
   size_t struct_size;
-  int32_t rest;                /* CARREAU_REST_... */
-  int32_t reserved;            /* 0 */
+  int32_t rest;     /* CARREAU_REST_... */
+  int32_t reserved; /* 0 */
   int64_t point_count, curve_count, side_count, seed_count;
-  const double* points;        /* point_count x 2 */
-  const int32_t* point_refs;   /* point_count; NULL: none */
-  const int32_t* imposed;      /* point_count: 1 makes a point a vertex wherever it lies; NULL: ends of curves only */
-  const double* sizes;         /* point_count, wanted at points and along curves between them; 0: none; NULL: none */
-  const double* metrics;       /* point_count x 3 (xx xy yy), in place of sizes; 0 0 0: none; NULL: none */
-  const int64_t* curve_starts; /* curve_count + 1: curve c passes curve_points[curve_starts[c] .. curve_starts[c + 1] - 1] */
+  const double* points;      /* point_count x 2 */
+  const int32_t* point_refs; /* point_count; NULL: none */
+  const int32_t* imposed;    /* point_count: 1 makes a point a vertex wherever it lies; NULL: ends of curves only */
+  const double* sizes;       /* point_count, wanted at points and along curves between them; 0: none; NULL: none */
+  const double* metrics;     /* point_count x 3 (xx xy yy), in place of sizes; 0 0 0: none; NULL: none */
+  const int64_t*
+      curve_starts; /* curve_count + 1: curve c passes curve_points[curve_starts[c] .. curve_starts[c + 1] - 1] */
   const int32_t* curve_points; /* a curve whose last point is its first one is closed */
-  const int32_t* smooth;       /* curve_count. 1: a spline of Catmull and Rom; 0: segments, whose points are all vertices.
-                                  NULL: segments */
-  const int32_t* controls;     /* curve_count x 2, of splines: control points before the first and behind the last point;
-                                  -1: the end is free. NULL: all are */
-  const double* tangents;      /* curve_count x 4, of splines: derivatives at both ends, in place of controls, for pieces
-                                  of parameter length 1; NaN: not given; NULL: none */
-  const int32_t* curve_refs;   /* curve_count; NULL: none */
-  const int32_t* sides;        /* side_count x 3: a curve, +1 for its left or -1 for its right side, and the reference of
-                                  the subdomain there */
-  const double* seeds;         /* seed_count x 2: a place inside a subdomain or a hole */
-  const int32_t* seed_refs;    /* seed_count: the reference of the subdomain, or -1 for a hole */
+  const int32_t* smooth;     /* curve_count. 1: a spline of Catmull and Rom; 0: segments, whose points are all vertices.
+                                NULL: segments */
+  const int32_t* controls;   /* curve_count x 2, of splines: control points before the first and behind the last point;
+                                -1: the end is free. NULL: all are */
+  const double* tangents;    /* curve_count x 4, of splines: derivatives at both ends, in place of controls, for pieces
+                                of parameter length 1; NaN: not given; NULL: none */
+  const int32_t* curve_refs; /* curve_count; NULL: none */
+  const int32_t* sides;      /* side_count x 3: a curve, +1 for its left or -1 for its right side, and the reference of
+                                the subdomain there */
+  const double* seeds;       /* seed_count x 2: a place inside a subdomain or a hole */
+  const int32_t* seed_refs;  /* seed_count: the reference of the subdomain, or -1 for a hole */
 } carreau_plane_domain;
 
-/* Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear. Its faces are
- * the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is 0, or
- * stands for several entities, the model has a number behind the largest in its place; results show the caller's. Sizes
- * at points hold along curves; inside, hphydef counts (hphy_flag 1) or what the curves around have (hphy_flag 2). Messages
- * tell pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves that cross, touch or make a loop; points at one
- * place or beside the domain; an open boundary; a side on which the domain would be unbounded; two references for one
- * subdomain; nothing enclosed). */
+/* Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear. Its faces
+ * are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
+ * 0, or stands for several entities, the model has a number behind the largest in its place; results show the caller's.
+ * Sizes at points hold along curves; inside, hphydef counts (hphy_flag 1) or what the curves around have (hphy_flag 2).
+ * Messages tell pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves that cross, touch or make a loop;
+ * points at one place or beside the domain; an open boundary; a side on which the domain would be unbounded; two
+ * references for one subdomain; nothing enclosed). */
 CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
 
 /* The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
- * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons become
- * splines that end where they turn by more, where other curves end, and where references change; 0: they stay polygons.
- * `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of the file; NULL or "": none. When the file has
- * triangles they are a background mesh: see carreau_set_background_mesh. One that is set later replaces the sizes at
- * points; all subdomains lie in its one plane. Errors: those above, FILE (with the line). */
+ * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
+ * become splines that end where they turn by more, where other curves end, and where references change; 0: they stay
+ * polygons. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of the file; NULL or "": none.
+ * When the file has triangles they are a background mesh: see carreau_set_background_mesh. One that is set later
+ * replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE (with the line). */
 CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
                                                      double corner_angle);
 

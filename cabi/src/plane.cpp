@@ -40,7 +40,8 @@ void add_points(const carreau_plane_domain& given, PlaneDomainInput& input) {
     point.ref = entry(given.point_refs, i, 0);
     point.imposed = entry(given.imposed, i, 0) != 0;
     if (const double size = entry(given.sizes, i, 0.0); size != 0) point.size = size;
-    if (const double* m = given.metrics != nullptr ? given.metrics + 3 * i : nullptr; m != nullptr && (m[0] != 0 || m[1] != 0 || m[2] != 0))
+    if (const double* m = given.metrics != nullptr ? given.metrics + 3 * i : nullptr;
+        m != nullptr && (m[0] != 0 || m[1] != 0 || m[2] != 0))
       point.metric = carreau::Metric2{m[0], m[1], m[2]};
     input.points.push_back(std::move(point));
   }
@@ -56,12 +57,15 @@ void add_curves(const carreau_plane_domain& given, PlaneDomainInput& input) {
   if (n > 0) required(given.curve_starts, "domain->curve_starts"), required(given.curve_points, "domain->curve_points");
   for (std::size_t c = 0; c < n; ++c) {
     const std::int64_t first = given.curve_starts[c], last = given.curve_starts[c + 1];
-    if (first < 0 || last < first) throw InvalidArgument("domain->curve_starts does not ascend from 0 at curve " + std::to_string(c) + " (from 0)");
+    if (first < 0 || last < first)
+      throw InvalidArgument("domain->curve_starts does not ascend from 0 at curve " + std::to_string(c) + " (from 0)");
     PlaneCurve curve;
     curve.points.assign(given.curve_points + first, given.curve_points + last);
     curve.smooth = entry(given.smooth, c, 0) != 0;
     curve.before = entry(given.controls, 2 * c, -1), curve.after = entry(given.controls, 2 * c + 1, -1);
-    if (given.tangents != nullptr) curve.tangent_start = tangent_at(given.tangents + 4 * c), curve.tangent_end = tangent_at(given.tangents + 4 * c + 2);
+    if (given.tangents != nullptr)
+      curve.tangent_start = tangent_at(given.tangents + 4 * c),
+      curve.tangent_end = tangent_at(given.tangents + 4 * c + 2);
     curve.ref = entry(given.curve_refs, c, 0);
     input.curves.push_back(std::move(curve));
   }
@@ -73,22 +77,32 @@ void add_sides_and_seeds(const carreau_plane_domain& given, PlaneDomainInput& in
   if (seeds > 0) required(given.seeds, "domain->seeds"), required(given.seed_refs, "domain->seed_refs");
   for (std::size_t i = 0; i < sides; ++i) {
     const std::int32_t* row = given.sides + 3 * i;
-    if (row[1] != 1 && row[1] != -1) throw InvalidArgument("side " + std::to_string(i) + " (from 0) of the domain is " + std::to_string(row[1]) + "; it must be 1 (left) or -1 (right)");
+    if (row[1] != 1 && row[1] != -1)
+      throw InvalidArgument("side " + std::to_string(i) + " (from 0) of the domain is " + std::to_string(row[1]) +
+                            "; it must be 1 (left) or -1 (right)");
     input.sides.push_back({.curve = row[0], .left = row[1] > 0, .ref = row[2]});
   }
   for (std::size_t i = 0; i < seeds; ++i) {
     const bool hole = given.seed_refs[i] == -1;
-    input.seeds.push_back({.at = {given.seeds[2 * i], given.seeds[2 * i + 1]}, .hole = hole, .ref = hole ? 0 : given.seed_refs[i]});
+    input.seeds.push_back(
+        {.at = {given.seeds[2 * i], given.seeds[2 * i + 1]}, .hole = hole, .ref = hole ? 0 : given.seed_refs[i]});
   }
 }
 
 PlaneDomainInput input_of(const carreau_plane_domain& given) {
   PlaneDomainInput input;
   switch (given.rest) {
-    case CARREAU_REST_PARITY: input.rest = PlaneRest::parity; break;
-    case CARREAU_REST_INSIDE: input.rest = PlaneRest::inside; break;
-    case CARREAU_REST_OUTSIDE: input.rest = PlaneRest::outside; break;
-    default: throw InvalidArgument("domain->rest is " + std::to_string(given.rest) + "; it must be 0, 1 or 2");
+    case CARREAU_REST_PARITY:
+      input.rest = PlaneRest::parity;
+      break;
+    case CARREAU_REST_INSIDE:
+      input.rest = PlaneRest::inside;
+      break;
+    case CARREAU_REST_OUTSIDE:
+      input.rest = PlaneRest::outside;
+      break;
+    default:
+      throw InvalidArgument("domain->rest is " + std::to_string(given.rest) + "; it must be 0, 1 or 2");
   }
   add_points(given, input);
   add_curves(given, input);
@@ -97,7 +111,8 @@ PlaneDomainInput input_of(const carreau_plane_domain& given) {
 }
 
 void check_empty(const carreau_session& session) {
-  if (!session.model().faces.empty()) throw InvalidArgument("the session has faces already: call carreau_model_clear first");
+  if (!session.model().faces.empty())
+    throw InvalidArgument("the session has faces already: call carreau_model_clear first");
 }
 
 void add(carreau_session& session, const PlaneDomainInput& input) {
@@ -138,7 +153,8 @@ carreau_status carreau_load_plane_domain(carreau_session* session, const char* p
     required(path, "path");
     if (sizes != nullptr && *sizes == '\0') sizes = nullptr;
     constexpr double half_turn = 180;
-    if (!(corner_angle >= 0 && corner_angle <= half_turn)) throw InvalidArgument("the corner_angle must lie between 0 and 180 degrees");
+    if (!(corner_angle >= 0 && corner_angle <= half_turn))
+      throw InvalidArgument("the corner_angle must lie between 0 and 180 degrees");
     check_empty(*session);
     PlaneDomainInput input = carreau::read_plane_domain(path);
     std::shared_ptr<carreau::BackgroundField> background;

@@ -13,7 +13,8 @@ int number_of(const Setting& setting, const std::string& where, int most) {
   const char* end = setting.value.data() + setting.value.size();
   const auto [stop, error] = std::from_chars(setting.value.data(), end, value);
   if (error != std::errc() || stop != end || value < 0 || value > most)
-    throw Failure(where + setting.name + " '" + setting.value + "' is not a whole number from 0 to " + std::to_string(most));
+    throw Failure(where + setting.name + " '" + setting.value + "' is not a whole number from 0 to " +
+                  std::to_string(most));
   return value;
 }
 

@@ -75,7 +75,9 @@ class Step {
   void make() {
     carreau_session* const session = session_.get();
     const std::string name = env_.folder + env_.base, geometry = name + "." + std::to_string(env_.geometry);
-    const std::string domain = find_file({geometry + ".0.data", geometry + ".data", name + ".data", geometry + ".0.g", geometry + ".g", name + ".g"}, "domain");
+    const std::string domain = find_file(
+        {geometry + ".0.data", geometry + ".data", name + ".data", geometry + ".0.g", geometry + ".g", name + ".g"},
+        "domain");
     require(session, carreau_load_plane_domain(session, domain.c_str(), nullptr, 0));
     if (number_ > 0) take_sizes(geometry + "." + std::to_string(number_ - 1));
     set_parameters();
@@ -85,7 +87,8 @@ class Step {
 
  private:
   void take_sizes(const std::string& before) {
-    const std::string mesh = find_file({before + ".bl2d", before + ".mesh"}, "mesh of step " + std::to_string(number_ - 1));
+    const std::string mesh =
+        find_file({before + ".bl2d", before + ".mesh"}, "mesh of step " + std::to_string(number_ - 1));
     const std::string sizes = find_file({before + ".h", before + ".sol"}, "file of sizes at its vertices");
     require(session_.get(), carreau_set_background_mesh(session_.get(), mesh.c_str(), sizes.c_str()));
   }
@@ -101,9 +104,11 @@ class Step {
     require(session, carreau_set_real(session, "hphymin", smallest * diagonal));
     require(session, carreau_set_real(session, "hphymax", diagonal));
     require(session, carreau_set_integer(session, "flag", 1));  // edges of curves are in the files
-    for (const char* check : {"CheckCloseEdges", "CheckAdjacentEdges"}) require(session, carreau_set_integer(session, check, 20));
+    for (const char* check : {"CheckCloseEdges", "CheckAdjacentEdges"})
+      require(session, carreau_set_integer(session, check, 20));
     for (const Setting& setting : env_.settings)
-      require(session, carreau_set_word(session, setting.name.c_str(), setting.value.c_str()), env_.path + ", line " + std::to_string(setting.line) + ": ");
+      require(session, carreau_set_word(session, setting.name.c_str(), setting.value.c_str()),
+              env_.path + ", line " + std::to_string(setting.line) + ": ");
   }
 
   void write(const std::string& name) {
@@ -111,9 +116,11 @@ class Step {
     require(session_.get(), carreau_session_mesh(session_.get(), &mesh));
     std::int64_t vertices = 0, triangles = 0;
     require(session_.get(), carreau_mesh_count(mesh, &vertices, &triangles, nullptr, nullptr));
-    for (const char* suffix : {".bl2d", ".mesh"}) require(session_.get(), carreau_mesh_write(mesh, (name + suffix).c_str()));
+    for (const char* suffix : {".bl2d", ".mesh"})
+      require(session_.get(), carreau_mesh_write(mesh, (name + suffix).c_str()));
     if (env_.writes_sizes) write_sizes(mesh, vertices, name + ".h");
-    std::printf("step %d: %lld vertices, %lld triangles: %s.bl2d, %s.mesh\n", number_, static_cast<long long>(vertices), static_cast<long long>(triangles), name.c_str(), name.c_str());
+    std::printf("step %d: %lld vertices, %lld triangles: %s.bl2d, %s.mesh\n", number_, static_cast<long long>(vertices),
+                static_cast<long long>(triangles), name.c_str(), name.c_str());
   }
 
   void write_sizes(carreau_mesh* mesh, std::int64_t vertices, const std::string& path) {

@@ -29,7 +29,8 @@ FaceModel model_of(carreau_session* session) {
   FaceModel model;
   for (std::size_t f = 0, c = 0; f < n; ++f) {
     FaceModel::Face face{.ref = refs[f], .orientation = orientations[f], .curves = {}, .points = {}};
-    for (; c < m && owners[c] == refs[f]; ++c) face.curves.push_back({types[c], curve_refs[c], ends[2 * c], ends[2 * c + 1]});
+    for (; c < m && owners[c] == refs[f]; ++c)
+      face.curves.push_back({types[c], curve_refs[c], ends[2 * c], ends[2 * c + 1]});
     model.faces.push_back(std::move(face));
   }
   return model;

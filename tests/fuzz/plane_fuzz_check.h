@@ -24,7 +24,8 @@ int fuzz_plane(const std::uint8_t* data, std::size_t size, Read&& read) {
     FUZZ_CHECK(curve.points.size() >= 2 && curve.before < n && curve.after < n);
     for (const int p : curve.points) FUZZ_CHECK(p >= 0 && p < n);
   }
-  for (const PlaneSide& side : input.sides) FUZZ_CHECK(side.curve >= 0 && side.curve < static_cast<int>(input.curves.size()));
+  for (const PlaneSide& side : input.sides)
+    FUZZ_CHECK(side.curve >= 0 && side.curve < static_cast<int>(input.curves.size()));
   const auto segments = [&] {
     std::size_t all = 0;
     for (const PlaneCurve& curve : input.curves) all += curve.points.size() - 1;

@@ -11,8 +11,8 @@ namespace carreau {
 
 /// What is known beyond the ends of a spline. Of each end at most one; none: the end is free.
 struct SplineEnds {
-  std::optional<Vec2> before, after;                 ///< control points P1 and Pn, which the spline does not pass
-  std::optional<Vec2> tangent_start, tangent_end;    ///< derivatives there, along the curve's direction
+  std::optional<Vec2> before, after;               ///< control points P1 and Pn, which the spline does not pass
+  std::optional<Vec2> tangent_start, tangent_end;  ///< derivatives there, along the curve's direction
 };
 
 /// The n - 1 pieces of the spline through n >= 2 `points`, whose tangent at a point is half the vector from the one

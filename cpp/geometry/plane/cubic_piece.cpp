@@ -47,8 +47,8 @@ class Subdivision {
     const Vec2 along = d > 0 ? Vec2(chord / d) : Vec2{1, 0};
     const auto height = [&](double t) { return std::abs(cross(along, Vec2(piece_.at(t) - from))); };
     // g_y' = cross(along, f')  (RR-2818 sec. 3.4)
-    const Roots extrema = roots_inside(cross(along, piece_.a[1]), 2 * cross(along, piece_.a[2]),
-                                       3 * cross(along, piece_.a[3]), a, b);
+    const Roots extrema =
+        roots_inside(cross(along, piece_.a[1]), 2 * cross(along, piece_.a[2]), 3 * cross(along, piece_.a[3]), a, b);
     double bend = 0;
     for (int i = 0; i < extrema.n; ++i) bend += height(extrema.t[i]);
     if (extrema.n == 0 || !(bend > eps_ * d) || depth == deepest) return;

@@ -33,7 +33,8 @@ void check_values(const PlaneDomainInput& input, int p) {
   if (!is_finite(point.xy)) refuse("has a coordinate that is not finite");
   if (point.size && !(*point.size > 0 && std::isfinite(*point.size)))
     refuse("has the size " + format_number(*point.size) + "; sizes must be positive");
-  if (point.metric && !(point.metric->a > 0 && determinant(*point.metric) > 0 && std::isfinite(determinant(*point.metric))))
+  if (point.metric &&
+      !(point.metric->a > 0 && determinant(*point.metric) > 0 && std::isfinite(determinant(*point.metric))))
     refuse("has a metric that is not positive definite");
 }
 
@@ -45,8 +46,9 @@ void check_points(const PlaneDomainInput& input) {
   std::sort(order.begin(), order.end(), [&](int p, int q) { return std::pair{key(p), p} < std::pair{key(q), q}; });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (const int p = order[i - 1], q = order[i]; key(p) == key(q))
-      throw InvalidModel(where_of(input, input.points[q].line), name_of_point(input, p) + " and " + name_of_point(input, q) +
-                                                       " are at the same place " + place(input.points[p].xy));
+      throw InvalidModel(where_of(input, input.points[q].line),
+                         name_of_point(input, p) + " and " + name_of_point(input, q) + " are at the same place " +
+                             place(input.points[p].xy));
 }
 
 void check_indices(const PlaneDomainInput& input, int c) {
@@ -77,11 +79,12 @@ std::vector<CubicPiece> pieces_of(const PlaneDomainInput& input, const PlaneCurv
 void check_piece(const PlaneDomainInput& input, int c, std::size_t rank, const CubicPiece& piece,
                  std::vector<std::string>& warnings) {
   const PlaneCurve& curve = input.curves[c];
-  const std::string which = "between " + name_of_point(input, curve.points[rank]) + " and " +
-                            name_of_point(input, curve.points[rank + 1]);
+  const std::string which =
+      "between " + name_of_point(input, curve.points[rank]) + " and " + name_of_point(input, curve.points[rank + 1]);
   if (const auto loop = loop_of(piece))
-    refuse_curve(input, c, "makes a loop " + which + ": it passes " + place(loop->at) + " twice, at t = " +
-                               format_number(loop->t1) + " and " + format_number(loop->t2) + " of that piece");
+    refuse_curve(input, c,
+                 "makes a loop " + which + ": it passes " + place(loop->at) + " twice, at t = " +
+                     format_number(loop->t1) + " and " + format_number(loop->t2) + " of that piece");
   if (const auto t = cusp_of(piece))
     refuse_curve(input, c, "has a cusp " + which + ", at " + place(piece.at(*t)) + " (t = " + format_number(*t) + ")");
   if (turns_back(piece))
@@ -149,7 +152,13 @@ std::vector<PlaneArc> cut_into_arcs(const PlaneDomainInput& input, double eps, s
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (curve.smooth) check_piece(input, c, i, pieces[i], warnings);
       if (i == 0 || vertex[curve.points[i]] != 0)
-        arcs.push_back({.curve = c, .first = static_cast<int>(i), .pieces = {}, .from = curve.points[i], .to = 0, .polyline = {}, .parameter = {}});
+        arcs.push_back({.curve = c,
+                        .first = static_cast<int>(i),
+                        .pieces = {},
+                        .from = curve.points[i],
+                        .to = 0,
+                        .polyline = {},
+                        .parameter = {}});
       arcs.back().pieces.push_back(pieces[i]);
       arcs.back().to = curve.points[i + 1];
     }

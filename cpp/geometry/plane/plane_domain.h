@@ -15,8 +15,8 @@ namespace carreau {
 struct PlanePoint {
   Vec2 xy;
   int ref = 0;
-  bool imposed = false;   ///< a vertex of the mesh, also when no curve ends here
-  bool may_drop = false;  ///< an imposed point outside of the domain is no error
+  bool imposed = false;                ///< a vertex of the mesh, also when no curve ends here
+  bool may_drop = false;               ///< an imposed point outside of the domain is no error
   std::optional<double> size = {};     ///< wanted here, > 0
   std::optional<Metric2> metric = {};  ///< wanted here, positive definite; in place of a size
   int line = 0;
@@ -24,9 +24,9 @@ struct PlanePoint {
 };
 
 struct PlaneCurve {
-  std::vector<int> points;       ///< indices from 0 of what it passes, two or more; first == last: closed
-  bool smooth = false;           ///< a spline; otherwise segments, and each of its points is a vertex
-  int before = -1, after = -1;   ///< smooth: control points beyond its ends; -1: free
+  std::vector<int> points;      ///< indices from 0 of what it passes, two or more; first == last: closed
+  bool smooth = false;          ///< a spline; otherwise segments, and each of its points is a vertex
+  int before = -1, after = -1;  ///< smooth: control points beyond its ends; -1: free
   std::optional<Vec2> tangent_start = {}, tangent_end = {};  ///< smooth: in place of `before` and `after`
   int ref = 0;
   int line = 0;
@@ -53,7 +53,8 @@ struct PlaneSeed {
 enum class PlaneRest {
   outside,  ///< nothing else: sides tell all
   inside,   ///< all that curves enclose but holes (Triangle's rule)
-  parity,   ///< what curves enclose; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR fig. 3.1)
+  parity,   ///< what curves enclose; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR
+            ///< fig. 3.1)
 };
 
 struct PlaneDomainInput {

@@ -37,7 +37,8 @@ class Subdomains {
   }
 
   void claim(int face, int ref, int line, const std::string& by) {
-    if (ref < 0) throw InvalidModel(where(line), "the reference " + std::to_string(ref) + " of a subdomain is negative");
+    if (ref < 0)
+      throw InvalidModel(where(line), "the reference " + std::to_string(ref) + " of a subdomain is negative");
     Claim& old = claims_[face];
     if (!old.by.empty() && !old.hole && old.ref != ref)
       throw InvalidModel(where(line), by + " and " + old.by + " name one subdomain, but give it the references " +
@@ -60,11 +61,13 @@ class Subdomains {
   void claim_side(int rank) {
     const PlaneSide& side = input_.sides[rank];
     if (side.curve < 0 || side.curve >= static_cast<int>(input_.curves.size()))
-      throw InvalidModel(where(side.line), "a side names the curve " + std::to_string(side.curve + 1) + ", which does not exist");
+      throw InvalidModel(where(side.line),
+                         "a side names the curve " + std::to_string(side.curve + 1) + ", which does not exist");
     const std::string curve = name_of_curve(input_, side.curve), which = side.left ? "left" : "right";
     // Arcs are in the order of their curves.
-    auto a = static_cast<std::size_t>(
-        std::lower_bound(arcs_.begin(), arcs_.end(), side.curve, [](const PlaneArc& arc, int c) { return arc.curve < c; }) - arcs_.begin());
+    auto a = static_cast<std::size_t>(std::lower_bound(arcs_.begin(), arcs_.end(), side.curve,
+                                                       [](const PlaneArc& arc, int c) { return arc.curve < c; }) -
+                                      arcs_.begin());
     for (; a < arcs_.size() && arcs_[a].curve == side.curve; ++a) {
       const int half_edge = 2 * static_cast<int>(a) + (side.left ? 0 : 1);
       const int face = graph_.face_of(half_edge);
@@ -72,18 +75,21 @@ class Subdomains {
         int end = open_end(side.curve);
         if (end < 0 && face == graph_.face_of(half_edge ^ 1)) end = open_end(-1);
         if (end >= 0)
-          throw InvalidModel(where(side.line), "the domain lies on the " + which + " of " + curve + ", but its boundary is open: only one curve ends at " +
+          throw InvalidModel(where(side.line), "the domain lies on the " + which + " of " + curve +
+                                                   ", but its boundary is open: only one curve ends at " +
                                                    name_of_point(input_, end));
       }
       if (face == PlaneGraph::unbounded)
-        throw InvalidModel(where(side.line), "the domain lies on the " + which + " of " + curve + ", which is its outer side: it would be unbounded");
+        throw InvalidModel(where(side.line), "the domain lies on the " + which + " of " + curve +
+                                                 ", which is its outer side: it would be unbounded");
       claim(face, side.ref, side.line, "the side of " + curve);
     }
   }
 
   void claim_seed(int rank) {
     const PlaneSeed& seed = input_.seeds[rank];
-    const std::string by = std::string(seed.hole ? "hole" : "region") + " (" + format_number(seed.at.x()) + ", " + format_number(seed.at.y()) + ")";
+    const std::string by = std::string(seed.hole ? "hole" : "region") + " (" + format_number(seed.at.x()) + ", " +
+                           format_number(seed.at.y()) + ")";
     if (!is_finite(seed.at)) throw InvalidModel(where(seed.line), "the place of a " + by + " is not finite");
     const int face = graph_.face_at(seed.at);
     if (face == PlaneGraph::on_an_arc) throw InvalidModel(where(seed.line), "the " + by + " lies on a curve");
@@ -109,7 +115,8 @@ class Subdomains {
     const std::string nothing = "the plane domain is empty: ";
     if (input_.curves.empty()) throw InvalidModel(where(0), nothing + "it has no curve");
     if (const int end = open_end(-1); graph_.faces().empty() && end >= 0)
-      throw InvalidModel(where(input_.points[end].line), nothing + "its boundary is open, since only one curve ends at " + name_of_point(input_, end));
+      throw InvalidModel(where(input_.points[end].line),
+                         nothing + "its boundary is open, since only one curve ends at " + name_of_point(input_, end));
     throw InvalidModel(where(0), nothing + "no side or region names what its curves enclose, or holes take all of it");
   }
 

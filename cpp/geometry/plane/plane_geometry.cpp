@@ -58,7 +58,8 @@ class Builder {
     measure();
     const auto cad = std::make_shared<PlaneCad>(std::move(arcs_), std::move(of_face_));
     geometry_.built.cad = cad;
-    const bool sized = std::any_of(input_.points.begin(), input_.points.end(), [](const PlanePoint& p) { return p.size || p.metric; });
+    const bool sized =
+        std::any_of(input_.points.begin(), input_.points.end(), [](const PlanePoint& p) { return p.size || p.metric; });
     if (sized) geometry_.sizes = std::make_shared<PointSizes>(input_, cad, std::move(index_of_point_));
     return std::move(geometry_);
   }
@@ -74,7 +75,8 @@ class Builder {
     constexpr int trials = 3;
     constexpr double finer = 0.1;
     auto conflict = PlaneGraph::find_conflict(input_, arcs_);
-    const bool curved = std::any_of(arcs_.begin(), arcs_.end(), [](const PlaneArc& arc) { return arc.polyline.size() > 2; });
+    const bool curved =
+        std::any_of(arcs_.begin(), arcs_.end(), [](const PlaneArc& arc) { return arc.polyline.size() > 2; });
     for (int i = 0; conflict && curved && i < trials; ++i) {
       refine_polylines(input_, arcs_, eps_ *= finer);
       conflict = PlaneGraph::find_conflict(input_, arcs_);
@@ -142,10 +144,12 @@ class Builder {
       if (on_curve[p] != 0 || !point.imposed) continue;
       const std::string name = name_of_point(input_, static_cast<int>(p));
       const int face = graph.face_at(point.xy);
-      if (face == PlaneGraph::on_an_arc) throw InvalidModel(where(point.line), name + " lies on a curve that does not pass it");
+      if (face == PlaneGraph::on_an_arc)
+        throw InvalidModel(where(point.line), name + " lies on a curve that does not pass it");
       const int rank = face >= 0 ? face_of_[face] : -1;
       if (rank >= 0)
-        geometry_.built.model.faces[rank].points.push_back({.ref = point_ref(static_cast<int>(p)), .uv = point.xy, .line = point.line});
+        geometry_.built.model.faces[rank].points.push_back(
+            {.ref = point_ref(static_cast<int>(p)), .uv = point.xy, .line = point.line});
       else if (!point.may_drop)
         throw InvalidModel(where(point.line), "the imposed " + name + " lies outside of the domain");
     }

@@ -25,8 +25,8 @@ struct PlaneGeometry {
 /// are those of results; where one is 0 or stands for several entities the model numbers them itself, behind the
 /// largest, and Face::part_of, FaceCurve::shown_as and Model::shown_points lead back to it.
 ///
-/// `eps_smooth`: tolerance of the polylines (RR-2818 sec. 3.7) by which curves are compared, in shares of an edge. Where
-/// polylines conflict they are refined three times, by a factor ten each, before that is an error.
+/// `eps_smooth`: tolerance of the polylines (RR-2818 sec. 3.7) by which curves are compared, in shares of an edge.
+/// Where polylines conflict they are refined three times, by a factor ten each, before that is an error.
 ///
 /// Throws InvalidModel with file and line, naming curves and points: what cut_into_arcs() throws; curves that cross or
 /// touch away from points; a boundary that is open; a side on which the domain would be unbounded; sides and seeds that

@@ -12,9 +12,7 @@ namespace {
 
 constexpr int unknown = -3;
 
-bool comes_before(const Vec2& p, const Vec2& q) noexcept {
-  return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
-}
+bool comes_before(const Vec2& p, const Vec2& q) noexcept { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); }
 
 /// Half-planes of directions, so that a turn by less than half a circle compares two of one: 0 above, 1 below.
 int half_plane(const Vec2& d) noexcept { return d.y() > 0 || (d.y() == 0 && d.x() > 0) ? 0 : 1; }
@@ -81,8 +79,7 @@ void PlaneGraph::trace_loops() {
       const int turn = orientation(at, Vec2(at + d), Vec2(at + e));
       return turn != 0 ? turn > 0 : g < h;
     });
-    for (std::size_t i = 0; i < around.size(); ++i)
-      next_[around[(i + 1) % around.size()] ^ 1] = around[i];
+    for (std::size_t i = 0; i < around.size(); ++i) next_[around[(i + 1) % around.size()] ^ 1] = around[i];
   }
   find_outsides(leaving);
   loop_.assign(n, unknown);
@@ -136,7 +133,8 @@ int PlaneGraph::edge_below(const Vec2& p, int skipped, bool& on_it) const {
       if (skipped >= 0 && component_[edges_[e].arc] == skipped) continue;
       if (p.x() < low.x() || p.x() > high.x()) continue;
       const int side = orientation(low, high, p);
-      if (side == 0 && p.y() >= std::min(low.y(), high.y()) && p.y() <= std::max(low.y(), high.y())) return on_it = true, e;
+      if (side == 0 && p.y() >= std::min(low.y(), high.y()) && p.y() <= std::max(low.y(), high.y()))
+        return on_it = true, e;
       if (p.x() < high.x() && side > 0 && e != found && (found < 0 || is_above(e, found))) found = e;
     }
     if (found < 0) continue;
@@ -187,7 +185,8 @@ void PlaneGraph::nest_loops() {
     if (is_outside[l] != 0 && container_of(l) >= 0) append(l);
   for (Face& face : faces_) {
     const auto around = [&](int half_edge) { return face_of(outside_[component_[half_edge / 2]]); };
-    for (int outer = around(face.half_edges.front()); outer >= 0; outer = around(faces_[outer].half_edges.front())) ++face.depth;
+    for (int outer = around(face.half_edges.front()); outer >= 0; outer = around(faces_[outer].half_edges.front()))
+      ++face.depth;
   }
 }
 

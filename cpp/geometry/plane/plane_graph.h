@@ -63,12 +63,12 @@ class PlaneGraph {
   std::span<const PlaneArc> arcs_;
   std::vector<Vec2> vertices_;
   std::vector<Edge> edges_;
-  std::vector<int> component_;            // of each arc
-  std::vector<int> next_, loop_;          // of each half-edge
-  std::vector<int> first_of_loop_;        // a half-edge
-  std::vector<int> outside_;              // of each component, a half-edge with what is around it on its left
+  std::vector<int> component_;      // of each arc
+  std::vector<int> next_, loop_;    // of each half-edge
+  std::vector<int> first_of_loop_;  // a half-edge
+  std::vector<int> outside_;        // of each component, a half-edge with what is around it on its left
   std::vector<int> face_of_loop_;
-  std::vector<Leftmost> leftmost_;        // of each component
+  std::vector<Leftmost> leftmost_;  // of each component
   std::vector<Face> faces_;
   std::optional<EdgeGrid> grid_;
 };

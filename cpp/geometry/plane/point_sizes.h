@@ -33,13 +33,13 @@ class PointSizes final : public PrescriptionSource {
     std::vector<double> length;
     std::vector<Value> value;
   };
-  [[nodiscard]] double length_at(const PlaneArc& arc, int index, double t) const;
+  [[nodiscard]] double length_at(int arc, double t) const;
   static Prescription answer(const Value& value);
 
   std::shared_ptr<const PlaneCad> cad_;
   std::map<int, int> points_;
   std::vector<std::optional<Value>> value_;   // of each point
-  std::vector<std::vector<double>> lengths_;  // of each arc, at the vertices of its polyline
+  std::vector<std::vector<double>> lengths_;  // of each arc
   std::vector<Known> known_;                  // of each arc
   MetricLaw law_ = MetricLaw::linear;
 };

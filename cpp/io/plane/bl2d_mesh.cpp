@@ -27,7 +27,8 @@ void read_entities(Tokens& in, std::size_t vertices, std::vector<std::array<std:
     for (std::int32_t& vertex : entities[i]) {
       const int line = in.line(), number = in.integer("the number of a vertex");
       if (number < 1 || static_cast<std::size_t>(number) > vertices)
-        in.fail(line, "the vertex " + std::to_string(number) + " does not exist; there are " + std::to_string(vertices));
+        in.fail(line,
+                "the vertex " + std::to_string(number) + " does not exist; there are " + std::to_string(vertices));
       vertex = number - 1;
     }
     refs[i] = in.integer("a reference");
@@ -39,8 +40,10 @@ void read_entities(Tokens& in, std::size_t vertices, std::vector<std::array<std:
 std::string bl2d_text(const FlatMesh& mesh) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     if (mesh.vertices[i].z() != 0)
-      throw InvalidArgument("a mesh cannot be written as .bl2d: vertex " + std::to_string(i) + " (from 0) is not in the plane z = 0");
-  std::string text = "p1\n" + std::to_string(mesh.vertices.size()) + " " + std::to_string(mesh.edges.size()) + " " + std::to_string(mesh.triangles.size()) + "\n";
+      throw InvalidArgument("a mesh cannot be written as .bl2d: vertex " + std::to_string(i) +
+                            " (from 0) is not in the plane z = 0");
+  std::string text = "p1\n" + std::to_string(mesh.vertices.size()) + " " + std::to_string(mesh.edges.size()) + " " +
+                     std::to_string(mesh.triangles.size()) + "\n";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     append_number(text, mesh.vertices[i].x());
     text += ' ';
@@ -57,7 +60,8 @@ FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name) {
   if (!in.take("p1")) in.fail(in.line(), "the file does not start with p1");
   FlatMesh mesh;
   mesh.dimension = 2;
-  const std::size_t vertices = in.count("the number of vertices", 3), edges = in.count("the number of edges", 3), triangles = in.count("the number of triangles", 4);
+  const std::size_t vertices = in.count("the number of vertices", 3), edges = in.count("the number of edges", 3),
+                    triangles = in.count("the number of triangles", 4);
   mesh.vertices.resize(vertices), mesh.vertex_refs.resize(vertices);
   mesh.edges.resize(edges), mesh.edge_refs.resize(edges);
   mesh.triangles.resize(triangles), mesh.triangle_refs.resize(triangles);

@@ -36,11 +36,14 @@ Metric2 metric_along(double degrees, double h1, double h2) {
 
 class DataReader {
  public:
-  DataReader(std::string_view text, const std::string& name) : in_(text, name, {.comment = "--", .semicolons = true}) { input_.source = name; }
+  DataReader(std::string_view text, const std::string& name) : in_(text, name, {.comment = "--", .semicolons = true}) {
+    input_.source = name;
+  }
 
   PlaneDomainInput read() {
     input_.rest = PlaneRest::outside;
-    for (const char* limit : {"the largest number of points", "the largest number of segments", "the largest number of subdomains"})
+    for (const char* limit :
+         {"the largest number of points", "the largest number of segments", "the largest number of subdomains"})
       (void)in_.count(limit, 0);
     while (!in_.take(end_of_section)) add_point();
     while (!in_.take(end_of_section)) input_.points[point("an imposed point")].imposed = true;
@@ -90,7 +93,8 @@ class DataReader {
     std::vector<int> control;
     while (!in_.take(end_of_section)) control.push_back(in_.take("NULL") ? -1 : point("a control point"));
     if (control.size() < 4)
-      in_.fail(name.line, "the segment " + shown(name.text) + " has " + std::to_string(control.size()) + " control points; it needs four: one before it, its ends, one behind");
+      in_.fail(name.line, "the segment " + shown(name.text) + " has " + std::to_string(control.size()) +
+                              " control points; it needs four: one before it, its ends, one behind");
     for (std::size_t i = 1; i + 1 < control.size(); ++i)
       if (control[i] < 0) in_.fail(name.line, "the segment " + shown(name.text) + " has NULL between its ends");
     if (!segments_.emplace(std::string(name.text), static_cast<int>(input_.curves.size())).second)
@@ -105,7 +109,8 @@ class DataReader {
     side.line = in_.line();
     side.curve = segment();
     const int sign = in_.integer("the side of a segment");
-    if (sign != 1 && sign != -1) in_.fail(side.line, "the side of a segment is " + std::to_string(sign) + "; it must be +1 or -1");
+    if (sign != 1 && sign != -1)
+      in_.fail(side.line, "the side of a segment is " + std::to_string(sign) + "; it must be +1 or -1");
     side.left = sign > 0;
     side.ref = in_.integer("the reference of a subdomain");
     input_.sides.push_back(side);
@@ -121,7 +126,8 @@ class DataReader {
   void sizes() {
     const Token kind = in_.word("isotrope or anisotrope");
     const bool isotropic = kind.text == "isotrope";
-    if (!isotropic && kind.text != "anisotrope") in_.fail(kind.line, "isotrope or anisotrope was expected, not " + shown(kind.text));
+    if (!isotropic && kind.text != "anisotrope")
+      in_.fail(kind.line, "isotrope or anisotrope was expected, not " + shown(kind.text));
     while (!in_.take(end_of_section)) {
       const int at = in_.line();
       PlanePoint& here = input_.points[point("a point")];
@@ -146,11 +152,14 @@ class GeometryReader {
 
   PlaneDomainInput read() {
     input_.rest = PlaneRest::outside;
-    const std::size_t points = in_.count("the number of points", 2), imposed = in_.count("the number of imposed points", 1),
+    const std::size_t points = in_.count("the number of points", 2),
+                      imposed = in_.count("the number of imposed points", 1),
                       references = in_.count("the number of points with a reference", 2);
     const int at = in_.line();
-    if (in_.integer("the fourth number") != 0) in_.fail(at, "the fourth number of the header is not 0: what it counts is not known");
-    const std::size_t segments = in_.count("the number of segments", 3), subdomains = in_.count("the number of subdomains", 3);
+    if (in_.integer("the fourth number") != 0)
+      in_.fail(at, "the fourth number of the header is not 0: what it counts is not known");
+    const std::size_t segments = in_.count("the number of segments", 3),
+                      subdomains = in_.count("the number of subdomains", 3);
     for (std::size_t i = 0; i < points; ++i) {
       PlanePoint point;
       point.line = in_.line();
@@ -173,7 +182,8 @@ class GeometryReader {
   int number(std::size_t n, const char* what, int least) {
     const int at = in_.line(), number = in_.integer(what);
     if (number < least || (number > 0 && static_cast<std::size_t>(number) > n))
-      in_.fail(at, std::string(what) + " has the number " + std::to_string(number) + ", but there are " + std::to_string(n));
+      in_.fail(
+          at, std::string(what) + " has the number " + std::to_string(number) + ", but there are " + std::to_string(n));
     return number - 1;
   }
 
@@ -182,7 +192,8 @@ class GeometryReader {
     const std::size_t n = in_.count("the number of control points", 1);
     if (n < 4) in_.fail(line, "a segment has " + std::to_string(n) + " control points; it needs four");
     std::vector<int> control;
-    for (std::size_t i = 0; i < n; ++i) control.push_back(number(points, "a control point", i == 0 || i + 1 == n ? 0 : 1));
+    for (std::size_t i = 0; i < n; ++i)
+      control.push_back(number(points, "a control point", i == 0 || i + 1 == n ? 0 : 1));
     PlaneCurve curve = spline_of(control);
     curve.line = line;
     curve.ref = in_.integer("the reference of a segment");
@@ -194,7 +205,8 @@ class GeometryReader {
     side.line = in_.line();
     side.curve = number(segments, "a segment", 1);
     const int sign = in_.integer("the side of a segment");
-    if (sign != 1 && sign != -1) in_.fail(side.line, "the side of a segment is " + std::to_string(sign) + "; it must be 1 or -1");
+    if (sign != 1 && sign != -1)
+      in_.fail(side.line, "the side of a segment is " + std::to_string(sign) + "; it must be 1 or -1");
     side.left = sign > 0;
     side.ref = in_.integer("the reference of a subdomain");
     input_.sides.push_back(side);
@@ -206,15 +218,20 @@ class GeometryReader {
 
 }  // namespace
 
-PlaneDomainInput read_bl2d_data_text(std::string_view text, const std::string& name) { return DataReader(text, name).read(); }
-PlaneDomainInput read_bl2d_g_text(std::string_view text, const std::string& name) { return GeometryReader(text, name).read(); }
+PlaneDomainInput read_bl2d_data_text(std::string_view text, const std::string& name) {
+  return DataReader(text, name).read();
+}
+PlaneDomainInput read_bl2d_g_text(std::string_view text, const std::string& name) {
+  return GeometryReader(text, name).read();
+}
 
 Solution read_bl2d_sizes_text(std::string_view text, const std::string& name) {
   Tokens in(text, name, {});
   const int at = in.line();
   const std::size_t n = in.count("the number of values", 1);
   const int components = in.integer("the number of components");
-  if (components != 1 && components != 3) in.fail(at, "the number of components is " + std::to_string(components) + "; it must be 1 (sizes) or 3 (metrics)");
+  if (components != 1 && components != 3)
+    in.fail(at, "the number of components is " + std::to_string(components) + "; it must be 1 (sizes) or 3 (metrics)");
   Solution solution{.dimension = 2, .tensor = components == 3, .values = {}};
   for (std::size_t i = 0; i < n; ++i) {
     const int line = in.line();
@@ -228,7 +245,8 @@ Solution read_bl2d_sizes_text(std::string_view text, const std::string& name) {
 
 void set_point_sizes(PlaneDomainInput& input, const Solution& sizes, const std::string& name) {
   if (sizes.count() != input.points.size())
-    throw FileError({.file = name}, "it has values at " + std::to_string(sizes.count()) + " points, but " + input.source + " has " + std::to_string(input.points.size()));
+    throw FileError({.file = name}, "it has values at " + std::to_string(sizes.count()) + " points, but " +
+                                        input.source + " has " + std::to_string(input.points.size()));
   for (std::size_t i = 0; i < input.points.size(); ++i) {
     if (sizes.tensor)
       input.points[i].metric = plane_tensor(sizes, i);

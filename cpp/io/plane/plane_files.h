@@ -23,8 +23,8 @@ PlaneDomainInput read_plane_domain(const std::string& path);
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name);
 
 /// Its edges, and the sides of triangles that have no neighbour or one of another reference. Triangles say where the
-/// domain is; without any it is what edges enclose by parity, and vertices inside are imposed. `name` is for messages. Throws
-/// FileError for a mesh of dimension 3 or without edges and triangles.
+/// domain is; without any it is what edges enclose by parity, and vertices inside are imposed. `name` is for messages.
+/// Throws FileError for a mesh of dimension 3 or without edges and triangles.
 PlaneDomainInput plane_domain_of(const FlatMesh& mesh, const std::string& name);
 
 /// BL2D: what people write, and the same compiled.

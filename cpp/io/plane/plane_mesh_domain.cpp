@@ -32,7 +32,8 @@ std::map<std::pair<int, int>, Beside> triangles_beside(const FlatMesh& mesh, con
       Beside& here = beside[ordered(a, b)];
       int& side = (a < b) == direct ? here.left : here.right;
       if (side >= 0)
-        throw FileError({.file = name}, "triangles " + std::to_string(side + 1) + " and " + std::to_string(t + 1) + " lie on one side of an edge");
+        throw FileError({.file = name}, "triangles " + std::to_string(side + 1) + " and " + std::to_string(t + 1) +
+                                            " lie on one side of an edge");
       side = static_cast<int>(t);
     }
   }
@@ -41,15 +42,22 @@ std::map<std::pair<int, int>, Beside> triangles_beside(const FlatMesh& mesh, con
 
 class MeshDomain {
  public:
-  MeshDomain(const FlatMesh& mesh, const std::string& name) : mesh_(mesh), name_(name), beside_(triangles_beside(mesh, name)) { input_.source = name; }
+  MeshDomain(const FlatMesh& mesh, const std::string& name)
+      : mesh_(mesh), name_(name), beside_(triangles_beside(mesh, name)) {
+    input_.source = name;
+  }
 
   PlaneDomainInput read() {
     for (std::size_t v = 0; v < mesh_.vertices.size(); ++v)
-      input_.points.push_back({.xy = {mesh_.vertices[v].x(), mesh_.vertices[v].y()}, .ref = ref_of(mesh_.vertex_refs, v)});
-    for (std::size_t e = 0; e < mesh_.edges.size(); ++e) add_edge(mesh_.edges[e][0], mesh_.edges[e][1], ref_of(mesh_.edge_refs, e));
+      input_.points.push_back(
+          {.xy = {mesh_.vertices[v].x(), mesh_.vertices[v].y()}, .ref = ref_of(mesh_.vertex_refs, v)});
+    for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
+      add_edge(mesh_.edges[e][0], mesh_.edges[e][1], ref_of(mesh_.edge_refs, e));
     for (const auto& [edge, sides] : beside_)
-      if (triangle_ref(sides.left) != triangle_ref(sides.right) && !known_.contains(edge)) add_edge(edge.first, edge.second, 0);
-    if (input_.curves.empty()) throw FileError({.file = name_}, "the mesh has neither edges nor triangles: it bounds no domain");
+      if (triangle_ref(sides.left) != triangle_ref(sides.right) && !known_.contains(edge))
+        add_edge(edge.first, edge.second, 0);
+    if (input_.curves.empty())
+      throw FileError({.file = name_}, "the mesh has neither edges nor triangles: it bounds no domain");
     input_.rest = mesh_.triangles.empty() ? PlaneRest::parity : PlaneRest::outside;
     input_.is_mesh = !mesh_.triangles.empty();
     if (!input_.is_mesh)
@@ -60,7 +68,9 @@ class MeshDomain {
  private:
   static int ref_of(const std::vector<std::int32_t>& refs, std::size_t i) { return refs.empty() ? 0 : refs[i]; }
   /// -1: no triangle. Negative references count as none.
-  [[nodiscard]] int triangle_ref(int t) const { return t < 0 ? -1 : std::max(0, ref_of(mesh_.triangle_refs, static_cast<std::size_t>(t))); }
+  [[nodiscard]] int triangle_ref(int t) const {
+    return t < 0 ? -1 : std::max(0, ref_of(mesh_.triangle_refs, static_cast<std::size_t>(t)));
+  }
 
   void add_edge(int a, int b, int ref) {
     if (a == b || !known_.insert({ordered(a, b), 0}).second) return;
@@ -71,7 +81,8 @@ class MeshDomain {
     if (found == beside_.end()) return;
     const auto [left, right] = found->second;
     for (const auto& [triangle, is_left] : {std::pair{left, true}, std::pair{right, false}})
-      if (triangle >= 0) input_.sides.push_back({.curve = curve, .left = is_left == (a < b), .ref = triangle_ref(triangle)});
+      if (triangle >= 0)
+        input_.sides.push_back({.curve = curve, .left = is_left == (a < b), .ref = triangle_ref(triangle)});
   }
 
   const FlatMesh& mesh_;
@@ -84,9 +95,11 @@ class MeshDomain {
 /// Joins the segments of a domain that run on into chains.
 class Chains {
  public:
-  Chains(PlaneDomainInput& input, double corner_angle) : input_(input), least_cosine_(std::cos(corner_angle * std::numbers::pi / 180)), at_(input.points.size()) {
+  Chains(PlaneDomainInput& input, double corner_angle)
+      : input_(input), least_cosine_(std::cos(corner_angle * std::numbers::pi / 180)), at_(input.points.size()) {
     for (std::size_t c = 0; c < input_.curves.size(); ++c)
-      for (const int p : {input_.curves[c].points.front(), input_.curves[c].points.back()}) at_[p].push_back(static_cast<int>(c));
+      for (const int p : {input_.curves[c].points.front(), input_.curves[c].points.back()})
+        at_[p].push_back(static_cast<int>(c));
   }
 
   void join() {
@@ -95,7 +108,9 @@ class Chains {
     std::vector<char> reversed(input_.curves.size(), 0);
     for (const bool closed : {false, true})
       for (std::size_t c = 0; c < input_.curves.size(); ++c) {
-        if (new_of[c] >= 0 || (!closed && runs_on(input_.curves[c].points.front()) && runs_on(input_.curves[c].points.back()))) continue;
+        if (new_of[c] >= 0 ||
+            (!closed && runs_on(input_.curves[c].points.front()) && runs_on(input_.curves[c].points.back())))
+          continue;
         const bool from_end = runs_on(input_.curves[c].points.front()) && !runs_on(input_.curves[c].points.back());
         joined.push_back(chain_from(static_cast<int>(c), from_end, static_cast<int>(joined.size()), new_of, reversed));
       }
@@ -111,8 +126,10 @@ class Chains {
     if (at_[p].size() != 2 || at_[p][0] == at_[p][1]) return false;
     const PlaneCurve &a = input_.curves[at_[p][0]], &b = input_.curves[at_[p][1]];
     if (a.ref != b.ref || a.smooth || b.smooth) return false;
-    const Vec2 d = input_.points[p].xy - input_.points[a.points.front() == p ? a.points[1] : a.points[a.points.size() - 2]].xy;
-    const Vec2 e = input_.points[b.points.front() == p ? b.points[1] : b.points[b.points.size() - 2]].xy - input_.points[p].xy;
+    const Vec2 d =
+        input_.points[p].xy - input_.points[a.points.front() == p ? a.points[1] : a.points[a.points.size() - 2]].xy;
+    const Vec2 e =
+        input_.points[b.points.front() == p ? b.points[1] : b.points[b.points.size() - 2]].xy - input_.points[p].xy;
     return dot(d, e) >= least_cosine_ * norm(d) * norm(e);
   }
 
@@ -158,7 +175,9 @@ PlaneDomainInput read_plane_domain(const std::string& path) {
   if (suffix == ".poly") return read_poly_text(read_file(path), path);
   if (suffix == ".data") return read_bl2d_data_text(read_file(path), path);
   if (suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d") return plane_domain_of(read_mesh(path), path);
-  if (suffix != ".g") throw InvalidArgument("'" + path + "' has none of the suffixes of a plane domain: .poly, .mesh, .meshb, .bl2d, .data, .g");
+  if (suffix != ".g")
+    throw InvalidArgument("'" + path +
+                          "' has none of the suffixes of a plane domain: .poly, .mesh, .meshb, .bl2d, .data, .g");
   PlaneDomainInput input = read_bl2d_g_text(read_file(path), path);
   const std::string sizes = std::filesystem::path(path).replace_extension(".hg").string();
   if (std::filesystem::exists(sizes)) set_point_sizes(input, read_bl2d_sizes_text(read_file(sizes), sizes), sizes);

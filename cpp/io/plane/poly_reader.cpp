@@ -12,7 +12,9 @@ namespace {
 
 class PolyReader {
  public:
-  PolyReader(std::string_view text, const std::string& name) : in_(text, name, {.comment = "#"}) { input_.source = name; }
+  PolyReader(std::string_view text, const std::string& name) : in_(text, name, {.comment = "#"}) {
+    input_.source = name;
+  }
 
   PlaneDomainInput read() {
     input_.rest = PlaneRest::inside;
@@ -32,7 +34,8 @@ class PolyReader {
     const int dimension = in_.integer("the dimension"), attributes = in_.integer("the number of attributes"),
               markers = in_.integer("the number of markers");
     if (dimension != 2) in_.fail(at, "the dimension is " + std::to_string(dimension) + ", not 2");
-    if (attributes < 0 || markers < 0 || markers > 1) in_.fail(at, "the number of attributes is negative, or that of markers neither 0 nor 1");
+    if (attributes < 0 || markers < 0 || markers > 1)
+      in_.fail(at, "the number of attributes is negative, or that of markers neither 0 nor 1");
     for (std::size_t i = 0; i < n; ++i) {
       PlanePoint point;
       point.line = in_.line();
@@ -42,7 +45,8 @@ class PolyReader {
       if (markers == 1) point.ref = in_.integer("a marker");
       point.imposed = point.may_drop = true;
       point.name = std::to_string(number);
-      if (!index_.emplace(number, static_cast<int>(i)).second) in_.fail(point.line, "point " + std::to_string(number) + " comes twice");
+      if (!index_.emplace(number, static_cast<int>(i)).second)
+        in_.fail(point.line, "point " + std::to_string(number) + " comes twice");
       input_.points.push_back(std::move(point));
     }
   }
@@ -50,7 +54,8 @@ class PolyReader {
   int point() {
     const int at = in_.line(), number = in_.integer("the number of a point");
     const auto found = index_.find(number);
-    if (found == index_.end()) in_.fail(at, "a segment names the point " + std::to_string(number) + ", which does not exist");
+    if (found == index_.end())
+      in_.fail(at, "a segment names the point " + std::to_string(number) + ", which does not exist");
     return found->second;
   }
 
@@ -96,6 +101,8 @@ class PolyReader {
 
 }  // namespace
 
-PlaneDomainInput read_poly_text(std::string_view text, const std::string& name) { return PolyReader(text, name).read(); }
+PlaneDomainInput read_poly_text(std::string_view text, const std::string& name) {
+  return PolyReader(text, name).read();
+}
 
 }  // namespace carreau

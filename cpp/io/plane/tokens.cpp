@@ -39,7 +39,9 @@ Tokens::Tokens(std::string_view text, const std::string& name, const TokenRules&
   }
 }
 
-void Tokens::fail(int line, const std::string& sentence) const { throw FileError({.file = name_, .line = line}, sentence); }
+void Tokens::fail(int line, const std::string& sentence) const {
+  throw FileError({.file = name_, .line = line}, sentence);
+}
 
 Token Tokens::word(const char* what) {
   if (at_end()) fail(line(), "the file ends where " + std::string(what) + " was expected");

@@ -28,7 +28,8 @@ TEST(CatmullRom, MiddleOfAPieceOfARegularPolygonHasTheRadiusInClosedForm) {
   for (const int n : {4, 8, 16, 32}) {
     const double a = 2 * std::numbers::pi / n;
     const double radius = std::cos(a / 2) + std::sin(a) * std::sin(a / 2) / 4;
-    for (const CubicPiece& piece : catmull_rom(closed_polygon(n), {})) EXPECT_NEAR(norm(piece.at(0.5)), radius, 1e-12) << n;
+    for (const CubicPiece& piece : catmull_rom(closed_polygon(n), {}))
+      EXPECT_NEAR(norm(piece.at(0.5)), radius, 1e-12) << n;
   }
 }
 
@@ -90,7 +91,8 @@ TEST(CubicPiece, LoopOfAnyPieceIsADoublePoint) {
   std::uniform_real_distribution<double> coordinate(-12, 12);
   int found = 0;
   for (int i = 0; i < 2000; ++i) {
-    const CubicPiece piece = unit_piece({coordinate(random), coordinate(random)}, {coordinate(random), coordinate(random)});
+    const CubicPiece piece =
+        unit_piece({coordinate(random), coordinate(random)}, {coordinate(random), coordinate(random)});
     if (const auto loop = loop_of(piece)) {
       ++found;
       EXPECT_LT(norm(Vec2(piece.at(loop->t1) - piece.at(loop->t2))), 1e-10);
@@ -127,7 +129,8 @@ TEST(Subdivision, EveryPointOfAnArcIsWithinTheToleranceOfItsEdge) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-2, 2);
   for (int i = 0; i < 100; ++i) {
-    const CubicPiece piece = unit_piece({coordinate(random) + 2, coordinate(random)}, {coordinate(random) + 2, coordinate(random)});
+    const CubicPiece piece =
+        unit_piece({coordinate(random) + 2, coordinate(random)}, {coordinate(random) + 2, coordinate(random)});
     std::vector<double> t = subdivide(piece, 0.01);
     t.insert(t.begin(), 0);
     t.push_back(1);

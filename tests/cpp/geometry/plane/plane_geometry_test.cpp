@@ -27,7 +27,8 @@ int add_loop(PlaneDomainInput& input, const std::vector<Vec2>& corners, bool smo
 }
 
 std::vector<Vec2> square(double half, const Vec2& centre = {0, 0}) {
-  return {centre + Vec2{-half, -half}, centre + Vec2{half, -half}, centre + Vec2{half, half}, centre + Vec2{-half, half}};
+  return {centre + Vec2{-half, -half}, centre + Vec2{half, -half}, centre + Vec2{half, half},
+          centre + Vec2{-half, half}};
 }
 
 int add_segment(PlaneDomainInput& input, int a, int b) {
@@ -84,7 +85,8 @@ TEST(PlaneGeometry, SidesNameSubdomainsAndSharedCurvesAreInBoth) {
 TEST(PlaneGeometry, OneReferenceOfSeveralSubdomainsMakesThemPartsOfOneFace) {
   PlaneDomainInput input;
   input.rest = PlaneRest::outside;
-  const int a = add_loop(input, square(1)), b = add_loop(input, square(1, {5, 0})), c = add_loop(input, square(1, {9, 0}));
+  const int a = add_loop(input, square(1)), b = add_loop(input, square(1, {5, 0})),
+            c = add_loop(input, square(1, {9, 0}));
   input.sides = {{.curve = a, .ref = 3}, {.curve = b, .ref = 0}, {.curve = c, .ref = 3}};
   const Model model = build_plane_geometry(input).built.model;
   ASSERT_EQ(model.faces.size(), 3u);
@@ -114,7 +116,8 @@ TEST(PlaneGeometry, DanglingCurvesAreInternalAndPointsAreImposedWhereTheyLie) {
 TEST(PlaneGeometry, ASplineIsCutWhereAnotherCurveEnds) {
   PlaneDomainInput input;
   std::vector<Vec2> circle;
-  for (int i = 0; i < 16; ++i) circle.push_back({std::cos(i * std::numbers::pi / 8), std::sin(i * std::numbers::pi / 8)});
+  for (int i = 0; i < 16; ++i)
+    circle.push_back({std::cos(i * std::numbers::pi / 8), std::sin(i * std::numbers::pi / 8)});
   add_loop(input, circle, true);
   EXPECT_EQ(build_plane_geometry(input).built.model.faces[0].curves.size(), 1u);
   add_segment(input, 4, 12);
@@ -135,7 +138,8 @@ TEST(PlaneGeometry, HolesAreTakenAwayAndRegionsHaveTheirReferences) {
   add_loop(input, square(4));
   add_loop(input, square(1, {-2, 0}));
   add_loop(input, square(1, {2, 0}));
-  input.seeds = {{.at = {-2, 0}, .hole = true}, {.at = {2, 0.5}, .hole = false, .ref = 8}, {.at = {90, 0}, .hole = true}};
+  input.seeds = {
+      {.at = {-2, 0}, .hole = true}, {.at = {2, 0.5}, .hole = false, .ref = 8}, {.at = {90, 0}, .hole = true}};
   const Model model = build_plane_geometry(input).built.model;
   ASSERT_EQ(model.faces.size(), 2u);
   EXPECT_EQ(model.faces[0].ref, 8);
@@ -154,7 +158,8 @@ TEST(PlaneGeometry, SizesVaryAlongACurveWithItsLength) {
   bool seen = false;
   for (std::size_t c = 0; c < model.faces[0].curves.size(); ++c) {
     if (model.faces[0].curves[c].end1 != model.faces[0].curves[0].end1) continue;
-    const Prescription middle = plane.sizes->on_curve(model.faces[0].ref, static_cast<int>(c) + 1, 0.5, {2, 0}, {2, 0, 0});
+    const Prescription middle =
+        plane.sizes->on_curve(model.faces[0].ref, static_cast<int>(c) + 1, 0.5, {2, 0}, {2, 0, 0});
     EXPECT_NEAR(middle.size, 2, 1e-12);
     seen = true;
   }
@@ -167,7 +172,8 @@ TEST(PlaneGeometry, MistakesAreToldWithTheirPlaces) {
   open.curves = {{.points = {0, 1, 2}, .name = "s"}};
   EXPECT_NE(sentence_of(open).find("its boundary is open, since only one curve ends at point 1"), std::string::npos);
   open.sides = {{.curve = 0}};
-  EXPECT_NE(sentence_of(open).find("the domain lies on the left of curve 's', but its boundary is open"), std::string::npos);
+  EXPECT_NE(sentence_of(open).find("the domain lies on the left of curve 's', but its boundary is open"),
+            std::string::npos);
 
   PlaneDomainInput wrong;
   add_loop(wrong, square(1));

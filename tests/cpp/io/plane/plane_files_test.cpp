@@ -93,8 +93,10 @@ TEST(PolyFile, MistakesHaveTheirLines) {
   const auto of = [](const std::string& from, const std::string& to) {
     return sentence_of([&] { return read_poly_text(replaced(square_poly, from, to), "x.poly"); });
   };
-  EXPECT_NE(of("8 1\n1 1 2 5", "8 1\n1 1 99 5").find("x.poly, line 12: a segment names the point 99"), std::string::npos);
-  EXPECT_NE(of("8 2 1 1", "800 2 1 1").find("line 2: the number of points is 800, more than the rest of the file"), std::string::npos);
+  EXPECT_NE(of("8 1\n1 1 2 5", "8 1\n1 1 99 5").find("x.poly, line 12: a segment names the point 99"),
+            std::string::npos);
+  EXPECT_NE(of("8 2 1 1", "800 2 1 1").find("line 2: the number of points is 800, more than the rest of the file"),
+            std::string::npos);
   EXPECT_NE(of("8 2 1 1", "8 3 1 1").find("the dimension is 3"), std::string::npos);
   EXPECT_NE(of("8 2 1 1", "0 2 1 1").find("those of a .node file are not read"), std::string::npos);
   EXPECT_NE(of("2 4 0 .5 1", "1 4 0 .5 1").find("point 1 comes twice"), std::string::npos);
@@ -119,7 +121,8 @@ TEST(Bl2dData, NamesBecomeSplinesSidesAndSizes) {
 }
 
 TEST(Bl2dData, AnAngleAndTwoSizesMakeAMetric) {
-  const auto input = read_bl2d_data_text(replaced(piece_data, "isotrope\nA 15 E 3", "anisotrope\nA 90 2 0.5"), "x.data");
+  const auto input =
+      read_bl2d_data_text(replaced(piece_data, "isotrope\nA 15 E 3", "anisotrope\nA 90 2 0.5"), "x.data");
   ASSERT_TRUE(input.points[0].metric);
   EXPECT_NEAR(input.points[0].metric->a, 4, 1e-12);  // across the direction: size .5 along x
   EXPECT_NEAR(input.points[0].metric->b, 0, 1e-12);
@@ -140,7 +143,8 @@ TEST(Bl2dData, MistakesHaveTheirLines) {
 }
 
 TEST(Bl2dGeometry, TheCompiledFormSaysTheSame) {
-  const auto input = read_bl2d_g_text("3 1 1 0 3 1\n-90 -15\n20 -15\n20 30\n2\n2 20\n4 0 1 2 0 7\n4 1 2 3 0 0\n4 2 3 1 0 0\n1 1 200\n", "x.g");
+  const auto input = read_bl2d_g_text(
+      "3 1 1 0 3 1\n-90 -15\n20 -15\n20 30\n2\n2 20\n4 0 1 2 0 7\n4 1 2 3 0 0\n4 2 3 1 0 0\n1 1 200\n", "x.g");
   const auto data = read_bl2d_data_text(piece_data, "x.data");
   ASSERT_EQ(input.curves.size(), data.curves.size());
   for (std::size_t c = 0; c < input.curves.size(); ++c) {
@@ -152,19 +156,33 @@ TEST(Bl2dGeometry, TheCompiledFormSaysTheSame) {
   EXPECT_EQ(input.points[1].ref, 20);
   EXPECT_TRUE(input.points[1].imposed);
   EXPECT_EQ(input.sides[0].ref, 200);
-  EXPECT_NE(sentence_of([] { return read_bl2d_g_text("3 0 0 2 0 0\n0 0 1 0 1 1\n", "x.g"); }).find("line 1: the fourth number"), std::string::npos);
-  EXPECT_NE(sentence_of([] { return read_bl2d_g_text("3 0 0 0 1 0\n0 0 1 0 1 1\n4 0 1 5 0 0\n", "x.g"); }).find("line 3: a control point has the number 5"), std::string::npos);
+  EXPECT_NE(sentence_of([] {
+              return read_bl2d_g_text("3 0 0 2 0 0\n0 0 1 0 1 1\n", "x.g");
+            }).find("line 1: the fourth number"),
+            std::string::npos);
+  EXPECT_NE(sentence_of([] {
+              return read_bl2d_g_text("3 0 0 0 1 0\n0 0 1 0 1 1\n4 0 1 5 0 0\n", "x.g");
+            }).find("line 3: a control point has the number 5"),
+            std::string::npos);
 }
 
 TEST(Bl2dSizes, ValuesArePositiveAndAsManyAsPoints) {
   const Solution sizes = read_bl2d_sizes_text("2 1\n.5\n2\n", "x.h");
   EXPECT_EQ(sizes.values, (std::vector<double>{0.5, 2}));
   EXPECT_TRUE(read_bl2d_sizes_text("1 3\n4 0 1\n", "x.h").tensor);
-  EXPECT_NE(sentence_of([] { return read_bl2d_sizes_text("2 1\n.5\n0\n", "x.h"); }).find("x.h, line 3: a size is not positive"), std::string::npos);
-  EXPECT_NE(sentence_of([] { return read_bl2d_sizes_text("1 3\n1 2 1\n", "x.h"); }).find("not positive definite"), std::string::npos);
-  EXPECT_NE(sentence_of([] { return read_bl2d_sizes_text("1 2\n1 2\n", "x.h"); }).find("it must be 1 (sizes) or 3"), std::string::npos);
+  EXPECT_NE(sentence_of([] {
+              return read_bl2d_sizes_text("2 1\n.5\n0\n", "x.h");
+            }).find("x.h, line 3: a size is not positive"),
+            std::string::npos);
+  EXPECT_NE(sentence_of([] { return read_bl2d_sizes_text("1 3\n1 2 1\n", "x.h"); }).find("not positive definite"),
+            std::string::npos);
+  EXPECT_NE(sentence_of([] { return read_bl2d_sizes_text("1 2\n1 2\n", "x.h"); }).find("it must be 1 (sizes) or 3"),
+            std::string::npos);
   PlaneDomainInput input = read_bl2d_data_text(piece_data, "x.data");
-  EXPECT_NE(sentence_of([&] { return set_point_sizes(input, sizes, "x.hg"), 0; }).find("x.hg: it has values at 2 points, but x.data has 3"), std::string::npos);
+  EXPECT_NE(sentence_of([&] {
+              return set_point_sizes(input, sizes, "x.hg"), 0;
+            }).find("x.hg: it has values at 2 points, but x.data has 3"),
+            std::string::npos);
 }
 
 TEST(PlaneMesh, TrianglesSayWhereTheDomainIs) {
@@ -228,7 +246,10 @@ TEST(Bl2dMesh, IsReadAsItWasWritten) {
   EXPECT_EQ(text, "p1\n3 1 1\n0 0 3\n0.1 1e-30 0\n1 1 -1\n1 2 5\n1 2 3 200\n");
   const FlatMesh again = read_mesh_bl2d(text, "x.bl2d");
   EXPECT_EQ(bl2d_text(again), text);
-  EXPECT_NE(sentence_of([&] { return read_mesh_bl2d(replaced(text, "1 2 5", "1 9 5"), "x.bl2d"); }).find("x.bl2d, line 6: the vertex 9 does not exist"), std::string::npos);
+  EXPECT_NE(sentence_of([&] {
+              return read_mesh_bl2d(replaced(text, "1 2 5", "1 9 5"), "x.bl2d");
+            }).find("x.bl2d, line 6: the vertex 9 does not exist"),
+            std::string::npos);
   mesh.vertices[0].z() = 1;
   EXPECT_THROW((void)bl2d_text(mesh), InvalidArgument);
 }
