@@ -94,6 +94,31 @@ TEST(MolecularSurfaces, CaffeineIsClosedAndOnItsSpheres) {
   }
 }
 
+TEST(MolecularSurfaces, CavitiesAreKeptOrDropped) {
+  std::vector<Ball> cage;
+  for (int k = 0; k < 60; ++k) {
+    const double z = 1 - (2 * k + 1) / 60.0, r = std::sqrt(1 - z * z), turn = 2.399963 * k;
+    cage.push_back({Vec3{4 * r * std::cos(turn), 4 * r * std::sin(turn), 4 * z}, 1.6});
+  }
+  Monitor silent;
+  for (const SurfaceKind kind : {SurfaceKind::vws, SurfaceKind::ses})
+    for (const bool cavities : {true, false}) {
+      MoleculeSummary summary;
+      const SurfaceOptions options{.kind = kind, .probe = 0.5, .cavities = cavities};
+      const SurfaceMesh mesh = mesh_of(build_surface({cage}, options, silent, &summary), 0.4);
+      ASSERT_EQ(summary.measures.shell_volume.size(), 2U);
+      EXPECT_EQ(summary.euler_number, cavities ? 4 : 2);
+      EXPECT_EQ(euler_number_of(mesh), summary.euler_number);
+    }
+}
+
+TEST(MolecularSurfaces, FourSpheresThroughAPointAreMeshed) {
+  const std::vector<Ball> square{{{0, 0, 0}, 1.2}, {{1, 0, 0}, 1.2}, {{0, 1, 0}, 1.2}, {{1, 1, 0}, 1.2}};
+  const SurfaceMesh mesh = mesh_of(built(square, SurfaceKind::vws), 0.2);
+  EXPECT_EQ(euler_number_of(mesh), 2);
+  EXPECT_EQ(mesh.faces.size(), 4U);
+}
+
 // ---- The solvent excluded surface ----
 
 constexpr double probe = 1.4;
