@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "balls_from_files.h"
 #include "geometry/molecule/molecule.h"
@@ -205,6 +206,23 @@ void check_probes(const std::vector<Ball>& balls, double size) {
 TEST(SolventExcluded, NoProbeBesideAVertexGoesIntoABall) {
   for (const std::vector<Ball>& balls : {with_hole, with_tips, with_many_tips}) check_probes(balls, 0.2);
   check_probes(read_balls("caffeine.xyzr"), 0.3);
+}
+
+/// A spindle of short arcs, where what is left of a probe's triangle comes apart at both tips of one side.
+TEST(SolventExcluded, PartsOfAProbeThatComeApartAreFacesOfTheirOwn) {
+  std::mt19937 random(7);
+  int apart = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    std::uniform_real_distribution<double> place(0, 8);
+    std::vector<Ball> balls;
+    for (int i = 0; i < 7; ++i) balls.push_back({{place(random), place(random), place(random)}, 1.7});
+    MoleculeSummary summary;
+    const BuiltGeometry built = excluded(balls, &summary);
+    const SurfaceMesh mesh = mesh_of(built, 0.5);
+    EXPECT_EQ(euler_number_of(mesh), summary.euler_number);
+    for (const Face& face : built.model.faces) apart += face.ref > 7 && face.curves.size() == 3 ? 1 : 0;
+  }
+  EXPECT_GT(apart, 20);
 }
 
 TEST(SolventExcluded, NormalsAgreeAcrossAllInterfacesButCrossings) {
