@@ -1,16 +1,31 @@
-!> Fortran 2003 face of cabi/include/carreau_geometry.h: plane domains. What each routine means and its errors are written
+!> Fortran 2003 face of cabi/include/carreau_geometry.h: molecules and plane domains. What each routine means and its errors are written
 !> there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
 !> are optional.
 module carreau_geometry
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
-  use carreau, only: carreau_session, CARREAU_ERR_ARGUMENT
+  use carreau, only: carreau_session, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK
   use carreau_geometry_c
   implicit none
   private
 
   public :: carreau_plane_curves, carreau_add_plane_domain, carreau_load_plane_domain, carreau_plane_has_sizes
 
+  public :: carreau_molecule_options, carreau_molecule_measures, carreau_add_molecule, carreau_load_molecule
+  public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_name
+  public :: carreau_geometry_points, carreau_geometry_curve
+
+  integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
   integer(c_int32_t), parameter, public :: CARREAU_REST_PARITY = 0, CARREAU_REST_INSIDE = 1, CARREAU_REST_OUTSIDE = 2
+
+  type :: carreau_molecule_options
+    integer(c_int32_t) :: surface = CARREAU_VWS, drop_cavities = 0
+    real(c_double) :: probe = 1.4_c_double
+  end type carreau_molecule_options
+
+  type :: carreau_molecule_measures
+    real(c_double) :: area, volume
+    integer(c_int64_t) :: atoms, exposed_atoms, shells, cavities, euler_number, moved_radii
+  end type carreau_molecule_measures
 
   !> Curve c passes points(starts(c) : starts(c + 1) - 1); the last entry of `starts` is size(points) + 1. Arrays that are
   !! not allocated are not given: curves are segments without references, and ends of splines are free.
@@ -23,6 +38,98 @@ module carreau_geometry
   end type carreau_plane_curves
 
 contains
+
+  ! ---- Molecules ----
+
+  !> centers(3, n), radii(n)
+  subroutine carreau_add_molecule(session, options, centers, radii, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_molecule_options), intent(in) :: options
+    real(c_double), intent(in) :: centers(:, :), radii(:)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(centers, 1) /= 3 .or. size(centers, 2) /= size(radii)) return
+    status = c_add_molecule(session%handle, c_options(options), size(radii, kind=c_int64_t), &
+      reshape(centers, [size(centers)]), radii)
+  end subroutine carreau_add_molecule
+
+  subroutine carreau_load_molecule(session, options, path, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_molecule_options), intent(in) :: options
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_load_molecule(session%handle, c_options(options), trim(path)//c_null_char)
+  end subroutine carreau_load_molecule
+
+  subroutine carreau_molecule_measure(session, measures, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_molecule_measures), intent(out) :: measures
+    integer(c_int32_t), intent(out) :: status
+    type(c_molecule_measures) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_molecule_measure(session%handle, c)
+    if (status /= CARREAU_OK) return
+    measures = carreau_molecule_measures(c%area, c%volume, c%atoms, c%exposed_atoms, c%shells, c%cavities, &
+      c%euler_number, c%moved_radii)
+  end subroutine carreau_molecule_measure
+
+  !> refs(n), areas(n)
+  subroutine carreau_molecule_atoms(session, refs, areas, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: refs(:)
+    real(c_double), allocatable, intent(out) :: areas(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_molecule_measures) :: measures
+    call carreau_molecule_measure(session, measures, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(measures%atoms), areas(measures%atoms))
+    status = c_molecule_atoms(session%handle, measures%atoms, refs, areas)
+  end subroutine carreau_molecule_atoms
+
+  !> atom: from 1; "" when it has none, or there is no such atom
+  function carreau_molecule_atom_name(session, atom) result(name)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(in) :: atom
+    character(len=:), allocatable :: name
+    name = carreau_string(c_molecule_atom_name(session%handle, atom - 1))
+  end function carreau_molecule_atom_name
+
+  function c_options(options) result(c)
+    type(carreau_molecule_options), intent(in) :: options
+    type(c_molecule_options) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%surface = options%surface
+    c%drop_cavities = options%drop_cavities
+    c%probe = options%probe
+  end function c_options
+
+  ! ---- Points of built-in geometries ----
+
+  !> uv(2, n), xyz(3, n)
+  subroutine carreau_geometry_points(session, face_ref, uv, xyz, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref
+    real(c_double), intent(in) :: uv(:, :)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(uv, 1) /= 2) return
+    allocate (xyz(3, size(uv, 2)))
+    xyz = 0
+    status = c_geometry_points(session%handle, face_ref, size(uv, 2, kind=c_int64_t), reshape(uv, [size(uv)]), xyz)
+    if (status /= CARREAU_OK) deallocate (xyz)
+  end subroutine carreau_geometry_points
+
+  subroutine carreau_geometry_curve(session, face_ref, ic, share, uv, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, ic
+    real(c_double), intent(in) :: share
+    real(c_double), intent(inout) :: uv(2)
+    integer(c_int32_t), intent(out) :: status
+    status = c_geometry_curve(session%handle, face_ref, ic, share, uv)
+  end subroutine carreau_geometry_curve
+
+  ! ---- Plane domains ----
 
   !> points(2, n); sides(3, k): curve, 1 (left) or -1 (right), reference; seeds(2, m) with seed_refs(m), -1 for holes;
   !! metrics(3, n): xx xy yy

@@ -21,7 +21,8 @@ extern "C" {
 /* Which surface of a molecule (HDR sec. 4.6.2). */
 enum {
   CARREAU_VWS = 1, /* van der Waals: the boundary of the union of the atoms' balls */
-  CARREAU_SAS = 2  /* solvent accessible: the same with the radius of a probe added to all radii */
+  CARREAU_SAS = 2, /* solvent accessible: the same with the radius of a probe added to all radii */
+  CARREAU_SES = 3  /* solvent excluded: the boundary of what no probe outside the balls reaches */
 };
 
 typedef struct carreau_molecule_options {

@@ -16,10 +16,10 @@ namespace {
 
 SurfaceOptions options_of(const carreau_molecule_options* given, carreau_session& session) {
   const carreau_molecule_options known = read_struct(given, "carreau_molecule_options");
-  if (known.surface != CARREAU_VWS && known.surface != CARREAU_SAS)
+  if (known.surface != CARREAU_VWS && known.surface != CARREAU_SAS && known.surface != CARREAU_SES)
     throw InvalidArgument("the surface of a molecule is " + std::to_string(known.surface) +
-                          "; it must be 1 (CARREAU_VWS) or 2 (CARREAU_SAS)");
-  return {.kind = known.surface == CARREAU_VWS ? SurfaceKind::vws : SurfaceKind::sas,
+                          "; it must be 1 (CARREAU_VWS), 2 (CARREAU_SAS) or 3 (CARREAU_SES)");
+  return {.kind = known.surface == CARREAU_VWS   ? SurfaceKind::vws : known.surface == CARREAU_SAS ? SurfaceKind::sas : SurfaceKind::ses,
           .probe = known.probe,
           .cavities = known.drop_cavities == 0,
           .threads = std::max(1, session.parameters->integer("threads"))};

@@ -75,7 +75,10 @@ int areas(const AreasOptions& options) {
   const SessionHandle session = make_session();
   require(session.get(), carreau_set_integer(session.get(), "threads", options.threads));
   std::vector<Measured> all;
-  for (const char* surface : molecule_surfaces) all.push_back(measure(session.get(), options, surface));
+  for (const char* surface : molecule_surfaces) {
+    all.push_back(measure(session.get(), options, surface));
+    require(session.get(), carreau_set_integer(session.get(), "verb", 0));  // what is left out of the file is told once
+  }
   if (!options.json) return print(all), 0;
   Json surfaces = Json::array();
   for (const Measured& m : all) surfaces.push_back(json_of(m));

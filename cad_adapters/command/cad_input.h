@@ -34,6 +34,8 @@ class CadInput {
   [[nodiscard]] virtual double glue_tolerance() const { return 0; }
   /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
+  /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
+  [[nodiscard]] virtual double ends_tolerance() const { return 0; }
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.

@@ -17,7 +17,7 @@ namespace {
 carreau_molecule_options options_of(const MoleculeChoice& choice) {
   carreau_molecule_options options{};
   options.struct_size = sizeof options;
-  options.surface = choice.surface == "sas" ? CARREAU_SAS : CARREAU_VWS;
+  options.surface = choice.surface == "vws" ? CARREAU_VWS : choice.surface == "sas" ? CARREAU_SAS : CARREAU_SES;
   options.drop_cavities = choice.drop_cavities ? 1 : 0;
   options.probe = choice.probe;
   return options;
@@ -82,6 +82,9 @@ class MoleculeInput final : public ModelInput {
   }
 
   [[nodiscard]] bool closed() const override { return true; }
+
+  /// Short arcs are exact, and no mistake of a file.
+  [[nodiscard]] double ends_tolerance() const override { return 1e-9 * diagonal(); }
 
  private:
   [[nodiscard]] std::string kind(std::int32_t) const override { return "sphere"; }

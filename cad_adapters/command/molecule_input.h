@@ -18,7 +18,7 @@ struct MoleculeChoice {
 };
 
 inline constexpr const char* molecule_suffixes[] = {".xyzr", ".xyz", ".pdb", ".ent", ".cif", ".mmcif"};
-inline constexpr const char* molecule_surfaces[] = {"vws", "sas"};
+inline constexpr const char* molecule_surfaces[] = {"vws", "sas", "ses"};
 
 /// Whether the suffix is that of a molecule.
 bool is_molecule(const std::string& path);

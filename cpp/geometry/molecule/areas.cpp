@@ -1,8 +1,6 @@
 #include "geometry/molecule/areas.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "model/union_find.h"
 
@@ -10,25 +8,10 @@ namespace carreau::molecule {
 
 namespace {
 
-/// Turning of a loop at the end of an arc, the component on the left.
-double exterior_angle(const Arrangement& a, const Ball& ball, const ArcUse& in, const ArcUse& out) {
-  const Arc &p = a.arcs[in.arc], &q = a.arcs[out.arc];
-  const Vec3 normal = a.vertices[in.forward ? p.end : p.start].x - ball.centre;
-  const Vec3 from = (in.forward ? 1 : -1) * a.circles[p.circle].tangent(in.forward ? p.b : p.a);
-  const Vec3 to = (out.forward ? 1 : -1) * a.circles[q.circle].tangent(out.forward ? q.a : q.b);
-  return std::atan2(dot(normal, cross(from, to)) / ball.radius, dot(from, to));
-}
-
-/// Integral of the geodesic curvature along a loop, with its corners.
-double turning(const Arrangement& a, int ball, const Loop& loop) {
-  double sum = 0;
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const Arc& arc = a.arcs[loop[k].arc];
-    // The circle bends away from what it leaves uncovered, unless it covers more than half of the sphere.
-    sum -= a.circle_of(loop[k]).offset(ball) / a.balls[ball].radius * (arc.b - arc.a);
-    if (!arc.whole()) sum += exterior_angle(a, a.balls[ball], loop[k], loop[(k + 1) % loop.size()]);
-  }
-  return sum;
+std::vector<SpaceLoop> loops_of(const Arrangement& a, const Component& component) {
+  std::vector<SpaceLoop> loops;
+  for (const Loop& loop : component.loops) loops.push_back(a.space_loop(loop));
+  return loops;
 }
 
 Vec3 middle_of(std::span<const Ball> balls) {
@@ -58,24 +41,11 @@ std::vector<int> shells_of(const Arrangement& a) {
 }  // namespace
 
 double area_of(const Arrangement& a, const Component& component) {
-  double sum = 2 * std::numbers::pi * (2 - static_cast<double>(component.loops.size()));
-  for (const Loop& loop : component.loops) sum -= turning(a, component.ball, loop);
-  const double r = a.balls[component.ball].radius;
-  return r * r * sum;
+  return area_on_sphere(a.balls[component.ball], loops_of(a, component), Side::outer);
 }
 
 Vec3 vector_area(const Arrangement& a, const Component& component) {
-  Vec3 sum;
-  for (const Loop& loop : component.loops)
-    for (const ArcUse& use : loop) {
-      const Arc& arc = a.arcs[use.arc];
-      const Circle& c = a.circles[arc.circle];
-      const Vec3 from_ball = c.centre - a.balls[component.ball].centre;
-      const Vec3 chord = c.point(arc.b) - c.point(arc.a);
-      const Vec3 part = cross(from_ball, chord) + c.radius * c.radius * (arc.b - arc.a) * c.axis;
-      sum += (use.forward ? 0.5 : -0.5) * part;
-    }
-  return sum;
+  return vector_area(a.balls[component.ball], loops_of(a, component));
 }
 
 UnionMeasures measure(const Arrangement& a) {

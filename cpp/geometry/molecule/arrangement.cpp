@@ -141,6 +141,12 @@ bool decide(Arrangement& a, int threads, Monitor& monitor, Doubts& doubts) {
 
 }  // namespace
 
+SpaceLoop Arrangement::space_loop(const Loop& loop) const {
+  SpaceLoop arcs_in_space;
+  for (const ArcUse& use : loop) arcs_in_space.push_back(space_arc(use));
+  return arcs_in_space;
+}
+
 int Arrangement::euler_number() const {
   int number = static_cast<int>(vertices.size());
   for (const Component& c : components) number += 2 - static_cast<int>(c.loops.size());

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/molecule/balls.h"
+#include "geometry/molecule/space_arc.h"
 #include "support/monitor.h"
 
 namespace carreau::molecule {
@@ -69,6 +69,11 @@ struct Arrangement {
   std::size_t meeting_pairs = 0;
 
   [[nodiscard]] const Circle& circle_of(const ArcUse& use) const { return circles[arcs[use.arc].circle]; }
+  [[nodiscard]] SpaceArc space_arc(const ArcUse& use) const {
+    const Circle& c = circle_of(use);
+    return {c.centre, c.e1, c.e2, c.radius, arcs[use.arc].a, arcs[use.arc].b, !use.forward};
+  }
+  [[nodiscard]] SpaceLoop space_loop(const Loop& loop) const;
   /// Of the union's boundary, from its components, arcs and vertices.
   [[nodiscard]] int euler_number() const;
 };

@@ -23,7 +23,8 @@ struct Molecule {
 
 enum class SurfaceKind {
   vws,  ///< of the union of the balls
-  sas   ///< of the union of balls whose radii the probe's is added to
+  sas,  ///< of the union of balls whose radii the probe's is added to
+  ses   ///< of what no probe outside the balls reaches: convex parts of balls, tori, concave parts of probes
 };
 
 struct SurfaceOptions {
@@ -40,9 +41,10 @@ Arrangement arrange(const Molecule& molecule, const SurfaceOptions& options, Mon
 struct MoleculeSummary {
   std::vector<int> numbers;        ///< [ball]
   std::vector<std::string> names;  ///< [ball]; empty: none
-  UnionMeasures measures;
-  int euler_number = 0;
-  std::size_t moved = 0;  ///< radii
+  UnionMeasures measures;          ///< of an ses: ball_area has convex parts only, shells are those of the sas
+  int euler_number = 0;            ///< of the model
+  std::size_t moved = 0;           ///< radii
+  double torus = 0, concave = 0;   ///< areas of those parts of an ses
 };
 
 /// Faces are the components, arcs their curves, vertices the points. A face has the number of its atom; of several

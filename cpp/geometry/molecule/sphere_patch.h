@@ -1,23 +1,15 @@
 // Parts of spheres in stereographic charts (HDR eq. 4.86).
 #pragma once
 
-#include "geometry/molecule/balls.h"
 #include "geometry/molecule/patch_cad.h"
+#include "geometry/molecule/space_arc.h"
 
 namespace carreau::molecule {
-
-/// An arc of a circle in space: centre + radius (cos(t) e1 + sin(t) e2) for t from a to b, or backward.
-struct SpaceArc {
-  Vec3 centre = {}, e1 = {}, e2 = {};
-  double radius = 0, a = 0, b = 0;
-  bool backward = false;
-};
 
 /// The sphere of a ball, projected from a pole that is not on the face onto the plane that touches it on the other
 /// side: eq. 4.86 with axes of its own. Outwards is away from the centre, or towards it.
 class SpherePatch final : public Patch {
  public:
-  enum class Side { outer, inner };
   /// `pole`: a unit vector. `border`: arcs on the sphere in the order of the face's curves.
   SpherePatch(const Ball& ball, const Vec3& pole, std::vector<SpaceArc> border, Side side = Side::outer);
 

@@ -1,13 +1,13 @@
 // The boundary of a union of balls as faces, curves and points.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <unordered_set>
 #include <utility>
 
+#include "geometry/molecule/face_builder.h"
 #include "geometry/molecule/molecule.h"
-#include "geometry/molecule/patch_cad.h"
 #include "geometry/molecule/poles.h"
+#include "geometry/molecule/excluded/ses_model.h"
 #include "geometry/molecule/sphere_patch.h"
 #include "model/union_find.h"
 #include "support/error.h"
@@ -53,91 +53,51 @@ class References {
 
 class UnionBuilder {
  public:
-  UnionBuilder(const Molecule& molecule, const Arrangement& a)
-      : molecule_(molecule), a_(a), references_(a), cad_(std::make_shared<PatchCad>()) {
-    for (std::size_t i = 0; i < a.balls.size(); ++i) next_ref_ = std::max(next_ref_, number(static_cast<int>(i)) + 1);
-  }
+  UnionBuilder(const Molecule& molecule, const Arrangement& a) : a_(a), references_(a), faces_(molecule) {}
 
   void add(const Component& component) {
-    if (component.loops.empty()) return add_whole_ball(component.ball);
+    const Ball& ball = a_.balls[component.ball];
     Face face;
     std::vector<SpaceArc> border;
     for (const Loop& loop : component.loops)
       for (const ArcUse& use : loop) add_arc(use, face, border);
     if (!border.empty())
-      add_face(component.ball, std::move(face), find_pole(a_, component).direction, std::move(border));
-    else if (const double r = a_.balls[component.ball].radius; area_of(a_, component) > r * r)
-      add_whole_ball(component.ball);  // but for tiny holes
+      faces_.add_part_of_ball(
+          component.ball, std::move(face),
+          std::make_unique<SpherePatch>(ball, find_pole(a_, component).direction, std::move(border)));
+    else if (component.loops.empty() || area_of(a_, component) > ball.radius * ball.radius)  // but for tiny holes
+      add_whole_ball(component.ball);
   }
 
-  BuiltGeometry built() && { return {std::move(cad_), std::move(model_)}; }
+  BuiltGeometry built() && { return std::move(faces_).built(); }
 
  private:
-  [[nodiscard]] int number(int ball) const {
-    return molecule_.numbers.empty() ? ball + 1 : molecule_.numbers[static_cast<std::size_t>(ball)];
+  void add_whole_ball(int ball) {
+    const int curve = references_.add_circle();
+    faces_.add_whole_ball(ball, a_.balls[ball], curve, references_.point_of_curve(curve, 0));
   }
 
   void add_arc(const ArcUse& use, Face& face, std::vector<SpaceArc>& border) {
     if (references_.vanishes(use.arc)) return;
     const Arc& arc = a_.arcs[use.arc];
-    const Circle& c = a_.circles[arc.circle];
-    const SpaceArc whole{c.centre, c.e1, c.e2, c.radius, arc.a, arc.b, !use.forward};
     const int ref = references_.curve(use.arc);
     const auto add = [&](int curve, int start, int end, double a, double b) {
       if (!use.forward) std::swap(start, end);
       face.curves.push_back({.ref = curve, .end1 = start, .end2 = end});
-      border.push_back(whole);
+      border.push_back(a_.space_arc(use));
       border.back().a = a, border.back().b = b;
     };
     if (!arc.whole()) return add(ref, references_.point(arc.start), references_.point(arc.end), arc.a, arc.b);
     const int p = references_.point_of_curve(ref, 0), q = references_.point_of_curve(ref, 1);
     const double middle = (arc.a + arc.b) / 2;
-    add(ref, p, q, arc.a, middle);
+    if (use.forward) add(ref, p, q, arc.a, middle);
     add(ref + 1, q, p, middle, arc.b);
-    if (use.forward) return;
-    std::swap(face.curves.back(), face.curves[face.curves.size() - 2]);
-    std::swap(border.back(), border[border.size() - 2]);
+    if (!use.forward) add(ref, p, q, arc.a, middle);
   }
 
-  void add_face(int ball, Face face, const Vec3& pole, std::vector<SpaceArc> border) {
-    const bool first = ball != last_ball_;
-    last_ball_ = ball;
-    face.ref = first ? number(ball) : next_ref_++;
-    face.part_of = first ? 0 : number(ball);
-    if (!molecule_.names.empty()) face.name = molecule_.names[static_cast<std::size_t>(ball)];
-    cad_->add(face.ref, std::make_unique<SpherePatch>(a_.balls[ball], pole, std::move(border)));
-    model_.faces.push_back(std::move(face));
-  }
-
-  /// Two hemispheres.
-  void add_whole_ball(int ball) {
-    const Ball& b = a_.balls[ball];
-    const double pi = std::numbers::pi;
-    const int curve = references_.add_circle();
-    const int p = references_.point_of_curve(curve, 0), q = references_.point_of_curve(curve, 1);
-    for (const bool upper : {false, true}) {
-      // From the lower pole the upper half is on the left of the equator run forward, seen from outside.
-      const SpaceArc equator{b.centre, {1, 0, 0}, {0, 1, 0}, b.radius, 0, pi, !upper};
-      std::vector<SpaceArc> border{equator, equator};
-      Face face;
-      border[upper ? 1 : 0].a = pi, border[upper ? 1 : 0].b = 2 * pi;
-      const FaceCurve there{.ref = curve, .end1 = p, .end2 = q}, back{.ref = curve + 1, .end1 = q, .end2 = p};
-      const FaceCurve there_reversed{.ref = curve, .end1 = q, .end2 = p},
-          back_reversed{.ref = curve + 1, .end1 = p, .end2 = q};
-      if (upper)
-        face.curves = {there, back};
-      else
-        face.curves = {back_reversed, there_reversed};
-      add_face(ball, std::move(face), {0, 0, upper ? -1.0 : 1.0}, std::move(border));
-    }
-  }
-
-  const Molecule& molecule_;
   const Arrangement& a_;
   References references_;
-  std::shared_ptr<PatchCad> cad_;
-  Model model_;
-  int next_ref_ = 1, last_ball_ = -1;
+  FaceBuilder faces_;
 };
 
 void check_numbers(const Molecule& molecule) {
@@ -149,10 +109,18 @@ void check_numbers(const Molecule& molecule) {
                             (number <= 0 ? " is not positive" : " is given to two atoms"));
 }
 
-std::vector<char> kept_shells(const UnionMeasures& m, bool cavities) {
+/// [component]
+std::vector<char> kept_components(const UnionMeasures& m, bool cavities) {
   std::vector<char> kept;
-  for (const double volume : m.shell_volume) kept.push_back(cavities || volume > 0);
+  for (const int shell : m.shell) kept.push_back(cavities || m.shell_volume[shell] > 0 ? 1 : 0);
   return kept;
+}
+
+BuiltGeometry build_union(const Molecule& molecule, const Arrangement& a, const std::vector<char>& kept) {
+  UnionBuilder builder(molecule, a);
+  for (std::size_t c = 0; c < a.components.size(); ++c)
+    if (kept[c] != 0) builder.add(a.components[c]);
+  return std::move(builder).built();
 }
 
 }  // namespace
@@ -172,16 +140,22 @@ BuiltGeometry build_surface(const Molecule& molecule, const SurfaceOptions& opti
   check_numbers(molecule);
   const Arrangement a = arrange(molecule, options, monitor);
   UnionMeasures m = measure(a);
-  const std::vector<char> kept = kept_shells(m, options.cavities);
-  UnionBuilder builder(molecule, a);
-  for (std::size_t c = 0; c < a.components.size(); ++c)
-    if (kept[m.shell[c]] != 0) builder.add(a.components[c]);
+  const std::vector<char> kept = kept_components(m, options.cavities);
+  const bool excluded = options.kind == SurfaceKind::ses && options.probe > 0;
+  ExcludedMeasures parts;
+  BuiltGeometry built =
+      excluded ? build_excluded(molecule, a, options.probe, kept, parts) : build_union(molecule, a, kept);
+  if (excluded) {
+    m.area = parts.convex + parts.torus + parts.concave, m.volume = parts.volume;
+    m.ball_area = std::move(parts.ball_area);
+  }
   if (summary != nullptr) {
-    *summary = {molecule.numbers, molecule.names, std::move(m), a.euler_number(), a.moved.size()};
+    *summary = {molecule.numbers, molecule.names, std::move(m), euler_number_of(built.model),
+                a.moved.size(),   parts.torus,    parts.concave};
     for (int i = 1; molecule.numbers.empty() && i <= static_cast<int>(a.balls.size()); ++i)
       summary->numbers.push_back(i);
   }
-  return std::move(builder).built();
+  return built;
 }
 
 }  // namespace carreau::molecule
