@@ -18,8 +18,9 @@ inline constexpr double usual_corner_angle = 50;
 /// Throws InvalidArgument for another suffix, FileError with file and line.
 PlaneDomainInput read_plane_domain(const std::string& path);
 
-/// Triangle's format with its points in the same file. Markers are references; a region's attribute is its reference
-/// when it is a positive whole number, else its rank is. Inside all edges is the domain, but for holes.
+/// Triangle's format with its points in the same file. Markers are references. Those of regions are
+/// their attributes when all are positive whole numbers, else their numbers. Inside all edges is the domain, but for
+/// holes.
 PlaneDomainInput read_poly_text(std::string_view text, const std::string& name);
 
 /// Its edges, and the sides of triangles that have no neighbour or one of another reference. Triangles say where the

@@ -1,4 +1,5 @@
 // Triangle's .poly files: points, segments, holes, regions; J. R. Shewchuk's description of the format.
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -23,6 +24,7 @@ class PolyReader {
     seeds(in_.count("the number of holes", 3), true);
     if (!in_.at_end()) seeds(in_.count("the number of regions", 3), false);
     in_.end();
+    number_regions();
     return std::move(input_);
   }
 
@@ -80,23 +82,33 @@ class PolyReader {
       PlaneSeed seed{.at = {}, .hole = hole, .ref = 0, .line = in_.line()};
       const int number = in_.integer(hole ? "the number of a hole" : "the number of a region");
       seed.at.x() = in_.real("a coordinate"), seed.at.y() = in_.real("a coordinate");
-      if (!hole) seed.ref = reference(number);
       input_.seeds.push_back(seed);
+      if (hole) continue;
+      numbers_.push_back(number);
+      attributes_.push_back(in_.goes_on() ? in_.real("the attribute of a region") : 0);
+      in_.skip_line();  // the largest area
     }
   }
 
-  /// Of the region whose number and place have been read.
-  int reference(int number) {
+  /// By their attributes if all can be references: those of some and numbers of others might be the same.
+  void number_regions() {
     constexpr double most = 1e9;
-    const double attribute = in_.goes_on() ? in_.real("the attribute of a region") : 0;
-    in_.skip_line();  // the largest area
-    if (attribute > 0 && attribute <= most && attribute == std::floor(attribute)) return static_cast<int>(attribute);
-    return number > 0 ? number : 0;
+    const bool by_attribute = std::all_of(attributes_.begin(), attributes_.end(), [](double attribute) {
+      return attribute > 0 && attribute <= most && attribute == std::floor(attribute);
+    });
+    std::size_t region = 0;
+    for (PlaneSeed& seed : input_.seeds) {
+      if (seed.hole) continue;
+      seed.ref = by_attribute ? static_cast<int>(attributes_[region]) : std::max(0, numbers_[region]);
+      ++region;
+    }
   }
 
   Tokens in_;
   PlaneDomainInput input_;
   std::map<int, int> index_;
+  std::vector<int> numbers_;        // of regions
+  std::vector<double> attributes_;  // of regions
 };
 
 }  // namespace

@@ -84,8 +84,11 @@ TEST(PolyFile, PointsSegmentsHolesAndRegionsAreRead) {
   EXPECT_EQ(input.curves[0].line, 12);
   ASSERT_EQ(input.seeds.size(), 3u);
   EXPECT_TRUE(input.seeds[0].hole);
-  EXPECT_EQ(input.seeds[1].ref, 9);
-  EXPECT_EQ(input.seeds[2].ref, 2);  // its attribute is no reference: its rank is
+  EXPECT_EQ(input.seeds[1].ref, 1);  // the second attribute is no reference: all regions have their numbers
+  EXPECT_EQ(input.seeds[2].ref, 2);
+  const PlaneDomainInput whole = read_poly_text(replaced(square_poly, "2 .5 .5 .25", "2 .5 .5 4"), "x.poly");
+  EXPECT_EQ(whole.seeds[1].ref, 9);
+  EXPECT_EQ(whole.seeds[2].ref, 4);
   EXPECT_EQ(input.rest, PlaneRest::inside);
 }
 
