@@ -172,6 +172,21 @@ double volume_of(const SurfaceMesh& mesh) {
   return sum;
 }
 
+TEST(SolventExcluded, ManySpheresThroughAPointLeaveNoThinFaces) {
+  std::vector<Ball> benzene;  // on its axis six spheres of carbons meet in two points
+  for (int k = 0; k < 12; ++k) {
+    const double r = k < 6 ? 1.39 : 2.48, turn = k * pi / 3;
+    benzene.push_back({{r * std::cos(turn), r * std::sin(turn), 0}, k < 6 ? 1.7 : 1.2});
+  }
+  MoleculeSummary summary;
+  const SurfaceMesh mesh = mesh_of(excluded(benzene, &summary), 0.2);
+  EXPECT_EQ(summary.moved, 12U);
+  EXPECT_EQ(euler_number_of(mesh), 2);
+  EXPECT_NEAR(area_of(mesh), summary.measures.area, 0.01 * summary.measures.area);
+  for (const CurveMesh& curve : mesh.curves)
+    EXPECT_GT(norm(mesh.vertices[curve.vertices.front()] - mesh.vertices[curve.vertices[1]]), 1e-3);
+}
+
 TEST(SolventExcluded, AreasAndVolumesAreThoseOfFineMeshes) {
   for (const std::vector<Ball>& balls : {with_hole, with_tips, with_many_tips}) {
     MoleculeSummary summary;
