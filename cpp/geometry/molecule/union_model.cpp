@@ -19,7 +19,7 @@ namespace {
 /// References of curves and points: those of arcs too short to be seen are points.
 class References {
  public:
-  explicit References(const Arrangement& a) : a_(a), first_curve_(a.arcs.size(), 0), points_(a.vertices.size()) {
+  explicit References(const Arrangement& a) : first_curve_(a.arcs.size(), 0), points_(a.vertices.size()) {
     for (std::size_t k = 0; k < a.arcs.size(); ++k) {
       const Arc& arc = a.arcs[k];
       if (a.is_tiny(arc)) {
@@ -41,7 +41,6 @@ class References {
   [[nodiscard]] int point(int vertex) { return static_cast<int>(points_.find(static_cast<std::size_t>(vertex))) + 1; }
 
  private:
-  const Arrangement& a_;
   std::vector<int> first_curve_;  // 0: none
   UnionFind points_;
   int next_curve_ = 1, next_point_ = 1;
