@@ -25,6 +25,7 @@ module carreau_geometry
   type :: carreau_molecule_measures
     real(c_double) :: area, volume
     integer(c_int64_t) :: atoms, exposed_atoms, shells, cavities, euler_number, moved_radii
+    real(c_double) :: convex_area, torus_area, concave_area
   end type carreau_molecule_measures
 
   !> Curve c passes points(starts(c) : starts(c + 1) - 1); the last entry of `starts` is size(points) + 1. Arrays that are
@@ -70,7 +71,7 @@ contains
     status = c_molecule_measure(session%handle, c)
     if (status /= CARREAU_OK) return
     measures = carreau_molecule_measures(c%area, c%volume, c%atoms, c%exposed_atoms, c%shells, c%cavities, &
-      c%euler_number, c%moved_radii)
+      c%euler_number, c%moved_radii, c%convex_area, c%torus_area, c%concave_area)
   end subroutine carreau_molecule_measure
 
   !> refs(n), areas(n)

@@ -18,6 +18,7 @@ module carreau_geometry_c
     integer(c_size_t) :: struct_size = 0
     real(c_double) :: area = 0, volume = 0
     integer(c_int64_t) :: atoms = 0, exposed_atoms = 0, shells = 0, cavities = 0, euler_number = 0, moved_radii = 0
+    real(c_double) :: convex_area = 0, torus_area = 0, concave_area = 0
   end type c_molecule_measures
 
   !> A domain of the plane.

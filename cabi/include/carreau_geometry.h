@@ -59,6 +59,9 @@ typedef struct carreau_molecule_measures {
   int64_t cavities;      /* those of them that bound a hole */
   int64_t euler_number;  /* of the surface: of a closed mesh, vertices - triangles / 2 */
   int64_t moved_radii;   /* see carreau_add_molecule */
+  double convex_area;    /* of parts of balls; of CARREAU_VWS and CARREAU_SAS, the area */
+  double torus_area;     /* of what a probe sweeps that touches two balls; CARREAU_SES */
+  double concave_area;   /* of parts of probes that touch three balls; CARREAU_SES */
 } carreau_molecule_measures;
 
 /* Measures the molecule that the session was given last. Errors: SEQUENCE (none was). */

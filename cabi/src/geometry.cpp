@@ -19,7 +19,9 @@ SurfaceOptions options_of(const carreau_molecule_options* given, carreau_session
   if (known.surface != CARREAU_VWS && known.surface != CARREAU_SAS && known.surface != CARREAU_SES)
     throw InvalidArgument("the surface of a molecule is " + std::to_string(known.surface) +
                           "; it must be 1 (CARREAU_VWS), 2 (CARREAU_SAS) or 3 (CARREAU_SES)");
-  return {.kind = known.surface == CARREAU_VWS   ? SurfaceKind::vws : known.surface == CARREAU_SAS ? SurfaceKind::sas : SurfaceKind::ses,
+  return {.kind = known.surface == CARREAU_VWS   ? SurfaceKind::vws
+                  : known.surface == CARREAU_SAS ? SurfaceKind::sas
+                                                 : SurfaceKind::ses,
           .probe = known.probe,
           .cavities = known.drop_cavities == 0,
           .threads = std::max(1, session.parameters->integer("threads"))};
@@ -97,6 +99,8 @@ carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecu
     known.cavities = std::count_if(m.shell_volume.begin(), m.shell_volume.end(), [](double v) { return v < 0; });
     known.euler_number = molecule.euler_number;
     known.moved_radii = std::int64_t(molecule.moved);
+    known.torus_area = molecule.torus, known.concave_area = molecule.concave;
+    known.convex_area = m.area - molecule.torus - molecule.concave;
     write_struct(known, out_measures, "carreau_molecule_measures");
   });
 }

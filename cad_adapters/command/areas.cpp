@@ -42,7 +42,10 @@ Json json_of(const Measured& m) {
                 {"shells", m.measures.shells},
                 {"cavities", m.measures.cavities},
                 {"euler_number", m.measures.euler_number},
-                {"moved_radii", m.measures.moved_radii}};
+                {"moved_radii", m.measures.moved_radii},
+                {"convex_area", m.measures.convex_area},
+                {"torus_area", m.measures.torus_area},
+                {"concave_area", m.measures.concave_area}};
   if (m.refs.empty()) return value;
   Json atoms = Json::array();
   for (std::size_t i = 0; i < m.refs.size(); ++i)

@@ -46,6 +46,9 @@ TEST_F(Molecules, TwoBallsHaveTheAreasOfTheirSurfaces) {
     EXPECT_EQ(m.exposed_atoms, 2);
     EXPECT_EQ(m.shells, 1);
     EXPECT_EQ(m.euler_number, 2);
+    EXPECT_NEAR(m.torus_area, kind == CARREAU_SES ? 6.9721 : 0, 5e-5);
+    EXPECT_NEAR(m.convex_area, m.area - m.torus_area, 1e-12);
+    EXPECT_EQ(m.concave_area, 0);
     std::array<std::int32_t, 2> refs{};
     std::array<double, 2> areas{};
     ASSERT_EQ(carreau_molecule_atoms(session, 2, refs.data(), areas.data()), CARREAU_OK);

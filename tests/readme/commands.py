@@ -64,6 +64,7 @@ def prepare():
     for name in ("cad_m.f90", "x.pardom"):
         shutil.copy(os.path.join(PARABOLOID, name), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/packages/blsurf/blsurf.env"), CLONE)
+    shutil.copy(os.path.join(SOURCE, "tests/data/molecule/1bna.pdb"), CLONE)
 
 
 def environment():
@@ -171,7 +172,7 @@ def main():
             link_by_cmake(block)
     run("./blsurf")
     assert min(done.values()) > 0 and done["sh"] >= 5, done
-    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "out/teapot/teapot.png"):
+    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "out/teapot/teapot.png"):
         assert os.path.getsize(os.path.join(CLONE, made)) > 0, made
     if refreshed_text != text:
         with open(README, "w", encoding="utf-8") as file:

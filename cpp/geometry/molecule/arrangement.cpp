@@ -141,6 +141,12 @@ bool decide(Arrangement& a, int threads, Monitor& monitor, Doubts& doubts) {
 
 }  // namespace
 
+bool Arrangement::is_tiny(const Arc& arc) const {
+  constexpr double tiny = 1e-6;
+  const Circle& c = circles[arc.circle];
+  return c.radius * (arc.b - arc.a) <= tiny * std::min(balls[c.i].radius, balls[c.j].radius);
+}
+
 SpaceLoop Arrangement::space_loop(const Loop& loop) const {
   SpaceLoop arcs_in_space;
   for (const ArcUse& use : loop) arcs_in_space.push_back(space_arc(use));

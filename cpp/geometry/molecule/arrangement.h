@@ -73,6 +73,8 @@ struct Arrangement {
     const Circle& c = circle_of(use);
     return {c.centre, c.e1, c.e2, c.radius, arcs[use.arc].a, arcs[use.arc].b, !use.forward};
   }
+  /// Shorter than a millionth of the smaller radius: a model has a point in its place.
+  [[nodiscard]] bool is_tiny(const Arc& arc) const;
   [[nodiscard]] SpaceLoop space_loop(const Loop& loop) const;
   /// Of the union's boundary, from its components, arcs and vertices.
   [[nodiscard]] int euler_number() const;

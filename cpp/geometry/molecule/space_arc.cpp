@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <optional>
 
 #include "model/union_find.h"
 
@@ -70,9 +71,32 @@ void join_along(const GreatCircle& great, std::span<const SpaceLoop> loops,
   }
 }
 
-Vec3 direction_of(const Ball& ball, const SpaceLoop& loop) {
-  const SpaceArc& arc = loop.front();
-  return (arc.point((arc.a + arc.b) / 2) - ball.centre) / ball.radius;
+/// Whether a great circle is that of an arc, so that no place tells where they meet: sides of a probe's triangle are
+/// arcs of great circles.
+bool runs_along(const GreatCircle& great, const SpaceArc& arc) {
+  constexpr double close = 1e-6;
+  const Vec3 axis = cross(arc.e1, arc.e2);
+  return std::hypot(dot(axis, great.e1), dot(axis, great.e2)) < close &&
+         std::abs(dot(arc.centre - great.ball.centre, axis)) < close * great.ball.radius;
+}
+
+/// A great circle through an arc of each of two loops that runs along no arc.
+std::optional<GreatCircle> great_circle_of(const Ball& ball, std::span<const SpaceLoop> loops, std::size_t first,
+                                           std::size_t second) {
+  const auto direction = [&](const SpaceArc& arc) -> Vec3 {
+    return (arc.point((arc.a + arc.b) / 2) - ball.centre) / ball.radius;
+  };
+  for (const SpaceArc& from : loops[first])
+    for (const SpaceArc& to : loops[second]) {
+      const Vec3 e1 = direction(from), q = direction(to), side = q - dot(q, e1) * e1;
+      if (norm(side) < 1e-9) continue;
+      const GreatCircle great{ball, e1, side / norm(side)};
+      const bool along = std::any_of(loops.begin(), loops.end(), [&](const SpaceLoop& loop) {
+        return std::any_of(loop.begin(), loop.end(), [&](const SpaceArc& arc) { return runs_along(great, arc); });
+      });
+      if (!along) return great;
+    }
+  return {};
 }
 
 }  // namespace
@@ -100,8 +124,7 @@ std::vector<std::size_t> parts_of_loops(const Ball& ball, std::span<const SpaceL
   for (std::size_t l = 0; l < loops.size(); ++l)
     for (std::size_t m = l + 1; m < loops.size(); ++m) {
       if (sets.find(l) == sets.find(m)) continue;
-      const Vec3 e1 = direction_of(ball, loops[l]), q = direction_of(ball, loops[m]), side = q - dot(q, e1) * e1;
-      if (norm(side) > 0) join_along({ball, e1, side / norm(side)}, loops, bare, sets);
+      if (const auto great = great_circle_of(ball, loops, l, m)) join_along(*great, loops, bare, sets);
     }
   std::vector<std::size_t> part(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l) part[l] = sets.find(l);

@@ -4,10 +4,10 @@
 #include <unordered_set>
 #include <utility>
 
+#include "geometry/molecule/excluded/ses_model.h"
 #include "geometry/molecule/face_builder.h"
 #include "geometry/molecule/molecule.h"
 #include "geometry/molecule/poles.h"
-#include "geometry/molecule/excluded/ses_model.h"
 #include "geometry/molecule/sphere_patch.h"
 #include "model/union_find.h"
 #include "support/error.h"
@@ -16,17 +16,13 @@ namespace carreau::molecule {
 
 namespace {
 
-constexpr double tiny = 1e-6;  // of the smaller radius of the two balls of an arc
-
 /// References of curves and points: those of arcs too short to be seen are points.
 class References {
  public:
   explicit References(const Arrangement& a) : a_(a), first_curve_(a.arcs.size(), 0), points_(a.vertices.size()) {
     for (std::size_t k = 0; k < a.arcs.size(); ++k) {
       const Arc& arc = a.arcs[k];
-      const Circle& c = a.circles[arc.circle];
-      const double length = c.radius * (arc.b - arc.a);
-      if (length <= tiny * std::min(a.balls[c.i].radius, a.balls[c.j].radius)) {
+      if (a.is_tiny(arc)) {
         if (!arc.whole()) points_.merge(static_cast<std::size_t>(arc.start), static_cast<std::size_t>(arc.end));
         continue;
       }

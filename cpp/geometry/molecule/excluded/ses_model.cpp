@@ -7,6 +7,7 @@
 #include "geometry/molecule/face_builder.h"
 #include "geometry/molecule/poles.h"
 #include "geometry/molecule/sphere_patch.h"
+#include "model/union_find.h"
 #include "support/error.h"
 
 namespace carreau::molecule {
@@ -38,6 +39,7 @@ class ExcludedBuilder {
   void build() {
     prepare_circles();
     prepare_sweeps();
+    join_tiny();
     mark_kept();
     for (std::size_t c = 0; c < a_.components.size(); ++c) add_convex(c);
     for (const Sweep& sweep : sweeps_) add_torus(sweep);
@@ -101,6 +103,27 @@ class ExcludedBuilder {
     first_sweep_.push_back(sweeps_.size());
   }
 
+  /// The torus part of a tiny arc is left out: its two sides are one curve.
+  void join_tiny() {
+    UnionFind points(static_cast<std::size_t>(next_.point)), curves(static_cast<std::size_t>(next_.curve));
+    const auto merge = [](UnionFind& sets, int p, int q) {
+      sets.merge(static_cast<std::size_t>(p), static_cast<std::size_t>(q));
+    };
+    for (const Sweep& s : sweeps_) {
+      if (!a_.is_tiny(a_.arcs[s.arc])) continue;
+      merge(points, s.from.low, s.to.low), merge(points, s.from.high, s.to.high);
+      merge(curves, s.from.curve, s.to.curve), merge(curves, s.from.second_curve, s.to.second_curve);
+    }
+    const auto rename = [&](Station& s) {
+      for (int* point : {&s.low, &s.high}) *point = static_cast<int>(points.find(static_cast<std::size_t>(*point)));
+      for (int* curve : {&s.curve, &s.second_curve})
+        *curve = static_cast<int>(curves.find(static_cast<std::size_t>(*curve)));
+    };
+    for (Sweep& s : sweeps_) rename(s.from), rename(s.to);
+    for (std::vector<End>& ends : at_vertex_)
+      for (End& end : ends) rename(end.station);
+  }
+
   void mark_kept() {
     kept_arc_.assign(a_.arcs.size(), 0);
     kept_vertex_.assign(a_.vertices.size(), 0);
@@ -116,6 +139,7 @@ class ExcludedBuilder {
 
   /// A contact circle as the border of a convex part: the circle of the grown balls drawn to the centre.
   void add_contacts(const ArcUse& use, double share, Face& face, std::vector<SpaceArc>& border) {
+    if (a_.is_tiny(a_.arcs[use.arc])) return;
     SpaceArc arc = a_.space_arc(use);
     const Vec3& centre = a_.balls[use.forward ? a_.circle_of(use).j : a_.circle_of(use).i].centre;
     arc.centre = centre + share * (arc.centre - centre), arc.radius *= share;
@@ -142,15 +166,16 @@ class ExcludedBuilder {
     measures_.volume +=
         (ball.radius * area + share * share * dot(ball.centre - middle_, vector_area(a_, component))) / 3;
     if (kept_[rank] == 0) return;
-    if (component.loops.empty()) {
-      faces_.add_whole_ball(component.ball, ball, next_.curve, next_.point);
-      next_.curve += 2, next_.point += 2;
-      return;
-    }
     Face face;
     std::vector<SpaceArc> border;
     for (const Loop& loop : component.loops)
       for (const ArcUse& use : loop) add_contacts(use, share, face, border);
+    if (border.empty() && !component.loops.empty() && area < ball.radius * ball.radius) return;  // a tiny part
+    if (border.empty()) {
+      faces_.add_whole_ball(component.ball, ball, next_.curve, next_.point);
+      next_.curve += 2, next_.point += 2;
+      return;
+    }
     faces_.add_part_of_ball(component.ball, std::move(face),
                             std::make_unique<SpherePatch>(ball, find_pole(a_, component).direction, std::move(border)));
   }
@@ -162,7 +187,7 @@ class ExcludedBuilder {
     const TorusMeasures m = measure_torus(c, tube, a, b, low, high, middle_);
     measures_.torus += m.area;
     measures_.volume += m.flux / 3;
-    if (kept_arc_[sweep.arc] == 0) return;
+    if (kept_arc_[sweep.arc] == 0 || a_.is_tiny(a_.arcs[sweep.arc])) return;
     Face face;
     face.curves = std::move(curves);
     faces_.add_own(c.i, std::move(face), std::make_unique<TorusPatch>(c, tube, a, b, low, high));

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/molecule/areas.h"
 #include "balls_from_files.h"
+#include "geometry/molecule/areas.h"
 #include "support/error.h"
 
 namespace carreau::molecule {

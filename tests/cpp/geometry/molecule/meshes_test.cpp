@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "balls_from_files.h"
 #include "geometry/molecule/molecule.h"
@@ -94,6 +95,31 @@ TEST(MolecularSurfaces, CaffeineIsClosedAndOnItsSpheres) {
   }
 }
 
+TEST(MolecularSurfaces, CavitiesAreKeptOrDropped) {
+  std::vector<Ball> cage;
+  for (int k = 0; k < 60; ++k) {
+    const double z = 1 - (2 * k + 1) / 60.0, r = std::sqrt(1 - z * z), turn = 2.399963 * k;
+    cage.push_back({Vec3{4 * r * std::cos(turn), 4 * r * std::sin(turn), 4 * z}, 1.6});
+  }
+  Monitor silent;
+  for (const SurfaceKind kind : {SurfaceKind::vws, SurfaceKind::ses})
+    for (const bool cavities : {true, false}) {
+      MoleculeSummary summary;
+      const SurfaceOptions options{.kind = kind, .probe = 0.5, .cavities = cavities};
+      const SurfaceMesh mesh = mesh_of(build_surface({cage}, options, silent, &summary), 0.4);
+      ASSERT_EQ(summary.measures.shell_volume.size(), 2U);
+      EXPECT_EQ(summary.euler_number, cavities ? 4 : 2);
+      EXPECT_EQ(euler_number_of(mesh), summary.euler_number);
+    }
+}
+
+TEST(MolecularSurfaces, FourSpheresThroughAPointAreMeshed) {
+  const std::vector<Ball> square{{{0, 0, 0}, 1.2}, {{1, 0, 0}, 1.2}, {{0, 1, 0}, 1.2}, {{1, 1, 0}, 1.2}};
+  const SurfaceMesh mesh = mesh_of(built(square, SurfaceKind::vws), 0.2);
+  EXPECT_EQ(euler_number_of(mesh), 2);
+  EXPECT_EQ(mesh.faces.size(), 4U);
+}
+
 // ---- The solvent excluded surface ----
 
 constexpr double probe = 1.4;
@@ -146,6 +172,21 @@ double volume_of(const SurfaceMesh& mesh) {
   return sum;
 }
 
+TEST(SolventExcluded, ManySpheresThroughAPointLeaveNoThinFaces) {
+  std::vector<Ball> benzene;  // on its axis six spheres of carbons meet in two points
+  for (int k = 0; k < 12; ++k) {
+    const double r = k < 6 ? 1.39 : 2.48, turn = k * pi / 3;
+    benzene.push_back({{r * std::cos(turn), r * std::sin(turn), 0}, k < 6 ? 1.7 : 1.2});
+  }
+  MoleculeSummary summary;
+  const SurfaceMesh mesh = mesh_of(excluded(benzene, &summary), 0.2);
+  EXPECT_EQ(summary.moved, 12U);
+  EXPECT_EQ(euler_number_of(mesh), 2);
+  EXPECT_NEAR(area_of(mesh), summary.measures.area, 0.01 * summary.measures.area);
+  for (const CurveMesh& curve : mesh.curves)
+    EXPECT_GT(norm(mesh.vertices[curve.vertices.front()] - mesh.vertices[curve.vertices[1]]), 1e-3);
+}
+
 TEST(SolventExcluded, AreasAndVolumesAreThoseOfFineMeshes) {
   for (const std::vector<Ball>& balls : {with_hole, with_tips, with_many_tips}) {
     MoleculeSummary summary;
@@ -180,6 +221,23 @@ void check_probes(const std::vector<Ball>& balls, double size) {
 TEST(SolventExcluded, NoProbeBesideAVertexGoesIntoABall) {
   for (const std::vector<Ball>& balls : {with_hole, with_tips, with_many_tips}) check_probes(balls, 0.2);
   check_probes(read_balls("caffeine.xyzr"), 0.3);
+}
+
+/// A spindle of short arcs, where what is left of a probe's triangle comes apart at both tips of one side.
+TEST(SolventExcluded, PartsOfAProbeThatComeApartAreFacesOfTheirOwn) {
+  std::mt19937 random(7);
+  int apart = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    std::uniform_real_distribution<double> place(0, 8);
+    std::vector<Ball> balls;
+    for (int i = 0; i < 7; ++i) balls.push_back({{place(random), place(random), place(random)}, 1.7});
+    MoleculeSummary summary;
+    const BuiltGeometry built = excluded(balls, &summary);
+    const SurfaceMesh mesh = mesh_of(built, 0.5);
+    EXPECT_EQ(euler_number_of(mesh), summary.euler_number);
+    for (const Face& face : built.model.faces) apart += face.ref > 7 && face.curves.size() == 3 ? 1 : 0;
+  }
+  EXPECT_GT(apart, 20);
 }
 
 TEST(SolventExcluded, NormalsAgreeAcrossAllInterfacesButCrossings) {
