@@ -125,10 +125,13 @@ CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, co
 
 /* The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
  * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
- * become splines that end where they turn by more, where other curves end, and where references change; 0: they stay
- * polygons. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of the file; NULL or "": none.
- * When the file has triangles they are a background mesh: see carreau_set_background_mesh. One that is set later
- * replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE (with the line). */
+ * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
+ * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between
+ * vertices without one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of
+ * the file; NULL or "": none. When the file has triangles they are a background mesh: see carreau_set_background_mesh.
+ * One that is set later replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE
+ * (with the line).
+ */
 CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
                                                      double corner_angle);
 

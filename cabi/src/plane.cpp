@@ -162,7 +162,10 @@ carreau_status carreau_load_plane_domain(carreau_session* session, const char* p
       background = carreau::read_background(path, sizes, true);
     else if (sizes != nullptr)
       set_point_sizes(input, sizes_of(sizes), sizes);
-    if (corner_angle > 0) smooth_polygons(input, corner_angle);
+    if (corner_angle > 0)
+      smooth_polygons(input, corner_angle);
+    else if (input.is_mesh)
+      join_straight_edges(input);
     add(*session, input);
     if (background) session->session.set_background(background), session->plane_has_sizes = true;
   });

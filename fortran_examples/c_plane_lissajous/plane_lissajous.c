@@ -84,7 +84,8 @@ int main(int argc, char** argv) {
   find_places();
   const struct field round = {1}, long_and_thin = {4};
   const char* folder = argc > 1 ? argv[1] : NULL;
-  const double isotropic = (double)loop(&round, folder, "isotropic"), anisotropic = (double)loop(&long_and_thin, folder, "anisotropic");
+  const double isotropic = (double)loop(&round, folder, "isotropic"),
+               anisotropic = (double)loop(&long_and_thin, folder, "anisotropic");
   claim(fabs(isotropic / 38524 - 1) <= 0.15, "as many triangles as fig. 1.9, within 15 %");
   claim(fabs(anisotropic / 17060 - 1) <= 0.15, "as many triangles as fig. 1.10, within 15 %");
   return wrong;

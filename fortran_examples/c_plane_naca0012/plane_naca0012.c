@@ -1,6 +1,7 @@
 /* The loop around the profile NACA 0012 (RR-2818 sec. 6.4) on a plane domain from arrays: the contour is read from the
  * file that is named, two splines of Catmull and Rom between its leading edge and both ends of its blunt trailing edge;
- * the far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the table of the report. */
+ * the far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the
+ * table of the report. */
 #include <carreau_geometry.h>
 #include <inttypes.h>
 #include <stdio.h>
@@ -49,7 +50,8 @@ static carreau_status describe(carreau_session* session, const char* path) {
   for (int i = nose; i < n; ++i) passed[k++] = i;
   passed[k++] = n - 1, passed[k++] = 0; /* the blunt edge */
   for (int i = 0; i <= far_points; ++i) passed[k++] = n + i % far_points;
-  const int32_t smooth[4] = {1, 1, 0, 1}, controls[8] = {-1, nose + 1, nose - 1, -1, -1, -1, -1, -1}, refs[4] = {1, 1, 2, 3};
+  const int32_t smooth[4] = {1, 1, 0, 1}, controls[8] = {-1, nose + 1, nose - 1, -1, -1, -1, -1, -1},
+                refs[4] = {1, 1, 2, 3};
   const carreau_plane_domain domain = {.struct_size = sizeof domain,
                                        .point_count = n + far_points,
                                        .curve_count = 4,
@@ -74,14 +76,18 @@ int main(int argc, char** argv) {
       .struct_size = sizeof step_of_loop, .estimator = &estimator, .field = field, .iterations = 1, .differences = 1};
   carreau_adaptation_report report = {.struct_size = sizeof report};
   carreau_session* session = NULL;
-  if (argc < 2 || carreau_session_create(&session) != CARREAU_OK) return fprintf(stderr, "usage: plane_naca0012 CONTOUR [FOLDER]\n"), 2;
-  if (describe(session, argv[1]) || carreau_set_real(session, "hphydef", 0.8) || carreau_set_integer(session, "hgeo_flag", 1) ||
-      carreau_set_real(session, "hgeomin", 0.002) || carreau_set_real(session, "gradation", 1.2) ||
-      carreau_set_real(session, "angle_mesh", 4) || carreau_mesh_generate(session))
+  if (argc < 2 || carreau_session_create(&session) != CARREAU_OK)
+    return fprintf(stderr, "usage: plane_naca0012 CONTOUR [FOLDER]\n"), 2;
+  if (describe(session, argv[1]) || carreau_set_real(session, "hphydef", 0.8) ||
+      carreau_set_integer(session, "hgeo_flag", 1) || carreau_set_real(session, "hgeomin", 0.002) ||
+      carreau_set_real(session, "gradation", 1.2) || carreau_set_real(session, "angle_mesh", 4) ||
+      carreau_mesh_generate(session))
     return fprintf(stderr, "%s\n", carreau_last_error(session)), 1;
   int64_t n = 0, m = 0, k = 0, defects = 0;
   double error = 0;
-  printf(" i  boundary  points  triangles  largest h2/h1  (RR-2818: 129 1344 1.0, 161 2099 3.4, 168 2117 6.8, 181 2223 8.5)\n");
+  printf(
+      " i  boundary  points  triangles  largest h2/h1  (RR-2818: 129 1344 1.0, 161 2099 3.4, 168 2117 6.8, 181 2223 "
+      "8.5)\n");
   for (int i = 0; i <= 3; ++i) {
     carreau_mesh* mesh = NULL;
     const char* text = NULL;

@@ -211,6 +211,9 @@ class Plane(unittest.TestCase):
         n = len(mesh.vertices)
         self.write("round.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n%d\n1 1\n%sEnd\n" % (n, "0.05\n" * n))
         self.write("thin.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n%d\n1 3\n%sEnd\n" % (n, "2500 0 100\n" * n))
+        self.write("coarse.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n%d\n1 1\n%sEnd\n" % (n, "0.25\n" * n))
+        coarse = self.plane(self.path("one.mesh"), "--sol", self.path("coarse.sol"))
+        self.assertEqual(len(coarse.edges), 16)  # four a side: vertices of the finer mesh do not stay
         for name, wanted in (("round.sol", 4 / math.sqrt(3) / 0.05 ** 2), ("thin.sol", 4 / math.sqrt(3) * math.sqrt(2500 * 100))):
             count = len(self.plane(self.path("one.mesh"), "--sol", self.path(name)).triangles)
             self.assertAlmostEqual(count / wanted, 1, delta=0.15, msg=name)

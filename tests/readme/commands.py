@@ -61,6 +61,11 @@ def prepare():
     # Of a face that has failed: that of a run that went well lacks it.
     with open(os.path.join(CLONE, "failed/face_7.mesh"), "w") as file:
         file.write("MeshVersionFormatted 2\nDimension 2\nVertices 3\n0 0 0\n1 0 0\n0 1 0\nEdges 3\n1 2 1\n2 3 2\n3 1 3\nEnd\n")
+    # The first step of an adaptation.
+    with open(os.path.join(CLONE, "step1.mesh"), "w") as file:
+        file.write("MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles 2\n1 2 3 1\n1 3 4 1\nEnd\n")
+    with open(os.path.join(CLONE, "step1.sol"), "w") as file:
+        file.write("MeshVersionFormatted 2\nDimension 2\nSolAtVertices 4\n1 1\n0.05\n0.1\n0.2\n0.1\nEnd\n")
     for name in ("cad_m.f90", "x.pardom"):
         shutil.copy(os.path.join(PARABOLOID, name), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/packages/blsurf/blsurf.env"), CLONE)

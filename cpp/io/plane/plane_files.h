@@ -41,4 +41,8 @@ void set_point_sizes(PlaneDomainInput& input, const Solution& sizes, const std::
 /// Makes splines of the segments of a domain: see usual_corner_angle. Points inside of one are no vertices any more.
 void smooth_polygons(PlaneDomainInput& input, double corner_angle);
 
+/// Joins the segments of a mesh that are parts of one straight side: of one reference, in line to rounding, at points
+/// without a reference. The side's vertices may then be fewer in the next mesh.
+void join_straight_edges(PlaneDomainInput& input);
+
 }  // namespace carreau

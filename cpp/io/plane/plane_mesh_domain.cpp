@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -92,11 +93,14 @@ class MeshDomain {
   PlaneDomainInput input_;
 };
 
-/// Joins the segments of a domain that run on into chains.
+/// Whether a chain goes on at a point (its index) from an edge `d` to an edge `e`.
+using GoesOn = std::function<bool(int point, const Vec2& d, const Vec2& e)>;
+
+/// Joins the segments of a domain that run on into chains: splines, or straight curves from end to end.
 class Chains {
  public:
-  Chains(PlaneDomainInput& input, double corner_angle)
-      : input_(input), least_cosine_(std::cos(corner_angle * std::numbers::pi / 180)), at_(input.points.size()) {
+  Chains(PlaneDomainInput& input, GoesOn goes_on, bool smooth)
+      : input_(input), goes_on_(std::move(goes_on)), smooth_(smooth), at_(input.points.size()) {
     for (std::size_t c = 0; c < input_.curves.size(); ++c)
       for (const int p : {input_.curves[c].points.front(), input_.curves[c].points.back()})
         at_[p].push_back(static_cast<int>(c));
@@ -130,7 +134,7 @@ class Chains {
         input_.points[p].xy - input_.points[a.points.front() == p ? a.points[1] : a.points[a.points.size() - 2]].xy;
     const Vec2 e =
         input_.points[b.points.front() == p ? b.points[1] : b.points[b.points.size() - 2]].xy - input_.points[p].xy;
-    return dot(d, e) >= least_cosine_ * norm(d) * norm(e);
+    return goes_on_(p, d, e);
   }
 
   PlaneCurve chain_from(int c, bool backwards, int rank, std::vector<int>& new_of, std::vector<char>& reversed) {
@@ -147,7 +151,9 @@ class Chains {
       if (new_of[next] >= 0) break;  // closed
       c = next, backwards = input_.curves[c].points.front() != end;
     }
-    if (chain.points.size() > 2) {
+    if (chain.points.size() > 2 && !smooth_) {
+      chain.points = {chain.points.front(), chain.points.back()};
+    } else if (chain.points.size() > 2) {
       chain.smooth = true;
       const bool closed = chain.points.front() == chain.points.back();
       for (std::size_t i = 1; i + 1 < chain.points.size(); ++i) input_.points[chain.points[i]].imposed = false;
@@ -157,7 +163,8 @@ class Chains {
   }
 
   PlaneDomainInput& input_;
-  double least_cosine_;
+  GoesOn goes_on_;
+  bool smooth_;
   std::vector<std::vector<int>> at_;  // curves that end at each point
 };
 
@@ -168,7 +175,19 @@ PlaneDomainInput plane_domain_of(const FlatMesh& mesh, const std::string& name) 
   return MeshDomain(mesh, name).read();
 }
 
-void smooth_polygons(PlaneDomainInput& input, double corner_angle) { Chains(input, corner_angle).join(); }
+void smooth_polygons(PlaneDomainInput& input, double corner_angle) {
+  const double least_cosine = std::cos(corner_angle * std::numbers::pi / 180);
+  const auto goes_on = [=](int, const Vec2& d, const Vec2& e) { return dot(d, e) >= least_cosine * norm(d) * norm(e); };
+  Chains(input, goes_on, true).join();
+}
+
+void join_straight_edges(PlaneDomainInput& input) {
+  constexpr double rounding = 1e-9;  // of the sine of a turn: coordinates of a file may have ten digits
+  const auto goes_on = [&](int p, const Vec2& d, const Vec2& e) {
+    return input.points[p].ref == 0 && dot(d, e) > 0 && std::abs(cross(d, e)) <= rounding * norm(d) * norm(e);
+  };
+  Chains(input, goes_on, false).join();
+}
 
 PlaneDomainInput read_plane_domain(const std::string& path) {
   const std::string suffix = suffix_of(path);

@@ -236,6 +236,26 @@ TEST(SmoothPolygons, ChainsEndAtCornersReferencesAndJunctions) {
   EXPECT_EQ(input.curves.size(), std::size_t(n));
 }
 
+TEST(StraightEdges, AreOneCurveBetweenCornersAndReferences) {
+  PlaneDomainInput input;
+  for (int i = 0; i <= 10; ++i) input.points.push_back({.xy = {0.1 * i, 0.3 * i}});
+  for (int i = 0; i < 10; ++i) {
+    PlaneCurve& curve = input.curves.emplace_back();
+    curve.points = i % 3 == 0 ? std::vector{i + 1, i} : std::vector{i, i + 1};
+    curve.ref = i < 6 ? 1 : 2;
+  }
+  input.points[8].ref = 5;
+  join_straight_edges(input);
+  std::vector<std::vector<int>> ends;
+  for (const PlaneCurve& curve : input.curves) {
+    EXPECT_FALSE(curve.smooth);
+    ends.push_back(
+        {std::min(curve.points.front(), curve.points.back()), std::max(curve.points.front(), curve.points.back())});
+    EXPECT_EQ(curve.points.size(), 2u);
+  }
+  EXPECT_EQ(ends, (std::vector<std::vector<int>>{{0, 6}, {6, 8}, {8, 10}}));
+}
+
 TEST(Bl2dMesh, IsReadAsItWasWritten) {
   FlatMesh mesh;
   mesh.dimension = 2;
