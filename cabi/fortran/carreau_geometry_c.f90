@@ -63,7 +63,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_measure
 
-    !> Tells reference and area of each atom of that molecule; an array may be NULL.
+    !> Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
     function c_molecule_atoms(session, capacity, refs, areas) result(status) bind(c, name="carreau_molecule_atoms")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none

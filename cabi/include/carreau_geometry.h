@@ -27,17 +27,18 @@ enum {
 
 typedef struct carreau_molecule_options {
   size_t struct_size;
-  int32_t surface;       /* CARREAU_VWS or CARREAU_SAS */
+  int32_t surface;       /* CARREAU_VWS, CARREAU_SAS or CARREAU_SES */
   int32_t drop_cavities; /* 1: inner shells are left out of the model; areas and volumes have them */
   double probe;          /* radius of the probe; CARREAU_VWS does not use it */
 } carreau_molecule_options;
 
 /* Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear. A
  * face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
- * the same ball are parts of that face (see carreau_model_part_of_face). Of balls that are equal, concentric or one
- * inside the other, those inside have no face; spheres that only touch do not meet. Where rounding hides how spheres
- * meet (four of them in one point), radii are moved by some 1e-9 of themselves, and a message tells it.
- * Errors: ARGUMENT (a radius that is not positive, n below 1, the session has faces). */
+ * the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
+ * faces of their own, with references behind those of all balls. Of balls that are equal, concentric or one inside the
+ * other, those inside have no face; spheres that only touch do not meet. Where rounding hides how spheres meet (four of
+ * them in one point), radii are moved by some 1e-9 of themselves, and a message tells it. Errors: ARGUMENT (a radius
+ * that is not positive, n below 1, the session has faces). */
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
@@ -55,7 +56,7 @@ typedef struct carreau_molecule_measures {
   double volume; /* inside the surface, without cavities */
   int64_t atoms;
   int64_t exposed_atoms; /* with an area */
-  int64_t shells;        /* connected parts of the surface */
+  int64_t shells;        /* connected parts of the surface; of CARREAU_SES those of CARREAU_SAS */
   int64_t cavities;      /* those of them that bound a hole */
   int64_t euler_number;  /* of the surface: of a closed mesh, vertices - triangles / 2 */
   int64_t moved_radii;   /* see carreau_add_molecule */
@@ -67,7 +68,8 @@ typedef struct carreau_molecule_measures {
 /* Measures the molecule that the session was given last. Errors: SEQUENCE (none was). */
 CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecule_measures* out_measures);
 
-/* Tells reference and area of each atom of that molecule; an array may be NULL. Errors: SEQUENCE, ARGUMENT (capacity).
+/* Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+ * Errors: SEQUENCE, ARGUMENT (capacity).
  */
 CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
                                                   double out_areas[]);

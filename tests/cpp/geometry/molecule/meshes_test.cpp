@@ -95,6 +95,17 @@ TEST(MolecularSurfaces, CaffeineIsClosedAndOnItsSpheres) {
   }
 }
 
+TEST(MolecularSurfaces, DnaIsClosedWithTheEulerNumberOfItsArcs) {
+  const std::vector<Ball> balls = read_balls("1bna.xyzr");
+  for (const auto& [kind, euler] : {std::pair{SurfaceKind::vws, -70}, {SurfaceKind::sas, 0}, {SurfaceKind::ses, 2}}) {
+    Monitor silent;
+    MoleculeSummary summary;
+    const SurfaceMesh mesh = mesh_of(build_surface({balls}, {.kind = kind}, silent, &summary), 0.5);
+    EXPECT_EQ(summary.euler_number, euler);
+    EXPECT_EQ(euler_number_of(mesh), euler);
+  }
+}
+
 TEST(MolecularSurfaces, CavitiesAreKeptOrDropped) {
   std::vector<Ball> cage;
   for (int k = 0; k < 60; ++k) {
