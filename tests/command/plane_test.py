@@ -11,7 +11,7 @@ import unittest
 
 PROGRAM, BL2D = (os.path.abspath(path) for path in sys.argv[1:3])
 
-# A square with a square hole, an inner square of its own reference, and a slit.
+# A square plate with a square hole and two triangles of other materials.
 SQUARES = """12 2 0 1
 1 0 0 1
 2 8 0 1
