@@ -61,8 +61,8 @@ class Header:
             return []
         arguments = []
         for argument in text.split(","):
-            match = re.fullmatch(r"\s*(.*?)\s*\b(\w+)\s*(\[\])?\s*", argument, flags=re.S)
-            arguments.append((" ".join(match.group(1).split()) + (match.group(3) or ""), match.group(2)))
+            match = re.fullmatch(r"\s*(.*?)\s*\b(\w+)\s*(\[\d*\])?\s*", argument, flags=re.S)
+            arguments.append((" ".join(match.group(1).split()) + ("[]" if match.group(3) else ""), match.group(2)))
         return arguments
 
     @staticmethod

@@ -81,8 +81,8 @@ module carreau
   integer(c_int32_t), parameter, public :: CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2
 
   !> Geometry, model, parameters and the mesh made of them.
+  !! The handle is for the modules of this library.
   type :: carreau_session
-    private
     type(c_ptr) :: handle = c_null_ptr
   end type carreau_session
 

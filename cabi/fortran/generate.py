@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes carreau_c.f90, the bindings of the functions and structs of carreau.h, as Fortran 2003.
+"""Writes the bindings of the functions and structs of a header as Fortran 2003: carreau_c.f90 of carreau.h,
+carreau_geometry_c.f90 of carreau_geometry.h.
 
     generate.py <carreau.h> <carreau_c.f90>            writes the module
     generate.py --check <carreau.h> <carreau_c.f90>    fails when the module is not what it would write
@@ -14,6 +15,7 @@ How a declaration of C becomes one of Fortran:
   T* and T name[]                    a scalar and an array; intent(in) if const, else intent(inout)
   out_name                           name, unless another argument has that name
 """
+import os
 import re
 import sys
 import textwrap
@@ -145,30 +147,33 @@ class Writer:
         self.comment(self.header.comments.get(c_name, ""), "    ")
         self.procedure(fortran_name(c_name), c_name, self.result(c_name, c_result), arguments)
 
-    def module(self):
-        self.add("!> The functions and structs of carreau.h as Fortran sees them. Private to module carreau.",
-                 "!! Written by generate.py from carreau.h: do not edit. After a change of the header:",
-                 "!!   python3 cabi/fortran/generate.py cabi/include/carreau.h cabi/fortran/carreau_c.f90",
-                 "module carreau_c")
+    def module(self, name):
+        """name: "carreau", of the header and of the module that uses this one."""
+        self.add(f"!> The functions and structs of {name}.h as Fortran sees them. Private to module {name}.",
+                 f"!! Written by generate.py from {name}.h: do not edit. After a change of the header:",
+                 f"!!   python3 cabi/fortran/generate.py cabi/include/{name}.h cabi/fortran/{name}_c.f90",
+                 f"module {name}_c")
         used = ["c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_null_funptr", "c_null_ptr", "c_ptr",
                 "c_size_t"]
         self.add(*in_lines("  use, intrinsic :: iso_c_binding, only: ", used, "  "), "  implicit none", "  public", "")
-        for name in self.header.structs:
-            self.type(name)
+        for struct in self.header.structs:
+            self.type(struct)
         self.add("  interface")
-        for name in self.header.functions:
-            self.function(name)
-        self.comment("Of the C library: the length of a text that the library returns.", "    ")
-        self.procedure("c_strlen", "strlen", ("integer(c_size_t)", "length"), [("type(c_ptr), value", "text", "")])
+        for function in self.header.functions:
+            self.function(function)
+        if name == "carreau":
+            self.comment("Of the C library: the length of a text that the library returns.", "    ")
+            self.procedure("c_strlen", "strlen", ("integer(c_size_t)", "length"), [("type(c_ptr), value", "text", "")])
         self.lines.pop()
-        self.add("  end interface", "end module carreau_c")
+        self.add("  end interface", f"end module {name}_c")
         return "\n".join(self.lines) + "\n"
 
 
 def main():
     check = sys.argv[1] == "--check"
     header_path, module_path = sys.argv[-2:]
-    text = Writer(Header(header_path)).module()
+    name = os.path.basename(header_path).removesuffix(".h")
+    text = Writer(Header(header_path)).module(name)
     if not check:
         with open(module_path, "w", encoding="utf-8") as module:
             module.write(text)

@@ -133,19 +133,25 @@ FieldFunction function_of(carreau_field_fn field, void* user, const carreau::Mon
   };
 }
 
+/// In place of an earlier one, and of sizes at the points of a plane domain: those are for its first mesh.
+void use_background(carreau_session& session, std::shared_ptr<carreau::BackgroundField> background) {
+  session.session.set_background(std::move(background));
+  session.session.set_prescription_source(nullptr);
+}
+
 }  // namespace
 
 carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path, const char* sol_path) {
   return guarded(session, [&] {
-    session->session.set_background(
-        carreau::read_background(required(mesh_path, "mesh_path"), required(sol_path, "sol_path")));
+    use_background(*session, carreau::read_background(required(mesh_path, "mesh_path"), required(sol_path, "sol_path"),
+                                                      session->model().plane));
   });
 }
 
 carreau_status carreau_set_background(carreau_session* session, const carreau_background* background) {
   return guarded(session, [&] {
-    session->session.set_background(
-        std::make_shared<carreau::BackgroundField>(background_mesh(read_struct(background, "background"))));
+    use_background(*session,
+                   std::make_shared<carreau::BackgroundField>(background_mesh(read_struct(background, "background"))));
   });
 }
 
@@ -153,16 +159,18 @@ carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, con
   return guarded(session, [&] {
     const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
     required(sizes, "sizes");
-    session->session.set_background(
-        carreau::background_of(session->session, {.sizes = {sizes, sizes + rows}, .space = {}, .parameter = {}}));
+    use_background(*session, carreau::background_of(session->session,
+                                                    {.sizes = {sizes, sizes + rows}, .space = {}, .parameter = {}}));
   });
 }
 
 carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double* metrics) {
   return guarded(session, [&] {
     const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
-    session->session.set_background(carreau::background_of(
-        session->session, {.sizes = {}, .space = metrics_of(required(metrics, "metrics"), rows), .parameter = {}}));
+    use_background(
+        *session,
+        carreau::background_of(
+            session->session, {.sizes = {}, .space = metrics_of(required(metrics, "metrics"), rows), .parameter = {}}));
   });
 }
 

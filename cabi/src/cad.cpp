@@ -141,6 +141,7 @@ carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* 
     if (known.cad_init != nullptr) known.cad_init();
     session->session.set_cad(std::move(cad));
     session->has_cad = true;
+    session->built.reset(), session->session.set_prescription_source(nullptr);
   });
 }
 
@@ -149,6 +150,7 @@ carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* call
     const carreau_cad known = read_struct(callbacks, "carreau_cad");
     session->session.set_cad(std::make_shared<StoppableCad>(known, session->monitor));
     session->has_cad = true;
+    session->built.reset(), session->session.set_prescription_source(nullptr);
   });
 }
 

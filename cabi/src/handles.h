@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "carreau.h"
+#include "geometry/molecule/molecule.h"
 #include "mesh/flat_mesh.h"
 #include "session/session.h"
 #include "support/monitor.h"
@@ -109,6 +112,9 @@ struct carreau_session {
   carreau::Session session;
   const carreau::Parameters* parameters;
   bool has_cad = false;
+  bool plane_has_sizes = false;  // of the last plane domain
+  std::shared_ptr<carreau::Cad> built;                             // the geometry, when the library evaluates it itself
+  std::optional<carreau::molecule::MoleculeSummary> molecule = {};  // the last one
   carreau::Model draft;  // changed since the session got its model
   bool draft_changed = false;
   carreau_mesh mesh;

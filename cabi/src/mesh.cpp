@@ -164,6 +164,10 @@ carreau_status carreau_mesh_vertex_refs(carreau_mesh* mesh, int64_t capacity, in
     const std::size_t n = Counts(*mesh).vertices;
     check_capacity(capacity, n, "vertices");
     copy_refs(mesh->session != nullptr ? surface_of(*mesh).vertex_ref : mesh->flat.vertex_refs, n, out_refs);
+    if (mesh->session == nullptr) return;
+    const std::map<int, int>& shown = mesh->session->session.shown_points();
+    for (std::size_t i = 0; i < n; ++i)
+      if (const auto found = shown.find(out_refs[i]); found != shown.end()) out_refs[i] = found->second;
   });
 }
 

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "face_list.h"
+#include "molecule_input.h"
+#include "plane_input.h"
 
 namespace command {
 
@@ -32,6 +34,8 @@ class CadInput {
   [[nodiscard]] virtual double glue_tolerance() const { return 0; }
   /// The same for curves that are still open, whatever the shortest curve of the file; 0: as above.
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
+  /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
+  [[nodiscard]] virtual double ends_tolerance() const { return 0; }
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.
@@ -63,6 +67,8 @@ class CadInput {
   [[nodiscard]] virtual std::vector<std::int32_t> parts(std::int32_t face) const { return {face}; }
   /// Faces that bend inside and could not be cut there, which curvatures do not tell: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> kinks() const { return {}; }
+  /// Whether the geometry, or a file beside it, prescribes sizes of its own, when hphy_flag = 2.
+  [[nodiscard]] virtual bool has_sizes() const { return false; }
   /// Whether each edge of the file has two faces.
   [[nodiscard]] virtual bool closed() const { return false; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
@@ -74,12 +80,12 @@ bool needs_host(const std::string& path);
 /// Throws Failure when the name of an input is empty or that of a mesh.
 void check_geometry_name(const std::string& path);
 
-/// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; or
-/// what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
+/// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; a
+/// molecule; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
 /// the share that is done, where it is known.
 using ReadingProgress = std::function<void(double fraction)>;
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
-                                     const ReadingProgress& progress = {});
+                                     const ReadingProgress& progress = {}, const MoleculeChoice& molecule = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);

@@ -15,8 +15,11 @@
 namespace command {
 namespace {
 
-constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh or .msh2";
-constexpr const char* geometry_files = "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches) or .pardom";
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2 or .bl2d";
+constexpr const char* geometry_files =
+    "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
+    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif";
+constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
 constexpr int most_listed = 1'000'000;
 constexpr int unusable = 2;  // exit code
 
@@ -24,6 +27,9 @@ std::string is_gradation(const std::string& value) {
   double ratio = -1;
   const bool known = CLI::detail::lexical_cast(value, ratio) && (ratio == 0 || (ratio >= 1.0001 && ratio <= 1e9));
   return known ? "" : "'" + value + "' is neither a ratio from 1.0001 to 1e9 nor 0";
+}
+std::vector<std::string> molecule_surface_names() {
+  return {std::begin(molecule_surfaces), std::end(molecule_surfaces)};
 }
 std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
 
@@ -117,7 +123,9 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
       "Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 wrong command line or file, or no mesh. Help on a "
       "command: carreau help COMMAND. Manual: man carreau");
   add_mesh();
+  add_plane();
   add_info();
+  add_areas();
   add_check();
   add_picture();
   add_fields();
@@ -132,7 +140,7 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 }
 
 void CommandLine::add_mesh() {
-  CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, or a .pardom");
+  CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, a .pardom, or the surface of a molecule");
   mesh->add_option("INPUT", mesh_.input, geometry_files)->required()->type_name(kind::file);
   mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
       ->type_name(kind::file);
@@ -141,12 +149,39 @@ void CommandLine::add_mesh() {
                             "may be repeated"))
       ->required()
       ->type_name(kind::file);
+  add_molecule_options(mesh, mesh_.molecule);
   add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
                    "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
       ->type_name(kind::file);
   mesh->add_flag("--json", mesh_.json, "Print a summary as JSON on the standard output");
   mesh->add_flag("-q,--quiet", mesh_.quiet, "Tell errors only");
+}
+
+void CommandLine::add_plane() {
+  plane_.plane.is_plane = true;
+  CLI::App* plane = add("plane", "Mesh a domain of the plane: Triangle's .poly, a plane mesh's edges, BL2D's files");
+  plane->add_option("DOMAIN", plane_.input, "File .poly, .mesh, .meshb or .bl2d of dimension 2, .data or .g")
+      ->required()
+      ->type_name(kind::file);
+  repeated(plane->add_option("-o,--output", plane_.outputs,
+                             "File to write: .mesh or .meshb (dimension 2), .bl2d, .vtu, .stl, .msh (Gmsh 4.1), .msh2 "
+                             "(2.2) or .exr (fields); may be repeated"))
+      ->required()
+      ->type_name(kind::file);
+  plane
+      ->add_flag("--smooth{50}", plane_.plane.corner_angle,
+                 "Polygons become splines that end where they turn by more than 50 degrees; --smooth=DEGREES: by more "
+                 "than these")
+      ->check(CLI::Range(0.1, 180.0));
+  plane
+      ->add_option("--sol", plane_.plane.sizes,
+                   "Sizes or metrics at the vertices of the file: .sol, .solb, or BL2D's .hg or .h")
+      ->check(not_empty)
+      ->type_name(kind::file);
+  add_mesh_options(plane, plane_);
+  plane->add_flag("--json", plane_.json, "Print a summary as JSON on the standard output");
+  plane->add_flag("-q,--quiet", plane_.quiet, "Tell errors only");
 }
 
 void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
@@ -196,6 +231,30 @@ void CommandLine::add_info() {
       ->capture_default_str();
   info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
   info->add_flag("--json", info_.json, "Print JSON");
+}
+
+void CommandLine::add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
+  app->add_option("--surface", choice.surface,
+                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent")
+      ->check(CLI::IsMember(molecule_surface_names()))
+      ->capture_default_str();
+  app->add_option("--probe", choice.probe, "Radius of the probe that stands for the solvent")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length)
+      ->capture_default_str();
+  app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells of a molecule");
+}
+
+void CommandLine::add_areas() {
+  CLI::App* areas = add("areas", "Print areas and volumes of a molecule's surfaces, in closed form");
+  areas->add_option("INPUT", areas_.input, molecule_files)->required()->type_name(kind::file);
+  areas->add_option("--probe", areas_.probe, "Radius of the probe that stands for the solvent")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length)
+      ->capture_default_str();
+  areas->add_flag("--atoms", areas_.atoms, "Print a line for each atom");
+  threads(areas, areas_.threads);
+  areas->add_flag("--json", areas_.json, "Print JSON");
 }
 
 void CommandLine::add_check() {
@@ -270,6 +329,7 @@ void CommandLine::add_fields() {
                ->check(CLI::IsMember(field_groups())));
   fields->add_flag("--piz", fields_.piz, "PIZ in place of ZIP; both are lossless");
   fields->add_flag("--raw", fields_.raw, "What the geometry answers, without a mesh");
+  add_molecule_options(fields, fields_.mesh.molecule);
   add_mesh_options(fields, fields_.mesh);
   fields->add_flag("--json", fields_.mesh.json, "Print the files as JSON");
 }
@@ -341,7 +401,9 @@ int CommandLine::run(int argc, char** argv) {
 
 int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) return mesh(mesh_);
+  if (app_.got_subcommand("plane")) return mesh(plane_);
   if (app_.got_subcommand("info")) return info(info_);
+  if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("check")) return check(check_);
   if (app_.got_subcommand("picture")) {
     parse_picture_size(picture_size_, picture_);

@@ -34,9 +34,12 @@ class CommandLine {
  private:
   CLI::App* add(const char* name, const char* description);
   void add_mesh();
+  void add_plane();
   /// What governs a mesh: of `mesh` and `fields`.
   static void add_mesh_options(CLI::App* app, MeshOptions& options);
+  static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
   void add_info();
+  void add_areas();
   void add_picture();
   void add_check();
   void add_fields();
@@ -50,8 +53,9 @@ class CommandLine {
                                         const std::vector<std::string>& words) const;
 
   CLI::App app_;
-  MeshOptions mesh_;
+  MeshOptions mesh_, plane_;
   InfoOptions info_;
+  AreasOptions areas_;
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
   CheckOptions check_;

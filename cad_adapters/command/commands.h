@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "molecule_input.h"
+#include "plane_input.h"
 #include "scene.h"
 
 namespace command {
@@ -22,7 +24,9 @@ int picture(const PictureOptions& options);
 
 struct MeshOptions {
   std::string input;
-  std::string host;  ///< shared library, of a .pardom
+  std::string host;         ///< shared library, of a .pardom
+  MoleculeChoice molecule;  ///< of a molecule
+  PlaneChoice plane;        ///< of a plane domain
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -51,6 +55,17 @@ struct InfoOptions {
 
 /// Prints what a file of geometry holds, and what of it is hard to mesh. 0; throws Failure.
 int info(const InfoOptions& options);
+
+struct AreasOptions {
+  std::string input;
+  double probe = 1.4;
+  bool atoms = false;  ///< a line for each
+  int threads = 0;     ///< 0: all cores
+  bool json = false;
+};
+
+/// Prints areas and volumes of the surfaces of a molecule, in closed form. 0; throws Failure.
+int areas(const AreasOptions& options);
 
 struct CheckOptions {
   std::string mesh;

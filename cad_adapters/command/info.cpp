@@ -27,7 +27,7 @@ std::string sentence(const ModelDanger& danger) {
 
 int info(const InfoOptions& options) {
   check_geometry_name(options.input);
-  const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt";
+  const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" || is_molecule(options.input);
   if (!in_memory) {
     if (!options.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + options.input + "'.");
     return print_cad_info(options);

@@ -117,15 +117,18 @@ int mesh(const MeshOptions& options) {
   catch_signals();
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
-  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".exr"},
-                      {options.input, map.mesh_file()});
+  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d", ".exr"},
+                      {options.input, map.mesh_file(), options.plane.sizes});
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
   progress.part(0, read_at);
   const Stopwatch reading;
   const std::unique_ptr<CadInput> input =
-      open_input(options.input, options.host, [&](double fraction) { progress.reading(fraction); });
+      options.plane.is_plane
+          ? open_plane(options.input, options.plane)
+          : open_input(
+                options.input, options.host, [&](double fraction) { progress.reading(fraction); }, options.molecule);
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();

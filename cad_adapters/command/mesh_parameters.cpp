@@ -62,7 +62,7 @@ bool is_set(carreau_session* session, const char* name) {
 void set_physical_sizes(carreau_session* session, const MeshOptions& options, const Lengths& lengths,
                         const CadInput& input) {
   const double diagonal = input.diagonal();
-  const bool by_face = !options.face_sizes.empty() && input.answers_face_sizes();
+  const bool by_face = (!options.face_sizes.empty() && input.answers_face_sizes()) || input.has_sizes();
   set(session, "hphy_flag", by_face ? 2 : 1);
   if (lengths.size || !is_set(session, "hphydef")) set(session, "hphydef", lengths.size.value_or(0.02 * diagonal));
   double size = 0;
@@ -70,7 +70,7 @@ void set_physical_sizes(carreau_session* session, const MeshOptions& options, co
   // The bounds of the library are for sizes that a formula gives, not for what a person has typed.
   if (!is_set(session, "hphymin")) set(session, "hphymin", std::min(size, diagonal) * 1e-6);
   // Beside a map, a size that was typed is an upper bound.
-  const bool bounds_map = lengths.size && !options.size_map.empty();
+  const bool bounds_map = lengths.size && (!options.size_map.empty() || input.has_sizes());
   if (bounds_map && (!lengths.maximum || *lengths.maximum > size))
     set(session, "hphymax", size);
   else if (!is_set(session, "hphymax"))
@@ -96,7 +96,7 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
     for (const char* name : names)
       if (bound) set(session, name, *bound);
   const bool by_curvature = options.angle > 0 || lengths.chord;
-  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.size_map.empty();
+  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.size_map.empty() || input.has_sizes();
   if (sizes_typed || (options.env.empty() && !by_curvature))
     set_physical_sizes(session, options, lengths, input);
   else if (options.env.empty())
@@ -243,6 +243,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
     set(session, "eps_glue", tolerance);
     set(session, "eps_glue_open", input.open_tolerance());
   }
+  if (const double ends = input.ends_tolerance(); ends > 0) set(session, "eps_ends", ends);
   // A curve has the smallest size of the faces beside it.
   if (sizes_by_face || map.is_formula()) set(session, "hmean_flag", -1);
   if (!options.env.empty()) require(session, carreau_read_env(session, options.env.c_str()));

@@ -22,13 +22,13 @@ struct ModelFigures {
 
 class ModelInput : public CadInput {
  public:
-  carreau_status give_to(carreau_session* session) final;
+  carreau_status give_to(carreau_session* session) override;
   /// Of the box of the curves, sampled: the `diag` of parameters.
   [[nodiscard]] double diagonal() const final { return diagonal_; }
   /// What the sides look like, sampled: poles, tiny sides (below a thousandth of the diagonal), places where the
   /// geometry fails.
   [[nodiscard]] ModelFigures look_at() const;
-  [[nodiscard]] std::string summary() const final;
+  [[nodiscard]] std::string summary() const override;
   [[nodiscard]] std::vector<FaceLook> faces() const final;
   [[nodiscard]] std::vector<std::int32_t> face_numbers() const final;
   bool set_face_size(const std::string& face, double size) final;

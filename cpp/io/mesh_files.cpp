@@ -69,8 +69,9 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (suffix == ".stl") return MeshFormat::stl;
   if (suffix == ".msh") return MeshFormat::msh;
   if (suffix == ".msh2") return MeshFormat::msh2;
+  if (suffix == ".bl2d") return MeshFormat::bl2d;
   throw InvalidArgument("'" + path +
-                        "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2");
+                        "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d");
 }
 
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options) {
@@ -88,6 +89,8 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
       return msh_text(mesh, false, options.curve_groups);
     case MeshFormat::msh2:
       return msh_text(mesh, true, options.curve_groups);
+    case MeshFormat::bl2d:
+      return bl2d_text(mesh);
   }
   throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
 }
@@ -107,6 +110,8 @@ FlatMesh read_mesh(const std::string& path) {
       return read_mesh_vtu(content, path);
     case MeshFormat::stl:
       return read_mesh_stl(content, path);
+    case MeshFormat::bl2d:
+      return read_mesh_bl2d(content, path);
     case MeshFormat::msh:
     case MeshFormat::msh2:
       break;

@@ -12,7 +12,8 @@ namespace carreau {
 /// Medit ASCII (`.mesh`, version 2), its binary form (`.meshb`, GMF version 2; 3 when the file would exceed 2 GiB), VTK
 /// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only).
 /// Gmsh ASCII (`.msh`, version 4.1; `.msh2`, version 2.2; both with physical names).
-enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2 };
+/// BL2D (`.bl2d`, meshes of the plane z = 0).
+enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d };
 
 struct MeshFileOptions {
   /// STL as text, one solid for each triangle reference, in ascending order ("surface_3"); otherwise binary.
@@ -36,7 +37,7 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 
 /// Reads a file by its suffix, as mesh_format_of() tells it. Throws InvalidArgument for another suffix, FileError with
 /// file and line, or file and byte. Vertices, edges and triangles are taken, their references, names of faces and, of
-/// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files only.
+/// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files and BL2D's only.
 FlatMesh read_mesh(const std::string& path);
 /// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() tells them apart by
 /// the content. Other sections of the format are skipped, but for elements of surfaces that are not triangles of first
@@ -50,6 +51,8 @@ FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
 FlatMesh read_mesh_msh(std::string_view content, const std::string& name);
 /// STL, text or binary: corners of equal coordinates become one vertex. Solids of the text form are faces.
 FlatMesh read_mesh_stl(std::string_view content, const std::string& name);
+/// BL2D: vertices, edges and triangles of the plane, with references.
+FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name);
 /// VTK XML: one piece, arrays as text, base64 or raw bytes, not compressed. Cells other than triangles and lines are
 /// errors, but for points and solids, which are skipped.
 FlatMesh read_mesh_vtu(std::string_view content, const std::string& name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,9 @@ inline int host_rank(const Face& face, std::size_t curve) {
 struct Model {
   std::vector<Face> faces;
   std::string source;  ///< name of the file it was read from; empty: from memory
+  /// References that results have in place of those of points, where they differ.
+  std::map<int, int> shown_points = {};
+  bool plane = false;  ///< all of it lies in the plane z = 0, and files of its mesh have dimension 2
 };
 
 }  // namespace carreau

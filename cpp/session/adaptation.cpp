@@ -6,8 +6,10 @@
 #include <limits>
 #include <utility>
 
+#include "io/files.h"
 #include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
+#include "io/plane/plane_files.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"
 
@@ -241,9 +243,13 @@ Solution read_field(const std::string& path, std::size_t vertices, const std::st
 
 }  // namespace
 
-std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path) {
+std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
+                                                 bool one_plane) {
   FlatMesh flat = read_mesh(mesh_path);
-  const Solution solution = read_solution(sol_path, SolutionUse::prescription);
+  const std::string suffix = suffix_of(sol_path);
+  const bool of_bl2d = suffix == ".h" || suffix == ".hc" || suffix == ".hg";
+  const Solution solution = of_bl2d ? read_bl2d_sizes_text(read_file(sol_path), sol_path)
+                                    : read_solution(sol_path, SolutionUse::prescription);
   if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a background mesh needs triangles; it has none");
   if (solution.dimension != flat.dimension)
     throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +
@@ -255,7 +261,7 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
   mesh.dimension = flat.dimension;
   mesh.vertices = std::move(flat.vertices);
   mesh.triangles = std::move(flat.triangles);
-  if (flat.dimension == 2) mesh.faces = std::move(flat.triangle_refs);
+  if (flat.dimension == 2 && !one_plane) mesh.faces = std::move(flat.triangle_refs);
   mesh.values = values_of(solution);
   return std::make_shared<BackgroundField>(mesh);
 }

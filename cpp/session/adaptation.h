@@ -14,10 +14,12 @@
 
 namespace carreau {
 
-/// A mesh file (`.mesh`, `.meshb`) with a solution file (`.sol`, `.solb`) of sizes or metrics. A mesh of dimension 3 is
+/// A mesh file (`.mesh`, `.meshb`, ...) with a file of sizes or metrics (`.sol`, `.solb`; BL2D's `.h`). A mesh of dimension 3 is
 /// a surface in space; the triangles of one of dimension 2 lie in the parameter planes of the faces that their
-/// references name (0: any). Throws FileError; names the file, and the line or byte where there is one.
-std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path);
+/// references name (0: any); with `one_plane` all faces lie in one, whatever references say. Throws FileError; names the
+/// file, and the line or byte where there is one.
+std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
+                                                 bool one_plane = false);
 
 /// The session's mesh with sizes or metrics at its vertices, to be used for the next one.
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);

@@ -72,6 +72,8 @@ constexpr std::array kTable = {
     diag_row("eps_glue", 0, 1.0 / 500, "points nearer than this are one when references are sought, model length"),
     real_row("eps_glue_open", 0, infinity, 0,
              "curves that stay open are one within this and a tenth of their lengths, model length (0: eps_glue)"),
+    real_row("eps_smooth", 1e-6, 1, 0.01,
+             "plane domains: polylines by which their curves are compared, distance as a share of the edge"),
     text_row("failing_faces", "stop", "stop|leave_out",
              "a face whose geometry fails or whose curves break a rule: ends the run, or is left out of the mesh"),
     integer_row("flag", 0, 1, 0, "1: exported files hold the edges of the curves too"),

@@ -110,13 +110,13 @@ void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad&
 }
 
 // Files named by parameters come before what the host has set.
-std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
+std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters, bool one_plane,
                                                    const std::shared_ptr<BackgroundField>& set) {
   const std::string mesh = parameters.text("background_mesh"), sol = parameters.text("background_sol");
   if (mesh.empty() != sol.empty())
     throw InvalidArgument(std::string("background_mesh and background_sol name two files of one field, but only ") +
                           (mesh.empty() ? "background_sol" : "background_mesh") + " is set");
-  return mesh.empty() ? set : read_background(mesh, sol);
+  return mesh.empty() ? set : read_background(mesh, sol, one_plane);
 }
 
 // x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
@@ -261,7 +261,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
     model = collapse_tiny_curves(model, traces, eps, &remarks);
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
   CompositeOptions options = composite_options(s.parameters, supports.diag);
-  const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, s.background);
+  const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -348,7 +348,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   std::optional<ModelSupports> supports;
   std::shared_ptr<BackgroundField> background;
   try {
-    background = background_of_run(parameters, s.background);
+    background = background_of_run(parameters, s.model.plane, s.background);
     supports = build_supports(s.model, cad, parameters.real("angle_smo"), threads_of(s.parameters), s.monitor);
     set_parameter_boxes(s.model, *supports, cad);
   } catch (const Cancelled&) {
@@ -393,8 +393,15 @@ FlatMesh Session::exported(const MeshEvaluation* delivered) const {
   const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports,
                             delivered};
   const Parameters& p = state_->parameters;
-  return export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
+  FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
+  if (source.model.plane) flat.dimension = 2;
+  const std::map<int, int>& shown = shown_points();
+  for (std::int32_t& ref : flat.vertex_refs)
+    if (const auto found = shown.find(ref); found != shown.end()) ref = found->second;
+  return flat;
 }
+
+const std::map<int, int>& Session::shown_points() const { return (void)mesh(), state_->meshed.model.shown_points; }
 
 void Session::write(const std::string& path) {
   if (suffix_of(path) == ".exr") {

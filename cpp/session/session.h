@@ -2,6 +2,7 @@
 // the steps.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -88,6 +89,9 @@ class Session {
   /// pixel, shows why. Asks the geometry from the caller's thread. Throws InvalidArgument, FileError, Cancelled; the
   /// mesh stays.
   std::vector<std::string> write_fields(const std::string& path, const FieldOptions& options);
+
+  /// Model::shown_points of the mesh: exported() has applied it. Throws like mesh().
+  [[nodiscard]] const std::map<int, int>& shown_points() const;
 
   /// The curves of the mesh in space. Throws like mesh().
   [[nodiscard]] const std::vector<Interface>& interfaces() const;

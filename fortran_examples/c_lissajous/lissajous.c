@@ -8,8 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The figure does not say which curve: this one has as many triangles in its isotropic mesh, with hmin chosen so. */
-static const double two_pi = 6.283185307179586, side_length = 2.4, hmin = 0.0104, hmax = 0.12;
+#include "lissajous_field.h"
 
 /* ---- The domain: [-1.2, 1.2]^2 of the plane z = 0 ---- */
 
@@ -36,49 +35,6 @@ static int32_t side(int32_t face, int32_t ic, double t, int32_t order, double* C
   if (order >= 1) Ct[along] = sign, Ct[1 - along] = 0;
   if (order >= 2) Ctt[0] = Ctt[1] = 0;
   return 0;
-}
-
-/* ---- The curve x = sin 2t, y = sin 3t, and the fields around it ---- */
-
-static void point_at(double t, double* p, double* d, double* dd) {
-  p[0] = sin(2 * t), p[1] = sin(3 * t);
-  d[0] = 2 * cos(2 * t), d[1] = 3 * cos(3 * t);
-  dd[0] = -4 * p[0], dd[1] = -9 * p[1];
-}
-
-enum { places = 400 };
-static double place[places][2]; /* on the curve */
-
-/* Distance from the curve, and its direction at the nearest point: the best of 400 places, then Newton's steps. */
-static double distance(double x, double y, double* direction) {
-  double best = HUGE_VAL, t = 0, p[2], d[2], dd[2];
-  for (int i = 0; i < places; ++i) {
-    const double dx = place[i][0] - x, dy = place[i][1] - y;
-    if (dx * dx + dy * dy < best) best = dx * dx + dy * dy, t = i * two_pi / places;
-  }
-  for (int i = 0; i < 4; ++i) {
-    point_at(t, p, d, dd);
-    const double slope = (p[0] - x) * d[0] + (p[1] - y) * d[1];
-    const double bend = d[0] * d[0] + d[1] * d[1] + (p[0] - x) * dd[0] + (p[1] - y) * dd[1];
-    if (bend <= 0) break;
-    t -= fmax(-0.008, fmin(0.008, slope / bend));
-  }
-  point_at(t, p, d, dd);
-  const double length = hypot(d[0], d[1]);
-  direction[0] = d[0] / length, direction[1] = d[1] / length;
-  return fmin(sqrt(best), hypot(p[0] - x, p[1] - y));
-}
-
-static double bounded(double h) { return fmin(fmax(h, hmin), hmax); }
-
-struct field {
-  double elongation; /* size along the curve over that across it, before they are bounded */
-};
-
-static void sizes(const struct field* field, double x, double y, double* along, double* across, double* direction) {
-  const double d = distance(x, y, direction);
-  *across = bounded(0.3 * d);
-  *along = bounded(field->elongation * 0.3 * d);
 }
 
 static int32_t metric(int32_t face, double u, double v, int32_t* kind, double* value, void* user) {
@@ -177,8 +133,7 @@ int main(int argc, char** argv) {
                            .surface = plane,
                            .curve_interval = interval,
                            .curve = side};
-  for (int i = 0; i < places; ++i)
-    place[i][0] = sin(2 * i * two_pi / places), place[i][1] = sin(3 * i * two_pi / places);
+  find_places();
   carreau_session* session = NULL;
   if (carreau_session_create(&session) != CARREAU_OK) return 1;
   int32_t status = carreau_set_cad(session, &cad);

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "naca0012_field.h"
+
 static const double far_radius = 5, half_pi = 1.5707963267948966;
 
 /* ---- The domain: a disc around the profile, in the plane z = 0 ---- */
@@ -64,20 +66,6 @@ static carreau_status describe(carreau_session* session) {
   if (status == CARREAU_OK) status = carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, 5, 5, 6);
   if (status == CARREAU_OK) status = carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, 6, 6, 5);
   return status;
-}
-
-/* ---- The field ---- */
-
-static double step(double x) { return 0.5 * (1 + tanh(x)); }
-
-/* Behind `at` the flow is slow; the shock leans back, and ends at `height`. */
-static double shock(double x, double y, double at, double height) {
-  return step((at + 0.15 * y - x) / 0.02) * step((x - 0.05) / 0.15) * step((height - y) / 0.15);
-}
-
-static double f(double x, double y) {
-  const double above = step(y / 0.04), speed = 0.8 + 0.5 * above * shock(x, y, 0.62, 0.6);
-  return speed + 0.25 * (1 - above) * shock(x, -y, 0.35, 0.3) - 0.6 * exp(-(x * x + y * y) / 0.01);
 }
 
 static int32_t field(int64_t n, const double* xyz, double* values, void* user) {

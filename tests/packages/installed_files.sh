@@ -9,7 +9,7 @@ need() {
     [ -e "$path" ] || { echo "missing: $path"; fail=1; }
   done
 }
-need include/carreau.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
+need include/carreau.h include/carreau_geometry.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
   share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md
 if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
@@ -18,7 +18,7 @@ fi
 if [ "$command" = 1 ]; then
   need bin/carreau share/bash-completion/completions/carreau share/zsh/site-functions/_carreau \
     share/fish/vendor_completions.d/carreau.fish
-  for command in mesh info check picture fields params completion; do need share/man/man1/carreau-$command.1; done
+  for command in mesh info areas check picture fields params completion; do need share/man/man1/carreau-$command.1; done
   ./bin/carreau --version # finds its library in the tree
 fi
 # A manual page for each program.
@@ -26,9 +26,9 @@ for program in bin/*; do
   [ -e "$program" ] || continue
   need "share/man/man1/${program##*/}.1"
 done
-# The one C header, and no file that knows where it was built.
-headers=$(find include -type f)
-[ "$headers" = include/carreau.h ] || { echo "headers: $headers"; fail=1; }
+# The two C headers, and no file that knows where it was built.
+headers=$(find include -type f | sort | tr '\n' ' ')
+[ "$headers" = "include/carreau.h include/carreau_geometry.h " ] || { echo "headers: $headers"; fail=1; }
 if grep -rlI -e "$tree.first" .; then
   echo "these files hold the path of the first installation"
   fail=1

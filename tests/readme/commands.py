@@ -61,9 +61,15 @@ def prepare():
     # Of a face that has failed: that of a run that went well lacks it.
     with open(os.path.join(CLONE, "failed/face_7.mesh"), "w") as file:
         file.write("MeshVersionFormatted 2\nDimension 2\nVertices 3\n0 0 0\n1 0 0\n0 1 0\nEdges 3\n1 2 1\n2 3 2\n3 1 3\nEnd\n")
+    # The first step of an adaptation.
+    with open(os.path.join(CLONE, "step1.mesh"), "w") as file:
+        file.write("MeshVersionFormatted 2\nDimension 2\nVertices 4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\nTriangles 2\n1 2 3 1\n1 3 4 1\nEnd\n")
+    with open(os.path.join(CLONE, "step1.sol"), "w") as file:
+        file.write("MeshVersionFormatted 2\nDimension 2\nSolAtVertices 4\n1 1\n0.05\n0.1\n0.2\n0.1\nEnd\n")
     for name in ("cad_m.f90", "x.pardom"):
         shutil.copy(os.path.join(PARABOLOID, name), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/packages/blsurf/blsurf.env"), CLONE)
+    shutil.copy(os.path.join(SOURCE, "tests/data/molecule/1bna.pdb"), CLONE)
 
 
 def environment():
@@ -171,7 +177,7 @@ def main():
             link_by_cmake(block)
     run("./blsurf")
     assert min(done.values()) > 0 and done["sh"] >= 5, done
-    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "out/teapot/teapot.png"):
+    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "out/teapot/teapot.png"):
         assert os.path.getsize(os.path.join(CLONE, made)) > 0, made
     if refreshed_text != text:
         with open(README, "w", encoding="utf-8") as file:

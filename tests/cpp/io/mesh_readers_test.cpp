@@ -12,6 +12,8 @@ namespace {
 FlatMesh back(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options = {}) {
   const std::string bytes = mesh_bytes(mesh, format, options);
   switch (format) {
+    case MeshFormat::bl2d:
+      return read_mesh_bl2d(mesh_bytes(mesh, format, options), "x.bl2d");
     case MeshFormat::vtu:
       return read_mesh_vtu(bytes, "x.vtu");
     case MeshFormat::stl:

@@ -1,0 +1,263 @@
+!> Fortran 2003 face of cabi/include/carreau_geometry.h: molecules and plane domains. What each routine means and its errors are written
+!> there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
+!> are optional.
+module carreau_geometry
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
+  use carreau, only: carreau_session, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK
+  use carreau_geometry_c
+  implicit none
+  private
+
+  public :: carreau_plane_curves, carreau_add_plane_domain, carreau_load_plane_domain, carreau_plane_has_sizes
+
+  public :: carreau_molecule_options, carreau_molecule_measures, carreau_add_molecule, carreau_load_molecule
+  public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_name
+  public :: carreau_geometry_points, carreau_geometry_curve
+
+  integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
+  integer(c_int32_t), parameter, public :: CARREAU_REST_PARITY = 0, CARREAU_REST_INSIDE = 1, CARREAU_REST_OUTSIDE = 2
+
+  type :: carreau_molecule_options
+    integer(c_int32_t) :: surface = CARREAU_VWS, drop_cavities = 0
+    real(c_double) :: probe = 1.4_c_double
+  end type carreau_molecule_options
+
+  type :: carreau_molecule_measures
+    real(c_double) :: area, volume
+    integer(c_int64_t) :: atoms, exposed_atoms, shells, cavities, euler_number, moved_radii
+    real(c_double) :: convex_area, torus_area, concave_area
+  end type carreau_molecule_measures
+
+  !> Curve c passes points(starts(c) : starts(c + 1) - 1); the last entry of `starts` is size(points) + 1. Arrays that are
+  !! not allocated are not given: curves are segments without references, and ends of splines are free.
+  type :: carreau_plane_curves
+    integer(c_int32_t), allocatable :: starts(:), points(:)
+    integer(c_int32_t), allocatable :: smooth(:)      !< 1: a spline of Catmull and Rom
+    integer(c_int32_t), allocatable :: controls(:, :) !< (2, n): before the first and behind the last point
+    real(c_double), allocatable :: tangents(:, :)     !< (4, n): derivatives at both ends; NaN: not given
+    integer(c_int32_t), allocatable :: refs(:)
+  end type carreau_plane_curves
+
+contains
+
+  ! ---- Molecules ----
+
+  !> centers(3, n), radii(n)
+  subroutine carreau_add_molecule(session, options, centers, radii, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_molecule_options), intent(in) :: options
+    real(c_double), intent(in) :: centers(:, :), radii(:)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(centers, 1) /= 3 .or. size(centers, 2) /= size(radii)) return
+    status = c_add_molecule(session%handle, c_options(options), size(radii, kind=c_int64_t), &
+      reshape(centers, [size(centers)]), radii)
+  end subroutine carreau_add_molecule
+
+  subroutine carreau_load_molecule(session, options, path, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_molecule_options), intent(in) :: options
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_load_molecule(session%handle, c_options(options), trim(path)//c_null_char)
+  end subroutine carreau_load_molecule
+
+  subroutine carreau_molecule_measure(session, measures, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_molecule_measures), intent(out) :: measures
+    integer(c_int32_t), intent(out) :: status
+    type(c_molecule_measures) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_molecule_measure(session%handle, c)
+    if (status /= CARREAU_OK) return
+    measures = carreau_molecule_measures(c%area, c%volume, c%atoms, c%exposed_atoms, c%shells, c%cavities, &
+      c%euler_number, c%moved_radii, c%convex_area, c%torus_area, c%concave_area)
+  end subroutine carreau_molecule_measure
+
+  !> refs(n), areas(n)
+  subroutine carreau_molecule_atoms(session, refs, areas, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), allocatable, intent(out) :: refs(:)
+    real(c_double), allocatable, intent(out) :: areas(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_molecule_measures) :: measures
+    call carreau_molecule_measure(session, measures, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(measures%atoms), areas(measures%atoms))
+    status = c_molecule_atoms(session%handle, measures%atoms, refs, areas)
+  end subroutine carreau_molecule_atoms
+
+  !> atom: from 1; "" when it has none, or there is no such atom
+  function carreau_molecule_atom_name(session, atom) result(name)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(in) :: atom
+    character(len=:), allocatable :: name
+    name = carreau_string(c_molecule_atom_name(session%handle, atom - 1))
+  end function carreau_molecule_atom_name
+
+  function c_options(options) result(c)
+    type(carreau_molecule_options), intent(in) :: options
+    type(c_molecule_options) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%surface = options%surface
+    c%drop_cavities = options%drop_cavities
+    c%probe = options%probe
+  end function c_options
+
+  ! ---- Points of built-in geometries ----
+
+  !> uv(2, n), xyz(3, n)
+  subroutine carreau_geometry_points(session, face_ref, uv, xyz, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref
+    real(c_double), intent(in) :: uv(:, :)
+    real(c_double), allocatable, intent(out) :: xyz(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(uv, 1) /= 2) return
+    allocate (xyz(3, size(uv, 2)))
+    xyz = 0
+    status = c_geometry_points(session%handle, face_ref, size(uv, 2, kind=c_int64_t), reshape(uv, [size(uv)]), xyz)
+    if (status /= CARREAU_OK) deallocate (xyz)
+  end subroutine carreau_geometry_points
+
+  subroutine carreau_geometry_curve(session, face_ref, ic, share, uv, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, ic
+    real(c_double), intent(in) :: share
+    real(c_double), intent(inout) :: uv(2)
+    integer(c_int32_t), intent(out) :: status
+    status = c_geometry_curve(session%handle, face_ref, ic, share, uv)
+  end subroutine carreau_geometry_curve
+
+  ! ---- Plane domains ----
+
+  !> points(2, n); sides(3, k): curve, 1 (left) or -1 (right), reference; seeds(2, m) with seed_refs(m), -1 for holes;
+  !! metrics(3, n): xx xy yy
+  subroutine carreau_add_plane_domain(session, points, curves, status, rest, point_refs, imposed, sizes, metrics, sides, &
+                                      seeds, seed_refs)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: points(:, :)
+    type(carreau_plane_curves), intent(in) :: curves
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: rest, point_refs(:), imposed(:), sides(:, :), seed_refs(:)
+    real(c_double), intent(in), optional :: sizes(:), metrics(:, :), seeds(:, :)
+    real(c_double), allocatable, target :: xy(:), h(:), m(:), tangents(:), at(:)
+    integer(c_int32_t), allocatable, target :: passed(:), refs(:), fixed(:), smooth(:), controls(:), curve_refs(:), of_side(:), &
+      of_seed(:)
+    integer(c_int64_t), allocatable, target :: starts(:)
+    type(c_plane_domain) :: c
+    integer :: i, n
+    status = CARREAU_ERR_ARGUMENT
+    if (size(points, 1) /= 2 .or. .not. (allocated(curves%starts) .and. allocated(curves%points))) return
+    n = size(curves%starts) - 1
+    if (n < 1) return
+    if (curves%starts(1) /= 1 .or. curves%starts(n + 1) /= size(curves%points) + 1) return
+    if (any(curves%starts(2:) < curves%starts(:n)) .or. .not. fit_curves(curves, n)) return
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%point_count = size(points, 2)
+    c%curve_count = n
+    if (present(rest)) c%rest = rest
+    call copy_reals(reshape(points, [size(points)]), xy, c%points)
+    allocate (starts(n + 1))
+    starts = curves%starts - 1
+    c%curve_starts = c_loc(starts(1))
+    call copy_integers(curves%points - 1, passed, c%curve_points)
+    if (allocated(curves%smooth)) call copy_integers(curves%smooth, smooth, c%smooth)
+    if (allocated(curves%controls)) call copy_integers(reshape(curves%controls, [2*n]) - 1, controls, c%controls)
+    if (allocated(curves%tangents)) call copy_reals(reshape(curves%tangents, [4*n]), tangents, c%tangents)
+    if (allocated(curves%refs)) call copy_integers(curves%refs, curve_refs, c%curve_refs)
+    if (present(point_refs)) then
+      if (size(point_refs) /= size(points, 2)) return
+      call copy_integers(point_refs, refs, c%point_refs)
+    end if
+    if (present(imposed)) then
+      if (size(imposed) /= size(points, 2)) return
+      call copy_integers(imposed, fixed, c%imposed)
+    end if
+    if (present(sizes)) then
+      if (size(sizes) /= size(points, 2)) return
+      call copy_reals(sizes, h, c%sizes)
+    end if
+    if (present(metrics)) then
+      if (size(metrics, 1) /= 3 .or. size(metrics, 2) /= size(points, 2)) return
+      call copy_reals(reshape(metrics, [size(metrics)]), m, c%metrics)
+    end if
+    if (present(sides)) then
+      if (size(sides, 1) /= 3) return
+      c%side_count = size(sides, 2)
+      call copy_integers(reshape(sides, [size(sides)]), of_side, c%sides)
+      do i = 1, size(of_side) - 1, 3
+        of_side(i) = of_side(i) - 1
+      end do
+    end if
+    if (present(seeds) .neqv. present(seed_refs)) return
+    if (present(seeds)) then
+      if (size(seeds, 1) /= 2 .or. size(seeds, 2) /= size(seed_refs)) return
+      c%seed_count = size(seeds, 2)
+      call copy_reals(reshape(seeds, [size(seeds)]), at, c%seeds)
+      call copy_integers(seed_refs, of_seed, c%seed_refs)
+    end if
+    status = c_add_plane_domain(session%handle, c)
+  end subroutine carreau_add_plane_domain
+
+  !> corner_angle: degrees; left out, polygons stay polygons
+  subroutine carreau_load_plane_domain(session, path, status, sizes, corner_angle)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    character(len=*), intent(in), optional :: sizes
+    real(c_double), intent(in), optional :: corner_angle
+    real(c_double) :: angle
+    angle = 0
+    if (present(corner_angle)) angle = corner_angle
+    if (present(sizes)) then
+      status = c_load_plane_domain(session%handle, trim(path)//c_null_char, trim(sizes)//c_null_char, angle)
+    else
+      status = c_load_plane_domain(session%handle, trim(path)//c_null_char, c_null_char, angle)
+    end if
+  end subroutine carreau_load_plane_domain
+
+  subroutine carreau_plane_has_sizes(session, answer, status)
+    type(carreau_session), intent(in) :: session
+    logical, intent(out) :: answer
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: c
+    c = 0
+    status = c_plane_has_sizes(session%handle, c)
+    answer = c /= 0
+  end subroutine carreau_plane_has_sizes
+
+  !> Whether the optional arrays of n curves have their sizes.
+  function fit_curves(curves, n) result(fit)
+    type(carreau_plane_curves), intent(in) :: curves
+    integer, intent(in) :: n
+    logical :: fit
+    fit = .true.
+    if (allocated(curves%smooth)) fit = fit .and. size(curves%smooth) == n
+    if (allocated(curves%controls)) fit = fit .and. all(shape(curves%controls) == [2, n])
+    if (allocated(curves%tangents)) fit = fit .and. all(shape(curves%tangents) == [4, n])
+    if (allocated(curves%refs)) fit = fit .and. size(curves%refs) == n
+  end function fit_curves
+
+  !> A copy with an address, also when it is empty.
+  subroutine copy_integers(values, copy, address)
+    integer(c_int32_t), intent(in) :: values(:)
+    integer(c_int32_t), allocatable, target, intent(inout) :: copy(:)
+    type(c_ptr), intent(inout) :: address
+    allocate (copy(size(values) + 1))
+    copy(:size(values)) = values
+    copy(size(values) + 1) = 0
+    address = c_loc(copy(1))
+  end subroutine copy_integers
+
+  subroutine copy_reals(values, copy, address)
+    real(c_double), intent(in) :: values(:)
+    real(c_double), allocatable, target, intent(inout) :: copy(:)
+    type(c_ptr), intent(inout) :: address
+    allocate (copy(size(values) + 1))
+    copy(:size(values)) = values
+    copy(size(values) + 1) = 0
+    address = c_loc(copy(1))
+  end subroutine copy_reals
+end module carreau_geometry

@@ -1,0 +1,139 @@
+!> The functions and structs of carreau_geometry.h as Fortran sees them. Private to module carreau_geometry.
+!! Written by generate.py from carreau_geometry.h: do not edit. After a change of the header:
+!!   python3 cabi/fortran/generate.py cabi/include/carreau_geometry.h cabi/fortran/carreau_geometry_c.f90
+module carreau_geometry_c
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, &
+    c_ptr, c_size_t
+  implicit none
+  public
+
+  type, bind(c) :: c_molecule_options
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: surface = 0, drop_cavities = 0
+    real(c_double) :: probe = 0
+  end type c_molecule_options
+
+  !> Of the surface, exactly: no mesh is needed.
+  type, bind(c) :: c_molecule_measures
+    integer(c_size_t) :: struct_size = 0
+    real(c_double) :: area = 0, volume = 0
+    integer(c_int64_t) :: atoms = 0, exposed_atoms = 0, shells = 0, cavities = 0, euler_number = 0, moved_radii = 0
+    real(c_double) :: convex_area = 0, torus_area = 0, concave_area = 0
+  end type c_molecule_measures
+
+  !> A domain of the plane.
+  type, bind(c) :: c_plane_domain
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: rest = 0, reserved = 0
+    integer(c_int64_t) :: point_count = 0, curve_count = 0, side_count = 0, seed_count = 0
+    type(c_ptr) :: points = c_null_ptr, point_refs = c_null_ptr, imposed = c_null_ptr, sizes = c_null_ptr, &
+      metrics = c_null_ptr, curve_starts = c_null_ptr, curve_points = c_null_ptr, smooth = c_null_ptr, &
+      controls = c_null_ptr, tangents = c_null_ptr, curve_refs = c_null_ptr, sides = c_null_ptr, seeds = c_null_ptr, &
+      seed_refs = c_null_ptr
+  end type c_plane_domain
+
+  interface
+    !> Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear.
+    function c_add_molecule(session, options, n, centers, radii) result(status) bind(c, name="carreau_add_molecule")
+      import :: c_double, c_int32_t, c_int64_t, c_molecule_options, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_molecule_options), intent(in) :: options
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: centers(*), radii(*)
+      integer(c_int32_t) :: status
+    end function c_add_molecule
+
+    !> The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif.
+    function c_load_molecule(session, options, path) result(status) bind(c, name="carreau_load_molecule")
+      import :: c_char, c_int32_t, c_molecule_options, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_molecule_options), intent(in) :: options
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_load_molecule
+
+    !> Measures the molecule that the session was given last.
+    function c_molecule_measure(session, measures) result(status) bind(c, name="carreau_molecule_measure")
+      import :: c_int32_t, c_molecule_measures, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_molecule_measures), intent(inout) :: measures
+      integer(c_int32_t) :: status
+    end function c_molecule_measure
+
+    !> Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+    function c_molecule_atoms(session, capacity, refs, areas) result(status) bind(c, name="carreau_molecule_atoms")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*)
+      real(c_double), intent(inout) :: areas(*)
+      integer(c_int32_t) :: status
+    end function c_molecule_atoms
+
+    !> Tells the residue of an atom, from 0; "" when it has none.
+    function c_molecule_atom_name(session, atom) result(name) bind(c, name="carreau_molecule_atom_name")
+      import :: c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: atom
+      type(c_ptr) :: name
+    end function c_molecule_atom_name
+
+    !> Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear.
+    function c_add_plane_domain(session, domain) result(status) bind(c, name="carreau_add_plane_domain")
+      import :: c_int32_t, c_plane_domain, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_plane_domain), intent(in) :: domain
+      integer(c_int32_t) :: status
+    end function c_add_plane_domain
+
+    !> The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles
+    !! are the curves, .data or .g (BL2D; with the sizes of a .hg beside it).
+    function c_load_plane_domain(session, path, sizes, corner_angle) result(status) &
+        bind(c, name="carreau_load_plane_domain")
+      import :: c_char, c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*), sizes(*)
+      real(c_double), value :: corner_angle
+      integer(c_int32_t) :: status
+    end function c_load_plane_domain
+
+    !> Tells whether the plane domain that the session was given last has sizes or metrics at its points.
+    function c_plane_has_sizes(session, answer) result(status) bind(c, name="carreau_plane_has_sizes")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), intent(inout) :: answer
+      integer(c_int32_t) :: status
+    end function c_plane_has_sizes
+
+    !> Evaluates a face at n places (u, v).
+    function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: uv(*)
+      real(c_double), intent(inout) :: xyz(*)
+      integer(c_int32_t) :: status
+    end function c_geometry_points
+
+    !> Evaluates curve `ic` of a face at a share of its interval, from 0 to 1: (u, v).
+    function c_geometry_curve(session, face_ref, ic, share, uv) result(status) bind(c, name="carreau_geometry_curve")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, ic
+      real(c_double), value :: share
+      real(c_double), intent(inout) :: uv(*)
+      integer(c_int32_t) :: status
+    end function c_geometry_curve
+  end interface
+end module carreau_geometry_c

@@ -1,0 +1,157 @@
+/* carreau_geometry.h: geometries that the library evaluates itself, without callbacks. C99, and C++ as well.
+ *
+ *   carreau_session_create(&session);
+ *   carreau_molecule_options options = {sizeof options, CARREAU_SAS, 0, 1.4};
+ *   carreau_load_molecule(session, &options, "1bna.pdb");       // instead of carreau_set_cad and carreau_model_...
+ *   carreau_mesh_generate(session);
+ *
+ * The rules of carreau.h hold for every function.
+ */
+#ifndef CARREAU_GEOMETRY_H
+#define CARREAU_GEOMETRY_H
+
+#include "carreau.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Molecules ---- */
+
+/* Which surface of a molecule (HDR sec. 4.6.2). */
+enum {
+  CARREAU_VWS = 1, /* van der Waals: the boundary of the union of the atoms' balls */
+  CARREAU_SAS = 2, /* solvent accessible: the same with the radius of a probe added to all radii */
+  CARREAU_SES = 3  /* solvent excluded: the boundary of what no probe outside the balls reaches */
+};
+
+typedef struct carreau_molecule_options {
+  size_t struct_size;
+  int32_t surface;       /* CARREAU_VWS, CARREAU_SAS or CARREAU_SES */
+  int32_t drop_cavities; /* 1: inner shells are left out of the model; areas and volumes have them */
+  double probe;          /* radius of the probe; CARREAU_VWS does not use it */
+} carreau_molecule_options;
+
+/* Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear. A
+ * face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
+ * the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
+ * faces of their own, with references behind those of all balls. Of balls that are equal, concentric or one inside the
+ * other, those inside have no face; spheres that only touch do not meet. Where rounding hides how spheres meet (four of
+ * them in one point), radii are moved by some 1e-9 of themselves, and a message tells it. Errors: ARGUMENT (a radius
+ * that is not positive, n below 1, the session has faces). */
+CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
+                                                int64_t n, const double centers[], const double radii[]);
+
+/* The same for the atoms of a file .xyzr (x, y, z, radius), .xyz, .pdb, .ent, .cif or .mmcif. Radii are those of Bondi;
+ * waters and all but the first of alternate locations are left out, and messages tell it. References of faces are the
+ * serial numbers of .pdb and .cif where these are positive and different, and names of faces are residues.
+ * Errors: those above, FILE. */
+CARREAU_API carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
+                                                 const char* path);
+
+/* Of the surface, exactly: no mesh is needed. */
+typedef struct carreau_molecule_measures {
+  size_t struct_size;
+  double area;
+  double volume; /* inside the surface, without cavities */
+  int64_t atoms;
+  int64_t exposed_atoms; /* with an area */
+  int64_t shells;        /* connected parts of the surface; of CARREAU_SES those of CARREAU_SAS */
+  int64_t cavities;      /* those of them that bound a hole */
+  int64_t euler_number;  /* of the surface: of a closed mesh, vertices - triangles / 2 */
+  int64_t moved_radii;   /* see carreau_add_molecule */
+  double convex_area;    /* of parts of balls; of CARREAU_VWS and CARREAU_SAS, the area */
+  double torus_area;     /* of what a probe sweeps that touches two balls; CARREAU_SES */
+  double concave_area;   /* of parts of probes that touch three balls; CARREAU_SES */
+} carreau_molecule_measures;
+
+/* Measures the molecule that the session was given last. Errors: SEQUENCE (none was). */
+CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecule_measures* out_measures);
+
+/* Tells reference and area of each atom of that molecule (of CARREAU_SES the convex parts); an array may be NULL.
+ * Errors: SEQUENCE, ARGUMENT (capacity).
+ */
+CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
+                                                  double out_areas[]);
+
+/* Tells the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
+ * no such atom. */
+CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom);
+
+/* ---- Plane domains ---- */
+
+/* What is the domain where neither a side nor a seed says so. */
+enum {
+  CARREAU_REST_PARITY =
+      0, /* what curves enclose; inside of it a loop that nothing joins to it bounds a hole, and so on */
+  CARREAU_REST_INSIDE = 1, /* all that curves enclose, but for holes */
+  CARREAU_REST_OUTSIDE = 2 /* nothing else */
+};
+
+/* A domain of the plane. Indices of points and curves count from 0. An array may be NULL where this says so. References
+ * are the caller's: 0 is none, and several entities may have the same. */
+typedef struct carreau_plane_domain {
+  size_t struct_size;
+  int32_t rest;     /* CARREAU_REST_... */
+  int32_t reserved; /* 0 */
+  int64_t point_count, curve_count, side_count, seed_count;
+  const double* points;      /* point_count x 2 */
+  const int32_t* point_refs; /* point_count; NULL: none */
+  const int32_t* imposed;    /* point_count: 1 makes a point a vertex wherever it lies; NULL: ends of curves only */
+  const double* sizes;       /* point_count, wanted at points and along curves between them; 0: none; NULL: none */
+  const double* metrics;     /* point_count x 3 (xx xy yy), in place of sizes; 0 0 0: none; NULL: none */
+  const int64_t*
+      curve_starts; /* curve_count + 1: curve c passes curve_points[curve_starts[c] .. curve_starts[c + 1] - 1] */
+  const int32_t* curve_points; /* a curve whose last point is its first one is closed */
+  const int32_t* smooth;     /* curve_count. 1: a spline of Catmull and Rom; 0: segments, whose points are all vertices.
+                                NULL: segments */
+  const int32_t* controls;   /* curve_count x 2, of splines: control points before the first and behind the last point;
+                                -1: the end is free. NULL: all are */
+  const double* tangents;    /* curve_count x 4, of splines: derivatives at both ends, in place of controls, for pieces
+                                of parameter length 1; NaN: not given; NULL: none */
+  const int32_t* curve_refs; /* curve_count; NULL: none */
+  const int32_t* sides;      /* side_count x 3: a curve, +1 for its left or -1 for its right side, and the reference of
+                                the subdomain there */
+  const double* seeds;       /* seed_count x 2: a place inside a subdomain or a hole */
+  const int32_t* seed_refs;  /* seed_count: the reference of the subdomain, or -1 for a hole */
+} carreau_plane_domain;
+
+/* Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear. Its faces
+ * are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
+ * 0, or stands for several entities, the model has a number behind the largest in its place; results show the caller's.
+ * Sizes at points hold along curves; inside, hphydef counts (hphy_flag 1) or what the curves around have (hphy_flag 2).
+ * Messages tell pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves that cross, touch or make a loop;
+ * points at one place or beside the domain; an open boundary; a side on which the domain would be unbounded; two
+ * references for one subdomain; nothing enclosed). */
+CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, const carreau_plane_domain* domain);
+
+/* The same from a file: .poly (Triangle), .mesh, .meshb or .bl2d of dimension 2, whose edges and ends of triangles are
+ * the curves, .data or .g (BL2D; with the sizes of a .hg beside it). With a corner_angle above 0 (degrees), polygons
+ * become splines that end where they turn by more, where other curves end, and where references change. With 0 they
+ * stay polygons; edges of a mesh with triangles that are parts of one straight side, of one reference and between
+ * vertices without one, are one curve. `sizes` names a .sol, .solb, .hg or .h with a size or metric for each vertex of
+ * the file; NULL or "": none. When the file has triangles they are a background mesh: see carreau_set_background_mesh.
+ * One that is set later replaces the sizes at points; all subdomains lie in its one plane. Errors: those above, FILE
+ * (with the line).
+ */
+CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
+                                                     double corner_angle);
+
+/* Tells whether the plane domain that the session was given last has sizes or metrics at its points. */
+CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
+
+/* ---- Points of built-in geometries ---- */
+
+/* Evaluates a face at n places (u, v). Errors: SEQUENCE (the geometry of the session is not built in), ARGUMENT. */
+CARREAU_API carreau_status carreau_geometry_points(carreau_session* session, int32_t face_ref, int64_t n,
+                                                   const double uv[], double out_xyz[]);
+
+/* Evaluates curve `ic` of a face at a share of its interval, from 0 to 1: (u, v). Errors: as above. */
+CARREAU_API carreau_status carreau_geometry_curve(carreau_session* session, int32_t face_ref, int32_t ic, double share,
+                                                  double out_uv[2]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,33 @@
+// bl2d.env: which domain, which step of its adaptation.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bl2d {
+
+/// What stops the program, as a sentence.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Setting {
+  std::string name, value;
+  int line = 0;
+};
+
+struct Env {
+  std::string path, folder;  ///< folder: of the file, with a slash at its end, or ""
+  std::string base;
+  int geometry = 0;
+  std::vector<int> steps;         ///< values of `adapt`, in their order; 0 when there is none
+  bool writes_sizes = false;      ///< file_h 1
+  std::vector<Setting> settings;  ///< other names: parameters of the library
+};
+
+/// Pairs of a name and a value, one a line; `--` starts a comment. Throws Failure with file and line.
+Env read_env(const std::string& path);
+
+}  // namespace bl2d

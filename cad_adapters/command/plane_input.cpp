@@ -1,0 +1,88 @@
+// Plane domains, which the library evaluates itself.
+#include "plane_input.h"
+
+#include <carreau_geometry.h>
+
+#include <array>
+#include <mutex>
+
+#include "failure.h"
+#include "model_input.h"
+#include "session_handle.h"
+
+namespace command {
+namespace {
+
+carreau_status load(carreau_session* session, const std::string& path, const PlaneChoice& choice) {
+  return carreau_load_plane_domain(session, path.c_str(), choice.sizes.empty() ? nullptr : choice.sizes.c_str(),
+                                   choice.corner_angle);
+}
+
+/// The faces that a session has.
+FaceModel model_of(carreau_session* session) {
+  std::int64_t faces = 0, curves = 0;
+  require(session, carreau_model_count(session, &faces, &curves, nullptr));
+  const auto n = static_cast<std::size_t>(faces), m = static_cast<std::size_t>(curves);
+  std::vector<std::int32_t> refs(n), orientations(n), owners(m), types(m), curve_refs(m), ends(2 * m);
+  require(session, carreau_model_faces(session, faces, refs.data(), orientations.data()));
+  require(session, carreau_model_curves(session, curves, owners.data(), types.data(), curve_refs.data(), ends.data()));
+  FaceModel model;
+  for (std::size_t f = 0, c = 0; f < n; ++f) {
+    FaceModel::Face face{.ref = refs[f], .orientation = orientations[f], .curves = {}, .points = {}};
+    for (; c < m && owners[c] == refs[f]; ++c)
+      face.curves.push_back({types[c], curve_refs[c], ends[2 * c], ends[2 * c + 1]});
+    model.faces.push_back(std::move(face));
+  }
+  return model;
+}
+
+/// A domain in a session of its own, which answers where points are.
+class PlaneInput final : public ModelInput {
+ public:
+  PlaneInput(SessionHandle session, const std::string& path, const PlaneChoice& choice)
+      : ModelInput(model_of(session.get())), session_(std::move(session)), path_(path), choice_(choice) {
+    measure(path);
+  }
+
+  [[nodiscard]] bool locate(std::int32_t, double u, double v, Place& place) const noexcept override {
+    place = {u, v, 0, u, v};
+    return true;
+  }
+
+  [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
+                              double& v) const noexcept override {
+    std::array<double, 2> uv{};
+    const std::lock_guard lock(mutex_);
+    if (carreau_geometry_curve(session_.get(), face, ic, share, uv.data()) != CARREAU_OK) return false;
+    u = uv[0], v = uv[1];
+    return true;
+  }
+
+  carreau_status give_to(carreau_session* session) override { return load(session, path_, choice_); }
+
+  [[nodiscard]] bool has_sizes() const override {
+    std::int32_t answer = 0;
+    const std::lock_guard lock(mutex_);
+    return carreau_plane_has_sizes(session_.get(), &answer) == CARREAU_OK && answer != 0;
+  }
+
+ private:
+  [[nodiscard]] std::string kind(std::int32_t) const override { return "plane"; }
+  carreau_status give_geometry(carreau_session* session) override { return give_to(session); }
+
+  SessionHandle session_;
+  mutable std::mutex mutex_;  // a session is used by one thread at a time
+  std::string path_;
+  PlaneChoice choice_;
+};
+
+}  // namespace
+
+std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice) {
+  SessionHandle session = make_session();
+  require(session.get(), carreau_set_integer(session.get(), "verb", 0));  // warnings come when the mesh is made
+  require(session.get(), load(session.get(), path, choice));
+  return std::make_unique<PlaneInput>(std::move(session), path, choice);
+}
+
+}  // namespace command

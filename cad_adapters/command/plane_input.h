@@ -1,0 +1,21 @@
+// Plane domains as geometry.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace command {
+
+class CadInput;
+
+/// How the file of a plane domain is read.
+struct PlaneChoice {
+  bool is_plane = false;    ///< the input is a plane domain
+  std::string sizes;        ///< file of sizes or metrics at its vertices; empty: none
+  double corner_angle = 0;  ///< degrees; polygons are smoothed between corners; 0: they are not
+};
+
+/// Throws Failure.
+std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice);
+
+}  // namespace command

@@ -1,0 +1,33 @@
+// The curves of a plane domain, cut where others end, and polylines that stand for them.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "geometry/plane/cubic_piece.h"
+#include "geometry/plane/plane_domain.h"
+
+namespace carreau {
+
+/// A part of a curve between two points at which a mesh has vertices.
+struct PlaneArc {
+  int curve = 0;                   ///< index in PlaneDomainInput::curves
+  int first = 0;                   ///< index of its first piece among those of the curve
+  std::vector<CubicPiece> pieces;  ///< one or more; parameter t runs from 0 to their number
+  int from = 0, to = 0;            ///< indices of points
+  std::vector<Vec2> polyline;      ///< on the curve, from end to end
+  std::vector<double> parameter;   ///< of the vertices of the polyline
+
+  [[nodiscard]] Vec2 at(double t) const noexcept;
+};
+
+/// Cuts every curve at points where another one ends or passes, and at imposed ones. Polylines follow RR-2818 sec. 3.7
+/// with tolerance `eps`. Throws InvalidModel with file and line, curve and point: points that coincide or are not
+/// finite, curves with fewer than two points, pieces without length, loops and cusps. `warnings` gets a sentence for
+/// each piece that turns back (RR-2818 fig. 8 d, e).
+std::vector<PlaneArc> cut_into_arcs(const PlaneDomainInput& input, double eps, std::vector<std::string>& warnings);
+
+/// Makes the polylines again with another tolerance.
+void refine_polylines(const PlaneDomainInput& input, std::vector<PlaneArc>& arcs, double eps);
+
+}  // namespace carreau

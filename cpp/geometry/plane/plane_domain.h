@@ -1,0 +1,74 @@
+// A domain of the plane as arrays or a file give it: points, curves through them, and on which side it lies.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "metric/metric2.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// References are the user's own: any number, 0 for none, equal ones for several entities. Lines count from 1, 0: from
+/// memory. Names are for sentences; empty: the entity is called by its number from 1.
+struct PlanePoint {
+  Vec2 xy;
+  int ref = 0;
+  bool imposed = false;                ///< a vertex of the mesh, also when no curve ends here
+  bool may_drop = false;               ///< an imposed point outside of the domain is no error
+  std::optional<double> size = {};     ///< wanted here, > 0
+  std::optional<Metric2> metric = {};  ///< wanted here, positive definite; in place of a size
+  int line = 0;
+  std::string name = {};
+};
+
+struct PlaneCurve {
+  std::vector<int> points;      ///< indices from 0 of what it passes, two or more; first == last: closed
+  bool smooth = false;          ///< a spline; otherwise segments, and each of its points is a vertex
+  int before = -1, after = -1;  ///< smooth: control points beyond its ends; -1: free
+  std::optional<Vec2> tangent_start = {}, tangent_end = {};  ///< smooth: in place of `before` and `after`
+  int ref = 0;
+  int line = 0;
+  std::string name = {};
+};
+
+/// A subdomain: what is on one side of a curve, as far as other curves.
+struct PlaneSide {
+  int curve = 0;     ///< index from 0
+  bool left = true;  ///< of the curve as it runs
+  int ref = 0;
+  int line = 0;
+};
+
+/// A subdomain, or a hole: what is around a point, as far as the curves.
+struct PlaneSeed {
+  Vec2 at;
+  bool hole = false;
+  int ref = 0;
+  int line = 0;
+};
+
+/// What is the domain where neither a side nor a seed says so.
+enum class PlaneRest {
+  outside,  ///< nothing else: sides tell all
+  inside,   ///< all that curves enclose but holes (Triangle's rule)
+  parity,   ///< what curves enclose; a loop inside of it that nothing joins to it bounds a hole, and so on (HDR
+            ///< fig. 3.1)
+};
+
+struct PlaneDomainInput {
+  std::vector<PlanePoint> points;
+  std::vector<PlaneCurve> curves;
+  std::vector<PlaneSide> sides;
+  std::vector<PlaneSeed> seeds;
+  PlaneRest rest = PlaneRest::parity;
+  std::string source;    ///< name of the file; empty: from memory
+  bool is_mesh = false;  ///< a mesh whose triangles cover the domain: sizes at its points hold inside, too
+};
+
+/// "point 3" or "point 'A'".
+std::string name_of_point(const PlaneDomainInput& input, int point);
+std::string name_of_curve(const PlaneDomainInput& input, int curve);
+
+}  // namespace carreau

@@ -1,0 +1,20 @@
+// Which faces of a plane graph are subdomains.
+#pragma once
+
+#include <vector>
+
+#include "geometry/plane/plane_graph.h"
+
+namespace carreau {
+
+struct Subdomain {
+  int face = 0;  ///< of the graph
+  int ref = 0;   ///< the user's; 0: none
+};
+
+/// In the order of their references' first appearance, those of equal references (but 0) one after another. Throws
+/// InvalidModel as build_plane_geometry() says.
+std::vector<Subdomain> find_subdomains(const PlaneDomainInput& input, std::span<const PlaneArc> arcs,
+                                       const PlaneGraph& graph);
+
+}  // namespace carreau

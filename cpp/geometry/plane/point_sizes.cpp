@@ -1,0 +1,90 @@
+#include "geometry/plane/point_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carreau {
+
+namespace {
+
+/// Of each piece. The speed of a piece may vary from end to end, also where it is straight: lengths are then right
+/// within a thousandth of that of the piece.
+constexpr int steps = 32;
+
+/// From the start of an arc, at t = 0, 1 / steps, ...
+std::vector<double> lengths_of(const PlaneArc& arc) {
+  std::vector<double> lengths{0};
+  Vec2 before = arc.polyline.front();
+  for (const CubicPiece& piece : arc.pieces)
+    for (int i = 1; i <= steps; ++i) {
+      const Vec2 here = piece.at(static_cast<double>(i) / steps);
+      lengths.push_back(lengths.back() + norm(Vec2(here - before)));
+      before = here;
+    }
+  return lengths;
+}
+
+}  // namespace
+
+PointSizes::PointSizes(const PlaneDomainInput& input, std::shared_ptr<const PlaneCad> cad, std::map<int, int> points)
+    : cad_(std::move(cad)), points_(std::move(points)) {
+  for (const PlanePoint& point : input.points) {
+    std::optional<Value>& value = value_.emplace_back();
+    if (point.metric)
+      value = Value{*point.metric, false};
+    else if (point.size)
+      value = Value{{1 / (*point.size * *point.size), 0, 1 / (*point.size * *point.size)}, true};
+  }
+  const std::vector<PlaneArc>& arcs = cad_->arcs();
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    lengths_.push_back(lengths_of(arcs[a]));
+    Known& known = known_.emplace_back();
+    const std::vector<int>& passed = input.curves[arcs[a].curve].points;
+    for (std::size_t i = 0; i <= arcs[a].pieces.size(); ++i) {
+      const std::optional<Value>& value = value_[passed[static_cast<std::size_t>(arcs[a].first) + i]];
+      if (!value) continue;
+      known.length.push_back(length_at(static_cast<int>(a), static_cast<double>(i)));
+      known.value.push_back(*value);
+    }
+  }
+}
+
+double PointSizes::length_at(int arc, double t) const {
+  const std::vector<double>& lengths = lengths_[arc];
+  const auto last = static_cast<double>(lengths.size() - 1);
+  const double at = std::clamp(t * steps, 0.0, last), k = std::min(std::floor(at), last - 1);
+  return std::lerp(lengths[static_cast<std::size_t>(k)], lengths[static_cast<std::size_t>(k) + 1], at - k);
+}
+
+Prescription PointSizes::answer(const Value& value) {
+  return value.is_size ? Prescription::of_size(1 / std::sqrt(value.metric.a))
+                       : Prescription::of_parameter(value.metric);
+}
+
+Prescription PointSizes::on_surface(int /*face*/, Vec2 /*uv*/, Vec3 /*xyz*/) { return {}; }
+
+Prescription PointSizes::on_curve(int face, int ic, double t, Vec2 /*uv*/, Vec3 /*xyz*/) {
+  const int index = cad_->arc_of(face, ic);
+  const Known& known = known_[index];
+  if (known.value.empty()) return {};
+  const double length = length_at(index, t);
+  const auto above = std::upper_bound(known.length.begin(), known.length.end(), length);
+  if (above == known.length.begin()) return answer(known.value.front());
+  if (above == known.length.end()) return answer(known.value.back());
+  const auto k = static_cast<std::size_t>(above - known.length.begin());
+  const Value &p = known.value[k - 1], &q = known.value[k];
+  const double share = (length - known.length[k - 1]) / (known.length[k] - known.length[k - 1]);
+  return answer({interpolate(p.metric, q.metric, share, law_), p.is_size && q.is_size});
+}
+
+Prescription PointSizes::at_point(int point, Vec3 /*xyz*/) {
+  const auto found = points_.find(point);
+  if (found == points_.end() || !value_[found->second]) return {};
+  const Value& value = *value_[found->second];
+  if (value.is_size) return answer(value);
+  // At a point there is no parameter plane to speak of: the plane z = 0 of space.
+  const Metric2& m = value.metric;
+  return Prescription::of_space({m.a, m.b, 0, m.c, 0, (m.a + m.c) / 2});
+}
+
+}  // namespace carreau

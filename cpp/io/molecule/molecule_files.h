@@ -1,0 +1,33 @@
+// Readers of molecules: .xyzr, .xyz, .pdb and .cif.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/molecule/molecule.h"
+
+namespace carreau {
+
+/// What a file gave, and sentences on what was left out of it.
+struct MoleculeFile {
+  molecule::Molecule molecule;
+  std::vector<std::string> remarks;
+};
+
+/// Format by suffix. Throws FileError, with file and line: no such file or format, a word that is no number, an element
+/// without a radius, no atom.
+MoleculeFile read_molecule(const std::string& path);
+
+// The same of texts; `name` is for messages.
+/// Lines "x y z radius"; what follows on a line is not read, nor is what follows '#'.
+MoleculeFile read_xyzr(std::string_view text, const std::string& name);
+/// The first frame: a number of atoms, a title, lines "element x y z".
+MoleculeFile read_xyz(std::string_view text, const std::string& name);
+/// ATOM and HETATM of the first model, in columns. Waters are left out; of alternate locations the first of a residue
+/// is kept. Numbers are the serial ones when these are positive and different.
+MoleculeFile read_pdb(std::string_view text, const std::string& name);
+/// The loop of _atom_site, by the same rules.
+MoleculeFile read_mmcif(std::string_view text, const std::string& name);
+
+}  // namespace carreau

@@ -1,0 +1,6 @@
+// BL2D's .g.
+#include "plane_fuzz_check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return carreau::fuzz_plane(data, size, carreau::read_bl2d_g_text);
+}

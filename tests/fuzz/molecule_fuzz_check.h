@@ -1,0 +1,34 @@
+// What holds for every molecule that was read.
+#pragma once
+
+#include <cstdint>
+#include <unordered_set>
+
+#include "fuzz_check.h"
+#include "io/molecule/molecule_files.h"
+#include "support/error.h"
+
+namespace carreau {
+
+/// Any bytes are atoms with finite centres, positive radii and different numbers, or a FileError that names the file and
+/// a line.
+template <typename Read>
+int fuzz_molecule(const std::uint8_t* data, std::size_t size, Read&& read) {
+  MoleculeFile file;
+  try {
+    file = read(std::string_view(reinterpret_cast<const char*>(data), size), "x");
+  } catch (const FileError& error) {
+    FUZZ_CHECK(error.where().file == "x" && error.where().line > 0);
+    return 0;
+  }
+  const molecule::Molecule& m = file.molecule;
+  FUZZ_CHECK(!m.balls.empty());
+  for (const molecule::Ball& ball : m.balls) FUZZ_CHECK(is_finite(ball.centre) && ball.radius > 0);
+  for (const std::size_t n : {m.numbers.size(), m.names.size(), m.elements.size()})
+    FUZZ_CHECK(n == 0 || n == m.balls.size());
+  std::unordered_set<int> seen;
+  for (const int number : m.numbers) FUZZ_CHECK(number > 0 && seen.insert(number).second);
+  return 0;
+}
+
+}  // namespace carreau

@@ -1,0 +1,6 @@
+// Triangle's .poly.
+#include "plane_fuzz_check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return carreau::fuzz_plane(data, size, carreau::read_poly_text);
+}
