@@ -98,8 +98,8 @@ inline constexpr double last_distance = 0.6;
 /// Units. Of points on long edges of bent triangles, which join what is far apart: crowded ones are removed in the
 /// end, but edges that cannot be swapped would stay. [0.2 and 0.3: worst of swirl at 51 : 1 0.36 to 0.34 and 0.33]
 inline constexpr double bent_edge_distance = 0.25;
-/// Triangles on the way to a circumcentre. In a metric that is stretched a thousand times those of flat triangles lie at
-/// the other end of the mesh, and no point is wanted there. [Of 260 000 that gave a point none was 256 away: the
+/// Triangles on the way to a circumcentre. In a metric that is stretched a thousand times those of flat triangles lie
+/// at the other end of the mesh, and no point is wanted there. [Of 260 000 that gave a point none was 256 away: the
 /// examples, the CAD files at 2 %, 5 %, by angle and by direction]
 inline constexpr int farthest_circumcentre = 256;
 /// Units. Of a seed: never wanted in a triangle that is small enough, nor in one that circumcentre insertion

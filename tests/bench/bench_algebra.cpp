@@ -62,56 +62,63 @@ struct EigenFit {
   double value() {
     const double total = left(0, 0);
     for (int r = 1; r < 6; ++r)
-      left(r, r) += (r < 3 ? detail::QuadraticFit::ridge_slope : detail::QuadraticFit::ridge_curvature) * total;
+      left(r, r) +=
+          (r < 3 ? thresholds::control_space::ridge_slope : thresholds::control_space::ridge_curvature) * total;
     return left.llt().solve(right)(0, 0);
   }
 };
 
 void planes(const std::vector<Metric2>& m) {
-  compare("eigenvalues and vectors, plane", [&](int i) { return eigen(m[i]).minor; },
-          [&](int i) {
-            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> s(matrix(m[i]));
-            return s.eigenvalues()[0] + s.eigenvectors()(0, 0);
-          });
-  compare("square root, plane", [&](int i) { return square_root(m[i]).a; },
-          [&](int i) { return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(matrix(m[i])).operatorSqrt()(0, 0); });
-  compare("ratios of lengths, plane", [&](int i) { return length_ratios(m[i], m[count - 1 - i]).largest; },
-          [&](int i) {
-            return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(matrix(m[i]), matrix(m[count - 1 - i]),
-                                                                             Eigen::EigenvaluesOnly)
-                .eigenvalues()[1];
-          });
+  compare(
+      "eigenvalues and vectors, plane", [&](int i) { return eigen(m[i]).minor; },
+      [&](int i) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> s(matrix(m[i]));
+        return s.eigenvalues()[0] + s.eigenvectors()(0, 0);
+      });
+  compare(
+      "square root, plane", [&](int i) { return square_root(m[i]).a; },
+      [&](int i) { return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(matrix(m[i])).operatorSqrt()(0, 0); });
+  compare(
+      "ratios of lengths, plane", [&](int i) { return length_ratios(m[i], m[count - 1 - i]).largest; },
+      [&](int i) {
+        return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(matrix(m[i]), matrix(m[count - 1 - i]),
+                                                                         Eigen::EigenvaluesOnly)
+            .eigenvalues()[1];
+      });
 }
 
 void spaces(const std::vector<Metric3>& m) {
-  compare("eigenvalues and vectors, space", [&](int i) { return eigen(m[i]).value[2]; },
-          [&](int i) {
-            const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> s(matrix(m[i]));
-            return s.eigenvalues()[0] + s.eigenvectors()(0, 0);
-          });
-  compare("simultaneous reduction, space", [&](int i) { return reduce(m[i], m[count - 1 - i]).ratio[0]; },
-          [&](int i) {
-            const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> s(matrix(m[i]), matrix(m[count - 1 - i]));
-            return s.eigenvalues()[2] + s.eigenvectors()(0, 0);
-          });
+  compare(
+      "eigenvalues and vectors, space", [&](int i) { return eigen(m[i]).value[2]; },
+      [&](int i) {
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> s(matrix(m[i]));
+        return s.eigenvalues()[0] + s.eigenvectors()(0, 0);
+      });
+  compare(
+      "simultaneous reduction, space", [&](int i) { return reduce(m[i], m[count - 1 - i]).ratio[0]; },
+      [&](int i) {
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> s(matrix(m[i]), matrix(m[count - 1 - i]));
+        return s.eigenvalues()[2] + s.eigenvectors()(0, 0);
+      });
 }
 
 void fits(const std::vector<Sample>& samples) {
   constexpr int around = 48;  // neighbours of a node at the border
-  compare("quadratic fit of 48 samples",
-          [&](int i) {
-            detail::QuadraticFit fit;
-            for (int k = 0; k < around; ++k) {
-              const Sample& s = samples[(i + k) % count];
-              fit.add(s.x, s.y, s.weight, s.value);
-            }
-            return fit.value_at_origin().a;
-          },
-          [&](int i) {
-            EigenFit fit;
-            for (int k = 0; k < around; ++k) fit.add(samples[(i + k) % count]);
-            return fit.value();
-          });
+  compare(
+      "quadratic fit of 48 samples",
+      [&](int i) {
+        detail::QuadraticFit fit;
+        for (int k = 0; k < around; ++k) {
+          const Sample& s = samples[(i + k) % count];
+          fit.add(s.x, s.y, s.weight, s.value);
+        }
+        return fit.value_at_origin().a;
+      },
+      [&](int i) {
+        EigenFit fit;
+        for (int k = 0; k < around; ++k) fit.add(samples[(i + k) % count]);
+        return fit.value();
+      });
 }
 
 }  // namespace
