@@ -36,5 +36,6 @@ endfunction()
 # tells of them although they are the system's. A build without looks for those of our own.
 function(carreau_silence_false_overflows target)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-stringop-overflow>
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-stringop-overread>
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds>)
 endfunction()

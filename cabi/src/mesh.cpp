@@ -323,6 +323,8 @@ carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, i
     if (threads < 0) throw InvalidArgument("threads is " + std::to_string(threads) + ", below 0");
     if (capacity < 0) throw InvalidArgument("capacity is " + std::to_string(capacity) + ", below 0");
     require_content(*mesh);
+    *out_count = 0;
+    if (mesh->session != nullptr && mesh->session->session.report().crossings == 0) return;  // known
     carreau::Monitor silent;
     carreau::IntersectionOptions options;
     options.limit = std::size_t(capacity);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/intersections.h"
+#include "support/error.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -96,14 +97,20 @@ struct Crossings {
         failed(std::count_if(run.result.mesh.faces.begin(), run.result.mesh.faces.end(),
                              [](const FaceMesh& face) { return face.status == FaceStatus::failed; })) {}
 
-  [[nodiscard]] bool better_than(const Crossings& other) const {
-    return failed <= other.failed && found.count < other.found.count;
-  }
-
   WholeMesh all;
   Intersections found;
   std::ptrdiff_t failed;  // faces
 };
+
+/// What a mesh is compared by.
+struct Score {
+  std::int64_t pairs;
+  std::ptrdiff_t failed;
+
+  [[nodiscard]] bool better_than(const Score& other) const { return failed <= other.failed && pairs < other.pairs; }
+};
+
+Score score_of(const Crossings& crossings) { return {crossings.found.count, crossings.failed}; }
 
 FinerPlaces places_to_refine(const CompositeRun& run, const Crossings& crossings) {
   const WholeMesh& all = crossings.all;
@@ -152,11 +159,25 @@ bool surfaces_cross(const FinerPlaces& before, const FinerPlaces& now) {
   return now.gap < most_fall_of_gap * before.gap;
 }
 
+// The run goes on with the mesh that it has where smaller triangles ask for too many, or for what the host has no
+// answer to.
+bool could_mesh_again(const std::function<void()>& mesh_again) {
+  try {
+    mesh_again();
+    return true;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.crossing_rounds == 0) return;
-  Crossings now(run), best = now;
+  Crossings now(run);
+  Score best = score_of(now);
   std::optional<CompositeResult> best_result;  // empty: that of the run
   const std::size_t first = now.all.triangles.size();
   FinerPlaces places = places_to_refine(run, now);
@@ -166,15 +187,16 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     run.result.graded = before.graded, run.result.report = before.report;
     if (!best_result) best_result = std::move(before);
     run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
-    mesh_again();
+    if (!could_mesh_again(mesh_again)) break;
     now = Crossings(run);
-    if (now.better_than(best)) best = now, best_result.reset();
+    if (score_of(now).better_than(best)) best = score_of(now), best_result.reset();
     if (now.all.triangles.size() > most_growth * first) break;
-    const FinerPlaces next = places_to_refine(run, now);
+    FinerPlaces next = places_to_refine(run, now);
     if (best_result && surfaces_cross(places, next)) break;
-    places = next;
+    places = std::move(next);
   }
   if (best_result) run.result = std::move(*best_result);
+  run.result.report.crossings = best.pairs;
 }
 
 }  // namespace carreau

@@ -1,6 +1,7 @@
 // What a run over a composite surface gives.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -20,6 +21,7 @@ struct CompositeReport {
   int corrections = 0;
   int gradation_rounds = 0;             ///< graphs that the gradation has made
   std::size_t gradation_triangles = 0;  ///< of the last one
+  std::int64_t crossings = -1;          ///< pairs of triangles that cross; -1: nobody has looked
   double seconds_gradation = 0, seconds_curves = 0;
   double seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;  ///< sums over all threads
   double seconds_total = 0;
