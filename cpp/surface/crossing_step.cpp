@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "cad/fundamental_forms.h"
 #include "mesh/intersections.h"
 #include "support/error.h"
 #include "surface/run.h"
@@ -41,8 +42,13 @@ WholeMesh whole(const SurfaceMesh& mesh) {
   return all;
 }
 
-/// The point of the surface over a place of a triangle.
-Vec3 surface_over(const CompositeRun& run, const MeshTriangle& which, const Vec3& place) {
+/// The surface over a place of a triangle.
+struct Above {
+  Vec3 point, normal;  // unit; zero at singular points
+  double longest = 0;  // edge of the triangle
+};
+
+Above surface_over(const CompositeRun& run, const MeshTriangle& which, const Vec3& place) {
   const SurfaceMesh& mesh = run.result.mesh;
   const FaceMesh& face = mesh.faces[static_cast<std::size_t>(which.face)];
   const auto& [i, j, k] = face.triangles[static_cast<std::size_t>(which.local)];
@@ -50,7 +56,8 @@ Vec3 surface_over(const CompositeRun& run, const MeshTriangle& which, const Vec3
              ac = mesh.vertices[face.vertex[k]] - a, n = cross(ab, ac), ap = place - a;
   const double n2 = dot(n, n), s = dot(cross(ap, ac), n) / n2, t = dot(cross(ab, ap), n) / n2;
   const Vec2 uv = (1 - s - t) * face.uv[i] + s * face.uv[j] + t * face.uv[k];
-  return surface_at(run.cad, face.ref, want_position, uv).s;
+  const SurfaceJet jet = surface_at(run.cad, face.ref, want_position | want_first, uv);
+  return {jet.s, unit_normal(jet).value_or(Vec3{}), std::max({norm(ab), norm(ac), norm(ac - ab)})};
 }
 
 /// How far the surfaces are apart where two triangles cross; 0: not at all, seen from there, and smaller triangles do
@@ -60,9 +67,11 @@ struct Gap {
 };
 
 Gap gap_at(const CompositeRun& run, const MeshTriangle& s, const MeshTriangle& t, const Vec3& place) {
-  const Vec3 p = surface_over(run, s, place), q = surface_over(run, t, place);
-  const double on_s = norm(p - place), on_t = norm(q - place), sagitta = std::max(on_s, on_t), width = norm(p - q);
-  if (!(sagitta > no_sagitta * run.supports.diag && width >= least_gap * sagitta)) return {};
+  const Above p = surface_over(run, s, place), q = surface_over(run, t, place);
+  const double on_s = norm(p.point - place), on_t = norm(q.point - place), width = norm(p.point - q.point);
+  const double slope = norm(cross(p.normal, q.normal));
+  if (!(std::max(on_s, on_t) > no_sagitta * run.supports.diag && width >= least_gap * std::max(on_s, on_t))) return {};
+  if (width < least_width * slope * std::max(p.longest, q.longest)) return {};
   return {width, std::clamp(std::sqrt(sagitta_share * width / (on_s + on_t)), least_share, most_share)};
 }
 

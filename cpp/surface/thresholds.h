@@ -67,6 +67,9 @@ inline constexpr std::size_t most_pairs = 100'000;
 /// Share of the larger sagitta. What two surfaces that coincide leave between their points over one place of a crossing
 /// is of second order; walls as far apart as this share are told from them.
 inline constexpr double least_gap = 0.25;
+/// Share of an edge times the sine between both surfaces. Tangent planes nearer to each other meet within the
+/// triangles: the surfaces themselves cross. [none: the teapot, whose spout crosses its body, is meshed again in vain]
+inline constexpr double least_width = 0.05;
 /// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
 inline constexpr double no_sagitta = 1e-12;
 /// Ratio of gaps from one round to the next. Walls that are apart stay so.
