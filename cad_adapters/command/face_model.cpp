@@ -16,9 +16,12 @@ FaceModel::Face* FaceModel::find(std::int32_t ref) {
 }
 
 FaceModel read_pardom(const std::string& path) {
-  const SessionHandle handle = make_session();
-  carreau_session* session = handle.get();
-  require(session, carreau_model_read_pardom(session, path.c_str()));
+  const SessionHandle session = make_session();
+  require(session.get(), carreau_model_read_pardom(session.get(), path.c_str()));
+  return model_of(session.get());
+}
+
+FaceModel model_of(carreau_session* session) {
   std::int64_t f = 0, c = 0, p = 0;
   require(session, carreau_model_count(session, &f, &c, &p));
   const auto faces = static_cast<std::size_t>(f), curves = static_cast<std::size_t>(c),

@@ -35,6 +35,9 @@ struct FaceModel {
 /// The model in a file x.pardom. Throws Failure with the library's sentence.
 FaceModel read_pardom(const std::string& path);
 
+/// The model that a session has. Throws Failure with the library's sentence.
+FaceModel model_of(carreau_session* session);
+
 /// Replaces the model of a session.
 carreau_status give_model(const FaceModel& model, carreau_session* session);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <mutex>
 
+#include "face_model.h"
 #include "failure.h"
 #include "model_input.h"
 #include "text_file.h"
@@ -21,25 +22,6 @@ carreau_molecule_options options_of(const MoleculeChoice& choice) {
   options.drop_cavities = choice.drop_cavities ? 1 : 0;
   options.probe = choice.probe;
   return options;
-}
-
-/// The faces that a session has.
-FaceModel model_of(carreau_session* session) {
-  std::int64_t faces = 0, curves = 0;
-  require(session, carreau_model_count(session, &faces, &curves, nullptr));
-  std::vector<std::int32_t> refs(faces), orientations(faces), owners(curves), types(curves), curve_refs(curves),
-      ends(2 * curves);
-  require(session, carreau_model_faces(session, faces, refs.data(), orientations.data()));
-  require(session, carreau_model_curves(session, curves, owners.data(), types.data(), curve_refs.data(), ends.data()));
-  FaceModel model;
-  std::size_t c = 0;
-  for (std::size_t f = 0; f < refs.size(); ++f) {
-    FaceModel::Face face{.ref = refs[f], .orientation = orientations[f], .curves = {}, .points = {}};
-    for (; c < owners.size() && owners[c] == refs[f]; ++c)
-      face.curves.push_back({types[c], curve_refs[c], ends[2 * c], ends[2 * c + 1]});
-    model.faces.push_back(std::move(face));
-  }
-  return model;
 }
 
 /// A molecule in a session of its own, which answers where points are.

@@ -6,6 +6,7 @@
 #include <array>
 #include <mutex>
 
+#include "face_model.h"
 #include "failure.h"
 #include "model_input.h"
 #include "session_handle.h"
@@ -16,24 +17,6 @@ namespace {
 carreau_status load(carreau_session* session, const std::string& path, const PlaneChoice& choice) {
   return carreau_load_plane_domain(session, path.c_str(), choice.sizes.empty() ? nullptr : choice.sizes.c_str(),
                                    choice.corner_angle);
-}
-
-/// The faces that a session has.
-FaceModel model_of(carreau_session* session) {
-  std::int64_t faces = 0, curves = 0;
-  require(session, carreau_model_count(session, &faces, &curves, nullptr));
-  const auto n = static_cast<std::size_t>(faces), m = static_cast<std::size_t>(curves);
-  std::vector<std::int32_t> refs(n), orientations(n), owners(m), types(m), curve_refs(m), ends(2 * m);
-  require(session, carreau_model_faces(session, faces, refs.data(), orientations.data()));
-  require(session, carreau_model_curves(session, curves, owners.data(), types.data(), curve_refs.data(), ends.data()));
-  FaceModel model;
-  for (std::size_t f = 0, c = 0; f < n; ++f) {
-    FaceModel::Face face{.ref = refs[f], .orientation = orientations[f], .curves = {}, .points = {}};
-    for (; c < m && owners[c] == refs[f]; ++c)
-      face.curves.push_back({types[c], curve_refs[c], ends[2 * c], ends[2 * c + 1]});
-    model.faces.push_back(std::move(face));
-  }
-  return model;
 }
 
 /// A domain in a session of its own, which answers where points are.

@@ -181,6 +181,13 @@ bool could_mesh_again(const std::function<void()>& mesh_again) {
   }
 }
 
+// What the mesh that stays has to tell, if an earlier one has not told it.
+void say_what_is_new(CompositeRun& run) {
+  run.trying = false;
+  for (const FaceMesh& face : run.result.mesh.faces)
+    if (face.status == FaceStatus::failed) run.say(Level::error, face.why);
+}
+
 }  // namespace
 
 void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again) {
@@ -195,6 +202,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     CompositeResult before = std::exchange(run.result, {});
     run.result.graded = before.graded, run.result.report = before.report;
     if (!best_result) best_result = std::move(before);
+    run.trying = true;
     run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
     if (!could_mesh_again(mesh_again)) break;
     now = Crossings(run);
@@ -206,6 +214,7 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
   }
   if (best_result) run.result = std::move(*best_result);
   run.result.report.crossings = best.pairs;
+  say_what_is_new(run);
 }
 
 }  // namespace carreau

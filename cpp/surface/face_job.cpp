@@ -127,7 +127,7 @@ void FaceJob::mesh(Monitor& monitor) {
                             {.frontal = options_.frontal,
                              .shape_trials = options_.shape_trials,
                              .normals = normals_.differ() ? &normals_ : nullptr,
-                             .max_triangles = most_triangles_,
+                             .max_triangles = options_.max_triangles,
                              .undersampled = undersampled_},
                             monitor);
   next_ = Step::lift;
@@ -183,7 +183,7 @@ bool FaceJob::sample_bounded(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_sampling);
   space_ = sample_face(input_, *cad_, *rules_, probe_points_, monitor);
   const double most = most_growth_bounded * static_cast<double>(best_->mesh.plane.triangles.size());
-  return space_->measure() <= std::min(most, static_cast<double>(most_triangles_));
+  return space_->measure() <= std::min(most, static_cast<double>(options_.max_triangles));
 }
 
 // False: there is none.
@@ -319,7 +319,7 @@ void FaceJob::refuse_jumps(std::size_t most, Monitor& monitor) const {
 
 void FaceJob::refuse_beyond_limit(double expected) const {
   // Twice the expectation: an estimate must not refuse a mesh that would have fitted.
-  if (expected > 2 * static_cast<double>(most_triangles_))
+  if (expected > 2 * static_cast<double>(options_.max_triangles))
     refuse_triangles(Where{.face = input_.ref}, expected, options_.max_triangles);
 }
 

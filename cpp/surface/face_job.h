@@ -27,8 +27,7 @@ class FaceJob final : public SteppedTask {
         rules_(&rules),
         options_(options),
         reentrant_(reentrant),
-        given_slope_(input_.slope),
-        most_triangles_(options.max_triangles) {}
+        given_slope_(input_.slope) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
@@ -87,7 +86,6 @@ class FaceJob final : public SteppedTask {
   const CompositeOptions& options_;
   bool reentrant_;
   double given_slope_;
-  std::int64_t most_triangles_;
   EdgeSizes bounded_edges_;  // in place of those of input_, where these are too small
   std::optional<LimitError> beyond_limit_;
   Step next_ = Step::sample;

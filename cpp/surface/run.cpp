@@ -47,7 +47,7 @@ void CompositeRun::fail(std::size_t face, const std::string& why) {
 }
 
 void CompositeRun::say(Level level, const std::string& what) {
-  if (told.insert(what).second) monitor.message(level, what);
+  if (!trying && told.insert(what).second) monitor.message(level, what);
 }
 
 }  // namespace carreau

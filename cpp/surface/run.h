@@ -29,7 +29,7 @@ struct CompositeRun {
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
   /// Progress; `share` of what comes after the gradation.
   void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
-  /// Says something once.
+  /// Says something once; nothing while a mesh is tried that may be given up.
   void say(Level level, const std::string& what);
   /// The face has no mesh; others go on.
   void fail(std::size_t face, const std::string& why);
@@ -57,6 +57,7 @@ struct CompositeRun {
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
   std::set<std::string> told;  ///< once, however often something is meshed
+  bool trying = false;
 };
 
 /// The steps, in their order; composite.cpp calls them. Each throws what the host throws, LimitError and Cancelled.

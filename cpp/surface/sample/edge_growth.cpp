@@ -22,9 +22,9 @@ double extent_of(const std::vector<Vec3>& points) {
 std::optional<EdgeSizes> bound_growth(const PatchInput& input, Cad& cad, const SizeRules& rules,
                                       std::span<const Vec2> probe_points, Monitor& monitor, ControlSpace& space) {
   if (input.limits.edges == nullptr) return {};
-  EdgeSizes edges = *input.limits.edges;
   const double extent = extent_of(input.curve_xyz);
-  if (space.measure() <= few_triangles + edges.triangles_within(extent)) return {};
+  if (space.measure() <= few_triangles + input.limits.edges->triangles_within(extent)) return {};
+  EdgeSizes edges = *input.limits.edges;
   PatchInput tried = input;
   tried.limits.edges = nullptr;
   ControlSpace without = sample_face(tried, cad, rules, probe_points, monitor);
