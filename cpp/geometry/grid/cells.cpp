@@ -47,6 +47,7 @@ class Finder {
       for (int i = 0; i + 1 < block_.columns; ++i)
         if (label_[block_.index(i, j)] == unseen) fill(i, j);
     find_loops();
+    for (const int label : label_) cells_.there.push_back(label >= 0 ? 1 : 0);
     return std::move(cells_);
   }
 

@@ -35,6 +35,7 @@ struct Region {
 
 struct Cells {
   std::vector<Region> regions;  ///< by their first cell
+  std::vector<char> there;      ///< [node at the lower left of a cell]
   std::size_t count = 0;        ///< of cells
   std::size_t flat = 0;         ///< cells without area, which are left out
   std::size_t folded = 0;       ///< cells whose corners do not turn the same way

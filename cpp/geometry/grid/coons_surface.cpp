@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace carreau::grid {
 
@@ -23,11 +25,29 @@ struct Place {
   double t, length;
 };
 
-Place place_of(const std::vector<double>& knots, double x) {
-  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, x);
-  const auto cell = static_cast<std::size_t>(above - knots.begin()) - 1;
+Place place_in(const std::vector<double>& knots, std::size_t cell, double x) {
   const double length = knots[cell + 1] - knots[cell];
   return {cell, (x - knots[cell]) / length, length};
+}
+
+Place place_of(const std::vector<double>& knots, double x) {
+  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, x);
+  return place_in(knots, static_cast<std::size_t>(above - knots.begin()) - 1, x);
+}
+
+double outside(const Place& p) { return std::max({0.0, -p.t, p.t - 1}) * p.length; }
+
+/// The nearest of the neighbours of a cell that is not there.
+void go_to_neighbour(const CoonsSurface& surface, const Vec2& uv, Place& pu, Place& pv) {
+  const Place u = pu, v = pv;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t j = v.cell == 0 ? 0 : v.cell - 1; j <= v.cell + 1 && j + 1 < surface.v.size(); ++j)
+    for (std::size_t i = u.cell == 0 ? 0 : u.cell - 1; i <= u.cell + 1 && i + 1 < surface.u.size(); ++i) {
+      if (!surface.has_cell(i, j)) continue;
+      const Place at_u = place_in(surface.u, i, uv.x()), at_v = place_in(surface.v, j, uv.y());
+      const double distance = std::hypot(outside(at_u), outside(at_v));
+      if (distance < nearest) nearest = distance, pu = at_u, pv = at_v;
+    }
 }
 
 using Row = std::array<Vec3, 4>;
@@ -43,7 +63,8 @@ void add_products(const Row& a, const Hermite& v, double factor, Vec3& value, Ve
 }  // namespace
 
 SurfaceJet CoonsSurface::at(const Vec2& uv) const {
-  const Place pu = place_of(u, uv.x()), pv = place_of(v, uv.y());
+  Place pu = place_of(u, uv.x()), pv = place_of(v, uv.y());
+  if (!has_cell(pu.cell, pv.cell)) go_to_neighbour(*this, uv, pu, pv);
   const Hermite hu(pu.t, pu.length), hv(pv.t, pv.length);
   const Node &p00 = node(pu.cell, pv.cell), &p10 = node(pu.cell + 1, pv.cell), &p01 = node(pu.cell, pv.cell + 1),
              &p11 = node(pu.cell + 1, pv.cell + 1);

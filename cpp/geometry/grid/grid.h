@@ -50,7 +50,7 @@ struct Smoothing {
 };
 
 struct Options {
-  Smoothing smoothing;
+  Smoothing smoothing{};
   /// Parameters are cumulated mean lengths of edges (HDR sec. 4.7.3) and not the integers.
   bool lengths = false;
   /// Blocks whose normals differ by less than this along a common border are given one tangent plane there (radians);

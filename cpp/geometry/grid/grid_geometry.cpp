@@ -139,6 +139,9 @@ GridGeometry build_grid_geometry(const Grid& grid, const Options& options, Monit
   std::vector<CoonsSurface> surfaces = interpolate(blocks, borders, knots, closed, options, &joined);
   monitor.message(Level::detail, std::to_string(blocks.size()) + " blocks, " + std::to_string(borders.faces.size()) +
                                      " faces, " + std::to_string(joined) + " common borders made smooth");
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (cells[b].count < (blocks[b].nodes.size() - static_cast<std::size_t>(blocks[b].columns + blocks[b].rows - 1)))
+      surfaces[b].cells = cells[b].there;
   add_faces(blocks, borders, std::move(surfaces), made.built);
   return made;
 }

@@ -1,6 +1,7 @@
 #include "geometry/grid/interpolation.h"
 
 #include <cmath>
+#include <utility>
 
 #include "geometry/grid/differences.h"
 #include "geometry/grid/shared_derivatives.h"
@@ -59,8 +60,7 @@ class Interpolator {
       Node& node = surfaces_[static_cast<std::size_t>(slot.block)].nodes[slot.node];
       (slot.along_u ? node.su : node.sv) = value;
     });
-    if (options_.cross_derivatives)
-      for (std::size_t b = 0; b < blocks_.size(); ++b) add_cross_derivatives(b);
+    if (options_.cross_derivatives) add_cross_derivatives();
     return std::move(surfaces_);
   }
 
@@ -167,6 +167,7 @@ class Interpolator {
         for (const BorderEdge& edge : chain.edges) {
           const std::vector<EdgeUse>& uses = uses_of(face, edge);
           join(uses[0], uses[1]);
+          joined_edges_.push_back({&uses[0], &uses[1]});
         }
       }
   }
@@ -196,25 +197,45 @@ class Interpolator {
     }
   }
 
-  /// Of Sv along u and of Su along v, which are the same inside. On a side, the first or second alone: what crosses the
-  /// side is differenced along it, so that it is the same in the block behind.
-  void add_cross_derivatives(std::size_t b) {
-    const Block& block = blocks_[b];
-    CoonsSurface& surface = surfaces_[b];
-    const auto sv = [&](std::size_t node) -> const Vec3& { return surface.nodes[node].sv; };
-    const auto su = [&](std::size_t node) -> const Vec3& { return surface.nodes[node].su; };
-    const std::vector<Vec3> uv = differentiate(block, knots_[b], closed_[b], true, sv);
-    const std::vector<Vec3> vu = differentiate(block, knots_[b], closed_[b], false, su);
-    for (std::size_t k = 0; k < block.nodes.size(); ++k) surface.nodes[k].suv = (uv[k] + vu[k]) / 2;
-    for (std::size_t face = 0; face < borders_.chains.size(); ++face) {
-      if (static_cast<std::size_t>(borders_.faces[face].block) != b) continue;
-      for (const Chain& chain : borders_.chains[face])
-        for (std::size_t k = 0; k + 1 < chain.edges.size(); ++k) {
-          const BorderEdge::NodeAt at = chain.edges[k].end();
-          const std::size_t node = block.index(at.i, at.j);
-          surface.nodes[node].suv = chain.edges[k].along_u() ? uv[node] : vu[node];
-        }
+  /// Sv differenced along u and Su along v, [block][node]: the same inside.
+  struct Twists {
+    std::vector<Vec3> uv, vu;
+    [[nodiscard]] const Vec3& along(const BorderEdge& edge, std::size_t node) const {
+      return edge.along_u() ? uv[node] : vu[node];
     }
+  };
+
+  void add_cross_derivatives() {
+    std::vector<Twists> twists;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      std::vector<Node>& nodes = surfaces_[b].nodes;
+      const auto sv = [&](std::size_t node) -> const Vec3& { return nodes[node].sv; };
+      const auto su = [&](std::size_t node) -> const Vec3& { return nodes[node].su; };
+      twists.push_back({differentiate(blocks_[b], knots_[b], closed_[b], true, sv),
+                        differentiate(blocks_[b], knots_[b], closed_[b], false, su)});
+      for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k].suv = (twists[b].uv[k] + twists[b].vu[k]) / 2;
+    }
+    share_twists(twists);
+  }
+
+  /// What crosses a joined edge is differenced along it, once for both blocks: then their derivatives across it agree at
+  /// every point.
+  void share_twists(const std::vector<Twists>& twists) {
+    SharedDerivatives shared;
+    const auto slot = [&](const Place& at) { return shared.number({static_cast<int>(at.block), at.node, false}); };
+    for (const auto& [a, b] : joined_edges_) {
+      const bool same_way = point(place(*a, a->edge.start())) == point(place(*b, b->edge.start()));
+      const int along = same_way == (a->edge.forward() == b->edge.forward()) ? 1 : -1;
+      const int across = -inward(a->edge) * inward(b->edge);
+      for (const Place& at : {place(*a, a->edge.start()), place(*a, a->edge.end())}) {
+        const Rank rank = is_inner(at, a->edge.along_u()) ? Rank::inner : Rank::one_sided;
+        shared.unite(slot(at), slot(same_place(at, *b)), along * across);
+        shared.offer(slot(at), rank, twists[at.block].along(a->edge, at.node));
+      }
+    }
+    shared.for_values([&](const SharedDerivatives::Slot& at, const Vec3& value) {
+      surfaces_[static_cast<std::size_t>(at.block)].nodes[at.node].suv = value;
+    });
   }
 
   const std::vector<Block>& blocks_;
@@ -225,6 +246,7 @@ class Interpolator {
   std::vector<CoonsSurface> surfaces_;
   SharedDerivatives shared_;
   std::size_t joined_ = 0;
+  std::vector<std::pair<const EdgeUse*, const EdgeUse*>> joined_edges_;
 };
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include "geometry/grid/smoothing.h"
 
 #include <cmath>
-#include <utility>
-
-#include "support/error.h"
+#include <vector>
 
 namespace carreau::grid {
 
@@ -36,10 +34,10 @@ void pass(std::span<const Value> from, std::span<Value> to, bool closed, double 
   }
 }
 
+/// `moved` is room for as many values.
 template <typename Value>
-void smooth(std::span<Value> values, bool closed, const Smoothing& smoothing) {
+void smooth(std::span<Value> values, std::span<Value> moved, bool closed, const Smoothing& smoothing) {
   if (values.size() < 3) return;
-  std::vector<Value> moved(values.begin(), values.end());
   pass<Value>(values, moved, closed, smoothing.inward);
   pass<Value>(moved, values, closed, -smoothing.outward);
 }
@@ -48,73 +46,66 @@ bool same(const Vec3& p, const Vec3& q, double tolerance) {
   return !is_finite(p) ? !is_finite(q) : is_finite(q) && norm(p - q) <= tolerance;
 }
 
-/// One line of a block, node k at first + k * step.
-struct Line {
+/// Nodes of a line without missing ones, node k at first + k * step.
+struct Run {
   std::size_t first, step, count;
-  bool closed;  ///< its last node is its first one
+  bool closed;  ///< a whole closed line, without the node that repeats its first one
 };
 
-/// Calls visit(nodes of a run without missing ones, whether the run is the whole closed line).
-template <typename Visit>
-void for_runs(const Block& block, const Line& line, Visit&& visit) {
-  std::vector<std::size_t> run;
-  bool whole = true;
-  for (std::size_t k = 0; k < line.count; ++k) {
-    const std::size_t node = line.first + k * line.step;
-    if (is_finite(block.nodes[node])) {
-      run.push_back(node);
-      continue;
-    }
-    whole = false;
-    if (!run.empty()) visit(run, false);
-    run.clear();
+/// Adds the runs of a line; `closed`: its last node is its first one.
+void add_runs(const Block& block, const Run& line, bool closed, std::vector<Run>& runs) {
+  std::size_t start = 0;
+  for (std::size_t k = 0; k <= line.count; ++k) {
+    if (k < line.count && is_finite(block.nodes[line.first + k * line.step])) continue;
+    if (k > start) runs.push_back({line.first + start * line.step, line.step, k - start, false});
+    start = k + 1;
   }
-  if (!run.empty()) visit(run, whole && line.closed);
+  if (closed && !runs.empty() && runs.back().count == line.count) --runs.back().count, runs.back().closed = true;
 }
 
-/// What smoothing moves of a node, and back.
-class Moved {
- public:
-  explicit Moved(Measured measured) : heights_(measured == Measured::heights) {}
-  [[nodiscard]] double of(const Vec3& p) const { return heights_ ? p.z() : std::hypot(p.x(), p.y()); }
-  void set(Vec3& p, double value) const {
-    if (heights_) {
-      p.z() = value;
-      return;
+/// All rows, then all columns.
+std::vector<Run> runs_of(const Block& block, const Closed& closed) {
+  const auto columns = static_cast<std::size_t>(block.columns), rows = static_cast<std::size_t>(block.rows);
+  std::vector<Run> runs;
+  for (std::size_t j = 0; j < rows; ++j) add_runs(block, {j * columns, 1, columns, false}, closed.columns, runs);
+  for (std::size_t i = 0; i < columns; ++i) add_runs(block, {i, columns, rows, false}, closed.rows, runs);
+  return runs;
+}
+
+template <typename Value>
+void smooth_runs(std::vector<Value>& values, const std::vector<Run>& runs, const Smoothing& smoothing, Monitor& monitor) {
+  std::vector<Value> line(values.size()), moved(values.size());
+  for (int round = 0; round < smoothing.rounds; ++round) {
+    monitor.checkpoint();
+    for (const Run& run : runs) {
+      for (std::size_t k = 0; k < run.count; ++k) line[k] = values[run.first + k * run.step];
+      smooth<Value>(std::span(line).first(run.count), std::span(moved).first(run.count), run.closed, smoothing);
+      for (std::size_t k = 0; k < run.count; ++k) values[run.first + k * run.step] = line[k];
+      if (run.closed) values[run.first + run.count * run.step] = line[0];
     }
-    const double before = std::hypot(p.x(), p.y());
-    if (before > 0) p.x() *= value / before, p.y() *= value / before;
   }
+}
 
- private:
-  bool heights_;
-};
+double radius_of(const Vec3& p) { return std::hypot(p.x(), p.y()); }
 
-void smooth_run(Block& block, const std::vector<std::size_t>& run, bool closed, const Smoothing& smoothing) {
-  const std::size_t n = closed ? run.size() - 1 : run.size();  // the joint counts once
-  if (block.measured == Measured::points) {
-    std::vector<Vec3> points(n);
-    for (std::size_t k = 0; k < n; ++k) points[k] = block.nodes[run[k]];
-    smooth_line(points, closed, smoothing);
-    for (std::size_t k = 0; k < n; ++k) block.nodes[run[k]] = points[k];
-  } else {
-    const Moved moved(block.measured);
-    std::vector<double> values(n);
-    for (std::size_t k = 0; k < n; ++k) values[k] = moved.of(block.nodes[run[k]]);
-    smooth_line(values, closed, smoothing);
-    for (std::size_t k = 0; k < n; ++k) moved.set(block.nodes[run[k]], values[k]);
-  }
-  if (closed) block.nodes[run.back()] = block.nodes[run.front()];
+/// What smoothing moves of a node, of heights and radii.
+void set_moved(const Block& block, double value, Vec3& p) {
+  if (block.measured == Measured::heights)
+    p.z() = value;
+  else if (const double before = radius_of(p); before > 0)
+    p.x() *= value / before, p.y() *= value / before;
 }
 
 }  // namespace
 
 void smooth_line(std::span<double> values, bool closed, const Smoothing& smoothing) {
-  smooth(values, closed, smoothing);
+  std::vector<double> moved(values.size());
+  smooth<double>(values, moved, closed, smoothing);
 }
 
 void smooth_line(std::span<Vec3> points, bool closed, const Smoothing& smoothing) {
-  smooth(points, closed, smoothing);
+  std::vector<Vec3> moved(points.size());
+  smooth<Vec3>(points, moved, closed, smoothing);
 }
 
 Closed closed_directions(const Block& block, double tolerance) {
@@ -127,15 +118,14 @@ Closed closed_directions(const Block& block, double tolerance) {
 }
 
 void smooth_block(Block& block, const Closed& closed, const Smoothing& smoothing, Monitor& monitor) {
-  const auto columns = static_cast<std::size_t>(block.columns), rows = static_cast<std::size_t>(block.rows);
-  for (int round = 0; round < smoothing.rounds; ++round) {
-    monitor.checkpoint();
-    const auto smooth = [&](const std::vector<std::size_t>& run, bool whole) {
-      smooth_run(block, run, whole, smoothing);
-    };
-    for (std::size_t j = 0; j < rows; ++j) for_runs(block, Line{j * columns, 1, columns, closed.columns}, smooth);
-    for (std::size_t i = 0; i < columns; ++i) for_runs(block, Line{i, columns, rows, closed.rows}, smooth);
-  }
+  if (smoothing.rounds == 0) return;
+  const std::vector<Run> runs = runs_of(block, closed);
+  if (block.measured == Measured::points) return smooth_runs(block.nodes, runs, smoothing, monitor);
+  std::vector<double> values;
+  for (const Vec3& p : block.nodes) values.push_back(block.measured == Measured::heights ? p.z() : radius_of(p));
+  smooth_runs(values, runs, smoothing, monitor);
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (is_finite(block.nodes[k])) set_moved(block, values[k], block.nodes[k]);
 }
 
 }  // namespace carreau::grid
