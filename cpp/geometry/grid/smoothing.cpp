@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/grid/thresholds.h"
+
 namespace carreau::grid {
 
 namespace {
@@ -44,6 +46,24 @@ void smooth(std::span<Value> values, std::span<Value> moved, bool closed, const 
 
 bool same(const Vec3& p, const Vec3& q, double tolerance) {
   return !is_finite(p) ? !is_finite(q) : is_finite(q) && norm(p - q) <= tolerance;
+}
+
+/// Adds the turn of a line at its joint, from `before` by way of `here` to `after`.
+void add_turn(const Vec3& before, const Vec3& here, const Vec3& after, double& sum, int& count) {
+  const Vec3 a = here - before, b = after - here;
+  if (!is_finite(a) || !is_finite(b) || norm(a) * norm(b) == 0) return;
+  sum += std::atan2(norm(cross(a, b)), dot(a, b));
+  ++count;
+}
+
+bool is_smooth(const Block& block, bool columns) {
+  double sum = 0;
+  int count = 0;
+  for (int k = 0; columns && k < block.rows; ++k)
+    add_turn(block.node(block.columns - 2, k), block.node(0, k), block.node(1, k), sum, count);
+  for (int k = 0; !columns && k < block.columns; ++k)
+    add_turn(block.node(k, block.rows - 2), block.node(k, 0), block.node(k, 1), sum, count);
+  return block.measured == Measured::radii || sum < thresholds::closed_turn * count;
 }
 
 /// Nodes of a line without missing ones, node k at first + k * step.
@@ -114,6 +134,8 @@ Closed closed_directions(const Block& block, double tolerance) {
     closed.columns = same(block.node(0, j), block.node(block.columns - 1, j), tolerance);
   for (int i = 0; closed.rows && i < block.columns; ++i)
     closed.rows = same(block.node(i, 0), block.node(i, block.rows - 1), tolerance);
+  closed.columns = closed.columns && is_smooth(block, true);
+  closed.rows = closed.rows && is_smooth(block, false);
   return closed;
 }
 

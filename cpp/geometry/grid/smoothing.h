@@ -15,7 +15,9 @@ void smooth_line(std::span<double> values, bool closed, const Smoothing& smoothi
 /// The same of points, whose neighbours weigh by the distance of the other one (`moyenne` of HDR sec. 4.7.1).
 void smooth_line(std::span<Vec3> points, bool closed, const Smoothing& smoothing);
 
-/// Whether the first and the last column (or row) of a block are the same points to `tolerance`.
+/// Whether the first and the last column (or row) of a block are the same points to `tolerance`, and its lines go on
+/// smoothly there: but for scans, which always do, they turn by less than thresholds::closed_turn in the mean. The
+/// trailing edge of a wing stays sharp.
 struct Closed {
   bool columns = false;  ///< node (0, j) is node (columns - 1, j)
   bool rows = false;     ///< node (i, 0) is node (i, rows - 1)

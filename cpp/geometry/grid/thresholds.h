@@ -1,6 +1,8 @@
 // The numbers that decide something about grids.
 #pragma once
 
+#include <numbers>
+
 namespace carreau::grid::thresholds {
 
 /// Nodes on borders nearer than this share of the diagonal are one: files of single precision have 1e-7. [Glue.*]
@@ -11,6 +13,8 @@ inline constexpr double same_node_share_of_edge = 0.1;
 inline constexpr double flat_share = 1e-12;
 /// A corner turns against its cell when its normal leans this share of the area back: rounding does not count. [Cells.*]
 inline constexpr double folded_share = 1e-6;
+/// Mean turn at the joint of a closed grid, radians, from which on it is an edge: eight cells make a circle. [Glue.*]
+inline constexpr double closed_turn = std::numbers::pi / 4;
 /// Parameter length of a row of cells without extent, as a share of the mean one: parameters must ascend. [Lengths.*]
 inline constexpr double least_interval = 1e-3;
 

@@ -165,6 +165,7 @@ std::optional<Raster> header_of(const Line& line, double step) {
   if (line.words.size() < 2 || line.words.size() > most || line.words.size() == 5) return {};
   Raster raster{.dx = step, .dy = step};
   if (!parse_number(line.words[0], raster.columns) || !parse_number(line.words[1], raster.rows)) return {};
+  if (raster.columns < 2 || raster.rows < 2) return {};
   std::array<double*, 4> values{&raster.dx, &raster.dy, &raster.x, &raster.y};
   for (std::size_t k = 2; k < line.words.size(); ++k)
     if (!parse_number(line.words[k], *values[k - 2])) return {};

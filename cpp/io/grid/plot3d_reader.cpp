@@ -89,11 +89,12 @@ std::vector<Counts> read_counts(Words& words, std::size_t on_first_line, const s
   std::size_t blocks = 1;
   const char* const start = words.position();
   if (on_first_line != 3) {
-    blocks = words.count("blocks", 3);
-    if (on_first_line != 1 && on_first_line != 1 + 3 * blocks)
+    const std::int32_t n = words.integer("the number of blocks");
+    if (on_first_line != 1 && on_first_line != 1 + 3 * static_cast<std::size_t>(n))
       words.fail(start, "the first line should be a number of blocks, or the three counts of one, and has " +
                             std::to_string(on_first_line) + " words");
-    if (blocks == 0) throw FileError({.file = name, .line = 1}, "the file has no block");
+    if (n == 0) throw FileError({.file = name, .line = 1}, "the file has no block");
+    blocks = words.checked_count(n, start, "blocks", 3);
   }
   std::vector<Counts> counts(blocks);
   for (std::size_t b = 0; b < blocks; ++b) {

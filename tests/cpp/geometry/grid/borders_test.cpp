@@ -63,6 +63,20 @@ TEST(Glue, ATorusIsClosedBothWays) {
   EXPECT_EQ(points.size(), 1U);
 }
 
+TEST(Glue, AClosedGridWithAnEdgeAtItsJointKeepsTheEdge) {
+  // A drop: a circle but for a right angle at its joint.
+  const auto drop = [](int i, int j) -> Vec3 {
+    const double t = 2 * std::numbers::pi * (i % 16) / 16, r = std::cos(t / 2);
+    return i % 16 == 0 ? Vec3{2, 0, double(j)} : Vec3{2 - 3 * std::sin(t / 2), r * std::sin(t / 2) * 4, double(j)};
+  };
+  const GridGeometry made = build({block_of(17, 3, drop)});
+  const Vec3 before = surface_at(*made.built.cad, 1, want_first, {16, 1}).su, after = surface_at(*made.built.cad, 1, want_first, {0, 1}).su;
+  EXPECT_LT(dot(before, after), 0.5 * norm(before) * norm(after));
+  std::set<int> refs;
+  for (const FaceCurve& c : made.built.model.faces[0].curves) refs.insert(c.ref);
+  EXPECT_EQ(refs.size(), 3U);  // the seam is glued all the same
+}
+
 TEST(Glue, SixBlocksMakeACube) {
   std::vector<Block> blocks;
   for (int axis = 0; axis < 3; ++axis)
