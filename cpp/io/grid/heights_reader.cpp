@@ -202,9 +202,9 @@ Grid read_scan(std::string_view text, const std::string& name, double step) {
     throw FileError({.file = name, .line = 1}, "the first line of a scan is 'angles heights [dz [z]]'");
   Words words(text, name);
   for (std::size_t k = 0; k < first.words.size(); ++k) words.word();
-  Raster raster = *header;
-  check_raster(raster, name, words, text.data());
   const double bottom = first.words.size() > 3 ? header->dy : 0;
+  const Raster raster{.columns = header->columns, .rows = header->rows, .dx = header->dx, .dy = header->dx, .y = bottom};
+  check_raster(raster, name, words, text.data());
   Block block{.columns = raster.columns + 1, .rows = raster.rows, .nodes = {}, .measured = Measured::radii};
   for (int j = 0; j < raster.rows; ++j) {
     for (int i = 0; i < raster.columns; ++i) {

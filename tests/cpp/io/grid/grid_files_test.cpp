@@ -219,10 +219,10 @@ TEST(GridFiles, DemOfUsgsHasProfilesThatStartWhereTheyLike) {
 }
 
 TEST(GridFiles, ScansAreClosed) {
-  const Block block = read_scan("4 2 0.5 3\n1 2 1 2\n1 1 1 nan\n", "g").blocks.at(0);
+  const Block block = read_scan("4 2 0.5 -3\n1 2 1 2\n1 1 1 nan\n", "g").blocks.at(0);
   EXPECT_EQ(block.columns, 5);
   EXPECT_EQ(block.measured, Measured::radii);
-  EXPECT_LE(norm(block.node(1, 0) - Vec3{0, 2, 3}), 1e-15);
+  EXPECT_LE(norm(block.node(1, 0) - Vec3{0, 2, -3}), 1e-15);
   EXPECT_EQ(block.node(4, 1), block.node(0, 1));
   EXPECT_FALSE(block.has(3, 1));
   EXPECT_EQ(refusal(scan, "4 2\n1 1 1 1\n1 -1 1 1\n"), "g, line 3: the distance from the axis is -1; it must be positive");
