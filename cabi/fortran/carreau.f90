@@ -20,10 +20,12 @@ module carreau
   public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
   public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
   public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn, carreau_failure_fn
+  public :: carreau_release_fn
   public :: carreau_surface_metric_fn, carreau_curve_metric_fn, carreau_point_metric_fn
   public :: carreau_message_fn, carreau_progress_fn
   public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
+  public :: carreau_set_error
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
@@ -374,6 +376,13 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_field_fn
 
+    !> Nothing asks the callbacks any more.
+    subroutine carreau_release_fn(user) bind(c)
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: user
+    end subroutine carreau_release_fn
+
     !> carreau_string(text) is the sentence.
     subroutine carreau_message_fn(level, text, user) bind(c)
       import :: c_int32_t, c_ptr
@@ -512,7 +521,7 @@ contains
   !> what they do not give is found by finite differences. user: c_loc of a target, c_null_ptr when left out.
   subroutine carreau_set_cad(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
       reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, &
-      failure)
+      failure, release)
     type(carreau_session), intent(in) :: session
     procedure(carreau_surface_fn) :: surface
     procedure(carreau_interval_fn) :: curve_interval
@@ -526,6 +535,7 @@ contains
     procedure(carreau_curve_value_fn), optional :: curve_size, curve_radius
     procedure(carreau_point_value_fn), optional :: point_size
     procedure(carreau_failure_fn), optional :: failure
+    procedure(carreau_release_fn), optional :: release
     type(c_cad) :: callbacks
     callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
     callbacks%surface_order = 2
@@ -544,8 +554,18 @@ contains
     if (present(surface_radius)) callbacks%surface_radius = c_funloc(surface_radius)
     if (present(curve_radius)) callbacks%curve_radius = c_funloc(curve_radius)
     if (present(failure)) callbacks%failure = c_funloc(failure)
+    if (present(release)) callbacks%release = c_funloc(release)
     status = c_set_cad(session%handle, callbacks)
   end subroutine carreau_set_cad
+
+  !> status: `error`, or CARREAU_ERR_ARGUMENT
+  subroutine carreau_set_error(session, error, sentence, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: error
+    character(len=*), intent(in) :: sentence
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_error(session%handle, error, trim(sentence)//c_null_char)
+  end subroutine carreau_set_error
 
   !> Those that are left out do not answer. Of either kind of geometry.
   subroutine carreau_set_metric_callbacks(session, status, user, surface_metric, curve_metric, point_metric)

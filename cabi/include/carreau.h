@@ -136,6 +136,11 @@ typedef struct carreau_error_place {
 /* Fills *out_place. Unlike other calls, it keeps the sentence and the place. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_last_error_place(const carreau_session* session, carreau_error_place* out_place);
 
+/* For libraries that work on a session of their caller: makes the last call on it one that has failed with this status
+ * and sentence, and returns the status. NULL or "": no sentence. Errors: ARGUMENT (the status is CARREAU_OK or none).
+ */
+CARREAU_API carreau_status carreau_set_error(carreau_session* session, carreau_status error, const char* sentence);
+
 /* ---- Geometry: the routines of the module cad_m ---- */
 
 /* What h and the radii hold before a routine is asked. A routine that does not answer leaves it (RT-0232 sec. 3.1.3).
@@ -166,7 +171,8 @@ typedef struct carreau_cad_m {
   void (*cad_radc)(const int32_t* refs, const int32_t* ic, const double* t, double* rhoc); /* when hgeo_flag = 2 */
 } carreau_cad_m;
 
-/* Registers the routines in place of any earlier geometry, and calls cad_init. Copies the struct.
+/* Registers the routines in place of earlier ones of this call or of carreau_set_cad, and calls cad_init. Copies the
+ * struct.
  * Errors: ARGUMENT (a needed routine is missing, struct_size). */
 CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* routines);
 
@@ -216,9 +222,12 @@ typedef struct carreau_cad {
   carreau_surface_value_fn surface_radius;
   carreau_curve_value_fn curve_radius;
   carreau_failure_fn failure;
+  void (*release)(void* user); /* called once, when nothing asks the callbacks any more: the session has others or is
+                                  freed, and no mesh is left that they have made. It makes no call on the session */
 } carreau_cad;
 
-/* Registers the callbacks in place of any earlier geometry. Copies the struct, but not what `user` points to.
+/* Registers the callbacks in place of earlier ones of this call or of carreau_set_cad_m; geometries that were added
+ * (carreau_geometry.h) stay. Copies the struct, but not what `user` points to.
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
@@ -268,7 +277,7 @@ CARREAU_API carreau_status carreau_set_metric_callbacks(carreau_session* session
 /* The kinds of curves (typc): on the boundary of a domain, or inside it. */
 enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
 
-/* Drops all faces. An earlier mesh stays. */
+/* Drops all faces, and all geometries that were added (carreau_geometry.h). An earlier mesh stays. */
 CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
 
 /* Appends a face. Callbacks get the number `ref`, which differs from face to face. An orientation of +k (-k) says that

@@ -16,6 +16,83 @@
 extern "C" {
 #endif
 
+/* ---- Several geometries in one session ---- */
+
+/* A session has the host's own geometry (carreau_set_cad or carreau_set_cad_m, with faces by carreau_model_add_face),
+ * and any number of others, which the functions below add. Each counts its faces, curves and points from 1. In the
+ * session those numbers are moved behind all that it has: carreau_geometry_info tells where. So the faces of the first
+ * geometry of an empty session keep their numbers. Faces that the host adds himself later on must have larger
+ * references than those, curves and points too.
+ *
+ * Geometries do not touch, unless the parameter glue_open is 1: curves that one face only has are then compared in
+ * space, in all geometries, and become one within eps_glue (or eps_glue_open). The mesh of a geometry that touches no
+ * other one is, for the same sizes, that of a session of its own, bit for bit. Parameters that are relative to the
+ * diagonal see the box of all. Faces are meshed by several threads at a time when all geometries allow it: those that
+ * the library evaluates itself do.
+ *
+ * carreau_model_clear drops them all. */
+enum {
+  CARREAU_GEOMETRY_CALLBACKS = 1, /* carreau_geometry_begin, and libraries on top of it */
+  CARREAU_GEOMETRY_BEZIER = 2,
+  CARREAU_GEOMETRY_MOLECULE = 3,
+  CARREAU_GEOMETRY_PLANE = 4
+};
+
+/* A geometry, and the references that are its own: its face k is face first_face + k - 1 of the session. A geometry
+ * without curves (points) has last_curve = first_curve - 1. */
+typedef struct carreau_geometry {
+  size_t struct_size;
+  int32_t kind;  /* CARREAU_GEOMETRY_... */
+  int32_t faces; /* their number */
+  int32_t first_face, last_face;
+  int32_t first_curve, last_curve;
+  int32_t first_point, last_point;
+} carreau_geometry;
+
+/* Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
+ * Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_geometry_count(carreau_session* session, int64_t* out_count);
+CARREAU_API carreau_status carreau_geometry_info(carreau_session* session, int64_t index,
+                                                 carreau_geometry* out_geometry);
+
+/* Begins a geometry of callbacks beside what the session has. Until carreau_geometry_end, the functions
+ * carreau_model_... are about its faces alone. They take, and callbacks get, its own references; sentences and results
+ * have those of the session. With carreau_geometry_cancel the session is as it was before; carreau_last_error keeps
+ * the sentence of the call before. Calls that need the whole model fail in between (SEQUENCE). Errors of
+ * carreau_geometry_begin: ARGUMENT, as carreau_set_cad, SEQUENCE; of carreau_geometry_end: SEQUENCE, MODEL (no face, a
+ * reference that is negative, or too large); the session is then as before carreau_geometry_begin. What else is wrong
+ * with the faces is told when they are meshed. */
+CARREAU_API carreau_status carreau_geometry_begin(carreau_session* session, const carreau_cad* callbacks);
+CARREAU_API carreau_status carreau_geometry_end(carreau_session* session);
+CARREAU_API carreau_status carreau_geometry_cancel(carreau_session* session);
+
+/* ---- Bezier patches ---- */
+
+/* Largest degree in a direction. */
+enum { CARREAU_BEZIER_DEGREE = 15 };
+
+/* Tensor products over the unit square. Patch k, from 0, has a degree m in u and n in v. */
+typedef struct carreau_bezier {
+  size_t struct_size;
+  int64_t patch_count;
+  const int32_t* degrees;  /* patch_count x 2: m, n, from 1 to CARREAU_BEZIER_DEGREE */
+  const double* controls;  /* for each patch (m + 1)(n + 1) control points x y z, model length; v runs fastest */
+  const int32_t* side_refs; /* patch_count x 4, of the sides v = 0, u = 1, v = 1, u = 0: positive, and the same for
+                               sides that are one curve; NULL: what meets within eps_glue is found when a mesh is made */
+} carreau_bezier;
+
+/* Adds Bezier patches to a session: patch k is face k + 1, and its normal is along Su x Sv. Evaluation and derivatives
+ * are exact, and so are the radii of curvature that hgeo_flag = 2 asks for. Errors: ARGUMENT (a degree, a number that
+ * is not finite, no patch), SEQUENCE (see carreau_geometry_begin). */
+CARREAU_API carreau_status carreau_add_bezier(carreau_session* session, const carreau_bezier* bezier);
+
+/* The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are found
+ * when a mesh is made. Errors: those above, FILE (with the line). */
+CARREAU_API carreau_status carreau_load_bezier(carreau_session* session, const char* path);
+
+/* Tells the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref, int32_t out_degrees[2]);
+
 /* ---- Molecules ---- */
 
 /* Which surface of a molecule (HDR sec. 4.6.2). */
@@ -32,13 +109,12 @@ typedef struct carreau_molecule_options {
   double probe;          /* radius of the probe; CARREAU_VWS does not use it */
 } carreau_molecule_options;
 
-/* Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear. A
- * face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
+/* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
  * the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
  * faces of their own, with references behind those of all balls. Of balls that are equal, concentric or one inside the
  * other, those inside have no face; spheres that only touch do not meet. Where rounding hides how spheres meet (four of
  * them in one point), radii are moved by some 1e-9 of themselves, and a message tells it. Errors: ARGUMENT (a radius
- * that is not positive, n below 1, the session has faces). */
+ * that is not positive, n below 1), SEQUENCE (see carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
@@ -116,8 +192,7 @@ typedef struct carreau_plane_domain {
   const int32_t* seed_refs;  /* seed_count: the reference of the subdomain, or -1 for a hole */
 } carreau_plane_domain;
 
-/* Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear. Its faces
- * are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
+/* Makes a plane domain the only geometry of a session that has no model: see carreau_model_clear. Its faces are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
  * 0, or stands for several entities, the model has a number behind the largest in its place; results show the caller's.
  * Sizes at points hold along curves; inside, hphydef counts (hphy_flag 1) or what the curves around have (hphy_flag 2).
  * Messages tell pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves that cross, touch or make a loop;
@@ -140,9 +215,9 @@ CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, c
 /* Tells whether the plane domain that the session was given last has sizes or metrics at its points. */
 CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
 
-/* ---- Points of built-in geometries ---- */
+/* ---- Points of added geometries ---- */
 
-/* Evaluates a face at n places (u, v). Errors: SEQUENCE (the geometry of the session is not built in), ARGUMENT. */
+/* Evaluates a face at n places (u, v). Errors: SEQUENCE (the face is of no geometry that was added), ARGUMENT. */
 CARREAU_API carreau_status carreau_geometry_points(carreau_session* session, int32_t face_ref, int64_t n,
                                                    const double uv[], double out_xyz[]);
 
