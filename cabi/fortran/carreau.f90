@@ -38,6 +38,7 @@ module carreau
   public :: carreau_set_message_callback, carreau_set_progress_callback, carreau_stop
   public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
   public :: carreau_session_mesh, carreau_mesh_create, carreau_mesh_free, carreau_mesh_last_error
+  public :: carreau_mesh_from_arrays
   public :: carreau_mesh_read, carreau_mesh_write, carreau_mesh_count, carreau_mesh_dimension
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
@@ -1063,6 +1064,68 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_mesh_read(mesh%handle, c_text(path))
   end subroutine carreau_mesh_read
+
+  !> vertices(2 or 3, n); triangles(3, m) and edges(2, k) count vertices from 1; corner_uv(2, 3, m)
+  subroutine carreau_mesh_from_arrays(mesh, vertices, triangles, status, edges, vertex_refs, triangle_refs, edge_refs, &
+      corner_uv)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), intent(in) :: vertices(:, :)
+    integer(c_int32_t), intent(in) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: edges(:, :), vertex_refs(:), triangle_refs(:), edge_refs(:)
+    real(c_double), intent(in), optional :: corner_uv(:, :, :)
+    integer(c_int32_t), allocatable, target :: t(:), e(:), of_vertices(:), of_triangles(:), of_edges(:)
+    real(c_double), allocatable, target :: p(:), uv(:)
+    type(c_mesh_arrays) :: c
+    integer :: n, m, k
+    status = CARREAU_ERR_ARGUMENT
+    n = size(vertices, 2)
+    m = size(triangles, 2)
+    k = 0
+    if (size(triangles, 1) /= 3) return
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%dimension = int(size(vertices, 1), c_int32_t)
+    allocate (p(size(vertices) + 1), t(3 * m + 1)) ! never empty: an address is wanted
+    p(:size(vertices)) = reshape(vertices, [size(vertices)])
+    t(:3 * m) = reshape(triangles, [3 * m]) - 1
+    c%vertices = c_loc(p(1))
+    c%triangles = c_loc(t(1))
+    if (present(edges)) then
+      k = size(edges, 2)
+      if (size(edges, 1) /= 2) return
+      allocate (e(2 * k + 1))
+      e(:2 * k) = reshape(edges, [2 * k]) - 1
+      c%edges = c_loc(e(1))
+    end if
+    if (present(vertex_refs)) then
+      if (size(vertex_refs) /= n) return
+      allocate (of_vertices(n + 1))
+      of_vertices(:n) = vertex_refs
+      c%vertex_refs = c_loc(of_vertices(1))
+    end if
+    if (present(triangle_refs)) then
+      if (size(triangle_refs) /= m) return
+      allocate (of_triangles(m + 1))
+      of_triangles(:m) = triangle_refs
+      c%triangle_refs = c_loc(of_triangles(1))
+    end if
+    if (present(edge_refs)) then
+      if (size(edge_refs) /= k) return
+      allocate (of_edges(k + 1))
+      of_edges(:k) = edge_refs
+      c%edge_refs = c_loc(of_edges(1))
+    end if
+    if (present(corner_uv)) then
+      if (size(corner_uv) /= 6 * m) return
+      allocate (uv(6 * m + 1))
+      uv(:6 * m) = reshape(corner_uv, [6 * m])
+      c%corner_uv = c_loc(uv(1))
+    end if
+    c%vertex_count = n
+    c%triangle_count = m
+    c%edge_count = k
+    status = c_mesh_from_arrays(mesh%handle, c)
+  end subroutine carreau_mesh_from_arrays
 
   subroutine carreau_mesh_write(mesh, path, status)
     type(carreau_mesh), intent(in) :: mesh

@@ -102,6 +102,16 @@ module carreau_c
     integer(c_int64_t) :: outside = 0
   end type c_adaptation_report
 
+  !> A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the
+  !! arrays to carreau_set_background.) Arrays may be NULL where this says so.
+  type, bind(c) :: c_mesh_arrays
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: dimension = 0, reserved = 0
+    integer(c_int64_t) :: vertex_count = 0, triangle_count = 0, edge_count = 0
+    type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, edges = c_null_ptr, vertex_refs = c_null_ptr, &
+      triangle_refs = c_null_ptr, edge_refs = c_null_ptr, corner_uv = c_null_ptr
+  end type c_mesh_arrays
+
   type, bind(c) :: c_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: ref = 0, status = 0
@@ -716,6 +726,15 @@ module carreau_c
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: status
     end function c_mesh_read
+
+    !> Replaces the content of a mesh that carreau_mesh_create has made by a copy of arrays.
+    function c_mesh_from_arrays(mesh, arrays) result(status) bind(c, name="carreau_mesh_from_arrays")
+      import :: c_int32_t, c_mesh_arrays, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_mesh_arrays), intent(in) :: arrays
+      integer(c_int32_t) :: status
+    end function c_mesh_from_arrays
 
     !> Writes the mesh to a file.
     function c_mesh_write(mesh, path) result(status) bind(c, name="carreau_mesh_write")

@@ -19,7 +19,8 @@ module carreau_geometry
   public :: carreau_add_bezier, carreau_load_bezier, carreau_bezier_degrees
 
   public :: carreau_molecule_options, carreau_molecule_measures, carreau_add_molecule, carreau_load_molecule
-  public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_name
+  public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_areas
+  public :: carreau_molecule_atom_name
   public :: carreau_geometry_points, carreau_geometry_curve
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
@@ -222,6 +223,18 @@ contains
     allocate (refs(measures%atoms), areas(measures%atoms))
     status = c_molecule_atoms(session%handle, measures%atoms, refs, areas)
   end subroutine carreau_molecule_atoms
+
+  !> convex(n), torus(n), concave(n)
+  subroutine carreau_molecule_atom_areas(session, convex, torus, concave, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), allocatable, intent(out) :: convex(:), torus(:), concave(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_molecule_measures) :: measures
+    call carreau_molecule_measure(session, measures, status)
+    if (status /= CARREAU_OK) return
+    allocate (convex(measures%atoms), torus(measures%atoms), concave(measures%atoms))
+    status = c_molecule_atom_areas(session%handle, measures%atoms, convex, torus, concave)
+  end subroutine carreau_molecule_atom_areas
 
   !> atom: from 1; "" when it has none, or there is no such atom
   function carreau_molecule_atom_name(session, atom) result(name)

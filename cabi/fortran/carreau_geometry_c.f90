@@ -157,6 +157,18 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_atoms
 
+    !> Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on
+    !! its side of the plane in which the probe's centre moves; a third of each concave part that touches it.
+    function c_molecule_atom_areas(session, capacity, convex, torus, concave) result(status) &
+        bind(c, name="carreau_molecule_atom_areas")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: convex(*), torus(*), concave(*)
+      integer(c_int32_t) :: status
+    end function c_molecule_atom_areas
+
     !> Tells the residue of an atom, from 0; "" when it has none.
     function c_molecule_atom_name(session, atom) result(name) bind(c, name="carreau_molecule_atom_name")
       import :: c_int64_t, c_ptr

@@ -625,6 +625,27 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
+/* A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the
+ * arrays to carreau_set_background.) Arrays may be NULL where this says so. */
+typedef struct carreau_mesh_arrays {
+  size_t struct_size;
+  int32_t dimension; /* 3; 2: of the plane z = 0 */
+  int32_t reserved;  /* 0 */
+  int64_t vertex_count, triangle_count, edge_count;
+  const double* vertices;       /* vertex_count x dimension, model length */
+  const int32_t* triangles;     /* triangle_count x 3 vertices, from 0 */
+  const int32_t* edges;         /* edge_count x 2 vertices, from 0, of curves; NULL when edge_count is 0 */
+  const int32_t* vertex_refs;   /* vertex_count; NULL: all 0 */
+  const int32_t* triangle_refs; /* triangle_count, references of faces; NULL: all 1 */
+  const int32_t* edge_refs;     /* edge_count, references of curves; NULL: all 0 */
+  const double* corner_uv;      /* triangle_count x 3 x 2; NULL: carreau_mesh_corner_uv has none */
+} carreau_mesh_arrays;
+
+/* Replaces the content of a mesh that carreau_mesh_create has made by a copy of arrays. On an error the old content
+ * stays. Errors: ARGUMENT (an index that is none, with the triangle or edge; a coordinate that is not finite; no vertex
+ * or no triangle; mesh of a session). What else is wrong carreau_mesh_defects tells. */
+CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const carreau_mesh_arrays* arrays);
+
 /* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names). The parameters option, refs and flag say how the mesh of a
  * session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves in the parameter plane.
@@ -645,7 +666,7 @@ CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* o
  *   vertex_sizes    n          prescribed size, model length; mesh of a session only
  *   triangles       m x 3      vertices, counterclockwise in (u, v); face by face in the order of the model
  *   triangle_refs   m          reference of the face
- *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session only
+ *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session, or of arrays with it
  *   edges           k x 2      vertices, along each curve from its first end to its second
  *   edge_refs       k          reference of the curve */
 CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double out_xyz[]);

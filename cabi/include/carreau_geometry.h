@@ -150,6 +150,13 @@ CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, ca
 CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
                                                   double out_areas[]);
 
+/* Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on its side
+ * of the plane in which the probe's centre moves; a third of each concave part that touches it. The sums are those of
+ * carreau_molecule_measures; but for CARREAU_SES the latter two are 0. An array may be NULL. Errors: SEQUENCE,
+ * ARGUMENT (capacity). */
+CARREAU_API carreau_status carreau_molecule_atom_areas(carreau_session* session, int64_t capacity, double out_convex[],
+                                                       double out_torus[], double out_concave[]);
+
 /* Tells the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
  * no such atom. */
 CARREAU_API const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom);
@@ -217,7 +224,7 @@ CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int
 
 /* ---- Points of added geometries ---- */
 
-/* Evaluates a face at n places (u, v). Errors: SEQUENCE (the face is of no geometry that was added), ARGUMENT. */
+/* Evaluates a face at n places (u, v). Errors: SEQUENCE (no geometry was added), ARGUMENT. */
 CARREAU_API carreau_status carreau_geometry_points(carreau_session* session, int32_t face_ref, int64_t n,
                                                    const double uv[], double out_xyz[]);
 

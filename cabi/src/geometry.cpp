@@ -22,7 +22,9 @@ std::pair<carreau::Cad*, int> geometry_of(const carreau_session& session, std::i
   for (const AddedGeometry& geometry : session.added)
     if (face >= geometry.range.first_face && face <= geometry.range.last_face)
       return {geometry.cad.get(), face - geometry.range.first_face + 1};
-  throw StatusError(CARREAU_ERR_SEQUENCE, "no geometry that was added to the session has face " + std::to_string(face));
+  const std::string sentence = "no geometry that was added to the session has face " + std::to_string(face);
+  if (session.added.empty()) throw StatusError(CARREAU_ERR_SEQUENCE, sentence);
+  throw InvalidArgument(carreau::Where{.face = face}, sentence);
 }
 
 BegunGeometry& begun_of(carreau_session& session) {

@@ -86,6 +86,7 @@ struct carreau_mesh {
   };
   std::vector<FaceOfFile> flat_faces;  // ascending references: of triangles of `flat`, and of faces that it tells of
   bool filled = false;                 // of `flat`
+  std::vector<double> corner_uv;       // of `flat`, 6 a triangle, or empty
   std::string text;                    // returned to the caller, who may look at it until the next call
   carreau::abi::ErrorSlot error;
   std::atomic<bool> busy{false};

@@ -101,6 +101,19 @@ carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity
   });
 }
 
+carreau_status carreau_molecule_atom_areas(carreau_session* session, int64_t capacity, double out_convex[],
+                                           double out_torus[], double out_concave[]) {
+  return guarded(session, [&] {
+    const MoleculeSummary& molecule = molecule_of(*session);
+    check_capacity(capacity, molecule.numbers.size(), "atoms");
+    const auto give = [](const std::vector<double>& areas, double* out) {
+      if (out != nullptr) std::copy(areas.begin(), areas.end(), out);
+    };
+    give(molecule.measures.ball_area, out_convex);
+    give(molecule.ball_torus, out_torus), give(molecule.ball_concave, out_concave);
+  });
+}
+
 const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom) {
   const char* name = nullptr;
   guarded(session, [&] {

@@ -69,6 +69,8 @@ contains
   subroutine check(good, what)
     logical, intent(in) :: good
     character(len=*), intent(in) :: what
-    if (.not. good) error stop what
+    if (good) return
+    write (*, '(a)') what
+    error stop 1
   end subroutine check
 end program cad_fortran_test

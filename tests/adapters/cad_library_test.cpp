@@ -122,7 +122,7 @@ TEST(CadLibrary, TellsWhatAFileHolds) {
     auto face = empty<carreau_cad_face>();
     EXPECT_OK(file, carreau_cad_file_face(file, f, &face));
     tops += std::string(face.name) == "top" ? 1 : 0;
-    green += face.rgb == 0x00FF00 ? 1 : 0;
+    green += face.rgb == 0x40A030 ? 1 : 0;
     EXPECT_STREQ(face.why, "");
     auto figures = empty<carreau_cad_figures>();
     EXPECT_OK(file, carreau_cad_measure_face(file, f, &figures));
@@ -130,7 +130,7 @@ TEST(CadLibrary, TellsWhatAFileHolds) {
     area += figures.area;
   }
   EXPECT_EQ(tops, 1);
-  EXPECT_GE(green, 1);
+  EXPECT_EQ(green, 5);  // the box is green, its top orange
   auto report = empty<carreau_cad_report>();
   EXPECT_OK(file, carreau_cad_inspect(file, 0, &report));
   EXPECT_NEAR(area, report.area, 1e-9 * area);
@@ -264,9 +264,9 @@ class Mixed : public testing::Test {
     if (kind == 0) add_molecule(session);
     if (kind == 1) add_bezier(session);
     if (kind == 2) add_plate(session);
-    if (kind == 3)
-      EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/assembly.step").c_str(), nullptr, nullptr));
-    if (kind == 4) EXPECT_OK(session, carreau_cad_open(session, (shapes() + "/prism.brep").c_str(), nullptr, nullptr));
+    if (kind < 3) return;
+    const std::string path = shapes() + (kind == 3 ? "/assembly.step" : "/prism.brep");
+    EXPECT_OK(session, carreau_cad_open(session, path.c_str(), nullptr, nullptr));
   }
 
  private:
@@ -316,7 +316,7 @@ TEST_F(Mixed, GeometriesHaveTheMeshesThatTheyHaveAlone) {
     mesh(all, 2, threads);
     for (int kind = 0; kind < kinds; ++kind) {
       EXPECT_EQ(triangles_of(all, places[kind].first_face, places[kind].last_face), alone[kind]) << "geometry " << kind;
-      if (kind > 0) EXPECT_EQ(places[kind].first_face, places[kind - 1].last_face + 1);
+      EXPECT_EQ(places[kind].first_face, kind > 0 ? places[kind - 1].last_face + 1 : 1);
     }
   }
 }

@@ -2,7 +2,8 @@
 !! Different here: losses, dangers and kinds of surfaces count from 1; texts are copies; arguments that may be NULL are
 !! optional.
 module carreau_cad
-  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_null_char, c_null_ptr, &
+  ! c_funptr: without it gfortran 12 cannot read its own module ("NULL appears on right-hand side").
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_char, c_null_ptr, &
     c_ptr
   use carreau, only: carreau_session, carreau_string, CARREAU_OK
   use carreau_cad_c
@@ -22,40 +23,42 @@ module carreau_cad
   end type carreau_cad_file
 
   type :: carreau_cad_content
-    integer(c_int32_t) :: faces, edges, vertices
-    logical :: closed
+    integer(c_int32_t) :: faces = 0, edges = 0, vertices = 0
+    logical :: closed = .false.
     character(len=:), allocatable :: unit
-    real(c_double) :: diagonal, glue_tolerance, open_tolerance
-    integer(c_int32_t) :: losses, bent_faces, left_out, references
+    real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0
+    integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
   end type carreau_cad_content
 
   type :: carreau_cad_face
-    integer(c_int32_t) :: number, rgb
+    integer(c_int32_t) :: number = 0, rgb = 0
     character(len=:), allocatable :: name, why
   end type carreau_cad_face
 
   type :: carreau_cad_figures
     character(len=:), allocatable :: kind
-    real(c_double) :: area, perimeter, low(3), high(3)
+    real(c_double) :: area = 0, perimeter = 0
+    real(c_double), dimension(3) :: low = 0, high = 0
   end type carreau_cad_figures
 
   type :: carreau_cad_report
-    integer(c_int32_t) :: solids, shells, faces, edges, vertices, seams, poles, closed_edges, inner_wires, internal_edges
-    real(c_double) :: diagonal, area, volume, shortest_edge, largest_tolerance, largest_gap
-    integer(c_int32_t) :: kinds, dangers
+    integer(c_int32_t) :: solids = 0, shells = 0, faces = 0, edges = 0, vertices = 0, &
+      seams = 0, poles = 0, closed_edges = 0, inner_wires = 0, internal_edges = 0
+    real(c_double) :: diagonal = 0, area = 0, volume = 0, shortest_edge = 0, largest_tolerance = 0, largest_gap = 0
+    integer(c_int32_t) :: kinds = 0, dangers = 0
   end type carreau_cad_report
 
   type :: carreau_cad_danger
     character(len=:), allocatable :: kind
-    integer(c_int32_t) :: face, edge
-    real(c_double) :: value
-    logical :: cut
+    integer(c_int32_t) :: face = 0, edge = 0
+    real(c_double) :: value = 0
+    logical :: cut = .false.
     character(len=:), allocatable :: sentence
   end type carreau_cad_danger
 
   type :: carreau_cad_gaps
-    real(c_double) :: largest
-    integer(c_int32_t) :: edge, face, beyond
+    real(c_double) :: largest = 0
+    integer(c_int32_t) :: edge = 0, face = 0, beyond = 0
   end type carreau_cad_gaps
 
   abstract interface
@@ -156,8 +159,18 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_cad_info(file%handle, c)
     if (status /= CARREAU_OK) return
-    content = carreau_cad_content(c%faces, c%edges, c%vertices, c%closed /= 0, carreau_string(c%unit), c%diagonal, &
-      c%glue_tolerance, c%open_tolerance, c%losses, c%bent_faces, c%left_out, c%references)
+    content%faces = c%faces
+    content%edges = c%edges
+    content%vertices = c%vertices
+    content%closed = c%closed /= 0
+    content%unit = carreau_string(c%unit)
+    content%diagonal = c%diagonal
+    content%glue_tolerance = c%glue_tolerance
+    content%open_tolerance = c%open_tolerance
+    content%losses = c%losses
+    content%bent_faces = c%bent_faces
+    content%left_out = c%left_out
+    content%references = c%references
   end subroutine carreau_cad_info
 
   !> index: from 1; "" when there is no such
@@ -176,7 +189,11 @@ contains
     type(c_cad_face) :: c
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_cad_file_face(file%handle, number, c)
-    if (status == CARREAU_OK) face = carreau_cad_face(c%number, c%rgb, carreau_string(c%name), carreau_string(c%why))
+    if (status /= CARREAU_OK) return
+    face%number = c%number
+    face%rgb = c%rgb
+    face%name = carreau_string(c%name)
+    face%why = carreau_string(c%why)
   end subroutine carreau_cad_file_face
 
   subroutine carreau_cad_measure_face(file, number, figures, status)
@@ -187,7 +204,12 @@ contains
     type(c_cad_figures) :: c
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_cad_measure_face(file%handle, number, c)
-    if (status == CARREAU_OK) figures = carreau_cad_figures(carreau_string(c%kind), c%area, c%perimeter, c%low, c%high)
+    if (status /= CARREAU_OK) return
+    figures%kind = carreau_string(c%kind)
+    figures%area = c%area
+    figures%perimeter = c%perimeter
+    figures%low = c%low
+    figures%high = c%high
   end subroutine carreau_cad_measure_face
 
   ! ---- What is hard to mesh ----
@@ -233,7 +255,12 @@ contains
     c%struct_size = size(transfer(c, [c_null_char]))
     status = c_cad_danger_at(file%handle, index - 1, c)
     if (status /= CARREAU_OK) return
-    danger = carreau_cad_danger(carreau_string(c%kind), c%face, c%edge, c%value, c%cut /= 0, carreau_string(c%sentence))
+    danger%kind = carreau_string(c%kind)
+    danger%face = c%face
+    danger%edge = c%edge
+    danger%value = c%value
+    danger%cut = c%cut /= 0
+    danger%sentence = carreau_string(c%sentence)
   end subroutine carreau_cad_danger_at
 
   subroutine carreau_cad_measure_gaps(file, gaps, status)
