@@ -8,16 +8,14 @@ namespace {
 
 class BezierInput final : public BuiltInput {
  public:
-  BezierInput(SessionHandle session, const std::string& path) : BuiltInput(std::move(session)), path_(path) {
-    measure(path);
-  }
+  BezierInput(SessionHandle session, const std::string& path) : BuiltInput(std::move(session), path), path_(path) {}
 
   carreau_status give_to(carreau_session* session) override { return carreau_load_bezier(session, path_.c_str()); }
 
  private:
   [[nodiscard]] std::string kind(std::int32_t face) const override {
     std::int32_t degrees[2] = {0, 0};
-    require(session(), carreau_bezier_degrees(session(), face, degrees));
+    ask([&](carreau_session* session) { require(session, carreau_bezier_degrees(session, face, degrees)); });
     return "Bezier " + std::to_string(degrees[0]) + " x " + std::to_string(degrees[1]);
   }
 

@@ -4,15 +4,15 @@
 
 #include <array>
 
+#include "face_model.h"
+#include "failure.h"
+
 namespace command {
 
-SessionHandle make_silent_session() {
-  SessionHandle session = make_session();
-  require(session.get(), carreau_set_integer(session.get(), "verb", 0));
-  return session;
+BuiltInput::BuiltInput(SessionHandle session, const std::string& path)
+    : ModelInput(model_of(session.get())), session_(std::move(session)) {
+  measure(path);
 }
-
-BuiltInput::BuiltInput(SessionHandle session) : ModelInput(model_of(session.get())), session_(std::move(session)) {}
 
 bool BuiltInput::locate(std::int32_t face, double u, double v, Place& place) const noexcept {
   const std::array<double, 2> uv{u, v};
@@ -29,6 +29,12 @@ bool BuiltInput::on_curve(std::int32_t face, std::int32_t ic, double share, doub
   if (carreau_geometry_curve(session_.get(), face, ic, share, uv.data()) != CARREAU_OK) return false;
   u = uv[0], v = uv[1];
   return true;
+}
+
+SessionHandle make_silent_session() {
+  SessionHandle session = make_session();
+  require(session.get(), carreau_set_integer(session.get(), "verb", 0));
+  return session;
 }
 
 }  // namespace command

@@ -1,4 +1,4 @@
-// Geometries that the library evaluates itself.
+// Inputs whose geometry the library evaluates itself, in a session of their own that answers where points are.
 #pragma once
 
 #include <mutex>
@@ -8,7 +8,6 @@
 
 namespace command {
 
-/// A geometry in a session of its own, which answers where points are.
 class BuiltInput : public ModelInput {
  public:
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override;
@@ -16,18 +15,22 @@ class BuiltInput : public ModelInput {
                               double& v) const noexcept override;
 
  protected:
-  explicit BuiltInput(SessionHandle session);
-  /// To be used by one thread at a time.
-  [[nodiscard]] carreau_session* session() const noexcept { return session_.get(); }
+  /// The session has a built-in geometry. `path` is for messages. Throws Failure.
+  BuiltInput(SessionHandle session, const std::string& path);
+  carreau_status give_geometry(carreau_session* session) final { return give_to(session); }
+  /// Asks the session, which one thread uses at a time.
+  template <typename Ask>
+  auto ask(Ask&& question) const {
+    const std::lock_guard lock(mutex_);
+    return question(session_.get());
+  }
 
  private:
-  carreau_status give_geometry(carreau_session* session) override { return give_to(session); }
-
   SessionHandle session_;
   mutable std::mutex mutex_;
 };
 
-/// A session that tells no warning: they come when the mesh is made. Throws Failure.
+/// A session for an input: silent, since warnings come when the mesh is made. Throws Failure.
 SessionHandle make_silent_session();
 
 }  // namespace command

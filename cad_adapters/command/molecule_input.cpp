@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "built_input.h"
+#include "failure.h"
 #include "text_file.h"
 
 namespace command {
@@ -23,9 +24,7 @@ carreau_molecule_options options_of(const MoleculeChoice& choice) {
 class MoleculeInput final : public BuiltInput {
  public:
   MoleculeInput(SessionHandle session, const std::string& path, const MoleculeChoice& choice)
-      : BuiltInput(std::move(session)), path_(path), choice_(choice) {
-    measure(path);
-  }
+      : BuiltInput(std::move(session), path), path_(path), choice_(choice) {}
 
   carreau_status give_to(carreau_session* session) override {
     const carreau_molecule_options options = options_of(choice_);
@@ -35,7 +34,7 @@ class MoleculeInput final : public BuiltInput {
   [[nodiscard]] std::string summary() const override {
     carreau_molecule_measures measures{};
     measures.struct_size = sizeof measures;
-    require(session(), carreau_molecule_measure(session(), &measures));
+    ask([&](carreau_session* session) { require(session, carreau_molecule_measure(session, &measures)); });
     return std::to_string(measures.atoms) + " atoms, " + std::to_string(measures.exposed_atoms) + " exposed, " +
            ModelInput::summary();
   }
@@ -47,6 +46,7 @@ class MoleculeInput final : public BuiltInput {
 
  private:
   [[nodiscard]] std::string kind(std::int32_t) const override { return "sphere"; }
+
   std::string path_;
   MoleculeChoice choice_;
 };

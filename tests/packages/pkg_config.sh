@@ -21,6 +21,7 @@ if [ "$cad" = 1 ]; then
   test "$("$pkg_config" --modversion carreau)" = "$("$pkg_config" --modversion carreau-cad)"
   flags=$("$pkg_config" --cflags --libs carreau-cad)
   eval "set -- $flags"
-  "$cc" -std=c99 "$(dirname -- "$(dirname -- "$source")")/cad/main.c" -o cad_customer "$@"
-  LD_LIBRARY_PATH=$("$pkg_config" --variable=libdir carreau-cad | sed 's/\\//g') ./cad_customer
+  cad_source=$(dirname -- "$(dirname -- "$source")")/cad
+  "$cc" -std=c99 "$cad_source/main.c" -o cad_customer "$@" -lm
+  LD_LIBRARY_PATH=$("$pkg_config" --variable=libdir carreau-cad | sed 's/\\//g') ./cad_customer "$cad_source/sphere.brep"
 fi

@@ -1,22 +1,24 @@
-/* A customer of libcarreau_cad: a BREP file that it writes itself, the plane face of a triangle. */
+/* A customer of libcarreau_cad: meshes a sphere of radius 1 (sphere.brep beside the program, or a path), and is told of a file
+ * that is none. */
 #include <carreau_cad.h>
 #include <math.h>
 #include <stdio.h>
 
-/* A square of side 2 in the plane z = 0. */
-static const char* const square =
-    "DBRep_DrawableShape\n\nCASCADE Topology V1, (c) Matra-Datavision\nLocations 0\nCurve2ds 0\nCurves 0\nPolygon3D 0\n"
-    "PolygonOnTriangulations 0\nSurfaces 1\n1 0 0 0 0 0 1 1 0 0 0 1 0 \nTriangulations 0\n\nTShapes 0\n\n";
-
-int main(void) {
+int main(int argc, char** argv) {
+  const double area = 4 * 3.14159265358979323846;
   carreau_session* session = NULL;
-  FILE* file = fopen("none.brep", "w");
-  int32_t status;
-  if (file == NULL || fputs(square, file) < 0 || fclose(file) != 0) return 1;
-  if (carreau_session_create(&session) != CARREAU_OK) return 2;
-  status = carreau_cad_open(session, "none.brep", NULL, NULL);
+  carreau_mesh* mesh = NULL;
+  carreau_quality quality = {0};
+  quality.struct_size = sizeof quality;
+  if (argc != 2 || carreau_session_create(&session) != CARREAU_OK) return 1;
+  if (carreau_cad_open(session, "none.step", NULL, NULL) != CARREAU_ERR_FILE) return 2;
   puts(carreau_last_error(session));
-  if (status != CARREAU_ERR_FILE || carreau_last_error(session)[0] == 0) return 3;
+  if (carreau_cad_open(session, argv[1], NULL, NULL) != CARREAU_OK) return puts(carreau_last_error(session)), 3;
+  carreau_set_real(session, "hphydef", 0.1);
+  if (carreau_mesh_generate(session) != CARREAU_OK) return puts(carreau_last_error(session)), 4;
+  if (carreau_session_mesh(session, &mesh) != CARREAU_OK || carreau_mesh_quality(mesh, &quality) != CARREAU_OK) return 5;
+  printf("%ld triangles, area %.6f\n", (long)quality.triangles, quality.area);
+  if (quality.open_edges != 0 || fabs(quality.area - area) > 0.01 * area) return 6;
   carreau_session_free(session);
   return 0;
 }
