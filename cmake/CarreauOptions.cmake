@@ -1,3 +1,7 @@
+# What of OpenCASCADE is linked to libcarreau_cad.
+set(CARREAU_OPENCASCADE_LIBRARIES TKXDESTEP TKXDEIGES TKXCAF TKLCAF TKCDF TKSTEP TKSTEPBase TKIGES TKXSBase TKShHealing TKTopAlgo
+  TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)
+
 # What is built. AUTO, the default: where what it needs is found; ON: it must be found. What is left out is told at the end of
 # the configuration (carreau_print_summary), with the Debian packages that would bring it.
 include(CheckLanguage)
@@ -48,9 +52,19 @@ carreau_option(CARREAU_FORTRAN "Fortran modules and examples" "${CMAKE_Fortran_C
 
 # Of a project that contains this one, the library alone.
 if(NOT PROJECT_IS_TOP_LEVEL)
+  option(CARREAU_OPENCASCADE "libcarreau_cad" OFF)
   option(CARREAU_COMMAND "The command carreau" OFF)
   option(CARREAU_TESTS "Tests" OFF)
+  if(CARREAU_OPENCASCADE)
+    find_package(OpenCASCADE REQUIRED)
+  endif()
   return()
+endif()
+find_package(OpenCASCADE QUIET) # its package takes exact versions only
+carreau_option(CARREAU_OPENCASCADE "libcarreau_cad: CAD files (STEP, IGES, BREP) through OpenCASCADE" "${OpenCASCADE_FOUND}"
+  "libcarreau_cad (STEP, IGES and BREP files)" "OpenCASCADE was not found (the libocct packages that README lists)")
+if(CARREAU_OPENCASCADE)
+  find_package(OpenCASCADE REQUIRED)
 endif()
 find_package(CLI11 QUIET)
 find_package(PNG QUIET)
@@ -62,12 +76,6 @@ endif()
 carreau_option(CARREAU_COMMAND "The command carreau" ${found}
   "the command carreau" "CLI11 or libpng was not found (libcli11-dev, libpng-dev)")
 if(CARREAU_COMMAND)
-  find_package(OpenCASCADE QUIET) # its package takes exact versions only
-  carreau_option(CARREAU_OPENCASCADE "CAD files (STEP, IGES, BREP) through OpenCASCADE" "${OpenCASCADE_FOUND}"
-    "STEP, IGES and BREP files" "OpenCASCADE was not found (the libocct packages that README lists)")
-  if(CARREAU_OPENCASCADE)
-    find_package(OpenCASCADE REQUIRED)
-  endif()
   find_library(CARREAU_MUPARSER_LIBRARY muparser DOC "muParser, for --size-map with formulas")
   find_path(CARREAU_MUPARSER_INCLUDE muParser.h DOC "Folder of muParser.h")
   if(CARREAU_MUPARSER_LIBRARY AND CARREAU_MUPARSER_INCLUDE)

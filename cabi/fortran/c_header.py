@@ -2,7 +2,7 @@
 import re
 
 COMMENT = re.compile(r"/\*.*?\*/", flags=re.S)
-FUNCTION = re.compile(r"CARREAU_API\s+([\w\s\*]+?)\s*\b(carreau_\w+)\s*\(([^)]*)\)\s*;")
+FUNCTION = re.compile(r"CARREAU(?:_CAD)?_API\s+([\w\s\*]+?)\s*\b(carreau_\w+)\s*\(([^)]*)\)\s*;")
 STRUCT = re.compile(r"typedef struct (\w+) \{(.*?)\}\s*\w+\s*;", flags=re.S)
 
 
@@ -39,7 +39,7 @@ class Header:
         found = {}
         for comment in COMMENT.finditer(text):
             follower = text[comment.end():]
-            declared = re.match(r"\n(?:CARREAU_API\s+[\w\s\*]+?\b(carreau_\w+)\s*\(|typedef struct (\w+) \{)", follower)
+            declared = re.match(r"\n(?:CARREAU(?:_CAD)?_API\s+[\w\s\*]+?\b(carreau_\w+)\s*\(|typedef struct (\w+) \{)", follower)
             if declared:
                 found[declared.group(1) or declared.group(2)] = first_sentence(comment.group(0))
         return found

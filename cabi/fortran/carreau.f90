@@ -20,10 +20,12 @@ module carreau
   public :: carreau_hphys_fn, carreau_hphyc_fn, carreau_hphyp_fn
   public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
   public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn, carreau_failure_fn
+  public :: carreau_release_fn
   public :: carreau_surface_metric_fn, carreau_curve_metric_fn, carreau_point_metric_fn
   public :: carreau_message_fn, carreau_progress_fn
   public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
+  public :: carreau_set_error
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
@@ -36,6 +38,7 @@ module carreau
   public :: carreau_set_message_callback, carreau_set_progress_callback, carreau_stop
   public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
   public :: carreau_session_mesh, carreau_mesh_create, carreau_mesh_free, carreau_mesh_last_error
+  public :: carreau_mesh_from_arrays
   public :: carreau_mesh_read, carreau_mesh_write, carreau_mesh_count, carreau_mesh_dimension
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
@@ -374,6 +377,13 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_field_fn
 
+    !> Nothing asks the callbacks any more.
+    subroutine carreau_release_fn(user) bind(c)
+      import :: c_ptr
+      implicit none
+      type(c_ptr), value :: user
+    end subroutine carreau_release_fn
+
     !> carreau_string(text) is the sentence.
     subroutine carreau_message_fn(level, text, user) bind(c)
       import :: c_int32_t, c_ptr
@@ -512,7 +522,7 @@ contains
   !> what they do not give is found by finite differences. user: c_loc of a target, c_null_ptr when left out.
   subroutine carreau_set_cad(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
       reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, &
-      failure)
+      failure, release)
     type(carreau_session), intent(in) :: session
     procedure(carreau_surface_fn) :: surface
     procedure(carreau_interval_fn) :: curve_interval
@@ -526,6 +536,7 @@ contains
     procedure(carreau_curve_value_fn), optional :: curve_size, curve_radius
     procedure(carreau_point_value_fn), optional :: point_size
     procedure(carreau_failure_fn), optional :: failure
+    procedure(carreau_release_fn), optional :: release
     type(c_cad) :: callbacks
     callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
     callbacks%surface_order = 2
@@ -544,8 +555,18 @@ contains
     if (present(surface_radius)) callbacks%surface_radius = c_funloc(surface_radius)
     if (present(curve_radius)) callbacks%curve_radius = c_funloc(curve_radius)
     if (present(failure)) callbacks%failure = c_funloc(failure)
+    if (present(release)) callbacks%release = c_funloc(release)
     status = c_set_cad(session%handle, callbacks)
   end subroutine carreau_set_cad
+
+  !> status: `error`, or CARREAU_ERR_ARGUMENT
+  subroutine carreau_set_error(session, error, sentence, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: error
+    character(len=*), intent(in) :: sentence
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_error(session%handle, error, trim(sentence)//c_null_char)
+  end subroutine carreau_set_error
 
   !> Those that are left out do not answer. Of either kind of geometry.
   subroutine carreau_set_metric_callbacks(session, status, user, surface_metric, curve_metric, point_metric)
@@ -1043,6 +1064,68 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_mesh_read(mesh%handle, c_text(path))
   end subroutine carreau_mesh_read
+
+  !> vertices(2 or 3, n); triangles(3, m) and edges(2, k) count vertices from 1; corner_uv(2, 3, m)
+  subroutine carreau_mesh_from_arrays(mesh, vertices, triangles, status, edges, vertex_refs, triangle_refs, edge_refs, &
+      corner_uv)
+    type(carreau_mesh), intent(in) :: mesh
+    real(c_double), intent(in) :: vertices(:, :)
+    integer(c_int32_t), intent(in) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: edges(:, :), vertex_refs(:), triangle_refs(:), edge_refs(:)
+    real(c_double), intent(in), optional :: corner_uv(:, :, :)
+    integer(c_int32_t), allocatable, target :: t(:), e(:), of_vertices(:), of_triangles(:), of_edges(:)
+    real(c_double), allocatable, target :: p(:), uv(:)
+    type(c_mesh_arrays) :: c
+    integer :: n, m, k
+    status = CARREAU_ERR_ARGUMENT
+    n = size(vertices, 2)
+    m = size(triangles, 2)
+    k = 0
+    if (size(triangles, 1) /= 3) return
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%dimension = int(size(vertices, 1), c_int32_t)
+    allocate (p(size(vertices) + 1), t(3 * m + 1)) ! never empty: an address is wanted
+    p(:size(vertices)) = reshape(vertices, [size(vertices)])
+    t(:3 * m) = reshape(triangles, [3 * m]) - 1
+    c%vertices = c_loc(p(1))
+    c%triangles = c_loc(t(1))
+    if (present(edges)) then
+      k = size(edges, 2)
+      if (size(edges, 1) /= 2) return
+      allocate (e(2 * k + 1))
+      e(:2 * k) = reshape(edges, [2 * k]) - 1
+      c%edges = c_loc(e(1))
+    end if
+    if (present(vertex_refs)) then
+      if (size(vertex_refs) /= n) return
+      allocate (of_vertices(n + 1))
+      of_vertices(:n) = vertex_refs
+      c%vertex_refs = c_loc(of_vertices(1))
+    end if
+    if (present(triangle_refs)) then
+      if (size(triangle_refs) /= m) return
+      allocate (of_triangles(m + 1))
+      of_triangles(:m) = triangle_refs
+      c%triangle_refs = c_loc(of_triangles(1))
+    end if
+    if (present(edge_refs)) then
+      if (size(edge_refs) /= k) return
+      allocate (of_edges(k + 1))
+      of_edges(:k) = edge_refs
+      c%edge_refs = c_loc(of_edges(1))
+    end if
+    if (present(corner_uv)) then
+      if (size(corner_uv) /= 6 * m) return
+      allocate (uv(6 * m + 1))
+      uv(:6 * m) = reshape(corner_uv, [6 * m])
+      c%corner_uv = c_loc(uv(1))
+    end if
+    c%vertex_count = n
+    c%triangle_count = m
+    c%edge_count = k
+    status = c_mesh_from_arrays(mesh%handle, c)
+  end subroutine carreau_mesh_from_arrays
 
   subroutine carreau_mesh_write(mesh, path, status)
     type(carreau_mesh), intent(in) :: mesh

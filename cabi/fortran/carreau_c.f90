@@ -29,7 +29,7 @@ module carreau_c
     integer(c_int32_t) :: surface_order = 0, curve_order = 0, reentrant = 0, reserved = 0
     type(c_funptr) :: surface = c_null_funptr, surface_batch = c_null_funptr, curve_interval = c_null_funptr, &
       curve = c_null_funptr, surface_size = c_null_funptr, curve_size = c_null_funptr, point_size = c_null_funptr, &
-      surface_radius = c_null_funptr, curve_radius = c_null_funptr, failure = c_null_funptr
+      surface_radius = c_null_funptr, curve_radius = c_null_funptr, failure = c_null_funptr, release = c_null_funptr
   end type c_cad
 
   type, bind(c) :: c_metric_callbacks
@@ -101,6 +101,16 @@ module carreau_c
       stretch_max = 0
     integer(c_int64_t) :: outside = 0
   end type c_adaptation_report
+
+  !> A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the
+  !! arrays to carreau_set_background.) Arrays may be NULL where this says so.
+  type, bind(c) :: c_mesh_arrays
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: dimension = 0, reserved = 0
+    integer(c_int64_t) :: vertex_count = 0, triangle_count = 0, edge_count = 0
+    type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, edges = c_null_ptr, vertex_refs = c_null_ptr, &
+      triangle_refs = c_null_ptr, edge_refs = c_null_ptr, corner_uv = c_null_ptr
+  end type c_mesh_arrays
 
   type, bind(c) :: c_face
     integer(c_size_t) :: struct_size = 0
@@ -216,7 +226,18 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_last_error_place
 
-    !> Registers the routines in place of any earlier geometry, and calls cad_init.
+    !> For libraries that work on a session of their caller: makes the last call on it one that has failed with this
+    !! status and sentence, and returns the status.
+    function c_set_error(session, error, sentence) result(status) bind(c, name="carreau_set_error")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: error
+      character(kind=c_char), intent(in) :: sentence(*)
+      integer(c_int32_t) :: status
+    end function c_set_error
+
+    !> Registers the routines in place of earlier ones of this call or of carreau_set_cad, and calls cad_init.
     function c_set_cad_m(session, routines) result(status) bind(c, name="carreau_set_cad_m")
       import :: c_cad_m, c_int32_t, c_ptr
       implicit none
@@ -225,7 +246,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_cad_m
 
-    !> Registers the callbacks in place of any earlier geometry.
+    !> Registers the callbacks in place of earlier ones of this call or of carreau_set_cad_m; geometries that were added
+    !! (carreau_geometry.h) stay.
     function c_set_cad(session, callbacks) result(status) bind(c, name="carreau_set_cad")
       import :: c_cad, c_int32_t, c_ptr
       implicit none
@@ -243,7 +265,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_metric_callbacks
 
-    !> Drops all faces.
+    !> Drops all faces, and all geometries that were added (carreau_geometry.h).
     function c_model_clear(session) result(status) bind(c, name="carreau_model_clear")
       import :: c_int32_t, c_ptr
       implicit none
@@ -704,6 +726,15 @@ module carreau_c
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: status
     end function c_mesh_read
+
+    !> Replaces the content of a mesh that carreau_mesh_create has made by a copy of arrays.
+    function c_mesh_from_arrays(mesh, arrays) result(status) bind(c, name="carreau_mesh_from_arrays")
+      import :: c_int32_t, c_mesh_arrays, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_mesh_arrays), intent(in) :: arrays
+      integer(c_int32_t) :: status
+    end function c_mesh_from_arrays
 
     !> Writes the mesh to a file.
     function c_mesh_write(mesh, path) result(status) bind(c, name="carreau_mesh_write")

@@ -1,22 +1,39 @@
-!> Fortran 2003 face of cabi/include/carreau_geometry.h: molecules, plane domains and grids. What each routine means and its errors are written
-!> there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
-!> are optional.
+!> Fortran 2003 face of cabi/include/carreau_geometry.h: several geometries in
+!! a session, Bezier patches, molecules, grids and plane domains. What each routine means and its errors are written
+!! there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
+!! are optional.
 module carreau_geometry
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
-  use carreau, only: carreau_session, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
+  use carreau, only: carreau_session, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
+    carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
+    carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
+  use carreau_c, only: c_cad
   use carreau_geometry_c
   implicit none
   private
 
   public :: carreau_plane_curves, carreau_add_plane_domain, carreau_load_plane_domain, carreau_plane_has_sizes
 
+  public :: carreau_geometry_place, carreau_geometry_count, carreau_geometry_info
+  public :: carreau_geometry_begin, carreau_geometry_end, carreau_geometry_cancel
+  public :: carreau_add_bezier, carreau_load_bezier, carreau_bezier_degrees
+
   public :: carreau_molecule_options, carreau_molecule_measures, carreau_add_molecule, carreau_load_molecule
-  public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_name
+  public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_areas
+  public :: carreau_molecule_atom_name
   public :: carreau_grid_options, carreau_add_grid, carreau_load_grid
   public :: carreau_geometry_points, carreau_geometry_curve
 
+  integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
+    CARREAU_GEOMETRY_MOLECULE = 3, CARREAU_GEOMETRY_PLANE = 4, CARREAU_GEOMETRY_GRID = 5
+  integer(c_int32_t), parameter, public :: CARREAU_BEZIER_DEGREE = 15
   integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
   integer(c_int32_t), parameter, public :: CARREAU_REST_PARITY = 0, CARREAU_REST_INSIDE = 1, CARREAU_REST_OUTSIDE = 2
+
+  !> Its face k is face first_face + k - 1 of the session.
+  type :: carreau_geometry_place
+    integer(c_int32_t) :: kind, faces, first_face, last_face, first_curve, last_curve, first_point, last_point
+  end type carreau_geometry_place
 
   type :: carreau_molecule_options
     integer(c_int32_t) :: surface = CARREAU_VWS, drop_cavities = 0
@@ -51,6 +68,126 @@ module carreau_geometry
   end type carreau_plane_curves
 
 contains
+
+  ! ---- Several geometries in one session ----
+
+  subroutine carreau_geometry_count(session, count, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), intent(out) :: status
+    count = 0
+    status = c_geometry_count(session%handle, count)
+  end subroutine carreau_geometry_count
+
+  !> index: from 1
+  subroutine carreau_geometry_info(session, index, geometry, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_geometry_place), intent(out) :: geometry
+    integer(c_int32_t), intent(out) :: status
+    type(c_geometry) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_geometry_info(session%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    geometry = carreau_geometry_place(c%kind, c%faces, c%first_face, c%last_face, c%first_curve, c%last_curve, &
+      c%first_point, c%last_point)
+  end subroutine carreau_geometry_info
+
+  !> Arguments as those of carreau_set_cad.
+  subroutine carreau_geometry_begin(session, surface, curve_interval, curve, status, user, surface_order, curve_order, &
+      reentrant, surface_batch, surface_size, curve_size, point_size, surface_radius, curve_radius, failure, release)
+    type(carreau_session), intent(in) :: session
+    procedure(carreau_surface_fn) :: surface
+    procedure(carreau_interval_fn) :: curve_interval
+    procedure(carreau_curve_fn) :: curve
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr), intent(in), optional :: user
+    integer(c_int32_t), intent(in), optional :: surface_order, curve_order
+    logical, intent(in), optional :: reentrant
+    procedure(carreau_surface_batch_fn), optional :: surface_batch
+    procedure(carreau_surface_value_fn), optional :: surface_size, surface_radius
+    procedure(carreau_curve_value_fn), optional :: curve_size, curve_radius
+    procedure(carreau_point_value_fn), optional :: point_size
+    procedure(carreau_failure_fn), optional :: failure
+    procedure(carreau_release_fn), optional :: release
+    type(c_cad), target :: callbacks
+    callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
+    callbacks%surface_order = 2
+    callbacks%curve_order = 2
+    callbacks%surface = c_funloc(surface)
+    callbacks%curve_interval = c_funloc(curve_interval)
+    callbacks%curve = c_funloc(curve)
+    if (present(user)) callbacks%user = user
+    if (present(surface_order)) callbacks%surface_order = surface_order
+    if (present(curve_order)) callbacks%curve_order = curve_order
+    if (present(reentrant)) callbacks%reentrant = merge(1_c_int32_t, 0_c_int32_t, reentrant)
+    if (present(surface_batch)) callbacks%surface_batch = c_funloc(surface_batch)
+    if (present(surface_size)) callbacks%surface_size = c_funloc(surface_size)
+    if (present(curve_size)) callbacks%curve_size = c_funloc(curve_size)
+    if (present(point_size)) callbacks%point_size = c_funloc(point_size)
+    if (present(surface_radius)) callbacks%surface_radius = c_funloc(surface_radius)
+    if (present(curve_radius)) callbacks%curve_radius = c_funloc(curve_radius)
+    if (present(failure)) callbacks%failure = c_funloc(failure)
+    if (present(release)) callbacks%release = c_funloc(release)
+    status = c_geometry_begin(session%handle, c_loc(callbacks))
+  end subroutine carreau_geometry_begin
+
+  subroutine carreau_geometry_end(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_geometry_end(session%handle)
+  end subroutine carreau_geometry_end
+
+  subroutine carreau_geometry_cancel(session, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_geometry_cancel(session%handle)
+  end subroutine carreau_geometry_cancel
+
+  ! ---- Bezier patches ----
+
+  !> degrees(2, n): m, n; controls(3, all points): patch by patch, v runs fastest; side_refs(4, n)
+  subroutine carreau_add_bezier(session, degrees, controls, status, side_refs)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: degrees(:, :)
+    real(c_double), intent(in) :: controls(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: side_refs(:, :)
+    type(c_bezier) :: c
+    integer(c_int32_t), allocatable, target :: flat_degrees(:), flat_refs(:)
+    real(c_double), allocatable, target :: flat_controls(:)
+    status = CARREAU_ERR_ARGUMENT
+    if (size(degrees, 1) /= 2 .or. size(controls, 1) /= 3) return
+    if (sum((degrees(1, :) + 1) * (degrees(2, :) + 1)) /= size(controls, 2)) return
+    flat_degrees = reshape(degrees, [size(degrees)])
+    flat_controls = reshape(controls, [size(controls)])
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%patch_count = size(degrees, 2)
+    if (size(flat_degrees) > 0) c%degrees = c_loc(flat_degrees)
+    if (size(flat_controls) > 0) c%controls = c_loc(flat_controls)
+    if (present(side_refs)) then
+      if (size(side_refs, 1) /= 4 .or. size(side_refs, 2) /= size(degrees, 2)) return
+      flat_refs = reshape(side_refs, [size(side_refs)])
+      if (size(flat_refs) > 0) c%side_refs = c_loc(flat_refs)
+    end if
+    status = c_add_bezier(session%handle, c)
+  end subroutine carreau_add_bezier
+
+  subroutine carreau_load_bezier(session, path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_load_bezier(session%handle, trim(path)//c_null_char)
+  end subroutine carreau_load_bezier
+
+  subroutine carreau_bezier_degrees(session, face_ref, degrees, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref
+    integer(c_int32_t), intent(out) :: degrees(2)
+    integer(c_int32_t), intent(out) :: status
+    degrees = 0
+    status = c_bezier_degrees(session%handle, face_ref, degrees)
+  end subroutine carreau_bezier_degrees
 
   ! ---- Molecules ----
 
@@ -98,6 +235,18 @@ contains
     allocate (refs(measures%atoms), areas(measures%atoms))
     status = c_molecule_atoms(session%handle, measures%atoms, refs, areas)
   end subroutine carreau_molecule_atoms
+
+  !> convex(n), torus(n), concave(n)
+  subroutine carreau_molecule_atom_areas(session, convex, torus, concave, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), allocatable, intent(out) :: convex(:), torus(:), concave(:)
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_molecule_measures) :: measures
+    call carreau_molecule_measure(session, measures, status)
+    if (status /= CARREAU_OK) return
+    allocate (convex(measures%atoms), torus(measures%atoms), concave(measures%atoms))
+    status = c_molecule_atom_areas(session%handle, measures%atoms, convex, torus, concave)
+  end subroutine carreau_molecule_atom_areas
 
   !> atom: from 1; "" when it has none, or there is no such atom
   function carreau_molecule_atom_name(session, atom) result(name)

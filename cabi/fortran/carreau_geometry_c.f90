@@ -7,6 +7,20 @@ module carreau_geometry_c
   implicit none
   public
 
+  !> A geometry, and the references that are its own: its face k is face first_face + k - 1 of the session.
+  type, bind(c) :: c_geometry
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: kind = 0, faces = 0, first_face = 0, last_face = 0, first_curve = 0, last_curve = 0, &
+      first_point = 0, last_point = 0
+  end type c_geometry
+
+  !> Tensor products over the unit square.
+  type, bind(c) :: c_bezier
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: patch_count = 0
+    type(c_ptr) :: degrees = c_null_ptr, controls = c_null_ptr, side_refs = c_null_ptr
+  end type c_bezier
+
   type, bind(c) :: c_molecule_options
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: surface = 0, drop_cavities = 0
@@ -42,7 +56,76 @@ module carreau_geometry_c
   end type c_grid_options
 
   interface
-    !> Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear.
+    !> Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
+    function c_geometry_count(session, count) result(status) bind(c, name="carreau_geometry_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function c_geometry_count
+
+    function c_geometry_info(session, index, geometry) result(status) bind(c, name="carreau_geometry_info")
+      import :: c_geometry, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: index
+      type(c_geometry), intent(inout) :: geometry
+      integer(c_int32_t) :: status
+    end function c_geometry_info
+
+    !> Begins a geometry of callbacks beside what the session has.
+    function c_geometry_begin(session, callbacks) result(status) bind(c, name="carreau_geometry_begin")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session, callbacks
+      integer(c_int32_t) :: status
+    end function c_geometry_begin
+
+    function c_geometry_end(session) result(status) bind(c, name="carreau_geometry_end")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_geometry_end
+
+    function c_geometry_cancel(session) result(status) bind(c, name="carreau_geometry_cancel")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t) :: status
+    end function c_geometry_cancel
+
+    !> Adds Bezier patches to a session: patch k is face k + 1, and its normal is along Su x Sv.
+    function c_add_bezier(session, bezier) result(status) bind(c, name="carreau_add_bezier")
+      import :: c_bezier, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_bezier), intent(in) :: bezier
+      integer(c_int32_t) :: status
+    end function c_add_bezier
+
+    !> The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are
+    !! found when a mesh is made.
+    function c_load_bezier(session, path) result(status) bind(c, name="carreau_load_bezier")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_load_bezier
+
+    !> Tells the degrees m and n of a face that is a Bezier patch.
+    function c_bezier_degrees(session, face_ref, degrees) result(status) bind(c, name="carreau_bezier_degrees")
+      import :: c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref
+      integer(c_int32_t), intent(inout) :: degrees(*)
+      integer(c_int32_t) :: status
+    end function c_bezier_degrees
+
+    !> Adds the surface of n balls to a session.
     function c_add_molecule(session, options, n, centers, radii) result(status) bind(c, name="carreau_add_molecule")
       import :: c_double, c_int32_t, c_int64_t, c_molecule_options, c_ptr
       implicit none
@@ -83,6 +166,18 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_molecule_atoms
 
+    !> Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on
+    !! its side of the plane in which the probe's centre moves; a third of each concave part that touches it.
+    function c_molecule_atom_areas(session, capacity, convex, torus, concave) result(status) &
+        bind(c, name="carreau_molecule_atom_areas")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: convex(*), torus(*), concave(*)
+      integer(c_int32_t) :: status
+    end function c_molecule_atom_areas
+
     !> Tells the residue of an atom, from 0; "" when it has none.
     function c_molecule_atom_name(session, atom) result(name) bind(c, name="carreau_molecule_atom_name")
       import :: c_int64_t, c_ptr
@@ -92,7 +187,7 @@ module carreau_geometry_c
       type(c_ptr) :: name
     end function c_molecule_atom_name
 
-    !> Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear.
+    !> Makes a plane domain the only geometry of a session that has no model: see carreau_model_clear.
     function c_add_plane_domain(session, domain) result(status) bind(c, name="carreau_add_plane_domain")
       import :: c_int32_t, c_plane_domain, c_ptr
       implicit none
@@ -122,8 +217,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_plane_has_sizes
 
-    !> Makes a surface through the nodes of n structured grids the geometry and the model of a session that has no
-    !! model.
+    !> Adds a surface through the nodes of n structured grids to a session.
     function c_add_grid(session, options, n, counts, nodes) result(status) bind(c, name="carreau_add_grid")
       import :: c_double, c_grid_options, c_int32_t, c_int64_t, c_ptr
       implicit none

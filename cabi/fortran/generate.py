@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the bindings of the functions and structs of a header as Fortran 2003: carreau_c.f90 of carreau.h,
-carreau_geometry_c.f90 of carreau_geometry.h.
+carreau_geometry_c.f90 of carreau_geometry.h, carreau_cad_c.f90 of carreau_cad.h.
 
     generate.py <carreau.h> <carreau_c.f90>            writes the module
     generate.py --check <carreau.h> <carreau_c.f90>    fails when the module is not what it would write
@@ -54,8 +54,9 @@ def grouped(declarations):
 
 
 class Writer:
-    def __init__(self, header):
+    def __init__(self, header, folder="cabi/"):
         self.header = header
+        self.folder = folder
         self.lines = []
 
     def member(self, c_type):
@@ -151,7 +152,7 @@ class Writer:
         """name: "carreau", of the header and of the module that uses this one."""
         self.add(f"!> The functions and structs of {name}.h as Fortran sees them. Private to module {name}.",
                  f"!! Written by generate.py from {name}.h: do not edit. After a change of the header:",
-                 f"!!   python3 cabi/fortran/generate.py cabi/include/{name}.h cabi/fortran/{name}_c.f90",
+                 f"!!   python3 cabi/fortran/generate.py {self.folder}include/{name}.h {self.folder}fortran/{name}_c.f90",
                  f"module {name}_c")
         used = ["c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_null_funptr", "c_null_ptr", "c_ptr",
                 "c_size_t"]
@@ -173,7 +174,8 @@ def main():
     check = sys.argv[1] == "--check"
     header_path, module_path = sys.argv[-2:]
     name = os.path.basename(header_path).removesuffix(".h")
-    text = Writer(Header(header_path)).module(name)
+    folder = "cad_adapters/cad/" if name == "carreau_cad" else "cabi/"
+    text = Writer(Header(header_path), folder).module(name)
     if not check:
         with open(module_path, "w", encoding="utf-8") as module:
             module.write(text)
@@ -181,7 +183,7 @@ def main():
     with open(module_path, encoding="utf-8") as module:
         if module.read() == text:
             return 0
-    print(f"{module_path} is not what carreau.h says. Write it anew:\n"
+    print(f"{module_path} is not what {name}.h says. Write it anew:\n"
           f"  python3 {sys.argv[0]} {header_path} {module_path}")
     return 1
 

@@ -136,6 +136,11 @@ typedef struct carreau_error_place {
 /* Fills *out_place. Unlike other calls, it keeps the sentence and the place. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_last_error_place(const carreau_session* session, carreau_error_place* out_place);
 
+/* For libraries that work on a session of their caller: makes the last call on it one that has failed with this status
+ * and sentence, and returns the status. NULL or "": no sentence. Errors: ARGUMENT (the status is CARREAU_OK or none).
+ */
+CARREAU_API carreau_status carreau_set_error(carreau_session* session, carreau_status error, const char* sentence);
+
 /* ---- Geometry: the routines of the module cad_m ---- */
 
 /* What h and the radii hold before a routine is asked. A routine that does not answer leaves it (RT-0232 sec. 3.1.3).
@@ -166,7 +171,8 @@ typedef struct carreau_cad_m {
   void (*cad_radc)(const int32_t* refs, const int32_t* ic, const double* t, double* rhoc); /* when hgeo_flag = 2 */
 } carreau_cad_m;
 
-/* Registers the routines in place of any earlier geometry, and calls cad_init. Copies the struct.
+/* Registers the routines in place of earlier ones of this call or of carreau_set_cad, and calls cad_init. Copies the
+ * struct.
  * Errors: ARGUMENT (a needed routine is missing, struct_size). */
 CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* routines);
 
@@ -216,9 +222,12 @@ typedef struct carreau_cad {
   carreau_surface_value_fn surface_radius;
   carreau_curve_value_fn curve_radius;
   carreau_failure_fn failure;
+  void (*release)(void* user); /* called once, when nothing asks the callbacks any more: the session has others or is
+                                  freed, and no mesh is left that they have made. It makes no call on the session */
 } carreau_cad;
 
-/* Registers the callbacks in place of any earlier geometry. Copies the struct, but not what `user` points to.
+/* Registers the callbacks in place of earlier ones of this call or of carreau_set_cad_m; geometries that were added
+ * (carreau_geometry.h) stay. Copies the struct, but not what `user` points to.
  * Errors: ARGUMENT (a needed callback is missing, an order outside 0..2, struct_size). */
 CARREAU_API carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks);
 
@@ -268,7 +277,7 @@ CARREAU_API carreau_status carreau_set_metric_callbacks(carreau_session* session
 /* The kinds of curves (typc): on the boundary of a domain, or inside it. */
 enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
 
-/* Drops all faces. An earlier mesh stays. */
+/* Drops all faces, and all geometries that were added (carreau_geometry.h). An earlier mesh stays. */
 CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
 
 /* Appends a face. Callbacks get the number `ref`, which differs from face to face. An orientation of +k (-k) says that
@@ -616,6 +625,27 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */
 CARREAU_API carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path);
 
+/* A mesh in arrays of the caller, to be checked, measured, written to any format. (To take sizes from it, give the
+ * arrays to carreau_set_background.) Arrays may be NULL where this says so. */
+typedef struct carreau_mesh_arrays {
+  size_t struct_size;
+  int32_t dimension; /* 3; 2: of the plane z = 0 */
+  int32_t reserved;  /* 0 */
+  int64_t vertex_count, triangle_count, edge_count;
+  const double* vertices;       /* vertex_count x dimension, model length */
+  const int32_t* triangles;     /* triangle_count x 3 vertices, from 0 */
+  const int32_t* edges;         /* edge_count x 2 vertices, from 0, of curves; NULL when edge_count is 0 */
+  const int32_t* vertex_refs;   /* vertex_count; NULL: all 0 */
+  const int32_t* triangle_refs; /* triangle_count, references of faces; NULL: all 1 */
+  const int32_t* edge_refs;     /* edge_count, references of curves; NULL: all 0 */
+  const double* corner_uv;      /* triangle_count x 3 x 2; NULL: carreau_mesh_corner_uv has none */
+} carreau_mesh_arrays;
+
+/* Replaces the content of a mesh that carreau_mesh_create has made by a copy of arrays. On an error the old content
+ * stays. Errors: ARGUMENT (an index that is none, with the triangle or edge; a coordinate that is not finite; no vertex
+ * or no triangle; mesh of a session). What else is wrong carreau_mesh_defects tells. */
+CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const carreau_mesh_arrays* arrays);
+
 /* Writes the mesh to a file. The suffix chooses the format: .mesh, .meshb (Medit), .vtu (VTK), .stl (a solid a face),
  * .msh and .msh2 (Gmsh 4.1 and 2.2, with physical names). The parameters option, refs and flag say how the mesh of a
  * session is written (RT-0232 sec. 4). onesurf2d of a face that has failed gives its curves in the parameter plane.
@@ -636,7 +666,7 @@ CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* o
  *   vertex_sizes    n          prescribed size, model length; mesh of a session only
  *   triangles       m x 3      vertices, counterclockwise in (u, v); face by face in the order of the model
  *   triangle_refs   m          reference of the face
- *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session only
+ *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session, or of arrays with it
  *   edges           k x 2      vertices, along each curve from its first end to its second
  *   edge_refs       k          reference of the curve */
 CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double out_xyz[]);

@@ -16,6 +16,84 @@
 extern "C" {
 #endif
 
+/* ---- Several geometries in one session ---- */
+
+/* A session has the host's own geometry (carreau_set_cad or carreau_set_cad_m, with faces by carreau_model_add_face),
+ * and any number of others, which the functions below add. Each counts its faces, curves and points from 1. In the
+ * session those numbers are moved behind all that it has: carreau_geometry_info tells where. So the faces of the first
+ * geometry of an empty session keep their numbers. Faces that the host adds himself later on must have larger
+ * references than those, curves and points too.
+ *
+ * Geometries do not touch, unless the parameter glue_open is 1: curves that one face only has are then compared in
+ * space, in all geometries, and become one within eps_glue (or eps_glue_open). The mesh of a geometry that touches no
+ * other one is, for the same sizes, that of a session of its own, bit for bit. Parameters that are relative to the
+ * diagonal see the box of all. Faces are meshed by several threads at a time when all geometries allow it: those that
+ * the library evaluates itself do.
+ *
+ * carreau_model_clear drops them all. */
+enum {
+  CARREAU_GEOMETRY_CALLBACKS = 1, /* carreau_geometry_begin, and libraries on top of it */
+  CARREAU_GEOMETRY_BEZIER = 2,
+  CARREAU_GEOMETRY_MOLECULE = 3,
+  CARREAU_GEOMETRY_PLANE = 4,
+  CARREAU_GEOMETRY_GRID = 5
+};
+
+/* A geometry, and the references that are its own: its face k is face first_face + k - 1 of the session. A geometry
+ * without curves (points) has last_curve = first_curve - 1. */
+typedef struct carreau_geometry {
+  size_t struct_size;
+  int32_t kind;  /* CARREAU_GEOMETRY_... */
+  int32_t faces; /* their number */
+  int32_t first_face, last_face;
+  int32_t first_curve, last_curve;
+  int32_t first_point, last_point;
+} carreau_geometry;
+
+/* Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
+ * Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_geometry_count(carreau_session* session, int64_t* out_count);
+CARREAU_API carreau_status carreau_geometry_info(carreau_session* session, int64_t index,
+                                                 carreau_geometry* out_geometry);
+
+/* Begins a geometry of callbacks beside what the session has. Until carreau_geometry_end, the functions
+ * carreau_model_... are about its faces alone. They take, and callbacks get, its own references; sentences and results
+ * have those of the session. With carreau_geometry_cancel the session is as it was before; carreau_last_error keeps
+ * the sentence of the call before. Calls that need the whole model fail in between (SEQUENCE). Errors of
+ * carreau_geometry_begin: ARGUMENT, as carreau_set_cad, SEQUENCE; of carreau_geometry_end: SEQUENCE, MODEL (no face, a
+ * reference that is negative, or too large); the session is then as before carreau_geometry_begin. What else is wrong
+ * with the faces is told when they are meshed. */
+CARREAU_API carreau_status carreau_geometry_begin(carreau_session* session, const carreau_cad* callbacks);
+CARREAU_API carreau_status carreau_geometry_end(carreau_session* session);
+CARREAU_API carreau_status carreau_geometry_cancel(carreau_session* session);
+
+/* ---- Bezier patches ---- */
+
+/* Largest degree in a direction. */
+enum { CARREAU_BEZIER_DEGREE = 15 };
+
+/* Tensor products over the unit square. Patch k, from 0, has a degree m in u and n in v. */
+typedef struct carreau_bezier {
+  size_t struct_size;
+  int64_t patch_count;
+  const int32_t* degrees;  /* patch_count x 2: m, n, from 1 to CARREAU_BEZIER_DEGREE */
+  const double* controls;  /* for each patch (m + 1)(n + 1) control points x y z, model length; v runs fastest */
+  const int32_t* side_refs; /* patch_count x 4, of the sides v = 0, u = 1, v = 1, u = 0: positive, and the same for
+                               sides that are one curve; NULL: what meets within eps_glue is found when a mesh is made */
+} carreau_bezier;
+
+/* Adds Bezier patches to a session: patch k is face k + 1, and its normal is along Su x Sv. Evaluation and derivatives
+ * are exact, and so are the radii of curvature that hgeo_flag = 2 asks for. Errors: ARGUMENT (a degree, a number that
+ * is not finite, no patch), SEQUENCE (see carreau_geometry_begin). */
+CARREAU_API carreau_status carreau_add_bezier(carreau_session* session, const carreau_bezier* bezier);
+
+/* The same of a file .bpt: the number of patches, then for each m n and its control points; sides that meet are found
+ * when a mesh is made. Errors: those above, FILE (with the line). */
+CARREAU_API carreau_status carreau_load_bezier(carreau_session* session, const char* path);
+
+/* Tells the degrees m and n of a face that is a Bezier patch. Errors: ARGUMENT. */
+CARREAU_API carreau_status carreau_bezier_degrees(carreau_session* session, int32_t face_ref, int32_t out_degrees[2]);
+
 /* ---- Molecules ---- */
 
 /* Which surface of a molecule (HDR sec. 4.6.2). */
@@ -32,13 +110,12 @@ typedef struct carreau_molecule_options {
   double probe;          /* radius of the probe; CARREAU_VWS does not use it */
 } carreau_molecule_options;
 
-/* Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear. A
- * face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
+/* Adds the surface of n balls to a session. A face is a part of one ball that no other ball covers. Its reference is the rank of the ball, from 1; other parts of
  * the same ball are parts of that face (see carreau_model_part_of_face). Torus and concave parts of CARREAU_SES are
  * faces of their own, with references behind those of all balls. Of balls that are equal, concentric or one inside the
  * other, those inside have no face; spheres that only touch do not meet. Where rounding hides how spheres meet (four of
  * them in one point), radii are moved by some 1e-9 of themselves, and a message tells it. Errors: ARGUMENT (a radius
- * that is not positive, n below 1, the session has faces). */
+ * that is not positive, n below 1), SEQUENCE (see carreau_geometry_begin). */
 CARREAU_API carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options,
                                                 int64_t n, const double centers[], const double radii[]);
 
@@ -73,6 +150,13 @@ CARREAU_API carreau_status carreau_molecule_measure(carreau_session* session, ca
  */
 CARREAU_API carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
                                                   double out_areas[]);
+
+/* Tells the area of each atom in full: of its convex parts, as above; its share of the torus parts beside it, on its side
+ * of the plane in which the probe's centre moves; a third of each concave part that touches it. The sums are those of
+ * carreau_molecule_measures; but for CARREAU_SES the latter two are 0. An array may be NULL. Errors: SEQUENCE,
+ * ARGUMENT (capacity). */
+CARREAU_API carreau_status carreau_molecule_atom_areas(carreau_session* session, int64_t capacity, double out_convex[],
+                                                       double out_torus[], double out_concave[]);
 
 /* Tells the residue of an atom, from 0; "" when it has none. The text lives until the next call on the session. NULL:
  * no such atom. */
@@ -116,8 +200,7 @@ typedef struct carreau_plane_domain {
   const int32_t* seed_refs;  /* seed_count: the reference of the subdomain, or -1 for a hole */
 } carreau_plane_domain;
 
-/* Makes a plane domain the geometry and the model of a session that has no model: see carreau_model_clear. Its faces
- * are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
+/* Makes a plane domain the only geometry of a session that has no model: see carreau_model_clear. Its faces are the subdomains, in the plane z = 0 with u = x and v = y; files of its mesh have dimension 2. Where a reference is
  * 0, or stands for several entities, the model has a number behind the largest in its place; results show the caller's.
  * Sizes at points hold along curves; inside, hphydef counts (hphy_flag 1) or what the curves around have (hphy_flag 2).
  * Messages tell pieces of splines that turn back. Errors: ARGUMENT, MODEL (curves that cross, touch or make a loop;
@@ -172,13 +255,12 @@ typedef struct carreau_grid_options {
   double step; /* of heights and scans whose file does not tell it; 0: 1 */
 } carreau_grid_options;
 
-/* Makes a surface through the nodes of n structured grids the geometry and the model of a session that has no model.
- * Block b has counts[2 b] columns and counts[2 b + 1] rows, and its nodes (x, y, z) lie behind those of block b - 1,
+/* Adds a surface through the nodes of n structured grids to a session. Block b has counts[2 b] columns and counts[2 b + 1] rows, and its nodes (x, y, z) lie behind those of block b - 1,
  * columns running fastest. A node with a NaN is missing, and with it the cells around. Each block is a face, whose
  * reference is its rank from 1; it is bicubic on each cell and C1 between cells (HDR eq. 4.87-4.91). Where missing nodes cut a
  * block in two, all its parts have its reference in results, and a message tells it. Common nodes of borders glue
  * blocks, and the sides of one; a side may be one point. Messages tell cells that fold and cells without area, which
- * are left out. Errors: ARGUMENT (counts below 2, infinite coordinates, options, the session has faces), MODEL (no cell
+ * are left out. Errors: ARGUMENT (counts below 2, infinite coordinates, options), SEQUENCE (see carreau_geometry_begin), MODEL (no cell
  * at all, blocks that overlap), CANCELLED. */
 CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
                                             const int32_t counts[], const double nodes[]);
@@ -189,9 +271,9 @@ CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carr
 CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
                                              const char* path, int32_t format);
 
-/* ---- Points of built-in geometries ---- */
+/* ---- Points of added geometries ---- */
 
-/* Evaluates a face at n places (u, v). Errors: SEQUENCE (the geometry of the session is not built in), ARGUMENT. */
+/* Evaluates a face at n places (u, v). Errors: SEQUENCE (no geometry was added), ARGUMENT. */
 CARREAU_API carreau_status carreau_geometry_points(carreau_session* session, int32_t face_ref, int64_t n,
                                                    const double uv[], double out_xyz[]);
 

@@ -67,7 +67,7 @@ HostTable table_of(const carreau_cad& callbacks) {
 }
 
 /// Obeys a stop after each callback: a host may be slow, and the engine asks for many points at a time.
-class StoppableCad final : public HostCad {
+class StoppableCad : public HostCad {
  public:
   StoppableCad(const carreau_cad_m& routines, const Monitor& monitor)
       : HostCad(table_of(routines)), batched_(false), monitor_(monitor) {}
@@ -106,6 +106,22 @@ class StoppableCad final : public HostCad {
   const Monitor& monitor_;
 };
 
+/// Says to the host when his callbacks are no longer of use.
+class ReleasedCad final : public StoppableCad {
+ public:
+  ReleasedCad(const carreau_cad& callbacks, const Monitor& monitor)
+      : StoppableCad(callbacks, monitor), release_(callbacks.release), user_(callbacks.user) {}
+  ReleasedCad(const ReleasedCad&) = delete;
+  ReleasedCad& operator=(const ReleasedCad&) = delete;
+  ~ReleasedCad() override {
+    if (release_ != nullptr) release_(user_);
+  }
+
+ private:
+  void (*release_)(void*);
+  void* user_;
+};
+
 class StoppableMetrics final : public HostMetrics {
  public:
   StoppableMetrics(const carreau_metric_callbacks& callbacks, const Monitor& monitor)
@@ -134,24 +150,31 @@ class StoppableMetrics final : public HostMetrics {
 
 }  // namespace
 
+namespace {
+
+void set_host(carreau_session& session, std::shared_ptr<carreau::Cad> cad) {
+  session.host = std::move(cad);
+  session.update_cad();
+  if (session.added.empty()) session.session.set_prescription_source(nullptr);
+}
+
+}  // namespace
+
+std::shared_ptr<carreau::Cad> carreau::abi::cad_of(const carreau_cad* callbacks, const Monitor& monitor) {
+  return std::make_shared<ReleasedCad>(read_struct(callbacks, "carreau_cad"), monitor);
+}
+
 carreau_status carreau_set_cad_m(carreau_session* session, const carreau_cad_m* routines) {
   return guarded(session, [&] {
     const carreau_cad_m known = read_struct(routines, "carreau_cad_m");
     auto cad = std::make_shared<StoppableCad>(known, session->monitor);
     if (known.cad_init != nullptr) known.cad_init();
-    session->session.set_cad(std::move(cad));
-    session->has_cad = true;
-    session->built.reset(), session->session.set_prescription_source(nullptr);
+    set_host(*session, std::move(cad));
   });
 }
 
 carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* callbacks) {
-  return guarded(session, [&] {
-    const carreau_cad known = read_struct(callbacks, "carreau_cad");
-    session->session.set_cad(std::make_shared<StoppableCad>(known, session->monitor));
-    session->has_cad = true;
-    session->built.reset(), session->session.set_prescription_source(nullptr);
-  });
+  return guarded(session, [&] { set_host(*session, cad_of(callbacks, session->monitor)); });
 }
 
 carreau_status carreau_set_metric_callbacks(carreau_session* session, const carreau_metric_callbacks* callbacks) {

@@ -1,141 +1,151 @@
+// Several geometries in one session.
 #include <algorithm>
 
 #include "arguments.h"
+#include "cad/cad_assembly.h"
 #include "carreau_geometry.h"
 #include "guard.h"
-#include "io/molecule/molecule_files.h"
+#include "model/geometries.h"
 
+using carreau::CadAssembly;
+using carreau::GeometryRange;
 using carreau::InvalidArgument;
-using carreau::Level;
+using carreau::Model;
 using carreau::Vec2;
 using carreau::Vec3;
 using namespace carreau::abi;
-using namespace carreau::molecule;
 
 namespace {
 
-SurfaceOptions options_of(const carreau_molecule_options* given, carreau_session& session) {
-  const carreau_molecule_options known = read_struct(given, "carreau_molecule_options");
-  if (known.surface != CARREAU_VWS && known.surface != CARREAU_SAS && known.surface != CARREAU_SES)
-    throw InvalidArgument("the surface of a molecule is " + std::to_string(known.surface) +
-                          "; it must be 1 (CARREAU_VWS), 2 (CARREAU_SAS) or 3 (CARREAU_SES)");
-  return {.kind = known.surface == CARREAU_VWS   ? SurfaceKind::vws
-                  : known.surface == CARREAU_SAS ? SurfaceKind::sas
-                                                 : SurfaceKind::ses,
-          .probe = known.probe,
-          .cavities = known.drop_cavities == 0,
-          .threads = std::max(1, session.parameters->integer("threads"))};
+/// The geometry that has a face, and the reference by which it knows it.
+std::pair<carreau::Cad*, int> geometry_of(const carreau_session& session, std::int32_t face) {
+  for (const AddedGeometry& geometry : session.added)
+    if (face >= geometry.range.first_face && face <= geometry.range.last_face)
+      return {geometry.cad.get(), face - geometry.range.first_face + 1};
+  const std::string sentence = "no geometry that was added to the session has face " + std::to_string(face);
+  if (session.added.empty()) throw StatusError(CARREAU_ERR_SEQUENCE, sentence);
+  throw InvalidArgument(carreau::Where{.face = face}, sentence);
 }
 
-void check_empty(const carreau_session& session) {
-  if (!session.model().faces.empty())
-    throw InvalidArgument("the session has faces already: call carreau_model_clear first");
+BegunGeometry& begun_of(carreau_session& session) {
+  if (!session.begun)
+    throw StatusError(CARREAU_ERR_SEQUENCE, "no geometry has begun: call carreau_geometry_begin first");
+  return *session.begun;
 }
 
-void add(carreau_session& session, const Molecule& molecule, const SurfaceOptions& options) {
-  check_empty(session);
-  session.monitor.begin_run();
-  MoleculeSummary summary;
-  carreau::BuiltGeometry built = build_surface(molecule, options, session.monitor, &summary);
-  if (summary.moved > 0)
-    session.monitor.message(Level::warning, "spheres meet so nearly in one point that the radii of " +
-                                                std::to_string(summary.moved) +
-                                                " atoms were moved by some 1e-9 of themselves");
-  session.session.set_model(std::move(built.model));
-  session.session.set_cad(built.cad);
-  session.has_cad = true;
-  session.built = std::move(built.cad);
-  session.molecule = std::move(summary);
-}
-
-const MoleculeSummary& molecule_of(const carreau_session& session) {
-  if (!session.molecule)
-    throw StatusError(CARREAU_ERR_SEQUENCE,
-                      "there is no molecule: call carreau_add_molecule or carreau_load_molecule first");
-  return *session.molecule;
-}
-
-carreau::Cad& geometry_of(const carreau_session& session) {
-  if (!session.built) throw StatusError(CARREAU_ERR_SEQUENCE, "the geometry of the session is not built in");
-  return *session.built;
+/// The session gets its own draft back; the model of the geometry is returned.
+Model take_part(carreau_session& session) {
+  Model part = std::move(session.draft);
+  session.draft = std::move(session.begun->outer_draft);
+  session.draft_changed = session.begun->outer_changed;
+  return part;
 }
 
 }  // namespace
 
-carreau_status carreau_add_molecule(carreau_session* session, const carreau_molecule_options* options, int64_t n,
-                                    const double centers[], const double radii[]) {
+void carreau_session::refuse_begun() const {
+  if (begun)
+    throw StatusError(CARREAU_ERR_SEQUENCE, "a geometry has begun and has no end: call carreau_geometry_end first");
+}
+
+void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, Model part) {
+  refuse_begun();
+  if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_PLANE)
+    throw InvalidArgument("the session has a plane domain, which is the only geometry of a session");
+  const bool only = model().faces.empty(), checked_now = only && kind != CARREAU_GEOMETRY_CALLBACKS;
+  Model merged = only ? Model{} : model();
+  const GeometryRange range = append_geometry(merged, std::move(part));
+  added.reserve(added.size() + 1);
+  if (checked_now)
+    session.set_model(std::move(merged)), draft = {}, draft_changed = false;
+  else
+    draft = std::move(merged), draft_changed = true;
+  added.push_back({kind, std::move(cad), range});
+  update_cad();
+}
+
+void carreau_session::drop_geometries() {
+  if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_PLANE) session.set_prescription_source(nullptr);
+  added.clear();
+  update_cad();
+}
+
+void carreau_session::update_cad() {
+  has_cad = host != nullptr || !added.empty();
+  if (added.empty()) return session.set_cad(host);
+  const GeometryRange& first = added.front().range;
+  if (!host && added.size() == 1 && first.first_face == 1 && first.first_point == 1)
+    return session.set_cad(added.front().cad);
+  std::vector<CadAssembly::Part> parts;
+  for (const AddedGeometry& geometry : added) {
+    const GeometryRange& range = geometry.range;
+    parts.push_back({geometry.cad, range.first_face, range.last_face, range.first_point, range.last_point});
+  }
+  session.set_cad(std::make_shared<CadAssembly>(host, std::move(parts)));
+}
+
+carreau_status carreau_geometry_begin(carreau_session* session, const carreau_cad* callbacks) {
   return guarded(session, [&] {
-    const SurfaceOptions known = options_of(options, *session);
-    if (n < 1) throw InvalidArgument("there is no atom: n is " + std::to_string(n));
-    required(centers, "centers"), required(radii, "radii");
-    Molecule molecule;
-    for (std::int64_t i = 0; i < n; ++i)
-      molecule.balls.push_back({{centers[3 * i], centers[3 * i + 1], centers[3 * i + 2]}, radii[i]});
-    add(*session, molecule, known);
+    session->refuse_begun();
+    BegunGeometry begun{.cad = cad_of(callbacks, session->monitor), .outer_draft = {}};
+    begun.outer_draft = std::move(session->draft), begun.outer_changed = session->draft_changed;
+    session->draft = {}, session->draft_changed = true;
+    session->begun = std::move(begun);
   });
 }
 
-carreau_status carreau_load_molecule(carreau_session* session, const carreau_molecule_options* options,
-                                     const char* path) {
+carreau_status carreau_geometry_end(carreau_session* session) {
   return guarded(session, [&] {
-    const SurfaceOptions known = options_of(options, *session);
-    check_empty(*session);
-    const carreau::MoleculeFile file = carreau::read_molecule(required(path, "path"));
-    for (const std::string& remark : file.remarks)
-      session->monitor.message(Level::warning, std::string(path) + ": " + remark);
-    add(*session, file.molecule, known);
+    std::shared_ptr<carreau::Cad> cad = begun_of(*session).cad;
+    Model part = take_part(*session);
+    session->begun.reset();
+    session->add_geometry(CARREAU_GEOMETRY_CALLBACKS, std::move(cad), std::move(part));
   });
 }
 
-carreau_status carreau_molecule_measure(carreau_session* session, carreau_molecule_measures* out_measures) {
-  return guarded(session, [&] {
-    const MoleculeSummary& molecule = molecule_of(*session);
-    const UnionMeasures& m = molecule.measures;
-    carreau_molecule_measures known{};
-    known.area = m.area, known.volume = m.volume;
-    known.atoms = std::int64_t(m.ball_area.size());
-    known.exposed_atoms = std::count_if(m.ball_area.begin(), m.ball_area.end(), [](double area) { return area > 0; });
-    known.shells = std::int64_t(m.shell_volume.size());
-    known.cavities = std::count_if(m.shell_volume.begin(), m.shell_volume.end(), [](double v) { return v < 0; });
-    known.euler_number = molecule.euler_number;
-    known.moved_radii = std::int64_t(molecule.moved);
-    known.torus_area = molecule.torus, known.concave_area = molecule.concave;
-    known.convex_area = m.area - molecule.torus - molecule.concave;
-    write_struct(known, out_measures, "carreau_molecule_measures");
+carreau_status carreau_geometry_cancel(carreau_session* session) {
+  if (session == nullptr) return CARREAU_ERR_ARGUMENT;
+  const ErrorSlot kept = session->error;
+  const carreau_status status = guarded(session, [&] {
+    begun_of(*session);
+    take_part(*session);
+    session->begun.reset();
   });
+  if (status == CARREAU_OK) session->error = kept;
+  return status;
 }
 
-carreau_status carreau_molecule_atoms(carreau_session* session, int64_t capacity, int32_t out_refs[],
-                                      double out_areas[]) {
-  return guarded(session, [&] {
-    const MoleculeSummary& molecule = molecule_of(*session);
-    check_capacity(capacity, molecule.numbers.size(), "atoms");
-    if (out_refs != nullptr) std::copy(molecule.numbers.begin(), molecule.numbers.end(), out_refs);
-    const std::vector<double>& areas = molecule.measures.ball_area;
-    if (out_areas != nullptr) std::copy(areas.begin(), areas.end(), out_areas);
-  });
+carreau_status carreau_geometry_count(carreau_session* session, int64_t* out_count) {
+  return guarded(session, [&] { *required(out_count, "out_count") = std::int64_t(session->added.size()); });
 }
 
-const char* carreau_molecule_atom_name(carreau_session* session, int64_t atom) {
-  const char* name = nullptr;
-  guarded(session, [&] {
-    const MoleculeSummary& molecule = molecule_of(*session);
-    if (atom < 0 || std::uint64_t(atom) >= molecule.numbers.size())
-      throw InvalidArgument("there is no atom " + std::to_string(atom));
-    session->text = molecule.names.empty() ? "" : molecule.names[std::size_t(atom)];
-    name = session->text.c_str();
+carreau_status carreau_geometry_info(carreau_session* session, int64_t index, carreau_geometry* out_geometry) {
+  return guarded(session, [&] {
+    if (index < 0 || std::uint64_t(index) >= session->added.size())
+      throw InvalidArgument("there is no geometry " + std::to_string(index) + "; " +
+                            std::to_string(session->added.size()) + " were added");
+    const AddedGeometry& geometry = session->added[std::size_t(index)];
+    const Model& model = session->begun ? session->begun->outer_draft : session->model();
+    carreau_geometry known{};
+    known.kind = geometry.kind;
+    known.faces = std::int32_t(std::count_if(model.faces.begin(), model.faces.end(), [&](const carreau::Face& face) {
+      return face.geometry == int(index) + 1;
+    }));
+    known.first_face = geometry.range.first_face, known.last_face = geometry.range.last_face;
+    known.first_curve = geometry.range.first_curve, known.last_curve = geometry.range.last_curve;
+    known.first_point = geometry.range.first_point, known.last_point = geometry.range.last_point;
+    write_struct(known, out_geometry, "out_geometry");
   });
-  return name;
 }
 
 carreau_status carreau_geometry_points(carreau_session* session, int32_t face_ref, int64_t n, const double uv[],
                                        double out_xyz[]) {
   return guarded(session, [&] {
-    carreau::Cad& cad = geometry_of(*session);
+    const auto [cad, face] = geometry_of(*session, face_ref);
     if (n < 0) throw InvalidArgument("the number of places is " + std::to_string(n));
     if (n > 0) required(uv, "uv"), required(out_xyz, "out_xyz");
     for (std::int64_t i = 0; i < n; ++i) {
-      const Vec3 s = surface_at(cad, face_ref, carreau::want_position, Vec2{uv[2 * i], uv[2 * i + 1]}).s;
+      const Vec3 s = surface_at(*cad, face, carreau::want_position, Vec2{uv[2 * i], uv[2 * i + 1]}).s;
       std::copy(s.data(), s.data() + 3, out_xyz + 3 * i);
     }
   });
@@ -144,10 +154,10 @@ carreau_status carreau_geometry_points(carreau_session* session, int32_t face_re
 carreau_status carreau_geometry_curve(carreau_session* session, int32_t face_ref, int32_t ic, double share,
                                       double out_uv[2]) {
   return guarded(session, [&] {
-    carreau::Cad& cad = geometry_of(*session);
+    const auto [cad, face] = geometry_of(*session, face_ref);
     required(out_uv, "out_uv");
-    const auto [a, b] = cad.curve_interval(face_ref, ic);
-    const Vec2 c = cad.curve(face_ref, ic, carreau::want_position, share < 1 ? a + share * (b - a) : b).c;
+    const auto [a, b] = cad->curve_interval(face, ic);
+    const Vec2 c = cad->curve(face, ic, carreau::want_position, share < 1 ? a + share * (b - a) : b).c;
     out_uv[0] = c.x(), out_uv[1] = c.y();
   });
 }

@@ -31,21 +31,12 @@ carreau::grid::Options options_of(const carreau_grid_options* given) {
   return options;
 }
 
-void check_empty(const carreau_session& session) {
-  if (!session.model().faces.empty())
-    throw InvalidArgument("the session has faces already: call carreau_model_clear first");
-}
-
 void add(carreau_session& session, const carreau::grid::Grid& grid, const carreau::grid::Options& options) {
   session.monitor.begin_run();
   carreau::grid::GridGeometry made = build_grid_geometry(grid, options, session.monitor);
   for (const std::string& warning : made.warnings)
     session.monitor.message(Level::warning, (grid.source.empty() ? "" : grid.source + ": ") + warning);
-  session.draft = {}, session.draft_changed = false;
-  session.session.set_model(std::move(made.built.model));
-  session.session.set_cad(made.built.cad);
-  session.has_cad = true;
-  session.built = std::move(made.built.cad);
+  session.add_geometry(CARREAU_GEOMETRY_GRID, std::move(made.built.cad), std::move(made.built.model));
 }
 
 carreau::grid::Measured measured_of(std::int32_t given) {
@@ -84,7 +75,7 @@ carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_opt
                                 const int32_t counts[], const double nodes[]) {
   return guarded(session, [&] {
     const carreau::grid::Options known = options_of(options);
-    check_empty(*session);
+    session->refuse_begun();
     if (n < 1) throw InvalidArgument("there is no block: n is " + std::to_string(n));
     required(counts, "counts"), required(nodes, "nodes");
     const std::int32_t measured = options != nullptr ? read_struct(options, "carreau_grid_options").measured : 0;
@@ -109,7 +100,7 @@ carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_op
                                  int32_t format) {
   return guarded(session, [&] {
     const carreau::grid::Options known = options_of(options);
-    check_empty(*session);
+    session->refuse_begun();
     const double step = options != nullptr ? read_struct(options, "carreau_grid_options").step : 0;
     if (!(step >= 0) || !std::isfinite(step)) throw InvalidArgument("the step of a grid must be finite and not negative");
     add(*session, carreau::read_grid(required(path, "path"), format_of(format), step > 0 ? step : 1), known);

@@ -100,6 +100,9 @@ carreau_status guarded(Handle* handle, Body&& body) noexcept {
   return status_of(body, [&slot](const char* sentence, const Where& where) { slot.keep(sentence, where); });
 }
 
+/// Faces of a mesh that is no session's: references of triangles, and what is known of faces.
+std::vector<carreau_mesh::FaceOfFile> faces_of(const FlatMesh& flat);
+
 /// A mesh that lacks faces is there, but the caller must know: throws CARREAU_ERR_PARTIAL then.
 void report_failed_faces(const Session& session);
 

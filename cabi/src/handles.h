@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "carreau.h"
+#include "cad/cad.h"
 #include "geometry/molecule/molecule.h"
 #include "mesh/flat_mesh.h"
+#include "model/model.h"
 #include "session/session.h"
 #include "support/monitor.h"
 
@@ -84,10 +86,32 @@ struct carreau_mesh {
   };
   std::vector<FaceOfFile> flat_faces;  // ascending references: of triangles of `flat`, and of faces that it tells of
   bool filled = false;                 // of `flat`
+  std::vector<double> corner_uv;       // of `flat`, 6 a triangle, or empty
   std::string text;                    // returned to the caller, who may look at it until the next call
   carreau::abi::ErrorSlot error;
   std::atomic<bool> busy{false};
 };
+
+namespace carreau::abi {
+
+/// A geometry of a session beside the host's own.
+struct AddedGeometry {
+  int kind = 0;  // CARREAU_GEOMETRY_...
+  std::shared_ptr<Cad> cad;
+  GeometryRange range;
+};
+
+/// Callbacks as the engine asks them. Throws InvalidArgument.
+std::shared_ptr<Cad> cad_of(const carreau_cad* callbacks, const Monitor& monitor);
+
+/// Between carreau_geometry_begin and carreau_geometry_end: the model of the geometry is the draft of the session.
+struct BegunGeometry {
+  std::shared_ptr<Cad> cad;
+  Model outer_draft;
+  bool outer_changed = false;
+};
+
+}  // namespace carreau::abi
 
 struct carreau_session {
   carreau_session() : monitor(&parameters), session(monitor), parameters(&session.parameters()), mesh(this) {}
@@ -103,17 +127,29 @@ struct carreau_session {
   }
   /// Gives the changed model to the session.
   void commit_model() {
+    refuse_begun();
     if (!draft_changed) return;
     session.set_model(draft);
     draft = {}, draft_changed = false;
   }
 
+  /// Throws when carreau_geometry_begin has no end yet.
+  void refuse_begun() const;
+  /// Puts a geometry behind what the session has. Its model has references from 1.
+  void add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, carreau::Model part);
+  /// The faces are gone, and with them all geometries but the host's own.
+  void drop_geometries();
+  /// `host` and `added` have changed.
+  void update_cad();
+
   carreau::abi::HostMonitor monitor;
   carreau::Session session;
   const carreau::Parameters* parameters;
   bool has_cad = false;
+  std::shared_ptr<carreau::Cad> host;  // the callbacks of carreau_set_cad or carreau_set_cad_m
+  std::vector<carreau::abi::AddedGeometry> added;
+  std::optional<carreau::abi::BegunGeometry> begun;
   bool plane_has_sizes = false;  // of the last plane domain
-  std::shared_ptr<carreau::Cad> built;                             // the geometry, when the library evaluates it itself
   std::optional<carreau::molecule::MoleculeSummary> molecule = {};  // the last one
   carreau::Model draft;  // changed since the session got its model
   bool draft_changed = false;

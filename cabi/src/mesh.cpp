@@ -29,7 +29,7 @@ void require_content(const carreau_mesh& mesh) {
   if (!filled)
     throw StatusError(CARREAU_ERR_SEQUENCE, mesh.session != nullptr
                                                 ? "there is no mesh yet"
-                                                : "the mesh is empty: call carreau_mesh_read first");
+                                                : "the mesh is empty: call carreau_mesh_read or carreau_mesh_from_arrays first");
 }
 
 const SurfaceMesh& surface_of(const carreau_mesh& mesh) { return mesh.session->session.mesh(); }
@@ -68,7 +68,11 @@ void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_
   for (std::size_t i = 0; i < n; ++i) out[i] = i < refs.size() ? refs[i] : 0;
 }
 
-std::vector<carreau_mesh::FaceOfFile> faces_of(const FlatMesh& flat) {
+FlatMesh flat_of(const carreau_mesh& mesh) { return carreau::flatten(surface_of(mesh), false); }
+
+}  // namespace
+
+std::vector<carreau_mesh::FaceOfFile> carreau::abi::faces_of(const FlatMesh& flat) {
   std::map<std::int32_t, carreau_mesh::FaceOfFile> by_ref;
   for (std::size_t i = 0; i < flat.triangles.size(); ++i)
     ++by_ref[i < flat.triangle_refs.size() ? flat.triangle_refs[i] : 0].triangles;
@@ -78,10 +82,6 @@ std::vector<carreau_mesh::FaceOfFile> faces_of(const FlatMesh& flat) {
   for (auto& [ref, face] : by_ref) faces.push_back(std::move(face));
   return faces;
 }
-
-FlatMesh flat_of(const carreau_mesh& mesh) { return carreau::flatten(surface_of(mesh), false); }
-
-}  // namespace
 
 carreau_status carreau_session_mesh(carreau_session* session, carreau_mesh** out_mesh) {
   return guarded(session, [&] {
@@ -114,6 +114,7 @@ carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path) {
     mesh->flat_faces = faces_of(flat);
     mesh->flat = std::move(flat);
     mesh->filled = true;
+    mesh->corner_uv.clear();
   });
 }
 
@@ -212,6 +213,10 @@ carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, doub
   return guarded(mesh, [&] {
     required(out_uv, "out_uv");
     check_capacity(capacity, Counts(*mesh).triangles, "triangles");
+    if (!mesh->corner_uv.empty()) {
+      std::copy(mesh->corner_uv.begin(), mesh->corner_uv.end(), out_uv);
+      return;
+    }
     double* out = out_uv;
     for_each_triangle(session_only(*mesh, "(u, v)"), [&](const FaceMesh& face, const auto& corners) {
       for (const std::int32_t local : corners) {

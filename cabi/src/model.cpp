@@ -36,8 +36,13 @@ void put(std::int32_t* array, std::size_t index, std::int32_t value) {
 
 carreau_status carreau_model_clear(carreau_session* session) {
   return guarded(session, [&] {
+    if (session->begun) {
+      session->draft = {};
+      return;
+    }
     session->draft = {}, session->draft_changed = false;
     session->session.clear_model();
+    session->drop_geometries();
   });
 }
 
@@ -118,9 +123,11 @@ carreau_status carreau_model_leave_out_face(carreau_session* session, int32_t fa
 
 carreau_status carreau_model_read_pardom(carreau_session* session, const char* path) {
   return guarded(session, [&] {
+    session->refuse_begun();
     session->session.load_pardom(required(path, "path"));
     session->draft = {};
     session->draft_changed = false;
+    session->drop_geometries();
   });
 }
 

@@ -118,13 +118,9 @@ void check_empty(const carreau_session& session) {
 void add(carreau_session& session, const PlaneDomainInput& input) {
   carreau::PlaneGeometry plane = carreau::build_plane_geometry(input, session.parameters->real("eps_smooth"));
   for (const std::string& warning : plane.warnings) session.monitor.message(Level::warning, warning);
-  session.draft = {}, session.draft_changed = false;
-  session.session.set_model(std::move(plane.built.model));
-  session.session.set_cad(plane.built.cad);
+  session.add_geometry(CARREAU_GEOMETRY_PLANE, std::move(plane.built.cad), std::move(plane.built.model));
   session.session.set_prescription_source(plane.sizes);
   session.plane_has_sizes = plane.sizes != nullptr;
-  session.has_cad = true;
-  session.built = std::move(plane.built.cad);
 }
 
 bool is_bl2d(const std::string& path) {

@@ -69,6 +69,15 @@ carreau_status carreau_last_error_place(const carreau_session* session, carreau_
   return status_of(fill, [](const char*, const carreau::Where&) {});
 }
 
+carreau_status carreau_set_error(carreau_session* session, carreau_status error, const char* sentence) {
+  const bool known = std::string(carreau_status_name(error)) != "CARREAU_UNKNOWN_STATUS";
+  return guarded(session, [&] {
+    if (error == CARREAU_OK || !known)
+      throw carreau::InvalidArgument("the status " + std::to_string(error) + " is not that of an error");
+    throw StatusError(error, sentence != nullptr ? sentence : "");
+  });
+}
+
 carreau_status carreau_set_message_callback(carreau_session* session, carreau_message_fn callback, void* user) {
   return guarded(session, [&] { session->monitor.set_message_callback(callback, user); });
 }

@@ -61,6 +61,21 @@ int32_t BrepHost::State::answer_guarded(int32_t face, std::atomic<bool>& failed,
   }
 }
 
+void* BrepHost::State::hold() {
+  const std::scoped_lock lock(mutex);
+  if (sessions++ == 0) self = shared_from_this();
+  return this;
+}
+
+void BrepHost::State::release(void* user) noexcept {
+  auto& state = *static_cast<State*>(user);
+  std::shared_ptr<State> last;  // perhaps; destroyed when the mutex is free
+  {
+    const std::scoped_lock lock(state.mutex);
+    if (--state.sessions == 0) last = std::move(state.self);
+  }
+}
+
 const char* BrepHost::State::failure(int32_t face, void* user) noexcept {
   auto& state = *static_cast<State*>(user);
   const std::scoped_lock lock(state.mutex);

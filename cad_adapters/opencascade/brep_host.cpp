@@ -21,7 +21,7 @@
 
 namespace carreau_occ {
 
-BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_unique<State>()) {
+BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_shared<State>()) {
   state_->shape = file.shape;
   try {
     guarded([&] { state_->collect(), state_->collect_names(file), state_->collect_doubts(file); });
@@ -60,9 +60,13 @@ int BrepHost::seed_curve(int number) const {
 }
 
 carreau_status BrepHost::give_to(carreau_session* session) {
+  const carreau_status status = carreau_model_clear(session);
+  return status == CARREAU_OK ? add_to(session) : status;
+}
+
+carreau_status BrepHost::add_to(carreau_session* session) {
   carreau_cad cad{};
   cad.struct_size = sizeof cad;
-  cad.user = state_.get();
   cad.surface_order = cad.curve_order = 2;
   cad.reentrant = 1;
   cad.surface_batch = State::surface_batch;
@@ -73,40 +77,75 @@ carreau_status BrepHost::give_to(carreau_session* session) {
   cad.curve_size = State::curve_size;
   cad.point_size = State::point_size;
   cad.failure = State::failure;
-  carreau_status status = carreau_set_cad(session, &cad);
-  if (status == CARREAU_OK) status = carreau_model_clear(session);
+  cad.release = State::release;
+  cad.user = state_->hold();
+  carreau_status status = carreau_geometry_begin(session, &cad);
+  if (status != CARREAU_OK) {
+    State::release(cad.user);
+    return status;
+  }
+  status = add_faces(session);
+  if (status != CARREAU_OK) {
+    carreau_geometry_cancel(session);
+    return status;
+  }
+  status = carreau_geometry_end(session);
+  return status == CARREAU_OK ? move_reasons(session) : status;
+}
+
+carreau_status BrepHost::add_faces(carreau_session* session) const {
   // Parts behind the face that they belong to.
   std::vector<std::size_t> order(state_->host_faces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return state_->host_faces[a].whole < state_->host_faces[b].whole;
   });
-  for (const std::size_t f : order) {
-    if (status != CARREAU_OK) break;
-    const HostFace& face = state_->host_faces[f];
-    int32_t orientation = face.broken.empty() ? 0 : 1;
-    const auto ref = static_cast<int32_t>(f + 1);
-    if (const int seed = face.broken.empty() ? seed_curve(ref) : 0; seed != 0) {
-      const HostCurve& curve = face.curves[static_cast<std::size_t>(seed - 1)];
-      orientation = seed * (curve.forward != face.swapped ? 1 : -1);
-    }
-    status = carreau_model_add_face(session, ref, orientation);
-    if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
-    if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);
-    if (status == CARREAU_OK && ref != face.whole) status = carreau_model_part_of_face(session, ref, face.whole);
-    if (status == CARREAU_OK && !face.broken.empty()) {
-      status = carreau_model_leave_out_face(session, ref, ("face " + std::to_string(ref) + ": " + face.broken).c_str());
-      continue;
-    }
-    for (const HostCurve& curve : face.curves)
-      if (status == CARREAU_OK)
-        status = carreau_model_add_curve(session, ref, curve.internal ? CARREAU_INTERNAL : CARREAU_BOUNDARY, curve.edge,
-                                         curve.end1, curve.end2);
-  }
+  carreau_status status = CARREAU_OK;
+  for (const std::size_t f : order)
+    if (status == CARREAU_OK) status = add_face(session, f);
   for (const auto& [piece, whole] : state_->whole_edge)
     if (status == CARREAU_OK) status = carreau_model_part_of_curve(session, piece, whole);
   return status;
 }
+
+carreau_status BrepHost::add_face(carreau_session* session, std::size_t index) const {
+  const HostFace& face = state_->host_faces[index];
+  int32_t orientation = face.broken.empty() ? 0 : 1;
+  const auto ref = static_cast<int32_t>(index + 1);
+  if (const int seed = face.broken.empty() ? seed_curve(ref) : 0; seed != 0) {
+    const HostCurve& curve = face.curves[static_cast<std::size_t>(seed - 1)];
+    orientation = seed * (curve.forward != face.swapped ? 1 : -1);
+  }
+  carreau_status status = carreau_model_add_face(session, ref, orientation);
+  if (status == CARREAU_OK) status = carreau_model_name_face(session, ref, face.name.c_str());
+  if (status == CARREAU_OK) status = carreau_model_color_face(session, ref, face.rgb);
+  if (status == CARREAU_OK && ref != face.whole) status = carreau_model_part_of_face(session, ref, face.whole);
+  if (status == CARREAU_OK && !face.broken.empty())
+    return carreau_model_leave_out_face(session, ref, ("face " + std::to_string(ref) + ": " + face.broken).c_str());
+  for (const HostCurve& curve : face.curves)
+    if (status == CARREAU_OK)
+      status = carreau_model_add_curve(session, ref, curve.internal ? CARREAU_INTERNAL : CARREAU_BOUNDARY, curve.edge,
+                                       curve.end1, curve.end2);
+  return status;
+}
+
+/// Reasons to leave faces out name the references of the session.
+carreau_status BrepHost::move_reasons(carreau_session* session) const {
+  carreau_geometry geometry{};
+  geometry.struct_size = sizeof geometry;
+  int64_t count = 0;
+  carreau_status status = carreau_geometry_count(session, &count);
+  if (status == CARREAU_OK) status = carreau_geometry_info(session, count - 1, &geometry);
+  if (geometry.first_face == 1) return status;
+  for (const auto& [number, why] : excluded()) {
+    if (status != CARREAU_OK) break;
+    const int32_t ref = geometry.first_face + number - 1;
+    status = carreau_model_leave_out_face(session, ref, ("face " + std::to_string(ref) + ": " + why).c_str());
+  }
+  return status;
+}
+
+void BrepHost::keep(std::shared_ptr<void> companion) { state_->companion = std::move(companion); }
 
 void BrepHost::State::collect_sizes() {
   edge_size.assign(uses.size(), 0);
@@ -141,7 +180,12 @@ const std::string& BrepHost::face_name(int number) const {
   return state_->host_faces[static_cast<std::size_t>(number - 1)].name;
 }
 
+int BrepHost::face_colour(int number) const { return state_->host_faces[static_cast<std::size_t>(number - 1)].rgb; }
 int BrepHost::face_count() const noexcept { return state_->faces.Extent(); }
+int BrepHost::reference_count() const noexcept { return static_cast<int>(state_->host_faces.size()); }
+int BrepHost::curve_count(int reference) const noexcept {
+  return static_cast<int>(state_->host_faces[static_cast<std::size_t>(reference - 1)].curves.size());
+}
 int BrepHost::whole_face(int reference) const noexcept {
   const bool known = reference >= 1 && static_cast<std::size_t>(reference) <= state_->host_faces.size();
   return known ? state_->host_faces[static_cast<std::size_t>(reference - 1)].whole : reference;

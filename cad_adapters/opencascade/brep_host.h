@@ -1,7 +1,7 @@
 // A boundary representation of OpenCASCADE as a host of the C interface.
 #pragma once
 
-#include <carreau.h>
+#include <carreau_geometry.h>
 
 #include <cstdint>
 #include <memory>
@@ -26,9 +26,14 @@ class BrepHost {
   BrepHost(const BrepHost&) = delete;
   BrepHost& operator=(const BrepHost&) = delete;
 
-  /// Gives geometry and model to a session, which must not outlive this object. A status of carreau.h; the sentence is
-  /// in the session. It names the face and says what OpenCASCADE did when a callback fails.
+  /// Adds geometry and model to a session (carreau_geometry_begin), which may outlive this object. A status of
+  /// carreau.h; the sentence is in the session, which is then as before. When a callback fails later on, it names the
+  /// face and says what OpenCASCADE did.
+  carreau_status add_to(carreau_session* session);
+  /// The same in place of all that the session has.
   carreau_status give_to(carreau_session* session);
+  /// Something that lives as long as this object or a session that asks its callbacks.
+  void keep(std::shared_ptr<void> companion);
 
   /// Size wanted on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
   /// size of its faces. Before give_to. False: there is no such face.
@@ -40,7 +45,13 @@ class BrepHost {
 
   /// Own name of a face, or that of the smallest part that holds it; "": none. Numbers from 1.
   [[nodiscard]] const std::string& face_name(int number) const;
+  /// 0xRRGGBB, -1: none. Numbers from 1.
+  [[nodiscard]] int face_colour(int number) const;
   [[nodiscard]] int face_count() const noexcept;
+  /// Faces and parts of faces: references are from 1 to this.
+  [[nodiscard]] int reference_count() const noexcept;
+  /// Of a face or a part of one.
+  [[nodiscard]] int curve_count(int reference) const noexcept;
   /// The face of the shape that a reference of the model is, or is a part of; other numbers stay.
   [[nodiscard]] int whole_face(int reference) const noexcept;
   /// References of the parts of a face of the shape, or its own; ascending.
@@ -75,9 +86,12 @@ class BrepHost {
  private:
   /// Of a face, from 1.
   [[nodiscard]] int seed_curve(int number) const;
+  carreau_status add_face(carreau_session* session, std::size_t index) const;
+  carreau_status add_faces(carreau_session* session) const;
+  carreau_status move_reasons(carreau_session* session) const;
 
   struct State;
-  std::unique_ptr<State> state_;
+  std::shared_ptr<State> state_;  // of the callbacks, too
 };
 
 }  // namespace carreau_occ

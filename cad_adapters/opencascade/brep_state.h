@@ -41,7 +41,8 @@ inline std::string sentence_of(const Standard_Failure& failure) {
   return std::string("OpenCASCADE: ") + failure.DynamicType()->Name() + ": " + failure.GetMessageString();
 }
 
-struct BrepHost::State {
+struct BrepHost::State : std::enable_shared_from_this<State> {
+  std::shared_ptr<void> companion;  // goes last
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges, vertices;
   std::vector<HostFace> host_faces;  // face number - 1; behind all faces the parts of those that were cut
@@ -56,6 +57,8 @@ struct BrepHost::State {
   Evaluators evaluators;
   std::mutex mutex;                     // of what follows: callbacks come from several threads
   std::map<int, std::string> failures;  // by face
+  int sessions = 0;                     // that ask the callbacks
+  std::shared_ptr<State> self;          // while there are some
   // By number - 1: faces whose surface, or curves, failed or could not be had. Not asked again, since a fault may have
   // left locks behind.
   std::unique_ptr<std::atomic<bool>[]> surface_failed, curves_failed;
@@ -84,6 +87,9 @@ struct BrepHost::State {
   template <typename Evaluate>
   int32_t answer_guarded(int32_t face, std::atomic<bool>& failed, const Evaluate& evaluate) noexcept;
   static const char* failure(int32_t face, void* user) noexcept;
+  /// For the callbacks of a session: the state lives as long as they do.
+  void* hold();
+  static void release(void* user) noexcept;
   int32_t fail(int32_t face, const Standard_Failure& why) noexcept;
 };
 

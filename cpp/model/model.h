@@ -50,6 +50,8 @@ struct Face {
   int line = 0;
   /// Reference of the face that results speak of in place of this one, which is a part of it; 0: none.
   int part_of = 0;
+  /// Of a model of several geometries, the one that the face belongs to, from 1, in Model::geometries; 0: the host's own.
+  int geometry = 0;
   /// Why the face is not meshed: nothing is asked of its geometry, and its curves may break any rule; empty: it is.
   std::string left_out = {};
 };
@@ -60,11 +62,20 @@ inline int host_rank(const Face& face, std::size_t curve) {
   return part_of != 0 ? part_of : static_cast<int>(curve) + 1;
 }
 
+/// References of a geometry among others: those from first_ to last_ are its own, which it counts from 1. last_ is
+/// first_ - 1 where it has none.
+struct GeometryRange {
+  int first_face = 1, last_face = 0;
+  int first_curve = 1, last_curve = 0;
+  int first_point = 1, last_point = 0;
+};
+
 struct Model {
   std::vector<Face> faces;
   std::string source;  ///< name of the file it was read from; empty: from memory
   /// References that results have in place of those of points, where they differ.
   std::map<int, int> shown_points = {};
+  std::vector<GeometryRange> geometries = {};  ///< beside the host's own; see Face::geometry
   bool plane = false;  ///< all of it lies in the plane z = 0, and files of its mesh have dimension 2
 };
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 
+#include "model/geometries.h"
 #include "model/places.h"
 #include "model/topology.h"
 
@@ -12,7 +13,11 @@ namespace {
 
 class ModelChecker {
  public:
-  explicit ModelChecker(const Model& model) : model_(model), gluing_(needs_gluing(model)) {}
+  explicit ModelChecker(const Model& model) : model_(model), gluing_(model.geometries.size() + 1, needs_gluing(model)) {
+    if (!is_mixed(model)) return;
+    gluing_.assign(gluing_.size(), false);
+    for (const int geometry : geometries_to_glue(model)) gluing_[static_cast<std::size_t>(geometry)] = true;
+  }
 
   std::vector<ModelDefect> run() {
     if (model_.faces.empty()) add({.file = model_.source}, "the model has no face");
@@ -20,14 +25,15 @@ class ModelChecker {
       check_face(f);
       if (!model_.faces[f].left_out.empty()) continue;
       check_orientation(f);
+      const bool gluing = gluing_[static_cast<std::size_t>(model_.faces[f].geometry)];
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
         check_type(f, c);
-        if (gluing_)
+        if (gluing)
           check_zero(f, c);
         else if (check_positive(f, c))
           check_uses(f, c);
       }
-      if (!gluing_) check_loops(f);
+      if (!gluing) check_loops(f);
       check_points(f);
     }
     return std::move(defects_);
@@ -180,7 +186,7 @@ class ModelChecker {
   };
 
   const Model& model_;
-  bool gluing_;
+  std::vector<bool> gluing_;  // by geometry: all references are to be found
   std::vector<ModelDefect> defects_;
   std::map<int, std::size_t> faces_;        // by reference
   std::map<int, const FaceCurve*> curves_;  // first of each reference

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "model/geometries.h"
 #include "model/places.h"
 #include "model/splits.h"
 #include "support/format.h"
@@ -101,6 +102,28 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
   Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open);
   tell(glued, report, count_curves(cut) - count_curves(model), monitor);
   return glued;
+}
+
+void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
+                                   std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor) {
+  if (!is_mixed(model)) return;
+  for (const int geometry : geometries_to_glue(model)) {
+    GeometryPart part = part_of(model, geometry);
+    ModelSupports own{.of_face = {}, .diag = supports.diag};
+    for (const std::size_t face : part.faces) own.of_face.push_back(std::move(supports.of_face[face]));
+    GlueReport found;
+    const Gluing each{.eps = options.eps, .eps_open = 0, .angle_smo = options.angle_smo};
+    part.model = find_references(part.model, own, cad, each, remarks, found, monitor);
+    put_back(part, geometry, model);
+    for (std::size_t f = 0; f < part.faces.size(); ++f) supports.of_face[part.faces[f]] = std::move(own.of_face[f]);
+    const auto in_whole = [&](GlueReport::Place place) {
+      place.face = part.faces[place.face];
+      return place;
+    };
+    for (const GlueReport::Pair& pair : found.pairs)
+      report.pairs.push_back({in_whole(pair.a), in_whole(pair.b), pair.gap});
+    for (const GlueReport::Place& place : found.open) report.open.push_back(in_whole(place));
+  }
 }
 
 std::vector<Interface> list_interfaces(const Model& model, const Topology& topology, const std::vector<CurveGap>& gaps,

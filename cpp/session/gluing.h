@@ -39,6 +39,11 @@ struct Interface {
 Model find_references(const Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
                       std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
 
+/// The same for each geometry of a mixed model (model/geometries.h) that has none, by itself. `report` has what was
+/// found in all of them.
+void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& cad, const Gluing& options,
+                                   std::vector<std::string>& remarks, GlueReport& report, Monitor& monitor);
+
 /// The curves of a mesh, in the order of the topology. `gaps` as CompositeResult has them.
 std::vector<Interface> list_interfaces(const Model& model, const Topology& topology, const std::vector<CurveGap>& gaps,
                                        const GlueReport& report);

@@ -11,6 +11,7 @@
 #include "io/mesh_files.h"
 #include "io/pardom.h"
 #include "measure/composite_evaluation.h"
+#include "model/geometries.h"
 #include "session/adaptation.h"
 #include "session/derivatives.h"
 #include "session/export.h"
@@ -37,6 +38,24 @@ struct Meshed {
   Topology topology;
   CompositeOptions options;
 };
+
+// x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
+void write_glued(const Model& model, std::vector<std::string>& remarks) {
+  const bool has_parts = std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
+    return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& c) { return c.part_of != 0; });
+  });
+  const bool whole =
+      std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.left_out.empty(); });
+  if (!whole) {
+    remarks.push_back(model.source + ".new is not written: a face was left out");
+  } else if (has_parts) {
+    remarks.push_back(model.source +
+                      ".new is not written: curves were cut where others end, which its layout cannot "
+                      "say; keep the file without references");
+  } else {
+    write_file(model.source + ".new", pardom_text(model));
+  }
+}
 
 }  // namespace
 
@@ -72,6 +91,28 @@ struct Session::State {
     if (!all.empty() && parameters.integer("hphy_flag") == 0)
       monitor.message(Level::warning, "hphy_flag = 0: the prescribed sizes and metrics are ignored");
     return all;
+  }
+
+  /// Finds references that are missing, and looks for curves that are one where that is wanted.
+  void glue_model(Model& known, ModelSupports& supports, Cad& whole_cad, std::vector<std::string>& remarks) {
+    const Gluing options{.eps = parameters.real("eps_glue", supports.diag),
+                         // Farther apart, curves of one reference are an error of the model (build_topology).
+                         .eps_open = std::min(parameters.real("eps_glue_open"), supports.diag / 100),
+                         .angle_smo = std::min(parameters.real("angle_smo"), parameters.real("angle_mesh"))};
+    GlueReport found;
+    bool any = is_mixed(known) && !geometries_to_glue(known).empty();
+    if (any) find_references_of_geometries(known, supports, whole_cad, options, remarks, found, monitor);
+    if (const bool all = needs_gluing(known); all || parameters.integer("glue_open") != 0) {
+      GlueReport among_all;
+      known = find_references(known, supports, whole_cad, options, remarks, among_all, monitor);
+      found.pairs.insert(found.pairs.end(), among_all.pairs.begin(), among_all.pairs.end());
+      found.open = among_all.open;
+      any = true;
+      if (all && model_from_file) check_model(known), write_glued(known, remarks);
+    }
+    if (!any) return;
+    check_model(known);
+    keep_glued(known, found);
   }
 
   /// Faces that were left out of gluing stay as they are, and only the host's own reasons to leave them out are kept.
@@ -117,24 +158,6 @@ std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
     throw InvalidArgument(std::string("background_mesh and background_sol name two files of one field, but only ") +
                           (mesh.empty() ? "background_sol" : "background_mesh") + " is set");
   return mesh.empty() ? set : read_background(mesh, sol, one_plane);
-}
-
-// x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
-void write_glued(const Model& model, std::vector<std::string>& remarks) {
-  const bool has_parts = std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
-    return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& c) { return c.part_of != 0; });
-  });
-  const bool whole =
-      std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.left_out.empty(); });
-  if (!whole) {
-    remarks.push_back(model.source + ".new is not written: a face was left out");
-  } else if (has_parts) {
-    remarks.push_back(model.source +
-                      ".new is not written: curves were cut where others end, which its layout cannot "
-                      "say; keep the file without references");
-  } else {
-    write_file(model.source + ".new", pardom_text(model));
-  }
 }
 
 MeshEvaluation measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
@@ -244,17 +267,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
   set_parameter_boxes(model, supports, whole_cad);
   std::vector<std::string> remarks;
-  if (const bool all = needs_gluing(model); all || s.parameters.integer("glue_open") != 0) {
-    const double eps_glue = s.parameters.real("eps_glue", supports.diag);
-    // Farther apart, curves of one reference are an error of the model (build_topology).
-    const double eps_open = std::min(s.parameters.real("eps_glue_open"), supports.diag / 100);
-    GlueReport found;
-    model = find_references(model, supports, whole_cad, {.eps = eps_glue, .eps_open = eps_open, .angle_smo = angle_smo},
-                            remarks, found, s.monitor);
-    s.check_model(model);
-    if (all && s.model_from_file) write_glued(model, remarks);
-    s.keep_glued(model, found);
-  }
+  s.glue_model(model, supports, whole_cad, remarks);
   PartCad cad(whole_cad, parts_of(model));
   const CurveTraces traces = traces_of(supports);
   if (const double eps = s.parameters.real("eps_collapse"); eps > 0)

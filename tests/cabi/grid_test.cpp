@@ -97,8 +97,12 @@ TEST_F(Grids, MistakesAreToldAndLeaveTheSessionAsItWas) {
   EXPECT_EQ(carreau_load_grid(session, &options, "no.fmt", 0), CARREAU_ERR_FILE);
   EXPECT_EQ(carreau_add_grid(session, &options, 2, cylinder.counts.data(), nullptr), CARREAU_ERR_ARGUMENT);
   ASSERT_EQ(carreau_add_grid(session, &options, 2, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_OK);
-  EXPECT_EQ(add(cylinder.counts.data(), cylinder.nodes.data()),
-            "the session has faces already: call carreau_model_clear first");
+  // The same once more stands beside the first.
+  ASSERT_EQ(carreau_add_grid(session, &options, 2, cylinder.counts.data(), cylinder.nodes.data()), CARREAU_OK);
+  carreau_geometry second = sized<carreau_geometry>();
+  ASSERT_EQ(carreau_geometry_info(session, 1, &second), CARREAU_OK);
+  EXPECT_EQ(second.kind, CARREAU_GEOMETRY_GRID);
+  EXPECT_EQ(second.first_face, 3);
 }
 
 }  // namespace

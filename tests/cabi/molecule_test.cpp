@@ -1,8 +1,10 @@
 // Molecules through the interface: areas, meshes, mistakes.
 #include <carreau_geometry.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "abi_fixture.h"
 
@@ -74,6 +76,30 @@ TEST_F(Molecules, TheMeshIsClosedAndOnItsSpheres) {
     }
 }
 
+TEST_F(Molecules, AtomsShareTheWholeExcludedSurface) {
+  add_two(CARREAU_SES);
+  std::array<double, 2> convex{}, torus{}, concave{};
+  ASSERT_EQ(carreau_molecule_atom_areas(session, 2, convex.data(), torus.data(), concave.data()), CARREAU_OK);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR(convex[i], 45.1031 / 2, 1e-4);
+    EXPECT_NEAR(torus[i], 6.9721 / 2, 1e-4);
+    EXPECT_EQ(concave[i], 0);
+  }
+  ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);
+  const carreau_molecule_options options = surface(CARREAU_SES);
+  const std::string path = std::string(CARREAU_TEST_DATA) + "/molecule/1bna.pdb";
+  ASSERT_EQ(carreau_load_molecule(session, &options, path.c_str()), CARREAU_OK) << carreau_last_error(session);
+  const carreau_molecule_measures m = measures();
+  std::vector<double> a(m.atoms), b(m.atoms), c(m.atoms);
+  EXPECT_EQ(carreau_molecule_atom_areas(session, m.atoms - 1, a.data(), b.data(), c.data()), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_molecule_atom_areas(session, m.atoms, a.data(), b.data(), c.data()), CARREAU_OK);
+  const auto sum = [](const std::vector<double>& areas) { return std::accumulate(areas.begin(), areas.end(), 0.0); };
+  EXPECT_NEAR(sum(a), m.convex_area, 1e-9 * m.area);
+  EXPECT_NEAR(sum(b), m.torus_area, 1e-9 * m.area);
+  EXPECT_NEAR(sum(c), m.concave_area, 1e-9 * m.area);
+  for (std::int64_t i = 0; i < m.atoms; ++i) EXPECT_GE(std::min({a[i], b[i], c[i]}), -1e-9);
+}
+
 TEST_F(Molecules, PointsOfFacesCanBeAskedFor) {
   add_two(CARREAU_VWS);
   std::array<double, 2> uv{};
@@ -120,8 +146,8 @@ TEST_F(Molecules, MistakesAreToldAndLeaveTheSessionAsItWas) {
   std::array<double, 3> x{};
   EXPECT_EQ(carreau_geometry_points(session, 1, 1, two_centers.data(), x.data()), CARREAU_ERR_SEQUENCE);
   add_two(CARREAU_VWS);
-  EXPECT_EQ(add(surface(CARREAU_SAS), 2, two_centers.data(), two_radii.data()),
-            "the session has faces already: call carreau_model_clear first");
+  EXPECT_EQ(add(surface(CARREAU_SAS), 2, two_centers.data(), bad.data()),
+            "atom 2: the radius is -1; it must be positive and finite");
   EXPECT_NEAR(measures().area, 52.3389, 1e-4);
   const carreau_molecule_options options = surface(CARREAU_VWS);
   ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);

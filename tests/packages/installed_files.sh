@@ -1,7 +1,7 @@
 #!/bin/sh
-# installed_files.sh TREE WORK FORTRAN COMMAND: what an installed tree must hold, and must not.
+# installed_files.sh TREE WORK FORTRAN COMMAND CAD: what an installed tree must hold, and must not.
 set -eu
-tree=$1 fortran=$3 command=$4
+tree=$1 fortran=$3 command=$4 cad=$5
 cd -- "$tree"
 fail=0
 need() {
@@ -15,6 +15,15 @@ if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
     lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1
 fi
+cad_header=
+if [ "$cad" = 1 ]; then
+  cad_header="include/carreau_cad.h "
+  need lib/libcarreau_cad.so lib/pkgconfig/carreau-cad.pc lib/cmake/carreau/carreau-cad-targets.cmake
+  if [ "$fortran" = 1 ]; then
+    need share/carreau/fortran/carreau_cad.f90 lib/libcarreau_cad_fortran.a lib/fortran/modules/carreau/*/carreau_cad.mod \
+      lib/pkgconfig/carreau-cad-fortran.pc
+  fi
+fi
 if [ "$command" = 1 ]; then
   need bin/carreau share/bash-completion/completions/carreau share/zsh/site-functions/_carreau \
     share/fish/vendor_completions.d/carreau.fish
@@ -26,9 +35,9 @@ for program in bin/*; do
   [ -e "$program" ] || continue
   need "share/man/man1/${program##*/}.1"
 done
-# The two C headers, and no file that knows where it was built.
+# The C headers, and no file that knows where it was built.
 headers=$(find include -type f | sort | tr '\n' ' ')
-[ "$headers" = "include/carreau.h include/carreau_geometry.h " ] || { echo "headers: $headers"; fail=1; }
+[ "$headers" = "include/carreau.h ${cad_header}include/carreau_geometry.h " ] || { echo "headers: $headers"; fail=1; }
 if grep -rlI -e "$tree.first" .; then
   echo "these files hold the path of the first installation"
   fail=1

@@ -34,7 +34,7 @@ assert status == 0, errors
 rows = left_out(lines)
 print(rows)
 for what, word in ((".exr files", "libopenexr-dev"), ("oneTBB", "libtbb-dev"), ("Fortran modules and examples", "gfortran"),
-                   ("STEP, IGES and BREP files", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), ("tests", "libgtest-dev")):
+                   ("libcarreau_cad (STEP, IGES and BREP files)", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), ("tests", "libgtest-dev")):
     assert word in rows[what], (what, rows)
 assert os.path.exists(os.path.join(build, "build.ninja"))
 targets = subprocess.run([CMAKE, "--build", build, "--target", "help"], check=True, capture_output=True, text=True).stdout

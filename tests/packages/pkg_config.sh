@@ -1,7 +1,7 @@
 #!/bin/sh
-# pkg_config.sh TREE WORK PKG_CONFIG CC: a C program by pkg-config and the compiler alone.
+# pkg_config.sh TREE WORK PKG_CONFIG CC [CAD]: a C program by pkg-config and the compiler alone.
 set -eu
-tree=$1 work=$2 pkg_config=$3 cc=$4
+tree=$1 work=$2 pkg_config=$3 cc=$4 cad=${5:-0}
 source=$(CDPATH='' cd -- "$(dirname -- "$0")/c" && pwd)/main.c
 rm -rf -- "$work"
 mkdir -p -- "$work"
@@ -17,3 +17,11 @@ flags=$("$pkg_config" --cflags --libs carreau)
 eval "set -- $flags"
 "$cc" -std=c99 "$source" -o customer "$@" -lm
 LD_LIBRARY_PATH=$("$pkg_config" --variable=libdir carreau | sed 's/\\//g') ./customer
+if [ "$cad" = 1 ]; then
+  test "$("$pkg_config" --modversion carreau)" = "$("$pkg_config" --modversion carreau-cad)"
+  flags=$("$pkg_config" --cflags --libs carreau-cad)
+  eval "set -- $flags"
+  cad_source=$(dirname -- "$(dirname -- "$source")")/cad
+  "$cc" -std=c99 "$cad_source/main.c" -o cad_customer "$@" -lm
+  LD_LIBRARY_PATH=$("$pkg_config" --variable=libdir carreau-cad | sed 's/\\//g') ./cad_customer "$cad_source/sphere.brep"
+fi

@@ -128,14 +128,30 @@ def check_bowl(folder):
     os.remove(os.path.join(folder, "bowl.mesh"))
 
 
+def check_step(folder):
+    """part.mesh of a program in a folder is closed and has no defect."""
+    run(f"carreau check '{os.path.join(folder, 'part.mesh')}' --closed")
+    os.remove(os.path.join(folder, "part.mesh"))
+
+
+def mesh_step(text):
+    links = re.findall(r"`((?:cc|c\+\+|gfortran) step\.[^`]*)`", text)
+    assert len(links) == 3, links
+    for command in links:
+        run(command)
+        run("./a.out")
+        check_step(CLONE)
+        os.remove(os.path.join(CLONE, "a.out"))
+
+
 def link_by_cmake(block):
     folder = os.path.join(WORK, "by cmake")
     os.makedirs(folder)
-    for name in ("program.c", "program.f90", "cad_m.f90", "x.pardom", "blsurf.env"):
+    for name in ("program.c", "program.f90", "step.c", "part.step", "cad_m.f90", "x.pardom", "blsurf.env"):
         shutil.copy(os.path.join(CLONE, name), folder)
     with open(os.path.join(folder, "CMakeLists.txt"), "w") as file:
         file.write("cmake_minimum_required(VERSION 3.25)\nproject(pasted LANGUAGES C Fortran)\nadd_executable(my_c_program program.c)\n"
-                   "add_executable(my_fortran_program program.f90)\n" + block)
+                   "add_executable(my_fortran_program program.f90)\nadd_executable(my_step_program step.c)\n" + block)
     build = os.path.join(folder, "build")
     real = shutil.which("cmake")
     subprocess.run([real, "-S", folder, "-B", build, f"-DCMAKE_PREFIX_PATH={os.path.join(CLONE, 'P')}"], check=True, stdout=subprocess.DEVNULL)
@@ -143,6 +159,8 @@ def link_by_cmake(block):
     for program in ("my_c_program", "my_fortran_program"):
         subprocess.run([os.path.join(build, program)], cwd=folder, check=True)
         check_bowl(folder)
+    subprocess.run([os.path.join(build, "my_step_program")], cwd=folder, check=True)
+    check_step(folder)
     subprocess.run([os.path.join(build, "teapot")], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     assert os.path.exists(os.path.join(folder, "x.mesh"))
 
@@ -152,9 +170,9 @@ def main():
     with open(README, encoding="utf-8") as file:
         text = file.read()
     blocks = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    done = {"sh": 0, "c": 0, "fortran": 0, "cmake": 0, "": 0}
-    for language, name in (("c", "program.c"), ("fortran", "program.f90")):
-        source, = (block for kind, block in blocks if kind == language)
+    done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "cmake": 0, "": 0}
+    for language, name in (("c", "program.c"), ("fortran", "program.f90"), ("c", "step.c"), ("cpp", "step.cpp"), ("fortran", "step.f90")):
+        source, = (block for kind, block in blocks if kind == language and ("carreau_cad_open" in block) == name.startswith("step"))
         with open(os.path.join(CLONE, name), "w", encoding="utf-8") as file:
             file.write(source)
     # The tree P: the commands of "How to link" stand in its sentences.
@@ -168,6 +186,7 @@ def main():
         run("./a.out")
         check_bowl(CLONE)
         os.remove(os.path.join(CLONE, "a.out"))
+    mesh_step(text)
     refreshed_text = text
     for language, block in blocks:
         done[language] += 1  # another language is one that nobody runs

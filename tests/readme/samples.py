@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""samples.py README FOLDER: writes the blocks ```c and ```fortran of README as FOLDER/sample.c and FOLDER/sample.f90.
+"""samples.py README FOLDER: writes the blocks ```c, ```cpp and ```fortran of README as FOLDER/sample.c, FOLDER/sample.f90, and those
+that use carreau_cad as FOLDER/step.c, FOLDER/step.cpp and FOLDER/step.f90.
 
 samples.py --links FILE...: every file that these pages link to exists.
 """
@@ -8,8 +9,10 @@ import re
 import sys
 
 
-def block(text, language):
-    blocks = re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+def block(text, language, of_cad):
+    """The block of a language that does, or does not, use carreau_cad."""
+    blocks = [block for block in re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+              if ("carreau_cad_open" in block) == of_cad]
     if len(blocks) != 1:
         sys.exit(f"{len(blocks)} blocks of {language} in README where 1 is expected")
     return blocks[0]
@@ -30,9 +33,9 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         text = file.read()
     os.makedirs(sys.argv[2], exist_ok=True)
-    for language, suffix in (("c", "c"), ("fortran", "f90")):
-        with open(os.path.join(sys.argv[2], "sample." + suffix), "w", encoding="utf-8") as file:
-            file.write(block(text, language))
+    for language, name in (("c", "sample.c"), ("fortran", "sample.f90"), ("c", "step.c"), ("cpp", "step.cpp"), ("fortran", "step.f90")):
+        with open(os.path.join(sys.argv[2], name), "w", encoding="utf-8") as file:
+            file.write(block(text, language, name.startswith("step")))
 
 
 main()

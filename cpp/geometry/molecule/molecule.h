@@ -45,6 +45,7 @@ struct MoleculeSummary {
   int euler_number = 0;            ///< of the model
   std::size_t moved = 0;           ///< radii
   double torus = 0, concave = 0;   ///< areas of those parts of an ses
+  std::vector<double> ball_torus, ball_concave;  ///< [ball]: shares of them; see ExcludedMeasures
 };
 
 /// Faces are the components, arcs their curves, vertices the points. A face has the number of its atom; of several

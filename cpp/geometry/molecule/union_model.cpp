@@ -146,7 +146,8 @@ BuiltGeometry build_surface(const Molecule& molecule, const SurfaceOptions& opti
   }
   if (summary != nullptr) {
     *summary = {molecule.numbers, molecule.names, std::move(m), euler_number_of(built.model),
-                a.moved.size(),   parts.torus,    parts.concave};
+                a.moved.size(),   parts.torus,    parts.concave, std::move(parts.ball_torus), std::move(parts.ball_concave)};
+    summary->ball_torus.resize(a.balls.size(), 0), summary->ball_concave.resize(a.balls.size(), 0);
     for (int i = 1; molecule.numbers.empty() && i <= static_cast<int>(a.balls.size()); ++i)
       summary->numbers.push_back(i);
   }

@@ -1,5 +1,7 @@
 #include "geometry/molecule/excluded/ses_model.h"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "geometry/molecule/excluded/probes.h"
@@ -185,6 +187,10 @@ class ExcludedBuilder {
     const Tube& tube = tubes_[a_.arcs[sweep.arc].circle];
     const double a = sweep.from.angle, b = sweep.to.angle;
     const TorusMeasures m = measure_torus(c, tube, a, b, low, high, middle_);
+    const double middle = std::clamp(0.0, low, high);
+    const double of_i = measure_torus(c, tube, a, b, low, middle, middle_).area;
+    measures_.ball_torus[static_cast<std::size_t>(c.i)] += of_i;
+    measures_.ball_torus[static_cast<std::size_t>(c.j)] += m.area - of_i;
     measures_.torus += m.area;
     measures_.volume += m.flux / 3;
     if (kept_arc_[sweep.arc] == 0 || a_.is_tiny(a_.arcs[sweep.arc])) return;
@@ -305,6 +311,8 @@ class ExcludedBuilder {
     }
     const double area = area_on_sphere(probe, loops, Side::inner);
     measures_.concave += area;
+    for (const int ball : a_.vertices[part.vertex].balls)
+      measures_.ball_concave[static_cast<std::size_t>(ball)] += area / 3;
     // The loops run seen from inside: their vector area is that of the normal towards the probe.
     measures_.volume += (dot(probe.centre - middle_, vector_area(probe, loops)) - probe.radius * area) / 3;
     if (kept_vertex_[part.vertex] == 0) return;
@@ -339,7 +347,8 @@ class ExcludedBuilder {
 
 BuiltGeometry build_excluded(const Molecule& molecule, const Arrangement& a, double probe,
                              const std::vector<char>& kept, ExcludedMeasures& measures) {
-  measures.ball_area.assign(a.balls.size(), 0);
+  for (auto* of_ball : {&measures.ball_area, &measures.ball_torus, &measures.ball_concave})
+    of_ball->assign(a.balls.size(), 0);
   ExcludedBuilder builder(molecule, a, probe, kept, measures);
   builder.build();
   return std::move(builder).built();

@@ -9,6 +9,9 @@ namespace carreau::molecule {
 struct ExcludedMeasures {
   double convex = 0, torus = 0, concave = 0, volume = 0;
   std::vector<double> ball_area;  ///< [ball]: of its convex parts
+  /// [ball]: its share of torus parts, on its side of the plane of the probe's centres, which is where the power
+  /// distances from both grown balls are equal; and a third of each part of a probe that touches three.
+  std::vector<double> ball_torus, ball_concave;
 };
 
 /// `a`: of the grown balls. `kept`: [component]. Faces are convex parts, by ball and with the references of

@@ -1,11 +1,12 @@
-#include "bezier_file.h"
+#include "io/bezier/bezier_reader.h"
 
 #include <charconv>
 #include <cmath>
 
-#include "failure.h"
+#include "io/files.h"
+#include "support/error.h"
 
-namespace command {
+namespace carreau {
 namespace {
 
 class Words {
@@ -13,7 +14,7 @@ class Words {
   Words(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw Failure("'" + name_ + "', line " + std::to_string(line_) + ": " + why + ".");
+    throw FileError(Where{.file = name_, .line = line_}, why);
   }
 
   template <typename Number>
@@ -87,8 +88,8 @@ std::vector<BezierPatch> parse_bezier(std::string_view text, const std::string& 
         words.fail("the degree " + std::to_string(degree) + " of patch " + std::to_string(k + 1) +
                    " is not from 1 to " + std::to_string(largest_bezier_degree));
     for (int i = 0; i < (patch.m + 1) * (patch.n + 1); ++i) {
-      std::array<double, 3>& point = patch.control.emplace_back();
-      for (double& x : point) x = words.coordinate();
+      const double x = words.coordinate(), y = words.coordinate(), z = words.coordinate();
+      patch.control.emplace_back(x, y, z);
     }
     patches.push_back(std::move(patch));
   }
@@ -96,4 +97,6 @@ std::vector<BezierPatch> parse_bezier(std::string_view text, const std::string& 
   return patches;
 }
 
-}  // namespace command
+std::vector<BezierPatch> read_bezier(const std::string& path) { return parse_bezier(read_file(path), path); }
+
+}  // namespace carreau

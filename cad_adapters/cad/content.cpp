@@ -1,0 +1,100 @@
+// What a file holds: counts, names, colours, places.
+#include "handle.h"
+
+using namespace carreau_occ;
+using namespace carreau_occ::abi;
+
+namespace {
+
+void give_list(const std::vector<std::int32_t>& list, std::int64_t capacity, std::int32_t* out, std::int64_t* count) {
+  if (count != nullptr) *count = static_cast<std::int64_t>(list.size());
+  if (capacity == 0) return;
+  if (capacity < static_cast<std::int64_t>(list.size()))
+    throw Failure(CARREAU_ERR_ARGUMENT, "the array has room for " + std::to_string(capacity) + " rows, there are " +
+                                            std::to_string(list.size()));
+  std::copy(list.begin(), list.end(), required(out, "the array"));
+}
+
+}  // namespace
+
+carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content) {
+  return guarded_call(file, [&] {
+    const BrepHost& host = host_of(*file);
+    carreau_cad_content content{};
+    content.faces = host.face_count(), content.edges = host.edge_count(), content.vertices = host.vertex_count();
+    content.closed = host.is_closed() ? 1 : 0;
+    content.unit = file->shape.unit.c_str();
+    content.diagonal = host.diagonal();
+    const BrepHost::GlueTolerances tolerances = host.glue_tolerances();
+    content.glue_tolerance = tolerances.of_all, content.open_tolerance = tolerances.of_each;
+    content.losses = static_cast<int32_t>(file->shape.losses.size());
+    content.bent_faces = static_cast<int32_t>(host.bent_faces().size());
+    content.left_out = static_cast<int32_t>(file->left_out.size());
+    content.references = host.reference_count();
+    write_struct(content, out_content, "out_content");
+  });
+}
+
+const char* carreau_cad_loss(carreau_cad_file* file, int64_t index) {
+  if (file == nullptr || index < 0 || static_cast<std::uint64_t>(index) >= file->shape.losses.size()) return nullptr;
+  return file->shape.losses[static_cast<std::size_t>(index)].c_str();
+}
+
+carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number, carreau_cad_face* out_face) {
+  return guarded_call(file, [&] {
+    const BrepHost& host = host_of(*file);
+    check_face(host, number);
+    carreau_cad_face face{};
+    face.number = number;
+    face.rgb = host.face_colour(number);
+    face.name = host.face_name(number).c_str();
+    face.why = "";
+    for (const auto& [left_out, why] : file->left_out)
+      if (left_out == number) face.why = why.c_str();
+    write_struct(face, out_face, "out_face");
+  });
+}
+
+carreau_status carreau_cad_point(const carreau_cad_file* file, int32_t face, double u, double v, double out_xyz[3],
+                                 double out_uv[2]) {
+  if (file == nullptr || !file->host || out_xyz == nullptr || face < 1 || face > file->host->reference_count())
+    return CARREAU_ERR_ARGUMENT;
+  double xyz[3], uv[2];
+  if (!file->host->locate(face, u, v, xyz, uv)) return CARREAU_ERR_CALLBACK;
+  std::copy(xyz, xyz + 3, out_xyz);
+  if (out_uv != nullptr) std::copy(uv, uv + 2, out_uv);
+  return CARREAU_OK;
+}
+
+carreau_status carreau_cad_curve_point(const carreau_cad_file* file, int32_t face, int32_t ic, double share,
+                                       double out_uv[2]) {
+  if (file == nullptr || !file->host || out_uv == nullptr || face < 1 || face > file->host->reference_count() ||
+      ic < 1 || ic > file->host->curve_count(face))
+    return CARREAU_ERR_ARGUMENT;
+  double uv[2];
+  if (!file->host->on_curve(face, ic, share, uv)) return CARREAU_ERR_CALLBACK;
+  std::copy(uv, uv + 2, out_uv);
+  return CARREAU_OK;
+}
+
+carreau_status carreau_cad_curves(carreau_cad_file* file, int32_t face, int64_t capacity, int32_t out_edges[],
+                                  int64_t* out_count) {
+  return guarded_call(file, [&] { give_list(host_of(*file).curves(face), capacity, out_edges, out_count); });
+}
+
+carreau_status carreau_cad_parts(carreau_cad_file* file, int32_t face, int64_t capacity, int32_t out_refs[],
+                                 int64_t* out_count) {
+  return guarded_call(file, [&] {
+    check_face(host_of(*file), face);
+    const std::vector<int> parts = host_of(*file).parts(face);
+    give_list({parts.begin(), parts.end()}, capacity, out_refs, out_count);
+  });
+}
+
+int32_t carreau_cad_whole_face(const carreau_cad_file* file, int32_t ref) {
+  return file != nullptr && file->host ? file->host->whole_face(ref) : ref;
+}
+
+int32_t carreau_cad_whole_edge(const carreau_cad_file* file, int32_t ref) {
+  return file != nullptr && file->host ? file->host->whole_edge(ref) : ref;
+}

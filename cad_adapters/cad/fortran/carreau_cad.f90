@@ -1,0 +1,343 @@
+!> Fortran 2003 face of carreau_cad.h: STEP, IGES and BREP files. What each routine means and its errors are written there.
+!! Different here: losses, dangers and kinds of surfaces count from 1; texts are copies; arguments that may be NULL are
+!! optional.
+module carreau_cad
+  ! c_funptr: without it gfortran 12 cannot read its own module ("NULL appears on right-hand side").
+  use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_funptr, c_int32_t, c_int64_t, c_null_char, c_null_ptr, &
+    c_ptr
+  use carreau, only: carreau_session, carreau_string, CARREAU_OK
+  use carreau_cad_c
+  implicit none
+  private
+
+  public :: carreau_cad_file, carreau_cad_content, carreau_cad_face, carreau_cad_figures, carreau_cad_report
+  public :: carreau_cad_danger, carreau_cad_gaps, carreau_cad_progress_fn
+  public :: carreau_cad_open, carreau_cad_create, carreau_cad_close, carreau_cad_last_error, carreau_cad_read
+  public :: carreau_cad_add, carreau_cad_set_face_size, carreau_cad_info, carreau_cad_loss, carreau_cad_file_face
+  public :: carreau_cad_measure_face, carreau_cad_inspect, carreau_cad_surfaces, carreau_cad_danger_at
+  public :: carreau_cad_measure_gaps, carreau_cad_point, carreau_cad_curve_point, carreau_cad_curves
+  public :: carreau_cad_parts, carreau_cad_whole_face, carreau_cad_whole_edge
+
+  type :: carreau_cad_file
+    type(c_ptr) :: handle = c_null_ptr
+  end type carreau_cad_file
+
+  type :: carreau_cad_content
+    integer(c_int32_t) :: faces = 0, edges = 0, vertices = 0
+    logical :: closed = .false.
+    character(len=:), allocatable :: unit
+    real(c_double) :: diagonal = 0, glue_tolerance = 0, open_tolerance = 0
+    integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
+  end type carreau_cad_content
+
+  type :: carreau_cad_face
+    integer(c_int32_t) :: number = 0, rgb = 0
+    character(len=:), allocatable :: name, why
+  end type carreau_cad_face
+
+  type :: carreau_cad_figures
+    character(len=:), allocatable :: kind
+    real(c_double) :: area = 0, perimeter = 0
+    real(c_double), dimension(3) :: low = 0, high = 0
+  end type carreau_cad_figures
+
+  type :: carreau_cad_report
+    integer(c_int32_t) :: solids = 0, shells = 0, faces = 0, edges = 0, vertices = 0, &
+      seams = 0, poles = 0, closed_edges = 0, inner_wires = 0, internal_edges = 0
+    real(c_double) :: diagonal = 0, area = 0, volume = 0, shortest_edge = 0, largest_tolerance = 0, largest_gap = 0
+    integer(c_int32_t) :: kinds = 0, dangers = 0
+  end type carreau_cad_report
+
+  type :: carreau_cad_danger
+    character(len=:), allocatable :: kind
+    integer(c_int32_t) :: face = 0, edge = 0
+    real(c_double) :: value = 0
+    logical :: cut = .false.
+    character(len=:), allocatable :: sentence
+  end type carreau_cad_danger
+
+  type :: carreau_cad_gaps
+    real(c_double) :: largest = 0
+    integer(c_int32_t) :: edge = 0, face = 0, beyond = 0
+  end type carreau_cad_gaps
+
+  abstract interface
+    !> A status other than 0 stops the reading.
+    function carreau_cad_progress_fn(fraction, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      real(c_double), value :: fraction
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_cad_progress_fn
+  end interface
+
+contains
+
+  ! ---- Files ----
+
+  !> file: to ask it; to be closed by carreau_cad_close
+  subroutine carreau_cad_open(session, path, status, file, trap_faults, progress, user)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    type(carreau_cad_file), intent(inout), optional :: file
+    logical, intent(in), optional :: trap_faults
+    procedure(carreau_cad_progress_fn), optional :: progress
+    type(c_ptr), intent(in), optional :: user
+    type(c_ptr) :: opened
+    opened = c_null_ptr
+    status = c_cad_open(session%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user), opened)
+    if (present(file) .and. status == CARREAU_OK) then
+      file%handle = opened
+    else
+      call c_cad_close(opened)
+    end if
+  end subroutine carreau_cad_open
+
+  function options_of(trap_faults, progress, user) result(options)
+    logical, intent(in), optional :: trap_faults
+    procedure(carreau_cad_progress_fn), optional :: progress
+    type(c_ptr), intent(in), optional :: user
+    type(c_cad_options) :: options
+    options%struct_size = size(transfer(options, [c_null_char]))
+    if (present(trap_faults)) options%trap_faults = merge(1_c_int32_t, 0_c_int32_t, trap_faults)
+    if (present(progress)) options%progress = c_funloc(progress)
+    if (present(user)) options%user = user
+  end function options_of
+
+  subroutine carreau_cad_create(file, status)
+    type(carreau_cad_file), intent(inout) :: file
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_create(file%handle)
+  end subroutine carreau_cad_create
+
+  subroutine carreau_cad_close(file)
+    type(carreau_cad_file), intent(inout) :: file
+    call c_cad_close(file%handle)
+    file%handle = c_null_ptr
+  end subroutine carreau_cad_close
+
+  function carreau_cad_last_error(file) result(sentence)
+    type(carreau_cad_file), intent(in) :: file
+    character(len=:), allocatable :: sentence
+    sentence = carreau_string(c_cad_last_error(file%handle))
+  end function carreau_cad_last_error
+
+  subroutine carreau_cad_read(file, path, status, trap_faults, progress, user)
+    type(carreau_cad_file), intent(in) :: file
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    logical, intent(in), optional :: trap_faults
+    procedure(carreau_cad_progress_fn), optional :: progress
+    type(c_ptr), intent(in), optional :: user
+    status = c_cad_read(file%handle, trim(path)//c_null_char, options_of(trap_faults, progress, user))
+  end subroutine carreau_cad_read
+
+  subroutine carreau_cad_add(file, session, status)
+    type(carreau_cad_file), intent(in) :: file
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_add(file%handle, session%handle)
+  end subroutine carreau_cad_add
+
+  subroutine carreau_cad_set_face_size(file, face, size, status)
+    type(carreau_cad_file), intent(in) :: file
+    character(len=*), intent(in) :: face
+    real(c_double), intent(in) :: size
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_set_face_size(file%handle, trim(face)//c_null_char, size)
+  end subroutine carreau_cad_set_face_size
+
+  ! ---- What a file holds ----
+
+  subroutine carreau_cad_info(file, content, status)
+    type(carreau_cad_file), intent(in) :: file
+    type(carreau_cad_content), intent(out) :: content
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_content) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_info(file%handle, c)
+    if (status /= CARREAU_OK) return
+    content%faces = c%faces
+    content%edges = c%edges
+    content%vertices = c%vertices
+    content%closed = c%closed /= 0
+    content%unit = carreau_string(c%unit)
+    content%diagonal = c%diagonal
+    content%glue_tolerance = c%glue_tolerance
+    content%open_tolerance = c%open_tolerance
+    content%losses = c%losses
+    content%bent_faces = c%bent_faces
+    content%left_out = c%left_out
+    content%references = c%references
+  end subroutine carreau_cad_info
+
+  !> index: from 1; "" when there is no such
+  function carreau_cad_loss(file, index) result(sentence)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    character(len=:), allocatable :: sentence
+    sentence = carreau_string(c_cad_loss(file%handle, index - 1))
+  end function carreau_cad_loss
+
+  subroutine carreau_cad_file_face(file, number, face, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: number
+    type(carreau_cad_face), intent(out) :: face
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_face) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_file_face(file%handle, number, c)
+    if (status /= CARREAU_OK) return
+    face%number = c%number
+    face%rgb = c%rgb
+    face%name = carreau_string(c%name)
+    face%why = carreau_string(c%why)
+  end subroutine carreau_cad_file_face
+
+  subroutine carreau_cad_measure_face(file, number, figures, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: number
+    type(carreau_cad_figures), intent(out) :: figures
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_figures) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_measure_face(file%handle, number, c)
+    if (status /= CARREAU_OK) return
+    figures%kind = carreau_string(c%kind)
+    figures%area = c%area
+    figures%perimeter = c%perimeter
+    figures%low = c%low
+    figures%high = c%high
+  end subroutine carreau_cad_measure_face
+
+  ! ---- What is hard to mesh ----
+
+  !> tiny: a share of the diagonal; 1e-3 unless given
+  subroutine carreau_cad_inspect(file, report, status, tiny)
+    type(carreau_cad_file), intent(in) :: file
+    type(carreau_cad_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), intent(in), optional :: tiny
+    type(c_cad_report) :: c
+    real(c_double) :: share
+    share = 0
+    if (present(tiny)) share = tiny
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_inspect(file%handle, share, c)
+    if (status /= CARREAU_OK) return
+    report = carreau_cad_report(c%solids, c%shells, c%faces, c%edges, c%vertices, c%seams, c%poles, c%closed_edges, &
+      c%inner_wires, c%internal_edges, c%diagonal, c%area, c%volume, c%shortest_edge, c%largest_tolerance, &
+      c%largest_gap, c%kinds, c%dangers)
+  end subroutine carreau_cad_inspect
+
+  !> index: from 1
+  subroutine carreau_cad_surfaces(file, index, kind, count, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    character(len=:), allocatable, intent(out) :: kind
+    integer(c_int32_t), intent(out) :: count, status
+    type(c_ptr) :: text
+    text = c_null_ptr
+    count = 0
+    status = c_cad_surfaces(file%handle, index - 1, text, count)
+    kind = carreau_string(text)
+  end subroutine carreau_cad_surfaces
+
+  !> index: from 1
+  subroutine carreau_cad_danger_at(file, index, danger, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int64_t), intent(in) :: index
+    type(carreau_cad_danger), intent(out) :: danger
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_danger) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_danger_at(file%handle, index - 1, c)
+    if (status /= CARREAU_OK) return
+    danger%kind = carreau_string(c%kind)
+    danger%face = c%face
+    danger%edge = c%edge
+    danger%value = c%value
+    danger%cut = c%cut /= 0
+    danger%sentence = carreau_string(c%sentence)
+  end subroutine carreau_cad_danger_at
+
+  subroutine carreau_cad_measure_gaps(file, gaps, status)
+    type(carreau_cad_file), intent(in) :: file
+    type(carreau_cad_gaps), intent(out) :: gaps
+    integer(c_int32_t), intent(out) :: status
+    type(c_cad_gaps) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_cad_measure_gaps(file%handle, c)
+    if (status == CARREAU_OK) gaps = carreau_cad_gaps(c%largest, c%edge, c%face, c%beyond)
+  end subroutine carreau_cad_measure_gaps
+
+  ! ---- Places, references ----
+
+  !> file_uv: the parameters that the surface has in the file
+  subroutine carreau_cad_point(file, face, u, v, xyz, status, file_uv)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: face
+    real(c_double), intent(in) :: u, v
+    real(c_double), intent(inout) :: xyz(3)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), intent(out), optional :: file_uv(2)
+    real(c_double) :: uv(2)
+    uv = 0
+    status = c_cad_point(file%handle, face, u, v, xyz, uv)
+    if (present(file_uv)) file_uv = uv
+  end subroutine carreau_cad_point
+
+  subroutine carreau_cad_curve_point(file, face, ic, share, uv, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: face, ic
+    real(c_double), intent(in) :: share
+    real(c_double), intent(inout) :: uv(2)
+    integer(c_int32_t), intent(out) :: status
+    status = c_cad_curve_point(file%handle, face, ic, share, uv)
+  end subroutine carreau_cad_curve_point
+
+  subroutine carreau_cad_curves(file, face, edges, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: face
+    integer(c_int32_t), allocatable, intent(out) :: edges(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: none(1)
+    n = 0
+    status = c_cad_curves(file%handle, face, 0_c_int64_t, none, n)
+    if (status /= CARREAU_OK) return
+    allocate (edges(n))
+    status = c_cad_curves(file%handle, face, n, edges, n)
+  end subroutine carreau_cad_curves
+
+  subroutine carreau_cad_parts(file, face, refs, status)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: face
+    integer(c_int32_t), allocatable, intent(out) :: refs(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: none(1)
+    n = 0
+    status = c_cad_parts(file%handle, face, 0_c_int64_t, none, n)
+    if (status /= CARREAU_OK) return
+    allocate (refs(n))
+    status = c_cad_parts(file%handle, face, n, refs, n)
+  end subroutine carreau_cad_parts
+
+  function carreau_cad_whole_face(file, ref) result(whole)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: ref
+    integer(c_int32_t) :: whole
+    whole = c_cad_whole_face(file%handle, ref)
+  end function carreau_cad_whole_face
+
+  function carreau_cad_whole_edge(file, ref) result(whole)
+    type(carreau_cad_file), intent(in) :: file
+    integer(c_int32_t), intent(in) :: ref
+    integer(c_int32_t) :: whole
+    whole = c_cad_whole_edge(file%handle, ref)
+  end function carreau_cad_whole_edge
+
+end module carreau_cad

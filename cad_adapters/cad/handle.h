@@ -1,0 +1,123 @@
+// What the handle of carreau_cad.h holds, and the only place where an exception becomes a status.
+#pragma once
+
+#include <brep_host.h>
+#include <face_figures.h>
+#include <faults.h>
+#include <shape_file.h>
+#include <shape_report.h>
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Standard_Failure.hxx>
+
+#include "carreau_cad.h"
+
+struct carreau_cad_file {
+  std::shared_ptr<carreau_occ::FaultTrap> trap;  // before what may fault
+  carreau_occ::ShapeFile shape;
+  std::unique_ptr<carreau_occ::BrepHost> host;  // nullptr: nothing was read
+  std::vector<std::pair<int, std::string>> left_out;
+  std::optional<std::vector<carreau_occ::FaceFigures>> figures;  // once asked for
+  std::optional<carreau_occ::ShapeReport> report;                // the last one
+  std::vector<std::string> sentences;                            // of its dangers
+  std::string error;
+};
+
+namespace carreau_occ::abi {
+
+struct Failure : std::runtime_error {
+  Failure(carreau_status status_of, const std::string& sentence) : std::runtime_error(sentence), status(status_of) {}
+  carreau_status status;
+};
+
+/// Runs body() and gives the status of what it throws; keep(sentence) may throw.
+template <typename Body, typename Keep>
+carreau_status status_of(Body&& body, Keep&& keep) noexcept {
+  const auto fail = [&](carreau_status status, const char* sentence) noexcept {
+    try {
+      keep(sentence);
+    } catch (...) {  // no memory for the sentence: the status alone must do
+    }
+    return status;
+  };
+  try {
+    body();
+    return CARREAU_OK;
+  } catch (const Failure& failure) {
+    return fail(failure.status, failure.what());
+  } catch (const std::bad_alloc&) {
+    return fail(CARREAU_ERR_MEMORY, "out of memory");
+  } catch (const Standard_Failure& failure) {
+    return fail(CARREAU_ERR_FILE, failure.GetMessageString());
+  } catch (const std::exception& error) {
+    return fail(CARREAU_ERR_FILE, error.what());
+  } catch (...) {
+    return fail(CARREAU_ERR_INTERNAL, "unknown exception");
+  }
+}
+
+/// What every function that has a file does.
+template <typename Body>
+carreau_status guarded_call(carreau_cad_file* file, Body&& body) noexcept {
+  if (file == nullptr) return CARREAU_ERR_ARGUMENT;
+  file->error.clear();
+  return status_of(body, [file](const char* sentence) { file->error = sentence; });
+}
+
+template <typename T>
+T* required(T* pointer, const char* name) {
+  if (pointer == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, std::string("the argument ") + name + " is NULL");
+  return pointer;
+}
+
+inline BrepHost& host_of(const carreau_cad_file& file) {
+  if (!file.host) throw Failure(CARREAU_ERR_ARGUMENT, "the file holds nothing: call carreau_cad_read first");
+  return *file.host;
+}
+
+/// Faces of the file, from 1.
+inline void check_face(const BrepHost& host, int number) {
+  if (number < 1 || number > host.face_count())
+    throw Failure(CARREAU_ERR_ARGUMENT, "there is no face " + std::to_string(number) + "; the file has " +
+                                            std::to_string(host.face_count()));
+}
+
+template <typename Struct>
+std::size_t checked_size(const Struct* given, const char* name) {
+  const std::size_t size = required(given, name)->struct_size;
+  if (size <= sizeof(std::size_t) || size > 64 * sizeof(Struct))
+    throw Failure(CARREAU_ERR_ARGUMENT, std::string(name) + "->struct_size is " + std::to_string(size));
+  return size;
+}
+
+/// Fills as many members as the caller's struct has.
+template <typename Struct>
+void write_struct(Struct value, Struct* out, const char* name) {
+  const std::size_t size = checked_size(out, name);
+  value.struct_size = size;
+  std::memcpy(out, &value, std::min(size, sizeof(Struct)));
+}
+
+/// The caller's struct as this library knows it: members it does not have are zero; nullptr: all are.
+template <typename Struct>
+Struct read_struct(const Struct* given, const char* name) {
+  Struct known{};
+  if (given == nullptr) return known;
+  const std::size_t size = checked_size(given, name);
+  std::memcpy(&known, given, std::min(size, sizeof(Struct)));
+  const auto* bytes = reinterpret_cast<const unsigned char*>(given);
+  if (size > sizeof(Struct) && std::any_of(bytes + sizeof(Struct), bytes + size, [](unsigned char b) { return b != 0; }))
+    throw Failure(CARREAU_ERR_ARGUMENT,
+                  std::string(name) + " has members set that this version of the library does not know");
+  return known;
+}
+
+}  // namespace carreau_occ::abi

@@ -1,0 +1,204 @@
+/* carreau_cad.h: STEP, IGES and BREP files as the geometry of a session. C99, and C++ as well. Library libcarreau_cad.
+ *
+ *   carreau_session_create(&session);
+ *   if (carreau_cad_open(session, "part.step", NULL, NULL) != CARREAU_OK) puts(carreau_last_error(session));
+ *   carreau_mesh_generate(session);
+ *
+ * The rules of carreau.h hold for every function. Faces, edges and vertices have the numbers that OpenCASCADE's maps of
+ * the shape give them, from 1: those are references of faces, curves and points of the geometry (carreau_geometry.h
+ * tells how they are moved behind others). Faces that bend inside are cut into parts there, and are one face in meshes.
+ * The u and v of a face that is turned round are exchanged, so that triangles look outwards of a solid. Lengths are in
+ * millimetres, whatever the unit of a STEP or IGES file; a BREP file has none. OpenCASCADE keeps settings of its own
+ * for the process; files are read one after another.
+ */
+#ifndef CARREAU_CAD_H
+#define CARREAU_CAD_H
+
+#include "carreau_geometry.h"
+
+#if defined(_WIN32)
+#if defined(CARREAU_BUILDING_CAD)
+#define CARREAU_CAD_API __declspec(dllexport)
+#else
+#define CARREAU_CAD_API __declspec(dllimport)
+#endif
+#else
+#define CARREAU_CAD_API CARREAU_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Files ---- */
+
+/* Holds a file that was read. Sessions that it was added to do not need it. */
+typedef struct carreau_cad_file carreau_cad_file;
+
+/* Gets the share that is read, 0 to 1. Returns 0, or any other value to stop. */
+typedef int32_t (*carreau_cad_progress_fn)(double fraction, void* user);
+
+typedef struct carreau_cad_options {
+  size_t struct_size;
+  int32_t trap_faults; /* 1: SIGSEGV, SIGBUS, SIGFPE and SIGILL that OpenCASCADE raises in a call of this library are the
+                          error of a face or of the file, as long as the file, or a geometry of it, is there; for
+                          programs that own their process. 0: signals are left alone, and a fault ends the program */
+  int32_t reserved;    /* 0 */
+  carreau_cad_progress_fn progress; /* NULL: nobody is told */
+  void* user;                       /* handed to progress */
+} carreau_cad_options;
+
+/* Reads a file and adds all of its faces to a session. *out_file gets the file, to ask it; out_file may be NULL.
+ * `options` may be NULL, which means all zero. Faces that cannot be meshed are left out with a reason
+ * (carreau_model_leave_out_face). On an error the session is as before, and carreau_last_error has the sentence.
+ * Errors: ARGUMENT, FILE, CANCELLED, MEMORY, SEQUENCE (as carreau_geometry_begin), MODEL (the references are too
+ * large). */
+CARREAU_CAD_API carreau_status carreau_cad_open(carreau_session* session, const char* path,
+                                                const carreau_cad_options* options, carreau_cad_file** out_file);
+
+/* Creates a file that holds nothing yet: see carreau_cad_read. Free it by carreau_cad_close. Errors: ARGUMENT, MEMORY.
+ */
+CARREAU_CAD_API carreau_status carreau_cad_create(carreau_cad_file** out_file);
+
+/* Frees a file, at any time: geometries of it stay in their sessions. NULL is allowed. */
+CARREAU_CAD_API void carreau_cad_close(carreau_cad_file* file);
+
+/* Returns the sentence of the last call on the file, "" after success. It lives until the next call on the file. */
+CARREAU_CAD_API const char* carreau_cad_last_error(const carreau_cad_file* file);
+
+/* Reads STEP (.step, .stp), IGES (.iges, .igs) or BREP (.brep) as the suffix, or else the first bytes, say. On an error
+ * the old content stays. Errors: FILE, CANCELLED, MEMORY, ARGUMENT. */
+CARREAU_CAD_API carreau_status carreau_cad_read(carreau_cad_file* file, const char* path,
+                                                const carreau_cad_options* options);
+
+/* Adds all faces to a session; a file may be added to several, and several times. Errors: those of carreau_cad_open,
+ * with the sentence in the session; ARGUMENT (the file holds nothing). */
+CARREAU_CAD_API carreau_status carreau_cad_add(carreau_cad_file* file, carreau_session* session);
+
+/* Wants a size on the face of this number, or on all faces of this name, when hphy_flag = 2; an edge has the smallest
+ * size of its faces. In all geometries of the file. Errors: ARGUMENT (no such face, a size that is not positive). */
+CARREAU_CAD_API carreau_status carreau_cad_set_face_size(carreau_cad_file* file, const char* face, double size);
+
+/* Errors of the functions below: ARGUMENT (the file holds nothing, no such face, index or curve, a capacity that is too
+ * small). Texts that they give live until the file is read again or closed. */
+
+/* ---- What a file holds ---- */
+
+typedef struct carreau_cad_content {
+  size_t struct_size;
+  int32_t faces, edges, vertices;
+  int32_t closed;   /* 1: each edge has two faces */
+  const char* unit; /* "mm", or "" when the file has none */
+  double diagonal;  /* of the box of the faces that are not left out; 0: there is none */
+  double glue_tolerance; /* how far apart edges of one face only may be that are one, as the tolerances of the file's
+                            own edges have it and its shortest edge allows (eps_glue); 0: there are no two of them */
+  double open_tolerance; /* the same whatever the lengths (eps_glue_open) */
+  int32_t losses;        /* entities that could not be read: see carreau_cad_loss */
+  int32_t bent_faces;    /* faces that bend inside and could not be cut there */
+  int32_t left_out;      /* faces that cannot be meshed */
+  int32_t references;    /* largest reference of a face, parts of cut faces included */
+} carreau_cad_content;
+
+CARREAU_CAD_API carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content);
+
+/* Tells what of the file could not be read: a sentence, which names the entity. index: from 0. NULL: no such index. */
+CARREAU_CAD_API const char* carreau_cad_loss(carreau_cad_file* file, int64_t index);
+
+typedef struct carreau_cad_face {
+  size_t struct_size;
+  int32_t number;   /* from 1 */
+  int32_t rgb;      /* colour, 0xRRGGBB in sRGB; -1: none */
+  const char* name; /* its own, or that of the smallest part that holds it; "": none */
+  const char* why;  /* why it cannot be meshed; "": it can */
+} carreau_cad_face;
+
+/* Tells of face `number`, from 1. */
+CARREAU_CAD_API carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number,
+                                                     carreau_cad_face* out_face);
+
+typedef struct carreau_cad_figures {
+  size_t struct_size;
+  const char* kind; /* "plane", "cylinder", ..., "broken" */
+  double area, perimeter; /* model length^2, model length; 0 where OpenCASCADE fails */
+  double low[3], high[3]; /* its box */
+} carreau_cad_figures;
+
+/* Measures face `number`. The first call measures all faces. */
+CARREAU_CAD_API carreau_status carreau_cad_measure_face(carreau_cad_file* file, int32_t number,
+                                                        carreau_cad_figures* out_figures);
+
+/* ---- What is hard to mesh ---- */
+
+typedef struct carreau_cad_report {
+  size_t struct_size;
+  int32_t solids, shells, faces, edges, vertices;
+  int32_t seams, poles, closed_edges, inner_wires, internal_edges;
+  double diagonal, area, volume; /* volume of the solids */
+  double shortest_edge, largest_tolerance, largest_gap;
+  int32_t kinds;   /* of surfaces: see carreau_cad_surfaces */
+  int32_t dangers; /* see carreau_cad_danger_at */
+} carreau_cad_report;
+
+/* Looks for what a mesher may stumble over. Edges shorter than `tiny` times the diagonal (0: 1e-3) and faces that are
+ * narrower are dangers; so are gaps above it between the curve of an edge and its images on the faces beside,
+ * tolerances above it, free edges, bends inside faces and what OpenCASCADE fails on. Costs some ten evaluations an
+ * edge. */
+CARREAU_CAD_API carreau_status carreau_cad_inspect(carreau_cad_file* file, double tiny,
+                                                   carreau_cad_report* out_report);
+
+/* Tells a kind of surfaces and how many faces have it, as found by carreau_cad_inspect; by name. */
+CARREAU_CAD_API carreau_status carreau_cad_surfaces(carreau_cad_file* file, int64_t index, const char** out_kind,
+                                                    int32_t* out_count);
+
+typedef struct carreau_cad_danger {
+  size_t struct_size;
+  const char* kind; /* "tiny edge", "sliver face", "gap", "free edge", "kink", ... */
+  int32_t face, edge; /* 0: not concerned */
+  double value;       /* a length, a number of faces, or an angle in degrees */
+  int32_t cut;        /* 1: a kink along which the face is cut, so that edges of meshes follow it */
+  int32_t reserved;
+  const char* sentence;
+} carreau_cad_danger;
+
+/* Tells a danger that carreau_cad_inspect has found; by kind, worst first. */
+CARREAU_CAD_API carreau_status carreau_cad_danger_at(carreau_cad_file* file, int64_t index,
+                                                     carreau_cad_danger* out_danger);
+
+/* Gaps between the curves of edges and their images on the faces beside, at ten places each. */
+typedef struct carreau_cad_gaps {
+  size_t struct_size;
+  double largest;
+  int32_t edge, face; /* where; 0: there is none */
+  int32_t beyond;     /* edges with more than twice their own tolerance */
+  int32_t reserved;
+} carreau_cad_gaps;
+
+CARREAU_CAD_API carreau_status carreau_cad_measure_gaps(carreau_cad_file* file, carreau_cad_gaps* out_gaps);
+
+/* ---- Places, references ---- */
+
+/* Finds the point of a face, or of a part of one, at (u, v) as callbacks get them, and the parameters that its surface
+ * has there in the file; out_uv may be NULL. May be called from several threads at a time; keeps no sentence.
+ * Errors: CALLBACK (OpenCASCADE fails). */
+CARREAU_CAD_API carreau_status carreau_cad_point(const carreau_cad_file* file, int32_t face, double u, double v,
+                                                 double out_xyz[3], double out_uv[2]);
+/* Finds (u, v), as callbacks get them, at a share from 0 to 1 of curve ic of a face; as carreau_cad_point. */
+CARREAU_CAD_API carreau_status carreau_cad_curve_point(const carreau_cad_file* file, int32_t face, int32_t ic,
+                                                       double share, double out_uv[2]);
+
+/* Counts the curves of a face and gives their edges, in order; with capacity 0 it counts only. */
+CARREAU_CAD_API carreau_status carreau_cad_curves(carreau_cad_file* file, int32_t face, int64_t capacity,
+                                                  int32_t out_edges[], int64_t* out_count);
+/* Counts the parts of a face of the file and gives their references, ascending; with capacity 0 it counts only. A face
+ * that is not cut is its only part. */
+CARREAU_CAD_API carreau_status carreau_cad_parts(carreau_cad_file* file, int32_t face, int64_t capacity,
+                                                 int32_t out_refs[], int64_t* out_count);
+/* Return the face (edge) of the file that a reference is, or is a part of; other numbers come back. */
+CARREAU_CAD_API int32_t carreau_cad_whole_face(const carreau_cad_file* file, int32_t ref);
+CARREAU_CAD_API int32_t carreau_cad_whole_edge(const carreau_cad_file* file, int32_t ref);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

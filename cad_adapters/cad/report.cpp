@@ -1,0 +1,121 @@
+// What of a file is hard to mesh, and figures of its faces.
+#include <cstdio>
+
+#include "handle.h"
+
+using namespace carreau_occ;
+using namespace carreau_occ::abi;
+
+namespace {
+
+std::string number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+bool is_cut(const Danger& danger, const BrepHost& host) {
+  const std::vector<int>& bent = host.bent_faces();
+  return danger.kind == "kink" && std::find(bent.begin(), bent.end(), danger.face) == bent.end();
+}
+
+std::string sentence(const Danger& danger, const BrepHost& host) {
+  std::string text;
+  if (danger.edge > 0) text += "edge " + std::to_string(danger.edge);
+  if (danger.face > 0) {
+    text += (text.empty() ? "face " : ", face ") + std::to_string(danger.face);
+    const std::string& name = host.face_name(danger.face);
+    if (!name.empty()) text += " (" + name + ")";
+  }
+  text += ": " + (danger.value > 0 ? number(danger.value) + " " : "") + danger.text;
+  if (danger.kind != "kink") return text;
+  return text + (is_cut(danger, host) ? ", where it is cut: edges of meshes follow it"
+                                      : "; it cannot be cut there, and sizes by an angle or a chord do not see it");
+}
+
+const ShapeReport& report_of(const carreau_cad_file& file) {
+  host_of(file);
+  if (!file.report) throw Failure(CARREAU_ERR_SEQUENCE, "there is no report: call carreau_cad_inspect first");
+  return *file.report;
+}
+
+template <typename T>
+const T& at(const std::vector<T>& list, int64_t index, const char* what) {
+  if (index < 0 || static_cast<std::uint64_t>(index) >= list.size())
+    throw Failure(CARREAU_ERR_ARGUMENT, std::string(what) + " " + std::to_string(index) + " is out of range; there are " +
+                                            std::to_string(list.size()));
+  return list[static_cast<std::size_t>(index)];
+}
+
+carreau_cad_report counts_of(const ShapeReport& r) {
+  carreau_cad_report counts{};
+  counts.solids = r.solids, counts.shells = r.shells, counts.faces = r.faces;
+  counts.edges = r.edges, counts.vertices = r.vertices;
+  counts.seams = r.seams, counts.poles = r.poles, counts.closed_edges = r.closed_edges;
+  counts.inner_wires = r.inner_wires, counts.internal_edges = r.internal_edges;
+  counts.diagonal = r.diagonal, counts.area = r.area, counts.volume = r.volume;
+  counts.shortest_edge = r.shortest_edge, counts.largest_tolerance = r.largest_tolerance;
+  counts.largest_gap = r.largest_gap;
+  counts.kinds = static_cast<int32_t>(r.surfaces.size()), counts.dangers = static_cast<int32_t>(r.dangers.size());
+  return counts;
+}
+
+}  // namespace
+
+carreau_status carreau_cad_measure_face(carreau_cad_file* file, int32_t face_number, carreau_cad_figures* out_figures) {
+  return guarded_call(file, [&] {
+    check_face(host_of(*file), face_number);
+    if (!file->figures) file->figures = list_faces(file->shape);
+    const FaceFigures& face = (*file->figures)[static_cast<std::size_t>(face_number - 1)];
+    carreau_cad_figures figures{};
+    figures.kind = face.kind.c_str();
+    figures.area = face.area, figures.perimeter = face.perimeter;
+    std::copy(face.low.begin(), face.low.end(), figures.low);
+    std::copy(face.high.begin(), face.high.end(), figures.high);
+    write_struct(figures, out_figures, "out_figures");
+  });
+}
+
+carreau_status carreau_cad_inspect(carreau_cad_file* file, double tiny, carreau_cad_report* out_report) {
+  return guarded_call(file, [&] {
+    const BrepHost& host = host_of(*file);
+    if (!(tiny >= 0)) throw Failure(CARREAU_ERR_ARGUMENT, "tiny must not be negative");
+    if (out_report != nullptr) write_struct(carreau_cad_report{}, out_report, "out_report");  // a wrong size is told first
+    constexpr double usual = 1e-3;
+    ShapeReport report = inspect(file->shape, tiny > 0 ? tiny : usual);
+    std::vector<std::string> sentences;
+    for (const Danger& danger : report.dangers) sentences.push_back(sentence(danger, host));
+    file->report = std::move(report), file->sentences = std::move(sentences);
+    if (out_report != nullptr) write_struct(counts_of(*file->report), out_report, "out_report");
+  });
+}
+
+carreau_status carreau_cad_surfaces(carreau_cad_file* file, int64_t index, const char** out_kind, int32_t* out_count) {
+  return guarded_call(file, [&] {
+    const auto& [kind, count] = at(report_of(*file).surfaces, index, "kind of surfaces");
+    *required(out_kind, "out_kind") = kind.c_str();
+    *required(out_count, "out_count") = count;
+  });
+}
+
+carreau_status carreau_cad_danger_at(carreau_cad_file* file, int64_t index, carreau_cad_danger* out_danger) {
+  return guarded_call(file, [&] {
+    const Danger& found = at(report_of(*file).dangers, index, "danger");
+    carreau_cad_danger danger{};
+    danger.kind = found.kind.c_str();
+    danger.face = found.face, danger.edge = found.edge, danger.value = found.value;
+    danger.cut = is_cut(found, *file->host) ? 1 : 0;
+    danger.sentence = file->sentences[static_cast<std::size_t>(index)].c_str();
+    write_struct(danger, out_danger, "out_danger");
+  });
+}
+
+carreau_status carreau_cad_measure_gaps(carreau_cad_file* file, carreau_cad_gaps* out_gaps) {
+  return guarded_call(file, [&] {
+    host_of(*file);
+    const Gaps found = measure_gaps(file->shape);
+    carreau_cad_gaps gaps{};
+    gaps.largest = found.largest, gaps.edge = found.edge, gaps.face = found.face, gaps.beyond = found.beyond;
+    write_struct(gaps, out_gaps, "out_gaps");
+  });
+}

@@ -1,0 +1,53 @@
+#include "geometry/bezier/bezier_patch.h"
+
+#include <array>
+
+namespace carreau {
+namespace {
+
+/// Bernstein polynomials of a degree at t, [0], and their first and second derivatives.
+using Basis = std::array<std::array<double, largest_bezier_degree + 1>, 3>;
+
+/// B_i^k = (1 - t) B_i^(k-1) + t B_(i-1)^(k-1); derivatives are differences of those of lower degrees.
+void bernstein(int degree, double t, int order, Basis& basis) {
+  std::array<double, largest_bezier_degree + 1> b{1};
+  for (int k = 0; k <= degree; ++k) {
+    if (k == degree - 1 && order >= 1)
+      for (int i = 0; i <= degree; ++i) basis[1][i] = degree * ((i > 0 ? b[i - 1] : 0) - (i < degree ? b[i] : 0));
+    if (k == degree - 2 && order >= 2)
+      for (int i = 0; i <= degree; ++i)
+        basis[2][i] = degree * (degree - 1) *
+                      ((i > 1 ? b[i - 2] : 0) - (i > 0 && i < degree ? 2 * b[i - 1] : 0) + (i < degree - 1 ? b[i] : 0));
+    if (k == degree) break;
+    for (int i = k + 1; i > 0; --i) b[i] = (i <= k ? (1 - t) * b[i] : 0) + t * b[i - 1];
+    b[0] *= 1 - t;
+  }
+  basis[0] = b;
+  if (degree < 2) basis[2].fill(0);
+}
+
+Vec3 sum(const BezierPatch& patch, const Basis& u, int du, const Basis& v, int dv) {
+  double x = 0, y = 0, z = 0;
+  const Vec3* point = patch.control.data();
+  for (int i = 0; i <= patch.m; ++i)
+    for (int j = 0; j <= patch.n; ++j, ++point) {
+      const double weight = u[du][i] * v[dv][j];
+      x += weight * point->x(), y += weight * point->y(), z += weight * point->z();
+    }
+  return {x, y, z};
+}
+
+}  // namespace
+
+void evaluate(const BezierPatch& patch, unsigned want, const Vec2& uv, SurfaceJet& jet) {
+  const int order = (want & want_second) != 0 ? 2 : (want & want_first) != 0 ? 1 : 0;
+  Basis u, v;
+  bernstein(patch.m, uv.x(), order, u);
+  bernstein(patch.n, uv.y(), order, v);
+  if ((want & want_position) != 0) jet.s = sum(patch, u, 0, v, 0);
+  if ((want & want_first) != 0) jet.su = sum(patch, u, 1, v, 0), jet.sv = sum(patch, u, 0, v, 1);
+  if ((want & want_second) != 0)
+    jet.suu = sum(patch, u, 2, v, 0), jet.suv = sum(patch, u, 1, v, 1), jet.svv = sum(patch, u, 0, v, 2);
+}
+
+}  // namespace carreau

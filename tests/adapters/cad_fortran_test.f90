@@ -1,0 +1,76 @@
+! cad_fortran_test FILE: the module carreau_cad tells of named_faces.step what C tells, and meshes it.
+program cad_fortran_test
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use carreau
+  use carreau_cad
+  use carreau_geometry
+  implicit none
+  type(carreau_session) :: session
+  type(carreau_mesh) :: mesh
+  type(carreau_cad_file) :: file
+  type(carreau_cad_content) :: content
+  type(carreau_cad_face) :: face
+  type(carreau_cad_figures) :: figures
+  type(carreau_cad_report) :: report
+  type(carreau_geometry_place) :: place
+  type(carreau_quality) :: quality
+  character(len=1000) :: path
+  character(len=:), allocatable :: kind
+  integer(c_int32_t), allocatable :: edges(:)
+  integer(c_int32_t) :: status, f, tops, count
+  real(c_double) :: area, xyz(3), uv(2)
+
+  call get_command_argument(1, path)
+  call carreau_session_create(session, status)
+  call carreau_cad_open(session, 'none.step', status)
+  call check(status == CARREAU_ERR_FILE, 'a file that is not there: '//carreau_last_error(session))
+  call check(index(carreau_last_error(session), 'none.step') > 0, 'its name is in the sentence')
+  call carreau_cad_open(session, path, status, file)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_cad_info(file, content, status)
+  call check(status == CARREAU_OK .and. content%faces == 6 .and. content%edges == 12 .and. content%vertices == 8, 'counts')
+  call check(content%closed .and. content%unit == 'mm' .and. content%losses == 0, 'content')
+  tops = 0
+  area = 0
+  do f = 1, content%faces
+    call carreau_cad_file_face(file, f, face, status)
+    call check(status == CARREAU_OK .and. face%number == f .and. face%why == '', 'a face')
+    if (face%name == 'top') tops = tops + 1
+    call carreau_cad_measure_face(file, f, figures, status)
+    call check(status == CARREAU_OK .and. figures%kind == 'plane', 'figures')
+    area = area + figures%area
+    call carreau_cad_curves(file, f, edges, status)
+    call check(status == CARREAU_OK .and. size(edges) == 4, 'curves')
+    call carreau_cad_curve_point(file, f, 1, 0.5_c_double, uv, status)
+    call check(status == CARREAU_OK, 'a place of a curve')
+    call carreau_cad_point(file, f, uv(1), uv(2), xyz, status)
+    call check(status == CARREAU_OK, 'a point')
+  end do
+  call check(tops == 1, 'one face is the top')
+  call carreau_cad_inspect(file, report, status)
+  call check(status == CARREAU_OK .and. abs(report%area - area) < 1d-9 * area .and. report%kinds == 1, 'report')
+  call carreau_cad_surfaces(file, 1_c_int64_t, kind, count, status)
+  call check(status == CARREAU_OK .and. kind == 'plane' .and. count == 6, 'kinds')
+  call carreau_cad_file_face(file, 7, face, status)
+  call check(status == CARREAU_ERR_ARGUMENT .and. index(carreau_cad_last_error(file), 'face 7') > 0, 'no such face')
+  call carreau_cad_add(file, session, status)
+  call check(status == CARREAU_OK, 'the same once more')
+  call carreau_geometry_info(session, 2_c_int64_t, place, status)
+  call check(status == CARREAU_OK .and. place%first_face == 7 .and. place%first_curve == 13, 'behind the first')
+  call carreau_cad_close(file)
+  call carreau_set_real(session, 'hphydef', content%diagonal / 10, status)
+  call carreau_mesh_generate(session, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_session_mesh(session, mesh, status)
+  call carreau_mesh_quality(mesh, quality, status)
+  call check(abs(quality%area - 2 * area) < 1d-9 * area .and. quality%open_edges == 0, 'the area of two boxes')
+  call carreau_session_free(session)
+contains
+  subroutine check(good, what)
+    logical, intent(in) :: good
+    character(len=*), intent(in) :: what
+    if (good) return
+    write (*, '(a)') what
+    error stop 1
+  end subroutine check
+end program cad_fortran_test

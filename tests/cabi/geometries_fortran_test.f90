@@ -1,0 +1,115 @@
+! Bezier patches, callbacks beside them, and meshes from arrays, from Fortran.
+module plate
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
+  implicit none
+contains
+  function surface(face, u, v, order, s, su, sv, suu, suv, svv, user) result(status) bind(c)
+    integer(c_int32_t), value :: face, order
+    real(c_double), value :: u, v
+    real(c_double), intent(inout) :: s(3), su(3), sv(3), suu(3), suv(3), svv(3)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    s = [u + 10 * face, v, 0._c_double]
+    su = [1, 0, 0]
+    sv = [0, 1, 0]
+    suu = 0 ; suv = 0 ; svv = 0
+    status = 0
+  end function surface
+  function interval(face, ic, a, b, user) result(status) bind(c)
+    integer(c_int32_t), value :: face, ic
+    real(c_double), intent(inout) :: a, b
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    a = 0
+    b = 1
+    status = 0
+  end function interval
+  function side(face, ic, t, order, c, ct, ctt, user) result(status) bind(c)
+    integer(c_int32_t), value :: face, ic, order
+    real(c_double), value :: t
+    real(c_double), intent(inout) :: c(2), ct(2), ctt(2)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    real(c_double), parameter :: at(2, 5) = reshape([0, 0, 1, 0, 1, 1, 0, 1, 0, 0], [2, 5])
+    c = (1 - t) * at(:, ic) + t * at(:, ic + 1)
+    ct = at(:, ic + 1) - at(:, ic)
+    ctt = 0
+    status = 0
+  end function side
+end module plate
+
+program geometries_fortran_test
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
+  use carreau
+  use carreau_geometry
+  use plate
+  implicit none
+  type(carreau_session) :: session
+  type(carreau_mesh) :: mesh, copy
+  type(carreau_geometry_place) :: place
+  type(carreau_quality) :: quality, of_copy
+  real(c_double) :: controls(3, 4)
+  real(c_double), allocatable :: xyz(:, :), uv(:, :, :), uv_copy(:, :, :)
+  integer(c_int32_t), allocatable :: triangles(:, :), refs(:), edges(:, :), edge_refs(:), back(:, :)
+  integer(c_int32_t) :: status, degrees(2), k
+  integer(c_int64_t) :: count
+
+  call carreau_session_create(session, status)
+  ! z = u v over the unit square
+  controls = reshape([0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 1], [3, 4])
+  call carreau_add_bezier(session, reshape([1, 1], [2, 1]), controls(:, :3), status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'a control point is missing')
+  call carreau_add_bezier(session, reshape([1, 1], [2, 1]), controls, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_bezier_degrees(session, 1, degrees, status)
+  call check(status == CARREAU_OK .and. all(degrees == 1), 'degrees')
+  call carreau_geometry_points(session, 1, reshape([0.25d0, 0.5d0], [2, 1]), xyz, status)
+  call check(status == CARREAU_OK .and. all(abs(xyz(:, 1) - [0.25d0, 0.5d0, 0.125d0]) < 1d-15), 'a point')
+  call carreau_geometry_begin(session, surface, interval, side, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_model_add_face(session, 1, 1, status)
+  do k = 1, 4
+    call carreau_model_add_curve(session, 1, CARREAU_BOUNDARY, k, k, mod(k, 4) + 1, status)
+  end do
+  call carreau_geometry_end(session, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_geometry_count(session, count, status)
+  call carreau_geometry_info(session, count, place, status)
+  call check(count == 2 .and. place%kind == CARREAU_GEOMETRY_CALLBACKS .and. place%first_face == 2 &
+    .and. place%first_curve == 5 .and. place%last_point == 12, 'places')
+  call carreau_set_real(session, 'hphydef', 0.1d0, status)
+  call carreau_mesh_generate(session, status)
+  call check(status == CARREAU_OK, carreau_last_error(session))
+  call carreau_session_mesh(session, mesh, status)
+  call carreau_mesh_quality(mesh, quality, status)
+  call check(quality%area > 2.2 .and. quality%area < 2.3, 'a square, and a saddle of 1.28')
+
+  call carreau_mesh_vertices(mesh, xyz, status)
+  call carreau_mesh_triangles(mesh, triangles, status)
+  call carreau_mesh_triangle_refs(mesh, refs, status)
+  call carreau_mesh_edges(mesh, edges, status)
+  call carreau_mesh_edge_refs(mesh, edge_refs, status)
+  call carreau_mesh_corner_uv(mesh, uv, status)
+  call carreau_mesh_create(copy, status)
+  call carreau_mesh_from_arrays(copy, xyz, triangles, status, edges=edges, triangle_refs=refs, edge_refs=edge_refs, &
+    corner_uv=uv)
+  call check(status == CARREAU_OK, carreau_mesh_last_error(copy))
+  call carreau_mesh_quality(copy, of_copy, status)
+  call check(of_copy%area == quality%area .and. of_copy%open_edges == quality%open_edges, 'the same mesh')
+  call carreau_mesh_triangles(copy, back, status)
+  call carreau_mesh_corner_uv(copy, uv_copy, status)
+  call check(all(back == triangles) .and. all(uv_copy == uv), 'the same arrays')
+  triangles(2, 3) = 0
+  call carreau_mesh_from_arrays(copy, xyz, triangles, status)
+  call check(status == CARREAU_ERR_ARGUMENT .and. index(carreau_mesh_last_error(copy), 'triangle 2') > 0, 'no such vertex')
+  call carreau_mesh_free(copy)
+  call carreau_session_free(session)
+contains
+  subroutine check(good, what)
+    logical, intent(in) :: good
+    character(len=*), intent(in) :: what
+    if (good) return
+    write (*, '(a)') what
+    error stop 1
+  end subroutine check
+end program geometries_fortran_test
