@@ -7,7 +7,7 @@
 #include "guard.h"
 #include "io/files.h"
 #include "io/plane/plane_files.h"
-#include "session/adaptation.h"
+#include "session/file_adaptation.h"
 
 using carreau::InvalidArgument;
 using carreau::Level;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "adaptation.h"
 #include "molecule_input.h"
 #include "plane_input.h"
 #include "scene.h"
@@ -27,6 +28,7 @@ struct MeshOptions {
   std::string host;         ///< shared library, of a .pardom
   MoleculeChoice molecule;  ///< of a molecule
   PlaneChoice plane;        ///< of a plane domain
+  AdaptChoice adapt;        ///< of `carreau adapt`
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given

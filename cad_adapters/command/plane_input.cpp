@@ -10,6 +10,7 @@
 #include "failure.h"
 #include "model_input.h"
 #include "session_handle.h"
+#include "text_file.h"
 
 namespace command {
 namespace {
@@ -60,6 +61,12 @@ class PlaneInput final : public ModelInput {
 };
 
 }  // namespace
+
+bool is_plane_file(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".poly" || suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d" || suffix == ".data" ||
+         suffix == ".g";
+}
 
 std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice) {
   SessionHandle session = make_session();

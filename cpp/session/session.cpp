@@ -11,7 +11,7 @@
 #include "io/mesh_files.h"
 #include "io/pardom.h"
 #include "measure/composite_evaluation.h"
-#include "session/adaptation.h"
+#include "session/file_adaptation.h"
 #include "session/derivatives.h"
 #include "session/export.h"
 #include "session/field_attributes.h"
