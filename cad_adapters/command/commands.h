@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adaptation.h"
+#include "grid_input.h"
 #include "molecule_input.h"
 #include "plane_input.h"
 #include "scene.h"
@@ -29,6 +30,7 @@ struct MeshOptions {
   MoleculeChoice molecule;  ///< of a molecule
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
+  GridChoice grid;          ///< of a structured grid
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -50,6 +52,7 @@ int mesh(const MeshOptions& options);
 struct InfoOptions {
   std::string input;
   std::string host;    ///< shared library, of a .pardom
+  GridChoice grid;     ///< of a structured grid
   int limit = 10;      ///< sentences of each kind
   bool faces = false;  ///< a line for each
   bool json = false;
