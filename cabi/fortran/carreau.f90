@@ -52,6 +52,7 @@ module carreau
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
   public :: carreau_clear_background, carreau_session_background
   public :: carreau_estimate, carreau_transfer, carreau_adapt
+  public :: carreau_set_background_fields, carreau_transfer_files
   public :: carreau_string
 
   integer(c_int32_t), parameter, public :: CARREAU_OK = 0, CARREAU_ERR_ARGUMENT = 1, CARREAU_ERR_MODEL = 2, &
@@ -82,6 +83,7 @@ module carreau
 
   integer(c_int32_t), parameter, public :: CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2
   integer(c_int32_t), parameter, public :: CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2
+  integer(c_int32_t), parameter, public :: CARREAU_FIT = 0, CARREAU_PROJECTION = 1
 
   !> Geometry, model, parameters and the mesh made of them.
   !! The handle is for the modules of this library.
@@ -130,6 +132,7 @@ module carreau
     integer(c_int32_t) :: source = CARREAU_HESSIAN, shape = CARREAU_ISOTROPIC
     logical :: relative = .false.
     real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
+    integer(c_int32_t) :: recovery = CARREAU_FIT
   end type carreau_estimator
 
   type :: carreau_adaptation_report
@@ -1386,6 +1389,24 @@ contains
     status = c_set_background_mesh(session%handle, c_text(mesh_path), c_text(sol_path))
   end subroutine carreau_set_background_mesh
 
+  !> By the fields of a file: see adapt_ parameters.
+  subroutine carreau_set_background_fields(session, mesh_path, sol_path, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: mesh_path, sol_path
+    integer(c_int32_t), intent(out) :: status
+    status = c_set_background_fields(session%handle, c_text(mesh_path), c_text(sol_path))
+  end subroutine carreau_set_background_fields
+
+  !> outside: vertices beside the old mesh.
+  subroutine carreau_transfer_files(session, mesh_path, sol_path, out_path, outside, status)
+    type(carreau_session), intent(in) :: session
+    character(len=*), intent(in) :: mesh_path, sol_path, out_path
+    integer(c_int64_t), intent(out) :: outside
+    integer(c_int32_t), intent(out) :: status
+    outside = 0
+    status = c_transfer_files(session%handle, c_text(mesh_path), c_text(sol_path), c_text(out_path), outside)
+  end subroutine carreau_transfer_files
+
   !> vertices(2 or 3, n), triangles(3, m); faces(m): references, in two dimensions only; either sizes(n) or metrics:
   !> (6, n) xx xy xz yy yz zz, or in two dimensions (3, n) uu uv vv.
   subroutine carreau_set_background(session, vertices, triangles, status, faces, sizes, metrics)
@@ -1483,6 +1504,7 @@ contains
     c%hmin = estimator%hmin
     c%hmax = estimator%hmax
     c%ratio = estimator%ratio
+    c%recovery = estimator%recovery
   end function c_estimator_of
 
   !> values(n) at the vertices of the session's mesh; sizes(n) and metrics(6, n) xx xy xz yy yz zz.

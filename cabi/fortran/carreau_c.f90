@@ -79,7 +79,7 @@ module carreau_c
 
   type, bind(c) :: c_estimator
     integer(c_size_t) :: struct_size = 0
-    integer(c_int32_t) :: source = 0, shape = 0, relative = 0, reserved = 0
+    integer(c_int32_t) :: source = 0, shape = 0, relative = 0, recovery = 0
     real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
   end type c_estimator
 
@@ -676,6 +676,27 @@ module carreau_c
       integer(c_int64_t), intent(inout) :: outside
       integer(c_int32_t) :: status
     end function c_transfer
+
+    !> The loop by files: fields at the vertices of the last mesh, the next mesh, the fields on it. `carreau adapt` is
+    !! made of these two.
+    function c_set_background_fields(session, mesh_path, sol_path) result(status) &
+        bind(c, name="carreau_set_background_fields")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: mesh_path(*), sol_path(*)
+      integer(c_int32_t) :: status
+    end function c_set_background_fields
+
+    function c_transfer_files(session, mesh_path, sol_path, path, outside) result(status) &
+        bind(c, name="carreau_transfer_files")
+      import :: c_char, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      character(kind=c_char), intent(in) :: mesh_path(*), sol_path(*), path(*)
+      integer(c_int64_t), intent(inout) :: outside
+      integer(c_int32_t) :: status
+    end function c_transfer_files
 
     !> Adapts the mesh in a loop: it estimates, sets new sizes on the mesh, and meshes again.
     function c_adapt(session, adaptation, report) result(status) bind(c, name="carreau_adapt")

@@ -29,6 +29,7 @@ module carreau_geometry
   integer(c_int32_t), parameter, public :: CARREAU_BEZIER_DEGREE = 15
   integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
   integer(c_int32_t), parameter, public :: CARREAU_REST_PARITY = 0, CARREAU_REST_INSIDE = 1, CARREAU_REST_OUTSIDE = 2
+  integer(c_int32_t), parameter, public :: CARREAU_SEGMENTS = 0, CARREAU_SPLINE = 1, CARREAU_ARCS = 2
 
   !> Its face k is face first_face + k - 1 of the session.
   type :: carreau_geometry_place
@@ -61,7 +62,7 @@ module carreau_geometry
   !! not allocated are not given: curves are segments without references, and ends of splines are free.
   type :: carreau_plane_curves
     integer(c_int32_t), allocatable :: starts(:), points(:)
-    integer(c_int32_t), allocatable :: smooth(:)      !< 1: a spline of Catmull and Rom
+    integer(c_int32_t), allocatable :: smooth(:)      !< CARREAU_SEGMENTS, _SPLINE or _ARCS
     integer(c_int32_t), allocatable :: controls(:, :) !< (2, n): before the first and behind the last point
     real(c_double), allocatable :: tangents(:, :)     !< (4, n): derivatives at both ends; NaN: not given
     integer(c_int32_t), allocatable :: refs(:)

@@ -539,12 +539,15 @@ CARREAU_API carreau_status carreau_session_background(carreau_session* session, 
 enum { CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2 };
 /* What is prescribed: a size; circles in the tangent planes of the graph; or sizes by both principal values. */
 enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
+/* How derivatives are found from values at vertices: quadratics that fit the neighbours of each vertex; or the gradients
+ * of triangles averaged at vertices, twice (double L2 projection), which is smoother, and biased at boundaries. */
+enum { CARREAU_FIT = 0, CARREAU_PROJECTION = 1 };
 
 typedef struct carreau_estimator {
   size_t struct_size;
   int32_t source, shape; /* as above; GRAPH not with HESSIAN, and GRAPH, CURVATURE, DEFORMATION in the plane z = 0 */
   int32_t relative;      /* 1: the tolerance is a share of the field's absolute value */
-  int32_t reserved;
+  int32_t recovery;      /* how derivatives are found; CARREAU_PROJECTION is for plane meshes */
   double tolerance;      /* error in units of the field, or share; CURVATURE: degrees. 0: 0.01 */
   double relative_floor; /* below this share of its largest absolute value the field counts as that share. 0: 0.1 */
   double hmin, hmax;     /* bounds of the sizes, CURVATURE and DEFORMATION: in the tangent plane of the graph.
@@ -567,6 +570,19 @@ CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carr
 CARREAU_API carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n,
                                             const double values[], int64_t capacity, double out_values[],
                                             int64_t* out_outside);
+
+/* The loop by files: fields at the vertices of the last mesh, the next mesh, the fields on it. `carreau adapt` is made
+ * of these two. The first sets a background mesh (see carreau_set_background_mesh) from a .sol or .solb with any number
+ * of scalars and vectors at the vertices of a mesh: each scalar and each component is estimated as the parameters
+ * adapt_* say, and the smallest size, or the intersection of the metrics, holds. A file of one symmetric tensor holds
+ * metrics. It comes after the model. The second writes fields of any types, as they are at the vertices of the
+ * session's mesh, to a .sol or .solb; of a plane domain it has dimension 2. *out_outside, which may be NULL, counts the
+ * vertices beside the old mesh; they take the nearest values. Errors: ARGUMENT, FILE (with the line), SEQUENCE (no mesh
+ * yet). */
+CARREAU_API carreau_status carreau_set_background_fields(carreau_session* session, const char* mesh_path,
+                                                         const char* sol_path);
+CARREAU_API carreau_status carreau_transfer_files(carreau_session* session, const char* mesh_path, const char* sol_path,
+                                                  const char* out_path, int64_t* out_outside);
 
 /* Gives the field at n points of space; xyz is n x 3. Returns 0, or any other value to report a failure. */
 typedef int32_t (*carreau_field_fn)(int64_t n, const double* xyz, double* values, void* user);

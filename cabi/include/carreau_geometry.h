@@ -172,6 +172,15 @@ enum {
   CARREAU_REST_OUTSIDE = 2 /* nothing else */
 };
 
+/* What a curve of a plane domain is between its points. */
+enum {
+  CARREAU_SEGMENTS = 0, /* straight; all of its points are vertices */
+  CARREAU_SPLINE = 1,   /* a spline of Catmull and Rom */
+  CARREAU_ARCS = 2      /* arcs of circles through a start, a point between and an end, with which the next arc starts: an odd
+                           number of points, of which those between are no vertices. From a point to itself it is the
+                           whole circle, of which the point between is the opposite one, counterclockwise. */
+};
+
 /* A domain of the plane. Indices of points and curves count from 0. An array may be NULL where this says so. References
  * are the caller's: 0 is none, and several entities may have the same. */
 typedef struct carreau_plane_domain {
@@ -187,8 +196,7 @@ typedef struct carreau_plane_domain {
   const int64_t*
       curve_starts; /* curve_count + 1: curve c passes curve_points[curve_starts[c] .. curve_starts[c + 1] - 1] */
   const int32_t* curve_points; /* a curve whose last point is its first one is closed */
-  const int32_t* smooth;     /* curve_count. 1: a spline of Catmull and Rom; 0: segments, whose points are all vertices.
-                                NULL: segments */
+  const int32_t* smooth;     /* curve_count: CARREAU_SEGMENTS, _SPLINE or _ARCS. NULL: segments */
   const int32_t* controls;   /* curve_count x 2, of splines: control points before the first and behind the last point;
                                 -1: the end is free. NULL: all are */
   const double* tangents;    /* curve_count x 4, of splines: derivatives at both ends, in place of controls, for pieces

@@ -8,6 +8,7 @@
 #include "arguments.h"
 #include "guard.h"
 #include "metric/metric3_algebra.h"
+#include "session/file_adaptation.h"
 
 using carreau::EstimatorOptions;
 using carreau::FieldFunction;
@@ -23,6 +24,8 @@ using namespace carreau::abi;
 static_assert(int(carreau::ErrorSource::hessian) == CARREAU_HESSIAN);
 static_assert(int(carreau::ErrorSource::curvature) == CARREAU_CURVATURE);
 static_assert(int(carreau::ErrorSource::deformation) == CARREAU_DEFORMATION);
+static_assert(int(carreau::Recovery::fit) == CARREAU_FIT);
+static_assert(int(carreau::Recovery::projection) == CARREAU_PROJECTION);
 static_assert(int(carreau::ErrorShape::isotropic) == CARREAU_ISOTROPIC);
 static_assert(int(carreau::ErrorShape::graph) == CARREAU_GRAPH);
 static_assert(int(carreau::ErrorShape::anisotropic) == CARREAU_ANISOTROPIC);
@@ -108,6 +111,9 @@ EstimatorOptions options_of(const carreau_estimator* estimator) {
   options.source = static_cast<carreau::ErrorSource>(known.source);
   options.shape = static_cast<carreau::ErrorShape>(known.shape);
   options.relative = known.relative != 0;
+  if (known.recovery != 0 && known.recovery != 1)
+    throw InvalidArgument("estimator->recovery is " + std::to_string(known.recovery) + "; it must be 0 or 1");
+  options.recovery = static_cast<carreau::Recovery>(known.recovery);
   if (known.tolerance != 0) options.tolerance = known.tolerance;
   if (known.relative_floor != 0) options.relative_floor = known.relative_floor;
   if (known.ratio != 0) options.ratio = known.ratio;
@@ -230,6 +236,26 @@ carreau_status carreau_transfer(carreau_session* session, int32_t components, in
         carreau::transfer_field(from, to, std::span(required(values, "values"), rows * width), width);
     std::copy(result.values.begin(), result.values.end(), out_values);
     if (out_outside != nullptr) *out_outside = result.outside;
+  });
+}
+
+carreau_status carreau_set_background_fields(carreau_session* session, const char* mesh_path, const char* sol_path) {
+  return guarded(session, [&] {
+    required(mesh_path, "mesh_path");
+    required(sol_path, "sol_path");
+    session->commit_model();
+    use_background(*session, carreau::background_of_fields(session->session, mesh_path, sol_path));
+  });
+}
+
+carreau_status carreau_transfer_files(carreau_session* session, const char* mesh_path, const char* sol_path,
+                                      const char* out_path, int64_t* out_outside) {
+  return guarded(session, [&] {
+    mesh_of(*session);
+    const std::int64_t outside =
+        carreau::transfer_files(session->session, required(mesh_path, "mesh_path"), required(sol_path, "sol_path"),
+                                required(out_path, "out_path"));
+    if (out_outside != nullptr) *out_outside = outside;
   });
 }
 

@@ -7,7 +7,7 @@
 #include "guard.h"
 #include "io/files.h"
 #include "io/plane/plane_files.h"
-#include "session/adaptation.h"
+#include "session/file_adaptation.h"
 
 using carreau::InvalidArgument;
 using carreau::Level;
@@ -61,7 +61,11 @@ void add_curves(const carreau_plane_domain& given, PlaneDomainInput& input) {
       throw InvalidArgument("domain->curve_starts does not ascend from 0 at curve " + std::to_string(c) + " (from 0)");
     PlaneCurve curve;
     curve.points.assign(given.curve_points + first, given.curve_points + last);
-    curve.smooth = entry(given.smooth, c, 0) != 0;
+    const std::int32_t kind = entry(given.smooth, c, 0);
+    if (kind < 0 || kind > 2)
+      throw InvalidArgument("domain->smooth is " + std::to_string(kind) + " at curve " + std::to_string(c) +
+                            " (from 0); it must be 0, 1 or 2");
+    curve.smooth = kind == CARREAU_SPLINE, curve.arcs = kind == CARREAU_ARCS;
     curve.before = entry(given.controls, 2 * c, -1), curve.after = entry(given.controls, 2 * c + 1, -1);
     if (given.tangents != nullptr)
       curve.tangent_start = tangent_at(given.tangents + 4 * c),

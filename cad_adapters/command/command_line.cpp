@@ -124,6 +124,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
       "command: carreau help COMMAND. Manual: man carreau");
   add_mesh();
   add_plane();
+  add_adapt();
   add_info();
   add_areas();
   add_check();
@@ -183,6 +184,75 @@ void CommandLine::add_plane() {
   add_mesh_options(plane, plane_);
   plane->add_flag("--json", plane_.json, "Print a summary as JSON on the standard output");
   plane->add_flag("-q,--quiet", plane_.quiet, "Tell errors only");
+}
+
+void CommandLine::add_adapt() {
+  adapt_.adapt.is_adapt = true;
+  CLI::App* adapt = add("adapt", "Make the next mesh of a geometry from values, sizes or metrics on the last one");
+  adapt
+      ->add_option("INPUT", adapt_.input,
+                   "The geometry: a file that `carreau mesh` or `carreau plane` reads; .mesh is a plane domain")
+      ->required()
+      ->type_name(kind::file);
+  adapt->add_option("--host", adapt_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
+      ->type_name(kind::file);
+  adapt->add_option("--mesh", adapt_.adapt.mesh, "The last mesh: .mesh, .meshb, .bl2d, .vtu, ...")
+      ->type_name(kind::file);
+  adapt->add_option("--sol", adapt_.adapt.sol, "What is known at its vertices: .sol or .solb; sizes also BL2D's .h")
+      ->type_name(kind::file);
+  adapt
+      ->add_option("--use", adapt_.adapt.use,
+                   "What --sol has: values of fields, which are estimated; or sizes, or metrics, which are taken")
+      ->check(CLI::IsMember({"values", "sizes", "metrics"}))
+      ->capture_default_str();
+  adapt
+      ->add_option("--transfer", adapt_.adapt.transfer,
+                   "Fields at the vertices of --mesh that the .sol of the next mesh gets; by default those of --sol")
+      ->type_name(kind::file);
+  adapt->add_option("--formula", adapt_.adapt.formula, "A field in x, y, z in place of --mesh and --sol: a whole loop")
+      ->check(not_empty)
+      ->type_name("FORMULA");
+  adapt->add_option("--iterations", adapt_.adapt.iterations, "Meshes that --formula makes")
+      ->check(CLI::Range(1, 1000))
+      ->type_name(kind::number)
+      ->capture_default_str();
+  repeated(adapt->add_option("-o,--output", adapt_.outputs,
+                             "File to write: the mesh as .mesh, .meshb, .bl2d, .vtu, .stl, .msh, .msh2 or .exr, the "
+                             "fields on it as .sol or .solb (beside the mesh when not named); may be repeated"))
+      ->required()
+      ->type_name(kind::file);
+  add_estimator_options(adapt);
+  adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Of a plane domain: see carreau plane")
+      ->check(CLI::Range(0.1, 180.0));
+  add_molecule_options(adapt, adapt_.molecule);
+  add_mesh_options(adapt, adapt_);
+  adapt->add_flag("--json", adapt_.json, "Print a summary as JSON on the standard output");
+  adapt->add_flag("-q,--quiet", adapt_.quiet, "Tell errors only");
+}
+
+void CommandLine::add_estimator_options(CLI::App* app) {
+  const auto parameter = [&](const char* option, const char* name, const char* help) {
+    return app->add_option_function<std::string>(
+        option, [this, name](const std::string& value) { adapt_.adapt.names.push_back(std::string(name) + "=" + value); },
+        help);
+  };
+  parameter("--tolerance", "adapt_tolerance", "Error of a field on the next mesh, in its unit; degrees with curvature")
+      ->check(CLI::PositiveNumber)
+      ->type_name("ERROR");
+  parameter("--source", "adapt_source", "What the error is estimated from")
+      ->check(CLI::IsMember({"hessian", "curvature", "deformation"}));
+  parameter("--shape", "adapt_shape", "Sizes, circles in the tangent planes of the graph, or metrics")
+      ->check(CLI::IsMember({"isotropic", "graph", "anisotropic"}));
+  parameter("--recovery", "adapt_recovery", "How derivatives are found from values")
+      ->check(CLI::IsMember({"fit", "projection"}));
+  app->add_flag_callback("--relative", [this] { adapt_.adapt.names.emplace_back("adapt_relative=1"); },
+                         "The tolerance is a share of the field's absolute value");
+  parameter("--floor", "adapt_floor", "With --relative: a field counts as this share of its largest value at least")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SHARE");
+  parameter("--ratio", "adapt_ratio", "Largest ratio of the two sizes of a metric")
+      ->check(CLI::Range(1.0, 1e9))
+      ->type_name("RATIO");
 }
 
 void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
@@ -425,6 +495,10 @@ int CommandLine::run(int argc, char** argv) {
 int CommandLine::run_command() {
   if (app_.got_subcommand("mesh")) return mesh(mesh_);
   if (app_.got_subcommand("plane")) return mesh(plane_);
+  if (app_.got_subcommand("adapt")) {
+    adapt_.plane.is_plane = is_plane_file(adapt_.input);
+    return mesh(adapt_);
+  }
   if (app_.got_subcommand("info")) return info(info_);
   if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("check")) return check(check_);

@@ -36,6 +36,9 @@ class CommandLine {
   CLI::App* add(const char* name, const char* description);
   void add_mesh();
   void add_plane();
+  void add_adapt();
+  /// How fields become sizes: the parameters adapt_* by options.
+  void add_estimator_options(CLI::App* app);
   /// What governs a mesh: of `mesh` and `fields`.
   static void add_mesh_options(CLI::App* app, MeshOptions& options);
   static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
@@ -55,7 +58,7 @@ class CommandLine {
                                         const std::vector<std::string>& words) const;
 
   CLI::App app_;
-  MeshOptions mesh_, plane_;
+  MeshOptions mesh_, plane_, adapt_;
   InfoOptions info_;
   AreasOptions areas_;
   PictureOptions picture_;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "adaptation.h"
 #include "grid_input.h"
 #include "molecule_input.h"
 #include "plane_input.h"
@@ -28,6 +29,7 @@ struct MeshOptions {
   std::string host;         ///< shared library, of a .pardom
   MoleculeChoice molecule;  ///< of a molecule
   PlaneChoice plane;        ///< of a plane domain
+  AdaptChoice adapt;        ///< of `carreau adapt`
   GridChoice grid;          ///< of a structured grid
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none

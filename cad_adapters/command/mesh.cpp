@@ -49,11 +49,13 @@ std::vector<std::int32_t> faces_of_model(carreau_session* session) {
 }
 
 /// Throws Failure when there is no mesh.
-void generate(carreau_session* session, CadInput& input, const SizeMap& map, FailedFaces& failed, Progress& progress) {
+void generate(carreau_session* session, CadInput& input, const SizeMap& map, Adaptation& adaptation,
+              FailedFaces& failed, Progress& progress) {
   require(session, input.give_to(session));
-  const carreau_status status = carreau_mesh_generate(session);
+  const carreau_status status = adaptation.run(session, input.diagonal());
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
-  if (!map.failure().empty()) throw Failure(map.failure());
+  for (const std::string& failure : {map.failure(), adaptation.failure()})
+    if (!failure.empty()) throw Failure(failure);
   if (status == CARREAU_OK || status == CARREAU_ERR_PARTIAL) return;
   const std::int32_t face = face_of_error(session);
   if (status == CARREAU_ERR_DOMAIN)  // no face could be meshed
@@ -65,8 +67,8 @@ void generate(carreau_session* session, CadInput& input, const SizeMap& map, Fai
   throw Failure(sentence);
 }
 
-void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, FailedFaces& failed,
-              Progress& progress) {
+void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap& map, Adaptation& adaptation,
+              FailedFaces& failed, Progress& progress) {
   progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
   for (const std::string& sentence : sizes_beyond_bounds(options, input.diagonal())) progress.warning(sentence);
@@ -78,7 +80,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   if (by_curvature != 0)
     for (const std::string& kink : input.kinks()) progress.warning(kink);
   const std::clock_t start = std::clock();
-  generate(run.session, input, map, failed, progress);
+  generate(run.session, input, map, adaptation, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
   run.faces = faces_of(run.mesh);
@@ -94,7 +96,8 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 
-void write_all(const MeshRun& run, const std::vector<std::string>& paths, Progress& progress) {
+void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vector<std::string>& paths,
+               Progress& progress) {
   carreau_exr_options fields{};
   fields.struct_size = sizeof fields;
   fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
@@ -106,6 +109,8 @@ void write_all(const MeshRun& run, const std::vector<std::string>& paths, Progre
     done += each;
     if (suffix_of(path) == ".exr")
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
+    else if (is_solution(path))
+      adaptation.write_fields(run.session, path, progress);
     else
       require(run.mesh, carreau_mesh_write(run.mesh, path.c_str()));
   }
@@ -113,12 +118,20 @@ void write_all(const MeshRun& run, const std::vector<std::string>& paths, Progre
 
 }  // namespace
 
-int mesh(const MeshOptions& options) {
+int mesh(const MeshOptions& given) {
   catch_signals();
+  Adaptation adaptation(given.adapt);
+  MeshOptions options = given;
+  options.outputs = adaptation.with_fields(given.outputs);
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
-  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d", ".exr"},
-                      {options.input, map.mesh_file(), options.plane.sizes});
+  if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
+    throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
+  std::vector<std::string> suffixes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d", ".exr"};
+  std::vector<std::string> read = adaptation.inputs();
+  if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
+  read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
+  OutputFiles outputs(options.outputs, suffixes, read);
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
@@ -136,7 +149,7 @@ int mesh(const MeshOptions& options) {
   progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
   progress.line(input->summary());
   try {
-    mesh_all(options, run, *input, map, dumped, progress);
+    mesh_all(options, run, *input, map, adaptation, dumped, progress);
   } catch (const Failure&) {
     for (const std::string& path : dumped.files()) progress.line("dumped     " + path);
     throw;
@@ -147,7 +160,7 @@ int mesh(const MeshOptions& options) {
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
   const Stopwatch writing;
-  outputs.write([&](const std::vector<std::string>& paths) { write_all(run, paths, progress); });
+  outputs.write([&](const std::vector<std::string>& hidden) { write_all(run, adaptation, hidden, progress); });
   run.seconds_writing = writing.seconds();
   if (!options.quiet || options.json) run.short_edges = find_short_edges(run.session, run.mesh);
   if (!options.quiet)

@@ -70,7 +70,8 @@ void set_physical_sizes(carreau_session* session, const MeshOptions& options, co
   // The bounds of the library are for sizes that a formula gives, not for what a person has typed.
   if (!is_set(session, "hphymin")) set(session, "hphymin", std::min(size, diagonal) * 1e-6);
   // Beside a map, a size that was typed is an upper bound.
-  const bool bounds_map = lengths.size && (!options.size_map.empty() || input.has_sizes());
+  const bool by_fields = !options.adapt.mesh.empty();
+  const bool bounds_map = lengths.size && (!options.size_map.empty() || input.has_sizes() || by_fields);
   if (bounds_map && (!lengths.maximum || *lengths.maximum > size))
     set(session, "hphymax", size);
   else if (!is_set(session, "hphymax"))
@@ -96,7 +97,8 @@ void set_sizes(carreau_session* session, const MeshOptions& options, const Lengt
     for (const char* name : names)
       if (bound) set(session, name, *bound);
   const bool by_curvature = options.angle > 0 || lengths.chord;
-  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.size_map.empty() || input.has_sizes();
+  const bool sizes_typed = lengths.size || !options.face_sizes.empty() || !options.size_map.empty() || input.has_sizes() ||
+                           options.adapt.is_adapt;
   if (sizes_typed || (options.env.empty() && !by_curvature))
     set_physical_sizes(session, options, lengths, input);
   else if (options.env.empty())
@@ -180,6 +182,15 @@ void check_setting(carreau_session* session, const std::string& setting, const s
   set_by_name(session, setting, 1);
 }
 
+/// The options of `carreau adapt` that are parameters; bounds of sizes are those of the estimator, too.
+void set_estimator(carreau_session* session, const MeshOptions& options, double diagonal) {
+  if (!options.adapt.is_adapt) return;
+  const Lengths lengths = lengths_of(options, diagonal);
+  if (lengths.minimum) set(session, "adapt_hmin", *lengths.minimum);
+  if (lengths.maximum) set(session, "adapt_hmax", *lengths.maximum);
+  for (const std::string& setting : options.adapt.names) set_by_name(session, setting, diagonal);
+}
+
 }  // namespace
 
 void check_words(const MeshOptions& options) {
@@ -254,6 +265,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   if (asked && real(session, "narrow_ratio") == narrower_than_cuts) set(session, "narrow_ratio", usual_ratio);
   if (options.threads > 0) set(session, "threads", options.threads);
   set_sizes(session, options, lengths_of(options, diagonal), input);
+  set_estimator(session, options, diagonal);
   for (const std::string& setting : options.settings) set_by_name(session, setting, diagonal);
   if (sizes_by_face || !map.is_empty()) map.give_to(session, input);
 }

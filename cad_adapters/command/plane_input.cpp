@@ -5,6 +5,7 @@
 
 #include "built_input.h"
 #include "failure.h"
+#include "text_file.h"
 
 namespace command {
 namespace {
@@ -40,6 +41,12 @@ class PlaneInput final : public BuiltInput {
 };
 
 }  // namespace
+
+bool is_plane_file(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".poly" || suffix == ".mesh" || suffix == ".meshb" || suffix == ".bl2d" || suffix == ".data" ||
+         suffix == ".g";
+}
 
 std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice) {
   SessionHandle session = make_silent_session();

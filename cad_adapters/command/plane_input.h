@@ -15,6 +15,9 @@ struct PlaneChoice {
   double corner_angle = 0;  ///< degrees; polygons are smoothed between corners; 0: they are not
 };
 
+/// Whether the name is that of a file of plane domains.
+bool is_plane_file(const std::string& path);
+
 /// Throws Failure.
 std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice);
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "metric/metric2_algebra.h"
+#include "metric/metric3_algebra.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -156,33 +157,90 @@ Metric3 in_space(Metric2 m, const VertexFrame& f) noexcept {
           entry(p.y(), q.y(), n.y(), p.z(), q.z(), n.z()), entry(p.z(), q.z(), n.z(), p.z(), q.z(), n.z())};
 }
 
-}  // namespace
+/// Metrics in the planes of the frames of all vertices.
+struct PlaneMetrics {
+  std::vector<Metric2> metrics;
+  std::vector<char> reliable;
+};
 
-VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
-                             const EstimatorOptions& options) {
+PlaneMetrics plane_metrics(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
+                           const EstimatorOptions& options) {
   check_field(field);
   check_options(field, options);
   if (derivatives.size() != field.vertices.size())
     throw InvalidArgument("an estimator needs derivatives at each vertex; there are " +
                           std::to_string(derivatives.size()));
   const Estimate estimate(field, options);
-  VertexPrescriptions result;
+  PlaneMetrics result;
   for (std::size_t v = 0; v < derivatives.size(); ++v) {
-    const LocalDerivatives& d = derivatives[v];
-    if (!d.reliable) ++result.unreliable;
-    const Metric2 m = estimate.metric_at(v, d);
-    if (options.shape == ErrorShape::isotropic)
-      result.sizes.push_back(1 / std::sqrt(eigen(m).major));
-    else
-      result.metrics.push_back(in_space(m, d.frame));
+    result.metrics.push_back(estimate.metric_at(v, derivatives[v]));
+    result.reliable.push_back(derivatives[v].reliable ? 1 : 0);
   }
   return result;
+}
+
+std::vector<LocalDerivatives> derivatives_of(const ScalarField& field, const EstimatorOptions& options) {
+  return options.recovery == Recovery::projection ? project_derivatives(field) : recover_derivatives(field);
+}
+
+PlaneMetrics intersection_of(const std::vector<PlaneMetrics>& each) {
+  PlaneMetrics all = each.front();
+  std::vector<Metric2> here(each.size());
+  for (std::size_t v = 0; v < all.metrics.size() && each.size() > 1; ++v) {
+    for (std::size_t f = 0; f < each.size(); ++f) {
+      here[f] = each[f].metrics[v];
+      all.reliable[v] = static_cast<char>(all.reliable[v] & each[f].reliable[v]);
+    }
+    all.metrics[v] = intersection(here);
+  }
+  return all;
+}
+
+VertexPrescriptions prescriptions_of(const PlaneMetrics& found, const std::vector<LocalDerivatives>& derivatives,
+                                     ErrorShape shape) {
+  VertexPrescriptions result;
+  for (std::size_t v = 0; v < derivatives.size(); ++v) {
+    if (found.reliable[v] == 0) ++result.unreliable;
+    const Metric2& m = found.metrics[v];
+    if (shape == ErrorShape::isotropic)
+      result.sizes.push_back(1 / std::sqrt(eigen(m).major));
+    else
+      result.metrics.push_back(in_space(m, derivatives[v].frame));
+  }
+  return result;
+}
+
+}  // namespace
+
+VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,
+                             const EstimatorOptions& options) {
+  return prescriptions_of(plane_metrics(field, derivatives, options), derivatives, options.shape);
 }
 
 VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options) {
   check_field(field);
   check_options(field, options);
-  return estimate(field, recover_derivatives(field), options);
+  return estimate(field, derivatives_of(field, options), options);
+}
+
+VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
+                                 std::span<const std::array<std::int32_t, 3>> triangles,
+                                 std::span<const double> values, std::size_t fields, const EstimatorOptions& options) {
+  if (fields == 0 || values.size() != fields * vertices.size())
+    throw InvalidArgument("an estimator needs a value of each of " + std::to_string(fields) + " fields at each of " +
+                          std::to_string(vertices.size()) + " vertices; there are " + std::to_string(values.size()));
+  std::vector<double> one(vertices.size());
+  std::vector<LocalDerivatives> derivatives;
+  std::vector<PlaneMetrics> each;
+  for (std::size_t f = 0; f < fields; ++f) {
+    for (std::size_t v = 0; v < one.size(); ++v) one[v] = values[v * fields + f];
+    const ScalarField field{vertices, triangles, one};
+    check_field(field);
+    check_options(field, options);
+    derivatives = derivatives_of(field, options);  // frames are those of the mesh, whatever the field
+    each.push_back(plane_metrics(field, derivatives, options));
+  }
+  return prescriptions_of(intersection_of(each), derivatives, options.shape);
 }
 
 }  // namespace carreau

@@ -22,6 +22,12 @@ enum class ErrorShape : int {
   anisotropic = 2,  ///< by both principal values: ellipses in the mesh's plane and on the graph
 };
 
+/// How derivatives are found from values at vertices.
+enum class Recovery : int {
+  fit = 0,         ///< quadratics through each vertex: recover_derivatives()
+  projection = 1,  ///< the double L2 projection, of plane meshes: project_derivatives()
+};
+
 struct EstimatorOptions {
   ErrorSource source = ErrorSource::hessian;
   ErrorShape shape = ErrorShape::isotropic;
@@ -34,6 +40,7 @@ struct EstimatorOptions {
   /// Bounds of sizes: in the mesh's plane for the Hessian, in the graph's tangent plane otherwise.
   double hmin = 0, hmax = 0;
   double ratio = 1000;  ///< largest ratio of the two sizes of a metric, at least 1
+  Recovery recovery = Recovery::fit;
 };
 
 /// Sizes or metrics at the vertices of a mesh: the one that the shape asks for, the other is empty.
@@ -47,6 +54,13 @@ struct VertexPrescriptions {
 /// Prescribes at each vertex of field's mesh. Throws InvalidArgument unless 0 < hmin <= hmax, tolerance > 0 and
 /// ratio >= 1, and what check_field throws; for `curvature`, `deformation` and `graph` the mesh is in the plane z = 0.
 VertexPrescriptions estimate(const ScalarField& field, const EstimatorOptions& options);
+
+/// For several fields on one mesh at once: the smallest of the sizes, or the intersection of the metrics in the mesh's
+/// plane (RR-2818 sec. 4.3.4). `values` holds vertex by vertex one value of each field. Tolerance and floor are those
+/// of each field by itself. Throws InvalidArgument when values are no multiple of `fields`, and as above.
+VertexPrescriptions estimate_all(std::span<const Vec3> vertices,
+                                 std::span<const std::array<std::int32_t, 3>> triangles,
+                                 std::span<const double> values, std::size_t fields, const EstimatorOptions& options);
 
 /// The same from derivatives that are already known (an exact Hessian, project_derivatives()).
 VertexPrescriptions estimate(const ScalarField& field, const std::vector<LocalDerivatives>& derivatives,

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "adapt/estimators.h"
@@ -13,13 +12,6 @@
 #include "size/background.h"
 
 namespace carreau {
-
-/// A mesh file (`.mesh`, `.meshb`, ...) with a file of sizes or metrics (`.sol`, `.solb`; BL2D's `.h`). A mesh of dimension 3 is
-/// a surface in space; the triangles of one of dimension 2 lie in the parameter planes of the faces that their
-/// references name (0: any); with `one_plane` all faces lie in one, whatever references say. Throws FileError; names the
-/// file, and the line or byte where there is one.
-std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
-                                                 bool one_plane = false);
 
 /// The session's mesh with sizes or metrics at its vertices, to be used for the next one.
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);
@@ -59,11 +51,5 @@ struct AdaptationReport {
 /// 0: sizes would be ignored), what make_mesh() throws, and what `field` throws.
 AdaptationReport adapt(Session& session, const FieldFunction& field, const AdaptationOptions& options,
                        Monitor& monitor);
-
-/// `call adapt` of blsurf.env: one step of the loop by files. The field adapt_sol at the vertices of adapt_mesh, or of
-/// the session's mesh, is estimated as the parameters adapt_* say, and the model is meshed again by that; adapt_out
-/// gets the field on the new mesh. On a mesh of dimension 2, sizes are lengths of the parameter planes. Throws
-/// FileError, InvalidArgument (no adapt_sol, no mesh; what estimate() throws), and what make_mesh() throws.
-void adapt_by_files(Session& session, Monitor& monitor);
 
 }  // namespace carreau

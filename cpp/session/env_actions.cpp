@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "io/env.h"
-#include "session/adaptation.h"
+#include "session/file_adaptation.h"
 #include "session/session.h"
 
 namespace carreau {

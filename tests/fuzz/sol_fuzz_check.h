@@ -11,8 +11,9 @@ namespace carreau {
 
 inline void check_written_and_read(const Solution& solution) {
   FUZZ_CHECK(solution.values.size() % solution.components() == 0);
-  FUZZ_CHECK(read_solution_text(solution_text(solution), "again") == solution);
-  FUZZ_CHECK(read_solution_binary(solution_bytes(solution), "again") == solution);
+  const auto use = solution.fields.empty() ? SolutionUse::field : SolutionUse::fields;
+  FUZZ_CHECK(read_solution_text(solution_text(solution), "again", use) == solution);
+  FUZZ_CHECK(read_solution_binary(solution_bytes(solution), "again", use) == solution);
 }
 
 /// Any bytes are a solution or a FileError that names the file. `read` is one of the two readers.
@@ -20,7 +21,7 @@ template <typename Read>
 int fuzz_solution(const std::uint8_t* data, std::size_t size, Read&& read) {
   const std::string_view content(reinterpret_cast<const char*>(data), size);
   // The last byte, which no form needs, chooses what the values are read for.
-  const auto use = size > 0 && data[size - 1] % 2 == 0 ? SolutionUse::field : SolutionUse::prescription;
+  const auto use = static_cast<SolutionUse>(size > 0 ? data[size - 1] % 3 : 0);
   Solution solution;
   try {
     solution = read(content, "x.sol", use);

@@ -66,6 +66,26 @@ void check_indices(const PlaneDomainInput& input, int c) {
     if (tangent && !is_finite(*tangent)) refuse_curve(input, c, "has a tangent that is not finite");
 }
 
+void check_arcs(const PlaneDomainInput& input, int c) {
+  const PlaneCurve& curve = input.curves[c];
+  if (curve.points.size() < 3 || curve.points.size() % 2 == 0)
+    refuse_curve(input, c,
+                 "of arcs passes " + std::to_string(curve.points.size()) +
+                     " points; each arc has a start, a point between and an end, with which the next one starts");
+}
+
+CirclePiece circle_of(const PlaneDomainInput& input, int c, std::size_t rank) {
+  const std::vector<int>& points = input.curves[c].points;
+  const auto arc = arc_through(input.points[points[rank]].xy, input.points[points[rank + 1]].xy,
+                               input.points[points[rank + 2]].xy);
+  if (!arc)
+    refuse_curve(input, c,
+                 "has no arc through " + name_of_point(input, points[rank]) + ", " +
+                     name_of_point(input, points[rank + 1]) + " and " + name_of_point(input, points[rank + 2]) +
+                     ": they lie on one line");
+  return *arc;
+}
+
 std::vector<CubicPiece> pieces_of(const PlaneDomainInput& input, const PlaneCurve& curve) {
   std::vector<Vec2> passed;
   for (const int p : curve.points) passed.push_back(input.points[p].xy);
@@ -98,8 +118,10 @@ std::vector<char> vertices_of(const PlaneDomainInput& input) {
   std::vector<char> vertex(input.points.size(), 0);
   for (const PlaneCurve& curve : input.curves) {
     vertex[curve.points.front()] = vertex[curve.points.back()] = 1;
-    for (const int p : curve.points)
-      if (++passes[p] > 1 || !curve.smooth) vertex[p] = 1;
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      const bool inner = curve.arcs ? i % 2 == 1 : curve.smooth;
+      if (++passes[curve.points[i]] > 1 || !inner) vertex[curve.points[i]] = 1;
+    }
   }
   for (std::size_t p = 0; p < input.points.size(); ++p)
     if (input.points[p].imposed) vertex[p] = 1;
@@ -116,7 +138,7 @@ void make_polyline(const PlaneDomainInput& input, PlaneArc& arc, double eps) {
   };
   for (std::size_t i = 0; i < arc.pieces.size(); ++i) {
     const auto at = static_cast<double>(i);
-    add(at, arc.pieces[i].a[0]);
+    add(at, input.points[arc.passed[i]].xy);
     for (const double t : subdivide(arc.pieces[i], eps)) add(at + t, arc.pieces[i].at(t));
   }
   add(static_cast<double>(arc.pieces.size()), input.points[arc.to].xy);
@@ -140,28 +162,57 @@ Vec2 PlaneArc::at(double t) const noexcept {
   return pieces[static_cast<std::size_t>(i)].at(t - i);
 }
 
+namespace {
+
+void add_circles(const PlaneDomainInput& input, int c, const std::vector<char>& vertex, std::vector<PlaneArc>& arcs) {
+  const std::vector<int>& points = input.curves[c].points;
+  const auto add = [&](const CirclePiece& piece, int from, int to) {
+    arcs.push_back({.curve = c, .pieces = {{piece}}, .passed = {from, to}, .from = from, .to = to, .polyline = {}, .parameter = {}});
+  };
+  for (std::size_t i = 0; i + 2 < points.size(); i += 2) {
+    const CirclePiece arc = circle_of(input, c, i);
+    if (vertex[points[i + 1]] == 0) {
+      add(arc, points[i], points[i + 2]);
+      continue;
+    }
+    const auto [before, behind] = cut_at(arc, input.points[points[i + 1]].xy);
+    add(before, points[i], points[i + 1]);
+    add(behind, points[i + 1], points[i + 2]);
+  }
+}
+
+void add_pieces(const PlaneDomainInput& input, int c, const std::vector<char>& vertex, std::vector<PlaneArc>& arcs,
+                std::vector<std::string>& warnings) {
+  const PlaneCurve& curve = input.curves[c];
+  const std::vector<CubicPiece> pieces = pieces_of(input, curve);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (curve.smooth) check_piece(input, c, i, pieces[i], warnings);
+    const int here = curve.points[i];
+    if (i == 0 || vertex[here] != 0)
+      arcs.push_back(
+          {.curve = c, .pieces = {}, .passed = {here}, .from = here, .to = 0, .polyline = {}, .parameter = {}});
+    arcs.back().pieces.push_back({pieces[i]});
+    arcs.back().passed.push_back(curve.points[i + 1]);
+    arcs.back().to = curve.points[i + 1];
+  }
+}
+
+}  // namespace
+
 std::vector<PlaneArc> cut_into_arcs(const PlaneDomainInput& input, double eps, std::vector<std::string>& warnings) {
   check_points(input);
   const int curves = static_cast<int>(input.curves.size());
-  for (int c = 0; c < curves; ++c) check_indices(input, c);
+  for (int c = 0; c < curves; ++c) {
+    check_indices(input, c);
+    if (input.curves[c].arcs) check_arcs(input, c);
+  }
   const std::vector<char> vertex = vertices_of(input);
   std::vector<PlaneArc> arcs;
   for (int c = 0; c < curves; ++c) {
-    const PlaneCurve& curve = input.curves[c];
-    const std::vector<CubicPiece> pieces = pieces_of(input, curve);
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      if (curve.smooth) check_piece(input, c, i, pieces[i], warnings);
-      if (i == 0 || vertex[curve.points[i]] != 0)
-        arcs.push_back({.curve = c,
-                        .first = static_cast<int>(i),
-                        .pieces = {},
-                        .from = curve.points[i],
-                        .to = 0,
-                        .polyline = {},
-                        .parameter = {}});
-      arcs.back().pieces.push_back(pieces[i]);
-      arcs.back().to = curve.points[i + 1];
-    }
+    if (input.curves[c].arcs)
+      add_circles(input, c, vertex, arcs);
+    else
+      add_pieces(input, c, vertex, arcs, warnings);
   }
   refine_polylines(input, arcs, eps);
   return arcs;

@@ -31,7 +31,7 @@ CurveJet PlaneCad::curve(int face, int ic, unsigned /*want*/, double t) {
   const PlaneArc& arc = arcs_[arc_of(face, ic)];
   const auto last = static_cast<double>(arc.pieces.size() - 1);
   const double i = std::clamp(std::floor(t), 0.0, last);
-  const CubicPiece& piece = arc.pieces[static_cast<std::size_t>(i)];
+  const PlanePiece& piece = arc.pieces[static_cast<std::size_t>(i)];
   CurveJet jet{piece.at(t - i), piece.first(t - i), piece.second(t - i)};
   if (t <= 0) jet.c = arc.polyline.front();
   if (t >= last + 1) jet.c = arc.polyline.back();

@@ -26,6 +26,9 @@ struct PlanePoint {
 struct PlaneCurve {
   std::vector<int> points;      ///< indices from 0 of what it passes, two or more; first == last: closed
   bool smooth = false;          ///< a spline; otherwise segments, and each of its points is a vertex
+  /// Arcs of circles: a start, a point between, an end, which starts the next arc, a point between, ... Starts and ends
+  /// are vertices, points between are not. From a point to itself: the circle of which both have a diameter.
+  bool arcs = false;
   int before = -1, after = -1;  ///< smooth: control points beyond its ends; -1: free
   std::optional<Vec2> tangent_start = {}, tangent_end = {};  ///< smooth: in place of `before` and `after`
   int ref = 0;

@@ -15,7 +15,7 @@ constexpr int steps = 32;
 std::vector<double> lengths_of(const PlaneArc& arc) {
   std::vector<double> lengths{0};
   Vec2 before = arc.polyline.front();
-  for (const CubicPiece& piece : arc.pieces)
+  for (const PlanePiece& piece : arc.pieces)
     for (int i = 1; i <= steps; ++i) {
       const Vec2 here = piece.at(static_cast<double>(i) / steps);
       lengths.push_back(lengths.back() + norm(Vec2(here - before)));
@@ -39,9 +39,8 @@ PointSizes::PointSizes(const PlaneDomainInput& input, std::shared_ptr<const Plan
   for (std::size_t a = 0; a < arcs.size(); ++a) {
     lengths_.push_back(lengths_of(arcs[a]));
     Known& known = known_.emplace_back();
-    const std::vector<int>& passed = input.curves[arcs[a].curve].points;
     for (std::size_t i = 0; i <= arcs[a].pieces.size(); ++i) {
-      const std::optional<Value>& value = value_[passed[static_cast<std::size_t>(arcs[a].first) + i]];
+      const std::optional<Value>& value = value_[arcs[a].passed[i]];
       if (!value) continue;
       known.length.push_back(length_at(static_cast<int>(a), static_cast<double>(i)));
       known.value.push_back(*value);

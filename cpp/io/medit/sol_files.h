@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,15 +12,40 @@
 
 namespace carreau {
 
-/// One scalar, or one symmetric tensor, at each vertex.
+/// Types of values, numbered as in the files.
+enum class ValueType : std::int32_t { scalar = 1, vector = 2, symmetric = 3, full = 4 };
+
+/// Numbers that a value of this type has in space of dimension 2 or 3.
+constexpr std::size_t components_of(ValueType type, int dimension) noexcept {
+  const auto d = static_cast<std::size_t>(dimension);
+  switch (type) {
+    case ValueType::vector:
+      return d;
+    case ValueType::symmetric:
+      return d * (d + 1) / 2;
+    case ValueType::full:
+      return d * d;
+    default:
+      return 1;
+  }
+}
+
+/// One scalar, or one symmetric tensor, at each vertex; or several fields.
 struct Solution {
   int dimension = 3;  ///< 2 or 3: of the space of the mesh
   bool tensor = false;
   /// Vertex by vertex. A tensor has the entries (xx, xy, yy) or (xx, xy, yy, xz, yz, zz): the lower triangle row by
   /// row, which is the order of the files.
   std::vector<double> values;
+  /// Of SolutionUse::fields: the type of each field, in place of `tensor`; otherwise empty.
+  std::vector<ValueType> fields = {};
 
-  [[nodiscard]] std::size_t components() const noexcept { return !tensor ? 1u : dimension == 2 ? 3u : 6u; }
+  [[nodiscard]] std::size_t components() const noexcept {
+    if (fields.empty()) return !tensor ? 1u : dimension == 2 ? 3u : 6u;
+    std::size_t sum = 0;
+    for (const ValueType type : fields) sum += components_of(type, dimension);
+    return sum;
+  }
   [[nodiscard]] std::size_t count() const noexcept { return values.size() / components(); }
   friend bool operator==(const Solution&, const Solution&) = default;
 };
@@ -28,11 +54,12 @@ struct Solution {
 enum class SolutionUse {
   field,         ///< any finite numbers
   prescription,  ///< positive sizes or positive definite metrics
+  fields,        ///< any number of fields of finite numbers, of any types
 };
 
 /// Reads SolAtVertices of a `.sol` (ASCII, versions 0 to 4) or `.solb` (GMF binary, versions 1 to 4, either byte
 /// order), told apart by the content; other sections are skipped. Throws FileError, with file and line or byte, for
-/// anything but one finite scalar or symmetric tensor a vertex, and for values that the use does not allow.
+/// anything but one finite scalar or symmetric tensor a vertex (SolutionUse::fields: up to 64 fields), and for values that the use does not allow.
 Solution read_solution(const std::string& path, SolutionUse use = SolutionUse::field);
 Solution read_solution_text(std::string_view text, const std::string& name, SolutionUse use = SolutionUse::field);
 Solution read_solution_binary(std::string_view bytes, const std::string& name, SolutionUse use = SolutionUse::field);

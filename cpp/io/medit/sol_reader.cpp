@@ -12,8 +12,7 @@ namespace carreau {
 
 namespace {
 
-/// Types of values in both forms of the format.
-enum class ValueType : std::int32_t { scalar = 1, vector = 2, symmetric = 3, full = 4 };
+constexpr std::int32_t most_fields = 64;  // a file of more is no solution, but a mistake
 
 /// Empty when the list of types is one that is wanted, else what is wrong with it. Only the first type is looked at
 /// when there are several: that alone is wrong then.
@@ -32,9 +31,35 @@ std::string refusal_of(std::int32_t how_many, std::int32_t type) {
   return "type " + std::to_string(type) + " is none of 1 (scalar), 2 (vector), 3 (symmetric tensor), 4 (tensor)";
 }
 
+/// The same where fields of all types are wanted.
+std::string refusal_of_field(std::int32_t type) {
+  return type >= 1 && type <= 4 ? "" : refusal_of(1, type);
+}
+std::string refusal_of_number(std::int32_t how_many) {
+  if (how_many >= 1 && how_many <= most_fields) return {};
+  return "there are " + std::to_string(how_many) + " values at each vertex; 1 to " + std::to_string(most_fields) +
+         " are wanted";
+}
+
+/// Reads the list of types behind their number. next() gives an integer, fail(sentence) does not return.
+void read_types(std::int32_t how_many, SolutionUse use, Solution& solution, const auto& next, const auto& fail) {
+  if (use != SolutionUse::fields) {
+    const std::int32_t type = how_many == 1 ? next() : 0;
+    if (const std::string why = refusal_of(how_many, type); !why.empty()) fail(why);
+    solution.tensor = static_cast<ValueType>(type) == ValueType::symmetric;
+    return;
+  }
+  if (const std::string why = refusal_of_number(how_many); !why.empty()) fail(why);
+  for (std::int32_t i = 0; i < how_many; ++i) {
+    const std::int32_t type = next();
+    if (const std::string why = refusal_of_field(type); !why.empty()) fail(why);
+    solution.fields.push_back(static_cast<ValueType>(type));
+  }
+}
+
 /// Empty when the values of a vertex (from 0) can be used.
 std::string refusal_of_values(const Solution& solution, std::size_t vertex, SolutionUse use) {
-  if (use == SolutionUse::field) return {};
+  if (use != SolutionUse::prescription) return {};
   const std::string name = "vertex " + std::to_string(vertex + 1);
   if (!solution.tensor) {
     const double size = solution.values[vertex];
@@ -69,9 +94,9 @@ class TextReader {
     const char* number = in_.position();
     in_.integer("the number of vertices");
     const std::int32_t how_many = in_.integer("the number of values at a vertex");
-    const std::int32_t type = how_many == 1 ? in_.integer("the type of the values") : 0;
-    if (const std::string why = refusal_of(how_many, type); !why.empty()) in_.fail(in_.position(), why);
-    solution_.tensor = static_cast<ValueType>(type) == ValueType::symmetric;
+    read_types(
+        how_many, use_, solution_, [&] { return in_.integer("the type of the values"); },
+        [&](const std::string& why) { in_.fail(in_.position(), why); });
     const char* start = in_.position();
     in_.go_back(number);  // count() compares with the rest of the text
     const std::size_t each = solution_.components(), n = in_.count("vertices", each);
@@ -119,9 +144,9 @@ class BinaryReader {
     const std::int64_t announced = in_.announced();
     const std::size_t types = in_.position();
     const std::int32_t how_many = in_.integer();
-    const std::int32_t type = how_many == 1 ? in_.integer() : 0;
-    if (const std::string why = refusal_of(how_many, type); !why.empty()) in_.fail(types, why);
-    solution_.tensor = static_cast<ValueType>(type) == ValueType::symmetric;
+    read_types(
+        how_many, use_, solution_, [&] { return in_.integer(); },
+        [&](const std::string& why) { in_.fail(types, why); });
     const std::size_t each = solution_.components();
     const std::size_t n = in_.checked_count(announced, at, "values", each * in_.sizes().real);
     solution_.values.resize(n * each);

@@ -26,6 +26,18 @@ void check(const Solution& solution) {
                             std::to_string(i / solution.components()) + " (from 0) is not finite");
 }
 
+std::vector<ValueType> types_of(const Solution& solution) {
+  if (!solution.fields.empty()) return solution.fields;
+  return {solution.tensor ? ValueType::symmetric : ValueType::scalar};
+}
+
+std::string types_text(const Solution& solution) {
+  const std::vector<ValueType> types = types_of(solution);
+  std::string text = std::to_string(types.size());
+  for (const ValueType type : types) text += " " + std::to_string(static_cast<std::int32_t>(type));
+  return text;
+}
+
 template <typename T>
 void append_raw(std::string& bytes, T value) {
   char raw[sizeof value];
@@ -39,7 +51,7 @@ std::string solution_text(const Solution& solution) {
   check(solution);
   const std::size_t each = solution.components();
   std::string text = "MeshVersionFormatted 2\n\nDimension\n" + std::to_string(solution.dimension) +
-                     "\n\nSolAtVertices\n" + std::to_string(solution.count()) + "\n1 " + (solution.tensor ? "3" : "1") +
+                     "\n\nSolAtVertices\n" + std::to_string(solution.count()) + "\n" + types_text(solution) +
                      "\n";
   text.reserve(text.size() + 22 * solution.values.size() + 10);
   for (std::size_t i = 0; i < solution.values.size(); ++i) {
@@ -53,7 +65,8 @@ std::string solution_text(const Solution& solution) {
 std::string solution_bytes(const Solution& solution) {
   check(solution);
   // Positions of 64 bits (version 3) when they need be.
-  const std::size_t content = 12 + 8 * solution.values.size();
+  const std::vector<ValueType> types = types_of(solution);
+  const std::size_t content = 8 + 4 * types.size() + 8 * solution.values.size();
   const int version = content + 100 > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()) ? 3 : 2;
   std::string bytes;
   bytes.reserve(content + 100);
@@ -71,8 +84,8 @@ std::string solution_bytes(const Solution& solution) {
   append_raw(bytes, std::int32_t{solution.dimension});
   section(GmfCode::sol_at_vertices, content);
   append_raw(bytes, static_cast<std::int32_t>(solution.count()));
-  append_raw(bytes, std::int32_t{1});
-  append_raw(bytes, std::int32_t{solution.tensor ? 3 : 1});
+  append_raw(bytes, static_cast<std::int32_t>(types.size()));
+  for (const ValueType type : types) append_raw(bytes, static_cast<std::int32_t>(type));
   for (const double value : solution.values) append_raw(bytes, value);
   section(GmfCode::end, 0);
   return bytes;

@@ -1,4 +1,5 @@
 // Files of BL2D: .data, .g, and sizes .hg, .hc, .h.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -12,7 +13,7 @@ namespace carreau {
 
 namespace {
 
-constexpr const char* end_of_section = ";";
+constexpr const char *end_of_section = ";", *arc_word = "ARC";
 
 /// A control polygon, -1 for NULL, as a spline.
 PlaneCurve spline_of(const std::vector<int>& control) {
@@ -90,16 +91,34 @@ class DataReader {
 
   void add_segment() {
     const Token name = in_.word("the name of a segment");
+    // Ours: `C ARC A M B ;`. A file that has a point of this name is an old one.
+    const bool arcs = !points_.contains(arc_word) && in_.take(arc_word);
     std::vector<int> control;
     while (!in_.take(end_of_section)) control.push_back(in_.take("NULL") ? -1 : point("a control point"));
+    if (arcs) return add_arcs(name, std::move(control));
     if (control.size() < 4)
       in_.fail(name.line, "the segment " + shown(name.text) + " has " + std::to_string(control.size()) +
                               " control points; it needs four: one before it, its ends, one behind");
     for (std::size_t i = 1; i + 1 < control.size(); ++i)
       if (control[i] < 0) in_.fail(name.line, "the segment " + shown(name.text) + " has NULL between its ends");
+    add_curve(name, spline_of(control));
+  }
+
+  void add_arcs(const Token& name, std::vector<int> points) {
+    if (std::find(points.begin(), points.end(), -1) != points.end())
+      in_.fail(name.line, "the segment " + shown(name.text) + " of arcs has NULL; arcs pass all of their points");
+    if (points.size() < 3 || points.size() % 2 == 0)
+      in_.fail(name.line, "the segment " + shown(name.text) + " of arcs has " + std::to_string(points.size()) +
+                              " points; each arc has a start, a point between and an end, with which the next starts");
+    PlaneCurve curve;
+    curve.arcs = true;
+    curve.points = std::move(points);
+    add_curve(name, std::move(curve));
+  }
+
+  void add_curve(const Token& name, PlaneCurve curve) {
     if (!segments_.emplace(std::string(name.text), static_cast<int>(input_.curves.size())).second)
       in_.fail(name.line, "the segment " + shown(name.text) + " comes twice");
-    PlaneCurve curve = spline_of(control);
     curve.line = name.line, curve.name = name.text;
     input_.curves.push_back(std::move(curve));
   }

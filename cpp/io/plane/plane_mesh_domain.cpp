@@ -129,7 +129,7 @@ class Chains {
   [[nodiscard]] bool runs_on(int p) const {
     if (at_[p].size() != 2 || at_[p][0] == at_[p][1]) return false;
     const PlaneCurve &a = input_.curves[at_[p][0]], &b = input_.curves[at_[p][1]];
-    if (a.ref != b.ref || a.smooth || b.smooth) return false;
+    if (a.ref != b.ref || a.smooth || b.smooth || a.arcs || b.arcs) return false;
     const Vec2 d =
         input_.points[p].xy - input_.points[a.points.front() == p ? a.points[1] : a.points[a.points.size() - 2]].xy;
     const Vec2 e =

@@ -51,6 +51,48 @@ TEST(HessianEstimator, GivesBothSizesAlongTheAxes) {
   }
 }
 
+TEST(HessianEstimator, OfSeveralFieldsTakesTheIntersection) {
+  // Fields that bend along x and along y: by both, the smaller size along each axis (RR-2818 sec. 4.3.4).
+  TestMesh mesh = square_mesh(12);
+  const EstimatorOptions options{.shape = ErrorShape::anisotropic, .tolerance = 0.01, .hmin = 1e-4, .hmax = 1};
+  std::vector<double> both;
+  for (const Vec3& p : mesh.vertices) {
+    both.push_back(50 * p.x() * p.x());
+    both.push_back(8 * p.y() * p.y());
+  }
+  const auto result = estimate_all(mesh.vertices, mesh.triangles, both, 2, options);
+  ASSERT_EQ(result.metrics.size(), mesh.vertices.size());
+  for (const Metric3& m : result.metrics) {
+    EXPECT_NEAR(m.xx, 100 / 0.045, 1e-4);
+    EXPECT_NEAR(m.yy, 16 / 0.045, 1e-4);
+    EXPECT_NEAR(m.xy, 0, 1e-4);
+  }
+  const auto sizes =
+      estimate_all(mesh.vertices, mesh.triangles, both, 2, {.tolerance = 0.01, .hmin = 1e-4, .hmax = 1}).sizes;
+  for (const double h : sizes) EXPECT_NEAR(h, std::sqrt(0.045 / 100), 1e-8);
+  EXPECT_THROW(estimate_all(mesh.vertices, mesh.triangles, both, 3, options), InvalidArgument);
+  EXPECT_THROW(estimate_all(mesh.vertices, mesh.triangles, {}, 0, options), InvalidArgument);
+}
+
+TEST(HessianEstimator, ByProjectionIsRightInsideAndSmootherThanTheFit) {
+  // On a regular mesh the double projection is exact for quadratics away from the border, whose bias reaches two rings.
+  TestMesh mesh = square_mesh(16, 0);
+  mesh.with([](Vec3 p) { return 4 * p.x() * p.x() - p.y() * p.y(); });
+  const auto result =
+      estimate(mesh.field(), {.tolerance = 0.02, .hmin = 1e-4, .hmax = 10, .recovery = Recovery::projection});
+  double low_x = 1e30, high_x = -1e30;
+  for (const Vec3& p : mesh.vertices) low_x = std::min(low_x, p.x()), high_x = std::max(high_x, p.x());
+  int inside = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 d = mesh.vertices[v];
+    const double far = 0.2 * (high_x - low_x);
+    if (d.x() < low_x + far || d.x() > high_x - far || d.y() < low_x + far || d.y() > high_x - far) continue;
+    ++inside;
+    EXPECT_NEAR(result.sizes[v], std::sqrt(9 * 0.02 / (2 * 8)), 1e-9);
+  }
+  EXPECT_GT(inside, 20);
+}
+
 TEST(HessianEstimator, ItsUnitTrianglesHaveTheError) {
   // An equilateral triangle of the size that the bound gives: the error is at most the tolerance, at least half of it.
   const double k = 6, tolerance = 0.03, h = std::sqrt(9 * tolerance / (2 * k));
@@ -144,7 +186,7 @@ TEST(DeformationEstimator, IsAPropertyOfTheSurfaceNotOfTheMesh) {
 
 TEST(Estimators, TurnWithTheMesh) {
   const double c = std::cos(1.1), s = std::sin(1.1);
-  TestMesh mesh = square_mesh(16);
+  TestMesh mesh = square_mesh(16, 0);
   mesh.with([](Vec3 p) { return std::sin(2 * p.x() + p.y()) + p.y() * p.y(); });
   const TestMesh turned = testing::mapped(mesh, [&](Vec3 p) { return Vec3{c * p.x() - s * p.y(), s * p.x() + c * p.y(), 0}; });
   for (const ErrorSource source : {ErrorSource::hessian, ErrorSource::curvature, ErrorSource::deformation}) {

@@ -51,6 +51,32 @@ TEST(Solution, TextOfATensorAVertexIsReadInTheOrderOfTheLowerTriangle) {
   EXPECT_EQ(s.count(), 1u);
 }
 
+TEST(Solution, FieldsOfSeveralTypesAreReadAndWritten) {
+  const Solution fields{.dimension = 2,
+                        .tensor = false,
+                        .values = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20},
+                        .fields = {ValueType::scalar, ValueType::vector, ValueType::symmetric, ValueType::full}};
+  EXPECT_EQ(fields.components(), 10u);
+  EXPECT_EQ(fields.count(), 2u);
+  EXPECT_EQ(read_solution_text(solution_text(fields), "x.sol", SolutionUse::fields), fields);
+  EXPECT_EQ(read_solution_binary(solution_bytes(fields), "x.solb", SolutionUse::fields), fields);
+  const Solution space = read_solution_text(header + "SolAtVertices\n1\n3 2 1 3\n1 2 3 4 5 6 7 8 9 10\nEnd", "x.sol",
+                                            SolutionUse::fields);
+  EXPECT_EQ(space.components(), 10u);
+  EXPECT_EQ(space.count(), 1u);
+}
+
+TEST(Solution, ListsOfTypesWithoutSenseAreRefused) {
+  const auto refused = [](const std::string& text) {
+    return sentence_of<FileError>([&] { read_solution_text(header + text, "x.sol", SolutionUse::fields); });
+  };
+  EXPECT_NE(refused("SolAtVertices 1\n0\nEnd").find("x.sol, line 4: there are 0 values at each vertex; 1 to 64 are wanted"),
+            std::string::npos);
+  EXPECT_NE(refused("SolAtVertices 1\n65\nEnd").find("there are 65 values"), std::string::npos);
+  EXPECT_NE(refused("SolAtVertices 1\n2 1 5\n1 2\nEnd").find("type 5 is none of"), std::string::npos);
+  EXPECT_NE(refused("SolAtVertices 2\n1 2\n1 2 3\nEnd"), "");
+}
+
 TEST(Solution, BinaryVersions1To4AreReadInBothByteOrders) {
   for (int version = 1; version <= 4; ++version)
     for (const bool big_endian : {false, true})

@@ -123,6 +123,28 @@ TEST(Bl2dData, NamesBecomeSplinesSidesAndSizes) {
   EXPECT_TRUE(input.sides[0].left);
 }
 
+TEST(Bl2dData, ArcsOfCirclesAreALineOfTheirOwn) {
+  const PlaneDomainInput input = read_bl2d_data_text(
+      "9 9 9\nA 1 0 M 0 1 B -1 0 N 0 -1\n;\n;\nC ARC A M B N A ;\nO ARC A B A ;\n;\n;\n;\nC +1 3 ;\n", "x.data");
+  ASSERT_EQ(input.curves.size(), 2u);
+  EXPECT_TRUE(input.curves[0].arcs);
+  EXPECT_FALSE(input.curves[0].smooth);
+  EXPECT_EQ(input.curves[0].points, (std::vector<int>{0, 1, 2, 3, 0}));
+  EXPECT_EQ(input.curves[1].points, (std::vector<int>{0, 2, 0}));
+  const auto of = [](const std::string& points, const std::string& segment) {
+    return sentence_of([&] { return read_bl2d_data_text("9 9 9\n" + points + "\n;\n;\n" + segment + "\n;\n;\n;\n;\n", "x.data"); });
+  };
+  const std::string points = "A 1 0 M 0 1 B -1 0";
+  EXPECT_NE(of(points, "C ARC A M ;").find("x.data, line 5: the segment 'C' of arcs has 2 points"), std::string::npos);
+  EXPECT_NE(of(points, "C ARC A M B A ;").find("of arcs has 4 points"), std::string::npos);
+  EXPECT_NE(of(points, "C ARC A NULL B ;").find("the segment 'C' of arcs has NULL"), std::string::npos);
+  EXPECT_NE(of(points, "C ARC A X B ;").find("line 5: there is no point 'X'"), std::string::npos);
+  // Files that have a point of this name mean the point.
+  const auto old = read_bl2d_data_text("9 9 9\nARC 0 0 A 1 0 B 2 0\n;\n;\nC ARC A B NULL ;\n;\n;\n;\n;\n", "x.data");
+  EXPECT_TRUE(old.curves[0].smooth);
+  EXPECT_EQ(old.curves[0].before, 0);
+}
+
 TEST(Bl2dData, AnAngleAndTwoSizesMakeAMetric) {
   const auto input =
       read_bl2d_data_text(replaced(piece_data, "isotrope\nA 15 E 3", "anisotrope\nA 90 2 0.5"), "x.data");

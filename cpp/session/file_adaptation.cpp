@@ -1,0 +1,292 @@
+#include "session/file_adaptation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "adapt/transfer.h"
+#include "io/files.h"
+#include "io/medit/sol_files.h"
+#include "io/mesh_files.h"
+#include "io/plane/plane_files.h"
+#include "session/adaptation.h"
+#include "session/bounds_of_sizes.h"
+
+namespace carreau {
+
+namespace {
+
+VertexValues values_of(const Solution& solution) {
+  VertexValues values;
+  if (!solution.tensor) {
+    values.sizes = solution.values;
+    return values;
+  }
+  for (std::size_t v = 0; v < solution.count(); ++v) {
+    if (solution.dimension == 2)
+      values.parameter.push_back(plane_tensor(solution, v));
+    else
+      values.space.push_back(space_tensor(solution, v));
+  }
+  return values;
+}
+
+template <typename Enum>
+Enum choice(const Parameters& parameters, const char* name, std::initializer_list<const char*> texts) {
+  const std::string text = parameters.text(name);
+  int i = 0;
+  for (const char* known : texts) {
+    if (text == known) break;
+    ++i;
+  }
+  return static_cast<Enum>(i);
+}
+
+EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Vec3>& vertices) {
+  EstimatorOptions options;
+  options.source =
+      choice<ErrorSource>(parameters, "adapt_source", {"hessian", "curvature", "deformation"});  // order of the values
+  options.shape = choice<ErrorShape>(parameters, "adapt_shape", {"isotropic", "graph", "anisotropic"});
+  options.tolerance = parameters.real("adapt_tolerance");
+  options.relative = parameters.integer("adapt_relative") != 0;
+  options.relative_floor = parameters.real("adapt_floor");
+  options.ratio = parameters.real("adapt_ratio");
+  options.recovery = choice<Recovery>(parameters, "adapt_recovery", {"fit", "projection"});
+  Vec3 low = vertices.front(), high = low;
+  for (const Vec3& p : vertices) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double diagonal = norm(high - low);
+  options.hmin = parameters.real("adapt_hmin") > 0 ? parameters.real("adapt_hmin") : diagonal / 500;
+  options.hmax = parameters.real("adapt_hmax") > 0 ? parameters.real("adapt_hmax") : diagonal / 5;
+  return options;
+}
+
+/// A mesh of a file as one whose faces lie in their parameter planes (dimension 2), or in none (space; a plane model,
+/// whose parameter planes are one).
+SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
+  SurfaceMesh mesh;
+  mesh.vertices = flat.vertices;
+  mesh.vertex_ref.assign(flat.vertices.size(), 0);
+  FaceMesh whole;
+  for (std::size_t v = 0; v < flat.vertices.size(); ++v) {
+    whole.uv.push_back({flat.vertices[v].x(), flat.vertices[v].y()});
+    whole.vertex.push_back(static_cast<std::int32_t>(v));
+  }
+  const auto part = [&](int ref, int named) {
+    FaceMesh face = whole;
+    face.ref = ref;
+    for (std::size_t i = 0; i < flat.triangles.size(); ++i)
+      if (flat.triangle_refs[i] == named) face.triangles.push_back(flat.triangles[i]);
+    if (!face.triangles.empty()) mesh.faces.push_back(std::move(face));
+  };
+  if (flat.dimension == 2 && !model.plane) {
+    for (const Face& face : model.faces) {
+      const bool named =
+          std::find(flat.triangle_refs.begin(), flat.triangle_refs.end(), face.ref) != flat.triangle_refs.end();
+      part(face.ref, named ? face.ref : 0);
+    }
+  } else {  // no face of a model has this reference: looked up in space
+    whole.ref = std::numeric_limits<int>::min();
+    whole.triangles = flat.triangles;
+    mesh.faces.push_back(std::move(whole));
+  }
+  return mesh;
+}
+
+/// On parameter planes sizes are lengths there: metrics say so.
+VertexValues values_on(int dimension, const VertexPrescriptions& wanted) {
+  if (dimension == 3) return {wanted.sizes, wanted.metrics, {}};
+  VertexValues values;
+  for (const double h : wanted.sizes) values.parameter.push_back({1 / (h * h), 0, 1 / (h * h)});
+  for (const Metric3& m : wanted.metrics) values.parameter.push_back({m.xx, m.xy, m.yy});
+  return values;
+}
+
+void check_count(const Solution& solution, const std::string& path, std::size_t vertices, const std::string& mesh) {
+  if (solution.count() != vertices)
+    throw FileError({.file = path}, "it has values at " + std::to_string(solution.count()) + " vertices, but " + mesh +
+                                        " has " + std::to_string(vertices));
+}
+
+/// Fields of a file at the vertices of a mesh.
+Solution read_fields(const std::string& path, const FlatMesh& mesh, const std::string& mesh_name) {
+  if (mesh.triangles.empty()) throw FileError({.file = mesh_name}, "a mesh with a field needs triangles; it has none");
+  Solution fields = read_solution(path, SolutionUse::fields);
+  check_count(fields, path, mesh.vertices.size(), mesh_name);
+  return fields;
+}
+
+bool is_metric(const Solution& fields) {
+  return fields.fields.size() == 1 && fields.fields.front() == ValueType::symmetric;
+}
+
+/// Each scalar, and each component of a vector, as a field of its own.
+std::vector<double> scalars_of(const Solution& fields, const std::string& path) {
+  for (const ValueType type : fields.fields)
+    if (type == ValueType::symmetric || type == ValueType::full)
+      throw FileError({.file = path}, "it has tensors among other fields; what a mesh is adapted to are scalars and "
+                                      "vectors, or one metric");
+  return fields.values;
+}
+
+VertexPrescriptions estimate_fields(Session& session, const FlatMesh& mesh, const Solution& fields,
+                                    const std::string& path) {
+  return estimate_all(mesh.vertices, mesh.triangles, scalars_of(fields, path), fields.components(),
+                      estimator_of(session.parameters(), mesh.vertices));
+}
+
+std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, VertexValues values) {
+  const bool by_face = mesh.dimension == 2 && !one_plane;
+  return std::make_shared<BackgroundField>(
+      BackgroundMesh{mesh.dimension, mesh.vertices, mesh.triangles,
+                     by_face ? mesh.triangle_refs : std::vector<std::int32_t>{}, std::move(values)});
+}
+
+/// Metrics of a file of fields, checked as prescriptions are. Throws FileError with the line.
+VertexValues metrics_of(const std::string& sol_path, int dimension, const std::string& mesh_name) {
+  const Solution metrics = read_solution(sol_path, SolutionUse::prescription);
+  if (metrics.dimension != dimension)
+    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(metrics.dimension) + ", but that of " +
+                                            mesh_name + " is " + std::to_string(dimension));
+  return values_of(metrics);
+}
+
+/// The fields in space of another dimension: vectors get or lose z.
+Solution in_dimension(const Solution& fields, int dimension, const std::string& path) {
+  if (fields.dimension == dimension) return fields;
+  Solution result{.dimension = dimension, .tensor = false, .values = {}, .fields = fields.fields};
+  const std::size_t width = fields.components();
+  for (std::size_t row = 0; row < fields.values.size(); row += width) {
+    std::size_t at = row;
+    for (const ValueType type : fields.fields) {
+      if (type == ValueType::symmetric || type == ValueType::full)
+        throw FileError({.file = path}, "it has tensors of dimension " + std::to_string(fields.dimension) +
+                                            ", but the new mesh is of dimension " + std::to_string(dimension));
+      const std::size_t known = components_of(type, fields.dimension);
+      for (std::size_t k = 0; k < components_of(type, dimension); ++k)
+        result.values.push_back(k < known ? fields.values[at + k] : 0);
+      at += known;
+    }
+  }
+  return result;
+}
+
+/// Returns the number of vertices outside.
+std::int64_t write_transferred(const Session& session, const SurfaceMesh& from, const Solution& fields,
+                               const std::string& sol_path, const std::string& out_path) {
+  TransferredField moved = transfer_field(from, session.mesh(), fields.values, fields.components());
+  Solution result{
+      .dimension = fields.dimension, .tensor = false, .values = std::move(moved.values), .fields = fields.fields};
+  write_solution(in_dimension(result, session.model().plane ? 2 : 3, sol_path), out_path);
+  return moved.outside;
+}
+
+}  // namespace
+
+std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
+                                                 bool one_plane) {
+  FlatMesh flat = read_mesh(mesh_path);
+  const std::string suffix = suffix_of(sol_path);
+  const bool of_bl2d = suffix == ".h" || suffix == ".hc" || suffix == ".hg";
+  const Solution solution = of_bl2d ? read_bl2d_sizes_text(read_file(sol_path), sol_path)
+                                    : read_solution(sol_path, SolutionUse::prescription);
+  if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a background mesh needs triangles; it has none");
+  if (solution.dimension != flat.dimension)
+    throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +
+                                            mesh_path + " is " + std::to_string(flat.dimension));
+  check_count(solution, sol_path, flat.vertices.size(), mesh_path);
+  BackgroundMesh mesh;
+  mesh.dimension = flat.dimension;
+  mesh.vertices = std::move(flat.vertices);
+  mesh.triangles = std::move(flat.triangles);
+  if (flat.dimension == 2 && !one_plane) mesh.faces = std::move(flat.triangle_refs);
+  mesh.values = values_of(solution);
+  return std::make_shared<BackgroundField>(mesh);
+}
+
+std::shared_ptr<BackgroundField> background_of_fields(Session& session, const std::string& mesh_path,
+                                                      const std::string& sol_path) {
+  const FlatMesh mesh = read_mesh(mesh_path);
+  const bool one_plane = session.model().plane;
+  const Solution fields = read_fields(sol_path, mesh, mesh_path);
+  return field_of(mesh, one_plane,
+                  is_metric(fields)
+                      ? metrics_of(sol_path, mesh.dimension, mesh_path)
+                      : values_on(mesh.dimension, estimate_fields(session, mesh, fields, sol_path)));
+}
+
+std::int64_t transfer_files(const Session& session, const std::string& mesh_path, const std::string& sol_path,
+                            const std::string& out_path) {
+  const FlatMesh mesh = read_mesh(mesh_path);
+  const Solution fields = read_fields(sol_path, mesh, mesh_path);
+  return write_transferred(session, surface_of(mesh, session.model()), fields, sol_path, out_path);
+}
+
+namespace {
+
+/// What `call adapt` starts from.
+struct Start {
+  bool own = false;  ///< the session's mesh
+  FlatMesh mesh;
+  Solution fields;
+  std::string sol_path;
+};
+
+Start start_of(Session& session) {
+  const Parameters& parameters = session.parameters();
+  const std::string mesh_path = parameters.text("adapt_mesh");
+  Start start;
+  start.sol_path = parameters.text("adapt_sol");
+  if (start.sol_path.empty()) throw InvalidArgument("call adapt needs a field: the parameter adapt_sol names no file");
+  if (parameters.integer("hphy_flag") == 0)
+    throw InvalidArgument("an adaptation prescribes physical sizes, but hphy_flag is 0: they would be ignored");
+  if (mesh_path.empty() && !session.has_mesh())
+    throw InvalidArgument("call adapt needs a mesh: none was made yet, and the parameter adapt_mesh names no file");
+  start.own = mesh_path.empty();
+  start.mesh = start.own ? flatten(session.mesh(), false) : read_mesh(mesh_path);
+  start.fields = read_fields(start.sol_path, start.mesh, start.own ? "the mesh made last" : mesh_path);
+  return start;
+}
+
+VertexPrescriptions wanted_by(Session& session, const Start& start) {
+  if (!is_metric(start.fields)) return estimate_fields(session, start.mesh, start.fields, start.sol_path);
+  VertexPrescriptions wanted;
+  wanted.metrics = metrics_of(start.sol_path, 3, "the model").space;
+  return wanted;
+}
+
+}  // namespace
+
+void adapt_by_files(Session& session, Monitor& monitor) {
+  Parameters& parameters = session.parameters();
+  const Start start = start_of(session);
+  const std::string out_path = parameters.text("adapt_out");
+  const bool plane = session.model().plane;
+  const bool in_space = start.own || start.mesh.dimension == 3;
+  const SurfaceMesh from = start.own ? session.mesh() : surface_of(start.mesh, session.model());
+  const NoBackgroundAfterwards afterwards(session);
+  if (is_metric(start.fields) && !in_space) {
+    session.set_background(field_of(start.mesh, plane, metrics_of(start.sol_path, 2, "its mesh")));
+    session.make_mesh();
+  } else {
+    const VertexPrescriptions wanted = wanted_by(session, start);
+    session.set_background(start.own ? background_of(session, values_on(3, wanted))
+                                     : field_of(start.mesh, plane, values_on(start.mesh.dimension, wanted)));
+    // Lengths of other parameter planes say nothing about bounds in space.
+    std::optional<OpenBounds> bounds;
+    if (in_space || plane) bounds.emplace(parameters, range_of(wanted));
+    session.make_mesh();
+  }
+  if (out_path.empty()) return;
+  if (const std::int64_t outside = write_transferred(session, from, start.fields, start.sol_path, out_path);
+      outside > 0)
+    monitor.message(Level::warning, std::to_string(outside) + " vertices lie outside of the mesh of the field " +
+                                        "and have the nearest value");
+}
+
+}  // namespace carreau

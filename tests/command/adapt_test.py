@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/adaptation.md as it stands there, sizes and metrics by
+files, several fields at once, surfaces in space, a sentence for each mistake. FORMULAS is 1 when the program has muParser."""
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, PAGE, TEAPOT = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[3]), os.path.abspath(sys.argv[4])
+FORMULAS = sys.argv[2] in ("1", "ON", "TRUE")
+
+SQUARE = "4 2 0 0\n1 -1 -1\n2 1 -1\n3 1 1\n4 -1 1\n4 1\n1 1 2 1\n2 2 3 2\n3 3 4 3\n4 4 1 4\n0\n"
+
+
+class Mesh:
+    def __init__(self, path):
+        with open(path) as file:
+            words = file.read().split()
+        self.dimension = int(words[words.index("Dimension") + 1])
+        at, wide = words.index("Vertices") + 2, self.dimension + 1
+        count = int(words[at - 1])
+        self.vertices = [tuple(map(float, words[at + wide * i:at + wide * i + wide - 1])) for i in range(count)]
+        at = words.index("Triangles") + 2
+        self.triangles = [tuple(int(w) - 1 for w in words[at + 4 * i:at + 4 * i + 3]) for i in range(int(words[at - 1]))]
+
+
+def values_of(path):
+    """Dimension, types and rows of a .sol."""
+    with open(path) as file:
+        words = file.read().split()
+    dimension = int(words[words.index("Dimension") + 1])
+    at = words.index("SolAtVertices") + 1
+    count, kinds = int(words[at]), int(words[at + 1])
+    types = [int(w) for w in words[at + 2:at + 2 + kinds]]
+    width = sum({1: 1, 2: dimension, 3: dimension * (dimension + 1) // 2, 4: dimension ** 2}[t] for t in types)
+    numbers = [float(w) for w in words[at + 2 + kinds:at + 2 + kinds + count * width]]
+    return dimension, types, [numbers[width * i:width * (i + 1)] for i in range(count)]
+
+
+class Adapt(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau adapt ")
+        self.write("square.poly", SQUARE)
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w") as file:
+            file.write(text)
+
+    def run_program(self, *words):
+        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
+
+    def done(self, *words):
+        result = self.run_program(*words)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stderr
+
+    def fails(self, *words, sentence):
+        before = sorted(os.listdir(self.folder))
+        result = self.run_program("adapt", *words)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn(sentence, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), before, "a mistake leaves no file")
+
+    def start(self, size="0.1"):
+        self.done("plane", "square.poly", "-o", "0.mesh", "--size", size)
+        return Mesh(self.path("0.mesh"))
+
+    def solution(self, name, mesh, types, value):
+        rows = "".join(" ".join(repr(float(x)) for x in value(*p)) + "\n" for p in mesh.vertices)
+        self.write(name, "MeshVersionFormatted 2\nDimension %d\nSolAtVertices\n%d\n%d %s\n%sEnd\n"
+                   % (mesh.dimension, len(mesh.vertices), len(types), " ".join(map(str, types)), rows))
+
+    def interpolation_error(self, mesh, f):
+        """Largest distance at the middles of triangles."""
+        worst = 0
+        for t in mesh.triangles:
+            p = [mesh.vertices[v] for v in t]
+            middle = [sum(q[k] for q in p) / 3 for k in range(2)]
+            worst = max(worst, abs(sum(f(*q) for q in p) / 3 - f(*middle)))
+        return worst
+
+    def test_the_loop_of_the_page_finds_the_front(self):
+        with open(PAGE) as file:
+            scripts = re.findall(r"^```sh\n(.*?)^```$", file.read(), re.M | re.S)
+        self.assertEqual(len(scripts), 1)
+        environment = dict(os.environ, PATH=os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"])
+        done = subprocess.run(["sh", "-eu"], input=scripts[0], cwd=self.folder, env=environment, capture_output=True, text=True,
+                              timeout=300)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+        def front(x, y):
+            return math.tanh(20 * (y - x * x / 2))
+        first, last = (Mesh(self.path(f"step{i}.mesh")) for i in (0, 4))
+        self.assertLess(len(last.vertices), 1.5 * len(first.vertices))
+        self.assertLess(self.interpolation_error(last, front), self.interpolation_error(first, front) / 5)
+        dimension, types, rows = values_of(self.path("step4.sol"))
+        self.assertEqual((dimension, types, len(rows)), (2, [1, 2], len(last.vertices)))
+        with open(self.path("step4.png"), "rb") as file:
+            self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
+
+    def test_sizes_and_metrics_are_taken_and_fields_carried_over(self):
+        mesh = self.start()
+        self.solution("h.sol", mesh, [1], lambda x, y: [0.05])
+        self.solution("m.sol", mesh, [3], lambda x, y: [2500, 0, 100])
+        # What is linear in x and y arrives exactly, whatever its type.
+        self.solution("all.sol", mesh, [1, 2, 3, 4], lambda x, y: [x + 2 * y, x, -y, 1 + x, y, 3, 1, 2 * x, y, 4])
+        for sizes, use, wanted in (("h.sol", "sizes", 4 / math.sqrt(3) / 0.05 ** 2 * 4), ("m.sol", "metrics", 4 / math.sqrt(3) * 500 * 4)):
+            self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", sizes, "--use", use, "--transfer", "all.sol", "-o", "next.mesh")
+            after = Mesh(self.path("next.mesh"))
+            self.assertAlmostEqual(len(after.triangles) / wanted, 1, delta=0.08)
+            dimension, types, rows = values_of(self.path("next.sol"))
+            self.assertEqual((dimension, types), (2, [1, 2, 3, 4]))
+            for (x, y), row in zip(after.vertices, rows):
+                for found, exact in zip(row, [x + 2 * y, x, -y, 1 + x, y, 3, 1, 2 * x, y, 4]):
+                    self.assertAlmostEqual(found, exact, delta=1e-12)
+        # A metric among values is a metric; without fields there is no .sol.
+        self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", "m.sol", "-o", "values.mesh", "-o", "values.solb")
+        self.assertEqual(Mesh(self.path("values.mesh")).triangles, after.triangles)
+        self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", "h.sol", "--use", "sizes", "-o", "bare.mesh")
+        self.assertFalse(os.path.exists(self.path("bare.sol")))
+
+    def test_several_fields_and_the_components_of_a_vector_count_together(self):
+        """Fields that bend along x and along y (HDR eq. 3.3): the count of triangles is that of both sizes."""
+        mesh = self.start()
+        tolerance, bends = 0.01, (20, 4)
+        sizes = [math.sqrt(4.5 * tolerance / k) for k in bends]
+        self.solution("two.sol", mesh, [1, 1], lambda x, y: [bends[0] / 2 * x * x, bends[1] / 2 * y * y])
+        self.solution("vector.sol", mesh, [2], lambda x, y: [bends[0] / 2 * x * x, bends[1] / 2 * y * y])
+        counts = []
+        for name in ("two.sol", "vector.sol"):
+            self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", name, "-o", "next.mesh", "--shape", "anisotropic", "--tolerance",
+                      str(tolerance))
+            counts.append(len(Mesh(self.path("next.mesh")).triangles))
+        self.assertEqual(counts[0], counts[1])
+        self.assertAlmostEqual(counts[0] / (16 / math.sqrt(3) / (sizes[0] * sizes[1])), 1, delta=0.1)
+
+    def test_each_parameter_of_the_estimator_is_an_option(self):
+        mesh = self.start()
+        self.solution("u.sol", mesh, [1], lambda x, y: [10 * x * x])
+
+        def count(*options, tolerance="0.02"):
+            self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "next.mesh", "--tolerance", tolerance, *options)
+            return len(Mesh(self.path("next.mesh")).triangles)
+        size = math.sqrt(4.5 * 0.02 / 20)
+        self.assertAlmostEqual(count() / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
+        # In the other direction the size is hmax, or a third of it by the ratio.
+        self.assertAlmostEqual(count("--shape", "anisotropic", "--max", "0.3") / (16 / math.sqrt(3) / (size * 0.3)), 1, delta=0.1)
+        self.assertAlmostEqual(count("--shape", "anisotropic", "--ratio", "3") / (16 / math.sqrt(3) / (size * 3 * size)), 1, delta=0.1)
+        # Relative errors with a floor of 1: the tolerance is .02 of the largest value, 10.
+        self.assertAlmostEqual(count("--relative", "--floor", "1") / (16 / math.sqrt(3) / (10 * size ** 2)), 1, delta=0.1)
+        self.assertGreater(count("--recovery", "projection", "--min", "0.05"), 1000)
+        # The graph of x^2 by an angle a: 2 sin(a) / curvature in its tangent planes, less in the plane on its slopes (HDR sec. 3.4.3 a.2).
+        wanted, steps = 0, 10000
+        for i in range(steps):
+            slope = 2 * (2 * (i + 0.5) / steps - 1)
+            h = min(math.sin(math.radians(8)) * (1 + slope ** 2) ** 1.5, math.sqrt(8) / 5)
+            wanted += 4 / math.sqrt(3) * math.sqrt(1 + slope ** 2) / h ** 2 * 4 / steps
+        self.solution("u.sol", mesh, [1], lambda x, y: [x * x])
+        found = count("--source", "curvature", "--shape", "graph", "--min", "0.02", tolerance="8")
+        self.assertAlmostEqual(found / wanted, 1, delta=0.15)
+
+    def test_surfaces_in_space_are_adapted(self):
+        self.done("mesh", TEAPOT, "-o", "0.mesh", "--size", "2%")
+        mesh = Mesh(self.path("0.mesh"))
+        self.assertEqual(mesh.dimension, 3)
+        self.solution("u.sol", mesh, [1, 2], lambda x, y, z: [math.tanh(8 * (z - 1.2)), x, y, z])
+        self.done("adapt", TEAPOT, "--mesh", "0.mesh", "--sol", "u.sol", "-o", "1.mesh", "--tolerance", "0.01", "--min", "0.03", "--gradation", "1.5")
+        after = Mesh(self.path("1.mesh"))
+        dimension, types, rows = values_of(self.path("1.sol"))
+        self.assertEqual((dimension, types, len(rows)), (3, [1, 2], len(after.vertices)))
+        # Edges are short where the field bends, 1.2 +- .08, and long far from it.
+
+        def mean_edge(low, high):
+            lengths = [math.dist(after.vertices[t[k]], after.vertices[t[k - 1]]) for t in after.triangles for k in range(3)
+                       if low < after.vertices[t[k]][2] < high]
+            return sum(lengths) / len(lengths)
+        self.assertLess(2 * mean_edge(1.1, 1.3), mean_edge(0, 0.6))
+        away = [math.dist(p, row[1:]) for p, row in zip(after.vertices, rows)]
+        self.assertLess(sum(away) / len(away), 0.01)  # the chords of the last mesh
+
+    def test_a_formula_makes_the_whole_loop(self):
+        if not FORMULAS:
+            self.skipTest("no muParser")
+        told = self.done("adapt", "square.poly", "--formula", "10 * x^2", "--tolerance", "0.02", "--iterations", "2", "--size", "0.2", "-o",
+                         "next.mesh")
+        self.assertEqual(told.count("\nadaptation "), 2)
+        size = math.sqrt(4.5 * 0.02 / 20)
+        self.assertAlmostEqual(len(Mesh(self.path("next.mesh")).triangles) / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
+        self.fails("square.poly", "--formula", "1 / (x - x)", "-o", "next.vtu", sentence="has no finite value at x =")
+        self.fails("square.poly", "--formula", "x +", "-o", "next.vtu", sentence="The formula 'x +' is wrong at position")
+
+    def test_mistakes_have_a_sentence_and_leave_no_file(self):
+        mesh = self.start()
+        self.solution("u.sol", mesh, [1], lambda x, y: [x])
+        self.solution("h.sol", mesh, [1], lambda x, y: [0.1 if x < 0.5 else 0])
+        self.write("short.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n1\n1 1\n1\nEnd\n")
+        self.solution("full.sol", mesh, [4], lambda x, y: [1, 2, 3, 4])
+        self.solution("minus.sol", mesh, [3], lambda x, y: [1, 0, -1])
+        lost = ("square.poly", "-o", "next.mesh")
+        self.fails(*lost, sentence="An adaptation wants --mesh and --sol")
+        self.fails(*lost, "--mesh", "0.mesh", sentence="--mesh wants --sol")
+        self.fails(*lost, "--sol", "u.sol", sentence="--sol wants --mesh")
+        self.fails(*lost, "--mesh", "none.mesh", "--sol", "u.sol", sentence="--mesh 'none.mesh': there is no such file")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--formula", "x", sentence="--formula stands in the place")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "short.sol", sentence="short.sol: it has values at 1 vertices, but 0.mesh has")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "full.sol", sentence="full.sol: it has tensors among other fields")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "minus.sol", sentence="vertex 1 has a metric that is not positive definite")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "h.sol", "--use", "sizes", sentence="has the size 0, which is not positive")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--use", "colours", sentence="--use 'colours' is none of: values, sizes, metrics")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--tolerance", "0", sentence="--tolerance")
+        self.fails(*lost, "--mesh", "0.mesh", "--sol", "u.sol", "--transfer", "short.sol", sentence="short.sol: it has values at 1 vertices")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--use", "sizes", "-o", "a.mesh", "-o", "a.sol",
+                   sentence="There are no fields for 'a.sol'")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "0.mesh", sentence="it is what is read")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "u.mesh", sentence="it is what is read")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
