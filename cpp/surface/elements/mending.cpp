@@ -244,6 +244,7 @@ class Mender {
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells_[c]);
       add_coarse(cells_[c], sides, report.coarse);
+      add_finer(cells_[c], report.finer[f_]);
     }
     if (invalid.count > 0) report.invalid.push_back(invalid);
   }
@@ -252,6 +253,12 @@ class Mender {
     Vec2 sum{0, 0};
     for (int i = 0; i < n; ++i) sum += uv(cell.nodes[i]);
     return (1.0 / n) * sum;
+  }
+  void add_finer(const Cell& cell, std::vector<EdgeSizes::Source>& finer) const {
+    const int n = corner_count(cell.kind);
+    double longest = 0;
+    for (int i = 0; i < n; ++i) longest = std::max(longest, norm(xyz(cell.nodes[(i + 1) % n]) - xyz(cell.nodes[i])));
+    for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), longest / 2});
   }
   static void add_coarse(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CurveEdge>& coarse) {
     const int n = corner_count(cell.kind);

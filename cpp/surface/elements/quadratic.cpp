@@ -199,6 +199,7 @@ QuadraticReport make_quadratic(const ElementWork& work) {
   QuadraticReport report;
   SurfaceMesh& mesh = work.result.mesh;
   mesh.mid_vertices.clear();
+  report.finer.resize(mesh.faces.size());
   CurveNodes of_curves(work);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].triangles.empty()) continue;
