@@ -68,6 +68,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   };
   mesh();
   part_crossing_triangles(run, mesh);
+  make_elements(run);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);
