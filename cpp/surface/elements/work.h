@@ -15,10 +15,12 @@ namespace carreau {
 
 /// References only. `result` holds the whole mesh of straight triangles, its faces with (u, v), its curves, the size
 /// prescribed at each vertex, and by face the metric of (u, v) (CompositeResult::spaces; empty where a face has failed,
-/// and for some extreme parametrisations). Steps change result.mesh and result.vertex_size.
+/// and for some extreme parametrisations). Steps change result.mesh and result.vertex_size, and, where they divide edges
+/// of curves, result.curve_size and `curves` too.
 struct ElementWork {
   const CurveModel& model;  ///< model, topology, supports and evaluators of curves and faces
-  const std::vector<DiscreteCurve>& curves;  ///< by curve of the topology; see middle_of_edge()
+  /// By curve of the topology: vertex k is result.mesh.curves[c].vertices[k], unless a narrow face has vanished there.
+  std::vector<DiscreteCurve>& curves;
   const SizeRules& rules;
   const CompositeOptions& options;
   CompositeResult& result;
