@@ -11,6 +11,7 @@
 
 #include "plane_cases.h"
 #include "plane/plane_mesher.h"
+#include "surface/quads/cleanup.h"
 #include "surface/quads/pairing.h"
 #include "surface/quads/quad_shape.h"
 #include "surface/quads/smoothing.h"
@@ -85,7 +86,7 @@ void report(const char* what, const PlaneCase& c, const QuadPatch& patch, double
     for (int k = 0; k < corners_of(cell); ++k) ++degree[cell[k]];
   std::size_t irregular = 0, inside = 0;
   for (std::size_t v = 0; v < degree.size(); ++v)
-    if (patch.fixed[v] == 0) ++inside, irregular += degree[v] != 4 ? 1 : 0;
+    if (patch.fixed[v] == 0 && degree[v] > 0) ++inside, irregular += degree[v] != 4 ? 1 : 0;
   std::printf("%-9s %6zu quads %4zu triangles, Q %.3f worst %.3f, %4zu below .5, SJ %.3f, irregular %.1f%%, %.2f us a quad\n",
               what, quads, triangles, sum / static_cast<double>(quads), worst, bad, least,
               100. * static_cast<double>(irregular) / static_cast<double>(inside), 1e6 * seconds / static_cast<double>(quads));
@@ -140,6 +141,7 @@ int main(int argc, char** argv) {
     report(what, c, patch, now() - start);
   };
   step("paired", [&] { pair_triangles(patch, &charts, rules, monitor); });
+  step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
   step("smoothed", [&] { smooth_quads(patch, charts, {}, monitor); });
   step("worst", [&] { improve_worst_quads(patch, charts, 0.6, monitor); });
   if (argc > 5) draw(argv[5], patch);

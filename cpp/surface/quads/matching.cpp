@@ -24,8 +24,9 @@ class Matching {
 
   std::vector<std::int32_t> run() {
     choose_greedily();
-    std::vector<std::int32_t> todo(chosen_.size());
-    std::iota(todo.begin(), todo.end(), 0);
+    std::vector<std::int32_t> todo;
+    for (std::size_t t = 0; t < chosen_.size(); ++t)
+      if (!is_content(static_cast<std::int32_t>(t))) todo.push_back(static_cast<std::int32_t>(t));
     for (int round = 0; round < most_rounds && !todo.empty(); ++round) todo = improve(todo);
     std::vector<std::int32_t> result;
     for (std::size_t t = 0; t < chosen_.size(); ++t)
@@ -41,11 +42,17 @@ class Matching {
     return both[0] == t ? both[1] : both[0];
   }
 
+  // Nearly all that a pair can weigh: what gains starts elsewhere.
+  [[nodiscard]] bool is_content(std::int32_t t) const {
+    return chosen_[t] >= 0 && pairs_[chosen_[t]].weight > content * heaviest_;
+  }
+
   void choose_greedily() {
     std::vector<std::int32_t> order(pairs_.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::int32_t a, std::int32_t b) { return pairs_[a].weight > pairs_[b].weight; });
+    if (!order.empty()) heaviest_ = pairs_[order.front()].weight;
     for (const std::int32_t e : order) {
       const auto [t, u] = pairs_[e].triangles;
       if (chosen_[t] < 0 && chosen_[u] < 0) chosen_[t] = chosen_[u] = e;
@@ -58,7 +65,7 @@ class Matching {
     int n = 0;
     for (const std::int32_t t : todo) {
       if (++n % searches_between_checks == 0) monitor_.checkpoint();
-      if (!search_from(t)) continue;
+      if (is_content(t) || !search_from(t)) continue;
       for (const std::int32_t x : best_path_) {
         changed.push_back(x);
         for (const std::int32_t e : pairs_at_[x])
@@ -163,7 +170,7 @@ class Matching {
   std::vector<std::int32_t> chosen_;                   // by triangle: its pair, or -1
   std::vector<char> on_path_;
   std::vector<std::int32_t> path_, best_path_;
-  double best_gain_ = 0;
+  double best_gain_ = 0, heaviest_ = 0;
   bool best_is_circle_ = false;
 };
 

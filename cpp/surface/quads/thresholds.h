@@ -19,7 +19,9 @@ inline constexpr double turns_per_edge = 2;
 /// Weight of a pair beside its quality: two poor quadrilaterals are better than a good one and two triangles.
 inline constexpr double pair_bonus = 0.7;
 /// Triangles on an alternating path or circle.
-inline constexpr std::size_t longest_path = 12;
+inline constexpr std::size_t longest_path = 10;
+/// Share of the heaviest pair's weight. Triangles of such pairs start no search.
+inline constexpr double content = 0.92;
 /// Least gain that counts, more than rounding.
 inline constexpr double least_gain = 1e-9;
 /// A path that has lost so much on its way is given up.
@@ -31,7 +33,17 @@ inline constexpr int searches_between_checks = 4096;
 /// Of what a triangle proposes beside a quadrilateral.
 inline constexpr double triangle_weight = 0.5;
 inline constexpr std::size_t cells_between_checks = 4096;
+/// Quality. Vertices of worse cells are moved one by one.
+inline constexpr double poor = 0.6;
 /// Passes over the worst cells.
 inline constexpr int worst_passes = 5;
+
+
+// Clean-up
+inline constexpr int cleanup_passes = 6;
+/// Quality. Changes of the topology may leave so poor cells for smoothing to mend.
+inline constexpr double least_after_change = 0.15;
+/// Metric length of edges that a change makes.
+inline constexpr double shortest_edge = 0.5, longest_edge = 1.6;
 
 }  // namespace carreau::thresholds::quads
