@@ -132,24 +132,27 @@ class Worst {
     return corners;
   }
 
-  double worst_around(std::int32_t v, double enough) const {
-    double worst = 1;
-    for (const std::int32_t c : around_.of(v)) {
+  // Below `enough` it need not be known; beyond what is good all are alike.
+  double worst_around(double enough) const {
+    double worst = good_;
+    for (const auto& [c, chart] : star_) {
       if (!is_convex(patch_, patch_.cells[c])) return -1;
-      worst = std::min(worst, cell_quality(patch_, charts_, patch_.cells[c]));
+      worst = std::min(worst, cell_quality(patch_, chart, patch_.cells[c]));
       if (worst < enough) break;
     }
     return worst;
   }
 
   bool improve(std::int32_t v) {
-    const Vec2 home = patch_.uv[v];
-    const double start = worst_around(v, -1);
+    star_.clear();
+    for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, charts_.about(patch_, patch_.cells[c]));
+    const double start = worst_around(-1);
     if (start >= good_) return false;
+    const Vec2 home = patch_.uv[v];
     const Chart chart = charts_.about(home);
-    const Vec2 way = search_along_compass(start, 0.2, 0.02, [&](const Vec2& there, double best) {
+    const Vec2 way = search_along_compass(start, first_step, last_step, [&](const Vec2& there, double best) {
       patch_.uv[v] = home + chart.offset(there);
-      return worst_around(v, best);
+      return worst_around(best);
     });
     patch_.uv[v] = home + chart.offset(way);
     return !(way == Vec2{0, 0});
@@ -160,6 +163,7 @@ class Worst {
   double good_;
   Monitor& monitor_;
   Incidence around_;
+  std::vector<std::pair<std::int32_t, Chart>> star_;  // cells around the vertex at hand, with charts that stay
 };
 
 }  // namespace

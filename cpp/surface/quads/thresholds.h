@@ -35,6 +35,8 @@ inline constexpr double triangle_weight = 0.5;
 inline constexpr std::size_t cells_between_checks = 4096;
 /// Quality. Vertices of worse cells are moved one by one.
 inline constexpr double poor = 0.6;
+/// Units. Of the search for a better place: its first steps, and those at which it ends.
+inline constexpr double first_step = 0.2, last_step = 0.02;
 /// Passes over the worst cells.
 inline constexpr int worst_passes = 5;
 
