@@ -1,6 +1,5 @@
 #include "mesh/flat_mesh.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace carreau {
@@ -55,8 +54,7 @@ FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges) {
   flat.vertex_refs = mesh.vertex_ref;
   flat.triangles.reserve(mesh.triangle_count());
   flat.triangle_refs.reserve(mesh.triangle_count());
-  const bool of_cells = !mesh.mid_vertices.empty() || std::any_of(mesh.faces.begin(), mesh.faces.end(),
-                                                                  [](const FaceMesh& face) { return face.quads > 0; });
+  const bool of_cells = mesh.cells_are_not_triangles();
   flat.vertices.insert(flat.vertices.end(), mesh.mid_vertices.begin(), mesh.mid_vertices.end());
   flat.vertex_refs.resize(flat.vertices.size(), 0);
   for (const FaceMesh& face : mesh.faces) {

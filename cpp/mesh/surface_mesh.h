@@ -75,6 +75,8 @@ struct SurfaceMesh {
   [[nodiscard]] std::size_t triangle_count() const noexcept;
   [[nodiscard]] std::size_t edge_count() const noexcept;
   [[nodiscard]] std::size_t cell_count() const noexcept;
+  /// Some elements are quadrilaterals or of second order.
+  [[nodiscard]] bool cells_are_not_triangles() const noexcept;
 };
 
 /// The elements of a face, quadrilaterals first: nodes are local, those on edges uv.size() + index in mid_uv.
