@@ -6,6 +6,7 @@
 #include "support/format.h"
 #include "surface/elements/quadratic.h"
 #include "surface/elements/thresholds.h"
+#include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -15,13 +16,9 @@ namespace {
 
 using namespace thresholds::elements;
 
-void make_quads_of(const ElementWork& /*work*/) {
-  throw InvalidArgument("parameter element: quadrilaterals are not made");
-}
-
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
-  if (has_quads(run.options.element)) make_quads_of(work);
+  if (has_quads(run.options.element)) make_quadrilaterals(work);
   return is_quadratic(run.options.element) ? make_quadratic(work) : QuadraticReport{};
 }
 

@@ -157,7 +157,21 @@ class Mender {
     return longest;
   }
 
-  /// The node, and, of a corner, the nodes on its sides, by half its way; empty where the host has no answer.
+  // Hosts are asked inside the domain only: in the straight triangles around.
+  [[nodiscard]] bool is_inside(const Trial& trial) const {
+    const auto cells = around(trial.node);
+    return std::any_of(cells.begin(), cells.end(), [&](std::int32_t c) {
+      const std::array<std::int32_t, 8>& n = cells_[c].nodes;
+      return holds(n[0], n[1], n[2], trial.uv) ||
+             (corner_count(cells_[c].kind) == 4 && holds(n[0], n[2], n[3], trial.uv));
+    });
+  }
+  [[nodiscard]] bool holds(std::int32_t a, std::int32_t b, std::int32_t c, const Vec2& p) const {
+    return orientation(uv(a), uv(b), p) >= 0 && orientation(uv(b), uv(c), p) >= 0 && orientation(uv(c), uv(a), p) >= 0;
+  }
+
+  /// The node, and, of a corner, the nodes on its sides, by half its way; empty outside the domain, or where the host
+  /// has no answer.
   [[nodiscard]] std::vector<Trial> moved(std::int32_t node, const Vec2& by) const {
     std::vector<Trial> trials{{node, uv(node) + by, {}}};
     if (node < corners_)
@@ -166,7 +180,10 @@ class Mender {
         if (!known && fixed_[mid] == 0) trials.push_back({mid, uv(mid) + 0.5 * by, {}});
       });
     std::vector<Vec2> places;
-    for (const Trial& trial : trials) places.push_back(trial.uv);
+    for (const Trial& trial : trials) {
+      if (!is_inside(trial)) return {};
+      places.push_back(trial.uv);
+    }
     std::vector<SurfaceJet> jets(places.size());
     try {
       work_.cad().surface(face_.ref, want_position, places, jets);
