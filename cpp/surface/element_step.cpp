@@ -1,4 +1,5 @@
 // Elements other than straight triangles, made of the whole mesh.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -82,7 +83,7 @@ void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.element == Element::p1) return;
   QuadraticReport now = make_once(run), best = now;
   std::optional<CompositeResult> best_result;  // empty: that of the run
-  const double first = static_cast<double>(run.result.mesh.triangle_count());
+  const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
   for (int round = 0; round < most_divisions && count(now) > 0; ++round) {
     divide_curves(run, now.coarse);
     divide_faces(run, now);

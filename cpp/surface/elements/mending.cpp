@@ -45,7 +45,7 @@ class Mender {
     for (int round = 0; round < most_rounds; ++round) {
       work_.monitor.checkpoint();
       const std::size_t before = moves_;
-      for (const std::int32_t c : bad_) mend(cells_[c]);
+      for (std::size_t i = 0, n = bad_.size(); i < n; ++i) mend(cells_[bad_[i]]);
       std::erase_if(bad_, [&](std::int32_t c) { return score(cells_[c]) >= good_jacobian; });
       if (moves_ == before || bad_.empty()) break;
     }
@@ -248,7 +248,14 @@ class Mender {
       }
       for (const Trial& trial : chosen) put(trial);
       ++moves_;
+      note_bad(node);
     }
+  }
+
+  // What was good may be bad now, as long as something beside was worse.
+  void note_bad(std::int32_t node) {
+    for (const std::int32_t c : around(node))
+      if (score(cells_[c]) < good_jacobian && std::find(bad_.begin(), bad_.end(), c) == bad_.end()) bad_.push_back(c);
   }
 
   void tell(QuadraticReport& report) const {

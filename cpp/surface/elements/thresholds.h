@@ -18,5 +18,7 @@ inline constexpr int most_rounds = 8;
 inline constexpr int most_divisions = 6;
 /// Ratio of triangles. A mesh that grows more for it is not what was asked for.
 inline constexpr double most_growth = 4;
+/// Triangles. Meshes of fewer may grow as if they had so many.
+inline constexpr double few_triangles = 1000;
 
 }  // namespace carreau::thresholds::elements
