@@ -18,8 +18,9 @@ Cells cells_of(carreau_mesh* mesh, std::int32_t kind) {
   std::int64_t n = -1;
   EXPECT_EQ(carreau_mesh_cell_count(mesh, kind, &n), CARREAU_OK) << carreau_mesh_last_error(mesh);
   Cells cells{std::vector<std::int32_t>(std::size_t(n * nodes_of[kind])), std::vector<std::int32_t>(std::size_t(n))};
-  if (n > 0)
+  if (n > 0) {
     EXPECT_EQ(carreau_mesh_cells(mesh, kind, n, cells.nodes.data(), cells.refs.data()), CARREAU_OK);
+  }
   return cells;
 }
 
