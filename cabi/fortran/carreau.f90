@@ -44,6 +44,8 @@ module carreau
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
   public :: carreau_mesh_intersections
+  public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_edge_mids
+  public :: carreau_mesh_cell_quality, carreau_cell_quality
   public :: carreau_exr_options, carreau_write_exr
   public :: carreau_session_delivered, carreau_delivered_measure, carreau_delivered_histogram
   public :: carreau_delivered_values, carreau_delivered_edges, carreau_delivered_triangle_edges, carreau_delivered_write
@@ -74,6 +76,8 @@ module carreau
     CARREAU_MEASURE_GRADATION = 3, CARREAU_MEASURE_LENGTH_RATIO = 4, CARREAU_MEASURE_Q1 = 5, CARREAU_MEASURE_Q2 = 6, &
     CARREAU_MEASURE_METRIC_QUALITY = 7, CARREAU_MEASURE_A0 = 8, CARREAU_MEASURE_A1 = 9
   integer(c_int32_t), parameter, public :: CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3
+  integer(c_int32_t), parameter, public :: CARREAU_CELL_TRIANGLE3 = 1, CARREAU_CELL_TRIANGLE6 = 2, &
+    CARREAU_CELL_QUAD4 = 3, CARREAU_CELL_QUAD8 = 4
   integer(c_int32_t), parameter, public :: CARREAU_FACE_NOT_MESHED = 0, CARREAU_FACE_MESHED = 1, &
     CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3, CARREAU_FACE_COLLAPSED = 4
   integer(c_int32_t), parameter, public :: CARREAU_EXR_SIZE = 1, CARREAU_EXR_INDUCED = 2, CARREAU_EXR_TARGET = 4, &
@@ -183,6 +187,13 @@ module carreau
     real(c_double) :: angle_min = 0, angle_max = 0, area = 0
     real(c_double) :: edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
   end type carreau_quality
+
+  type :: carreau_cell_quality
+    integer(c_int64_t) :: triangles3 = 0, triangles6 = 0, quads4 = 0, quads8 = 0, invalid = 0
+    real(c_double) :: shape_mean = 0, shape_min = 0, scaled_jacobian_mean = 0, scaled_jacobian_min = 0
+    real(c_double) :: least_jacobian_mean = 0, least_jacobian_min = 0
+    real(c_double) :: angle_min = 0, angle_max = 0, area = 0, triangle_share = 0
+  end type carreau_cell_quality
 
   ! The routines of cad_m, by reference (RT-0232 sec. 3.1).
   abstract interface
@@ -1247,6 +1258,75 @@ contains
     allocate (refs(k))
     status = c_mesh_edge_refs(mesh%handle, k, refs)
   end subroutine carreau_mesh_edge_refs
+
+  !> Nodes between the ends of edges, from 1; 0: the edge is straight.
+  subroutine carreau_mesh_edge_mids(mesh, vertices, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: vertices(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (vertices(k))
+    status = c_mesh_edge_mids(mesh%handle, k, vertices)
+    vertices = vertices + 1
+  end subroutine carreau_mesh_edge_mids
+
+  subroutine carreau_mesh_cell_count(mesh, kind, count, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: kind
+    integer(c_int64_t), intent(out) :: count
+    integer(c_int32_t), intent(out) :: status
+    count = 0
+    status = c_mesh_cell_count(mesh%handle, kind, count)
+  end subroutine carreau_mesh_cell_count
+
+  !> nodes(nodes of the kind, elements), from 1; refs: of their faces
+  subroutine carreau_mesh_cells(mesh, kind, nodes, refs, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: kind
+    integer(c_int32_t), allocatable, intent(out) :: nodes(:, :), refs(:)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: count
+    call carreau_mesh_cell_count(mesh, kind, count, status)
+    if (status /= CARREAU_OK) return
+    allocate (nodes(nodes_of_kind(kind), count), refs(count))
+    status = c_mesh_cells(mesh%handle, kind, count, nodes, refs)
+    nodes = nodes + 1
+  end subroutine carreau_mesh_cells
+
+  !> uv(2, nodes of the kind, elements)
+  subroutine carreau_mesh_cell_uv(mesh, kind, uv, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: kind
+    real(c_double), allocatable, intent(out) :: uv(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: count
+    call carreau_mesh_cell_count(mesh, kind, count, status)
+    if (status /= CARREAU_OK) return
+    allocate (uv(2, nodes_of_kind(kind), count))
+    status = c_mesh_cell_uv(mesh%handle, kind, count, uv)
+    if (status /= CARREAU_OK) deallocate (uv)
+  end subroutine carreau_mesh_cell_uv
+
+  pure integer function nodes_of_kind(kind)
+    integer(c_int32_t), intent(in) :: kind
+    integer, parameter :: nodes(4) = [3, 6, 4, 8]
+    nodes_of_kind = nodes(kind)
+  end function nodes_of_kind
+
+  subroutine carreau_mesh_cell_quality(mesh, quality, status)
+    type(carreau_mesh), intent(in) :: mesh
+    type(carreau_cell_quality), intent(out) :: quality
+    integer(c_int32_t), intent(out) :: status
+    type(c_cell_quality) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_mesh_cell_quality(mesh%handle, c)
+    if (status /= CARREAU_OK) return
+    quality = carreau_cell_quality(c%triangles3, c%triangles6, c%quads4, c%quads8, c%invalid, c%shape_mean, &
+      c%shape_min, c%scaled_jacobian_mean, c%scaled_jacobian_min, c%least_jacobian_mean, c%least_jacobian_min, &
+      c%angle_min, c%angle_max, c%area, c%triangle_share)
+  end subroutine carreau_mesh_cell_quality
 
   !> index: from 1.
   subroutine carreau_mesh_face(mesh, index, face, status)

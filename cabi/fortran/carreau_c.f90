@@ -112,6 +112,17 @@ module carreau_c
       triangle_refs = c_null_ptr, edge_refs = c_null_ptr, corner_uv = c_null_ptr
   end type c_mesh_arrays
 
+  !> What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two
+  !! sides that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular
+  !! polygon; both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of
+  !! the Jacobian over its mean: 1 for triangles of p1, positive for a valid element.
+  type, bind(c) :: c_cell_quality
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: triangles3 = 0, triangles6 = 0, quads4 = 0, quads8 = 0, invalid = 0
+    real(c_double) :: shape_mean = 0, shape_min = 0, scaled_jacobian_mean = 0, scaled_jacobian_min = 0, &
+      least_jacobian_mean = 0, least_jacobian_min = 0, angle_min = 0, angle_max = 0, area = 0, triangle_share = 0
+  end type c_cell_quality
+
   type, bind(c) :: c_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: ref = 0, status = 0
@@ -856,6 +867,57 @@ module carreau_c
       integer(c_int32_t), intent(inout) :: refs(*)
       integer(c_int32_t) :: status
     end function c_mesh_edge_refs
+
+    !> The number of elements of a kind; it may be 0.
+    function c_mesh_cell_count(mesh, kind, count) result(status) bind(c, name="carreau_mesh_cell_count")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), intent(inout) :: count
+      integer(c_int32_t) :: status
+    end function c_mesh_cell_count
+
+    !> The elements of a kind, face by face: rows of their nodes (vertices from 0), and, unless NULL, the references of
+    !! their faces.
+    function c_mesh_cells(mesh, kind, capacity, nodes, refs) result(status) bind(c, name="carreau_mesh_cells")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: nodes(*), refs(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_cells
+
+    !> u v of each node of each element of a kind in its face, in the same order; mesh of a session only.
+    function c_mesh_cell_uv(mesh, kind, capacity, uv) result(status) bind(c, name="carreau_mesh_cell_uv")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: uv(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_cell_uv
+
+    !> For each edge of carreau_mesh_edges the node between its ends; -1: the edge is straight.
+    function c_mesh_edge_mids(mesh, capacity, vertices) result(status) bind(c, name="carreau_mesh_edge_mids")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: vertices(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_edge_mids
+
+    function c_mesh_cell_quality(mesh, quality) result(status) bind(c, name="carreau_mesh_cell_quality")
+      import :: c_cell_quality, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      type(c_cell_quality), intent(inout) :: quality
+      integer(c_int32_t) :: status
+    end function c_mesh_cell_quality
 
     !> Tells of face `index`, from 0.
     function c_mesh_face(mesh, index, face) result(status) bind(c, name="carreau_mesh_face")

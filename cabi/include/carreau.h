@@ -694,6 +694,48 @@ CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t ca
 CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
 CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 
+/* Elements (parameter element): kinds, the number of nodes of each, and their order, which is that of VTK's cells 5, 22,
+ * 9, 23 and of Gmsh's elements 2, 9, 3, 16: corners counterclockwise, then the nodes of the edges 01, 12, 20, or 01, 12,
+ * 23, 30. A mesh of p1 has elements of the first kind, which are its triangles. Of other meshes carreau_mesh_triangles
+ * gives straight triangles between the same corners, a quadrilateral being two of them; carreau_mesh_vertices gives all
+ * nodes: corners first, then nodes on edges, whose reference is 0. */
+enum {
+  CARREAU_CELL_TRIANGLE3 = 1, /* 3 nodes: straight triangle */
+  CARREAU_CELL_TRIANGLE6 = 2, /* 6: P2 */
+  CARREAU_CELL_QUAD4 = 3,     /* 4: Q1 */
+  CARREAU_CELL_QUAD8 = 4      /* 8: Q2, no node inside */
+};
+
+/* The number of elements of a kind; it may be 0. Errors: ARGUMENT (no such kind), SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_cell_count(carreau_mesh* mesh, int32_t kind, int64_t* out_count);
+/* The elements of a kind, face by face: rows of their nodes (vertices from 0), and, unless NULL, the references of their
+ * faces. Errors as above, and ARGUMENT for a capacity (rows) that is too small. */
+CARREAU_API carreau_status carreau_mesh_cells(carreau_mesh* mesh, int32_t kind, int64_t capacity, int32_t out_nodes[],
+                                              int32_t out_refs[]);
+/* u v of each node of each element of a kind in its face, in the same order; mesh of a session only. Errors as above. */
+CARREAU_API carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t capacity, double out_uv[]);
+/* For each edge of carreau_mesh_edges the node between its ends; -1: the edge is straight. Errors as there. */
+CARREAU_API carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
+
+/* What the elements are worth. shape is sigma of the regular polygon over sigma = diameter / least inradius of two sides
+ * that meet (HDR sec. 1.1.1), scaled_jacobian the least sine of an element's angles over that of the regular polygon;
+ * both are 1 for a square and an equilateral triangle. least_jacobian is the least Bernstein coefficient of the Jacobian
+ * over its mean: 1 for triangles of p1, positive for a valid element. */
+typedef struct carreau_cell_quality {
+  size_t struct_size;
+  int64_t triangles3, triangles6, quads4, quads8; /* elements by kind */
+  int64_t invalid;                                /* whose least Jacobian is not positive */
+  double shape_mean, shape_min;
+  double scaled_jacobian_mean, scaled_jacobian_min;
+  double least_jacobian_mean, least_jacobian_min;
+  double angle_min, angle_max; /* degrees, between tangents of curved sides */
+  double area;                 /* of the curved elements */
+  double triangle_share;       /* of the area, that of triangles */
+} carreau_cell_quality;
+
+/* Errors: ARGUMENT, SEQUENCE. */
+CARREAU_API carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_quality* out_quality);
+
 /* The status of a face. A `mended` face is meshed, but something was repaired, or triangles are turned over; `why` says
  * which. A `failed` face has no triangles. A `collapsed` face is narrow (parameter narrow_faces) and has vanished
  * between its neighbours, which share one curve in its place. */

@@ -5,6 +5,7 @@
 #include "carreau.h"
 #include "guard.h"
 #include "io/mesh_files.h"
+#include "mesh/cell_quality.h"
 #include "mesh/flat_defects.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"
@@ -15,6 +16,10 @@ using carreau::InvalidArgument;
 using carreau::SurfaceMesh;
 using namespace carreau::abi;
 
+static_assert(int(carreau::CellKind::triangle3) == CARREAU_CELL_TRIANGLE3);
+static_assert(int(carreau::CellKind::triangle6) == CARREAU_CELL_TRIANGLE6);
+static_assert(int(carreau::CellKind::quad4) == CARREAU_CELL_QUAD4);
+static_assert(int(carreau::CellKind::quad8) == CARREAU_CELL_QUAD8);
 static_assert(int(carreau::FaceStatus::not_meshed) == CARREAU_FACE_NOT_MESHED);
 static_assert(int(carreau::FaceStatus::meshed) == CARREAU_FACE_MESHED);
 static_assert(int(carreau::FaceStatus::mended) == CARREAU_FACE_MENDED);
@@ -46,7 +51,7 @@ struct Counts {
     require_content(mesh);
     if (mesh.session != nullptr) {
       const SurfaceMesh& surface = surface_of(mesh);
-      vertices = surface.vertices.size(), triangles = surface.triangle_count();
+      vertices = surface.vertices.size() + surface.mid_vertices.size(), triangles = surface.triangle_count();
       edges = surface.edge_count(), faces = carreau::whole_faces(surface).size();
     } else {
       vertices = mesh.flat.vertices.size(), triangles = mesh.flat.triangles.size();
@@ -61,6 +66,45 @@ template <typename Body>
 void for_each_triangle(const SurfaceMesh& surface, Body&& body) {
   for (const FaceMesh& face : surface.faces)
     for (const auto& corners : face.triangles) body(face, corners);
+}
+
+/// body(end, other end, node between them) for the sides of each element of second order, by vertices of the mesh.
+template <typename Body>
+void for_each_side(const SurfaceMesh& surface, Body&& body) {
+  const std::size_t corners = surface.vertices.size();
+  for (const FaceMesh& face : surface.faces)
+    for (std::size_t t = 0; t < face.mid.size(); ++t)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (const std::int32_t mid = face.mid[t][i]; mid >= 0)
+          body(std::size_t(face.vertex[face.triangles[t][i]]), std::size_t(face.vertex[face.triangles[t][(i + 1) % 3]]),
+               corners + std::size_t(face.mid_vertex[mid]));
+}
+
+/// body(cell, reference of its face) for each element of the kind; nodes are vertices of the mesh.
+template <typename Body>
+void for_each_cell(const carreau_mesh& mesh, carreau::CellKind kind, Body&& body) {
+  if (mesh.session != nullptr) {
+    for (const FaceMesh& face : surface_of(mesh).faces)
+      for (const carreau::Cell& cell : carreau::cells_of(surface_of(mesh), face))
+        if (cell.kind == kind) body(cell, face.shown_ref());
+    return;
+  }
+  const FlatMesh& flat = mesh.flat;
+  carreau::for_cells(flat, [&](std::size_t, const carreau::Cell& cell, const auto&, std::size_t triangle) {
+    if (cell.kind == kind) body(cell, triangle < flat.triangle_refs.size() ? flat.triangle_refs[triangle] : 0);
+  });
+}
+
+carreau::CellKind kind_of(std::int32_t kind) {
+  if (kind < CARREAU_CELL_TRIANGLE3 || kind > CARREAU_CELL_QUAD8)
+    throw InvalidArgument("there is no kind of elements " + std::to_string(kind));
+  return carreau::CellKind(kind);
+}
+
+std::size_t count_cells(const carreau_mesh& mesh, carreau::CellKind kind) {
+  std::size_t count = 0;
+  for_each_cell(mesh, kind, [&](const carreau::Cell&, std::int32_t) { ++count; });
+  return count;
 }
 
 void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_t* out) {
@@ -154,8 +198,11 @@ carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, doubl
     required(out_xyz, "out_xyz");
     check_capacity(capacity, Counts(*mesh).vertices, "vertices");
     double* out = out_xyz;
-    for (const carreau::Vec3& p : mesh->session != nullptr ? surface_of(*mesh).vertices : mesh->flat.vertices)
-      *out++ = p.x(), *out++ = p.y(), *out++ = p.z();
+    const auto add = [&](const std::vector<carreau::Vec3>& points) {
+      for (const carreau::Vec3& p : points) *out++ = p.x(), *out++ = p.y(), *out++ = p.z();
+    };
+    add(mesh->session != nullptr ? surface_of(*mesh).vertices : mesh->flat.vertices);
+    if (mesh->session != nullptr) add(surface_of(*mesh).mid_vertices);
   });
 }
 
@@ -179,6 +226,9 @@ carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, d
     session_only(*mesh, "prescribed sizes");
     const std::vector<double>& sizes = mesh->session->session.vertex_sizes();
     std::copy(sizes.begin(), sizes.end(), out_sizes);
+    for_each_side(surface_of(*mesh), [&](std::size_t a, std::size_t b, std::size_t mid) {
+      out_sizes[mid] = 0.5 * (sizes[a] + sizes[b]);
+    });
   });
 }
 
@@ -252,6 +302,87 @@ carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int3
         for (std::size_t i = 1; i < curve.vertices.size(); ++i) *out++ = curve.shown_ref();
     else
       copy_refs(mesh->flat.edge_refs, k, out_refs);
+  });
+}
+
+carreau_status carreau_mesh_cell_count(carreau_mesh* mesh, int32_t kind, int64_t* out_count) {
+  return guarded(mesh, [&] {
+    required(out_count, "out_count");
+    require_content(*mesh);
+    *out_count = std::int64_t(count_cells(*mesh, kind_of(kind)));
+  });
+}
+
+carreau_status carreau_mesh_cells(carreau_mesh* mesh, int32_t kind, int64_t capacity, int32_t* out_nodes,
+                                  int32_t* out_refs) {
+  return guarded(mesh, [&] {
+    required(out_nodes, "out_nodes");
+    require_content(*mesh);
+    const carreau::CellKind wanted = kind_of(kind);
+    check_capacity(capacity, count_cells(*mesh, wanted), "elements");
+    std::int32_t *node = out_nodes, *ref = out_refs;
+    for_each_cell(*mesh, wanted, [&](const carreau::Cell& cell, std::int32_t of_face) {
+      node = std::copy_n(cell.nodes.begin(), carreau::node_count(wanted), node);
+      if (ref != nullptr) *ref++ = of_face;
+    });
+  });
+}
+
+carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t capacity, double* out_uv) {
+  return guarded(mesh, [&] {
+    required(out_uv, "out_uv");
+    require_content(*mesh);
+    const carreau::CellKind wanted = kind_of(kind);
+    check_capacity(capacity, count_cells(*mesh, wanted), "elements");
+    double* out = out_uv;
+    for (const FaceMesh& face : session_only(*mesh, "(u, v)").faces) {
+      const auto corners = std::int32_t(face.uv.size());
+      for (const carreau::Cell& cell : carreau::local_cells(face))
+        for (int i = 0; cell.kind == wanted && i < carreau::node_count(wanted); ++i) {
+          const std::int32_t node = cell.nodes[std::size_t(i)];
+          const carreau::Vec2& uv = node < corners ? face.uv[node] : face.mid_uv[node - corners];
+          *out++ = uv.x(), *out++ = uv.y();
+        }
+    }
+  });
+}
+
+carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices) {
+  return guarded(mesh, [&] {
+    required(out_vertices, "out_vertices");
+    const std::size_t k = Counts(*mesh).edges;
+    check_capacity(capacity, k, "edges");
+    std::fill_n(out_vertices, k, -1);
+    std::int32_t* out = out_vertices;
+    if (mesh->session == nullptr) {
+      std::copy(mesh->flat.edge_mids.begin(), mesh->flat.edge_mids.end(), out);
+      return;
+    }
+    const SurfaceMesh& surface = surface_of(*mesh);
+    for (const carreau::CurveMesh& curve : surface.curves) {
+      for (std::size_t i = 0; i < curve.mid.size(); ++i) out[i] = std::int32_t(surface.vertices.size()) + curve.mid[i];
+      if (!curve.vertices.empty()) out += curve.vertices.size() - 1;
+    }
+  });
+}
+
+carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_quality* out_quality) {
+  return guarded(mesh, [&] {
+    require_content(*mesh);
+    const carreau::CellSummary summary =
+        carreau::summarise_cells(mesh->session != nullptr ? flat_of(*mesh) : mesh->flat);
+    carreau_cell_quality result{};
+    result.triangles3 = std::int64_t(summary.triangles3), result.triangles6 = std::int64_t(summary.triangles6);
+    result.quads4 = std::int64_t(summary.quads4), result.quads8 = std::int64_t(summary.quads8);
+    result.shape_mean = summary.shape.mean, result.shape_min = summary.shape.min;
+    result.scaled_jacobian_mean = summary.scaled_jacobian.mean;
+    result.scaled_jacobian_min = summary.scaled_jacobian.min;
+    result.least_jacobian_mean = summary.least_jacobian.mean;
+    result.least_jacobian_min = summary.least_jacobian.min;
+    result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
+    result.area = summary.area, result.triangle_share = summary.triangle_share;
+    result.invalid = std::int64_t(summary.invalid);
+    write_struct(result, out_quality, "out_quality");
   });
 }
 

@@ -19,6 +19,7 @@ struct Checked {
   std::int64_t vertices = 0, triangles = 0, edges = 0, faces = 0, defects = 0;
   std::string sentences;
   carreau_quality quality{};
+  carreau_cell_quality cells{};
   MeshReport report;
   Crossings crossings;
   std::vector<FaceResult> not_meshed;  ///< faces that the file knows of and has no triangles of
@@ -53,6 +54,8 @@ Checked look_at(const CheckOptions& options) {
   c.report = report_of(arrays, static_cast<std::size_t>(options.worst), places);
   c.quality.struct_size = sizeof c.quality;
   require(mesh.get(), carreau_mesh_quality(mesh.get(), &c.quality));
+  c.cells.struct_size = sizeof c.cells;
+  require(mesh.get(), carreau_mesh_cell_quality(mesh.get(), &c.cells));
   c.crossings = crossings_of(mesh.get(), arrays.triangle_refs, 0);
   return c;
 }
@@ -93,6 +96,25 @@ void print_quality(const carreau_quality& q, const MeshReport& r) {
   print_histogram("Q1 classes  ", r.q1, static_cast<double>(q.triangles));
   print_histogram("Q2 classes  ", r.q2, static_cast<double>(q.triangles));
   std::printf("degree 6    %.1f %% of interior vertices\n", 100 * q.degree6);
+}
+
+bool has_elements(const carreau_cell_quality& q) { return q.triangles6 + q.quads4 + q.quads8 > 0; }
+
+void print_elements(const carreau_cell_quality& q) {
+  if (!has_elements(q)) return;
+  std::string kinds;
+  const auto add = [&](std::int64_t n, const char* kind) {
+    if (n > 0) kinds += (kinds.empty() ? "" : ", ") + std::to_string(n) + " " + kind;
+  };
+  add(q.triangles3, "triangles"), add(q.triangles6, "triangles of order 2");
+  add(q.quads4, "quadrilaterals"), add(q.quads8, "quadrilaterals of order 2");
+  std::printf("elements    %s\n", kinds.c_str());
+  std::printf("  area      %.12g, of triangles %.3g %%\n", q.area, 100 * q.triangle_share);
+  std::printf("  shape     mean %.4f, worst %.4f; scaled Jacobian mean %.4f, worst %.4f\n", q.shape_mean, q.shape_min,
+              q.scaled_jacobian_mean, q.scaled_jacobian_min);
+  std::printf("  angles    %.4g to %.4g degrees\n", q.angle_min, q.angle_max);
+  std::printf("  Jacobian  least over mean %.4f, in the mean %.4f; %" PRId64 " elements are not valid\n",
+              q.least_jacobian_min, q.least_jacobian_mean, q.invalid);
 }
 
 void print_report(const MeshReport& r, bool faces) {
@@ -171,6 +193,7 @@ void print_as_json(const Checked& c, const CheckOptions& options) {
         {{"reference", face.ref}, {"name", face.name}, {"status", status_word(face.status)}, {"why", face.why}});
   if (c.measured) {
     result["quality"] = quality_json(c.quality);
+    if (has_elements(c.cells)) result["elements"] = elements_json(c.cells);
     result["report"] = json_of(c.report);
     result["intersections"] = crossings_json(c.crossings);
   }
@@ -191,6 +214,7 @@ int check(const CheckOptions& options) {
     std::printf("%-11s face %d%s%s\n", status_word(face.status), static_cast<int>(face.ref),
                 face.name.empty() ? "" : (" (" + face.name + ")").c_str(), reason_of(face).c_str());
   if (c.measured) {
+    print_elements(c.cells);
     print_quality(c.quality, c.report);
     print_report(c.report, options.faces);
     std::printf("crossing    %" PRId64 " pairs of triangles\n", c.crossings.pairs);

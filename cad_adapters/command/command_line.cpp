@@ -278,6 +278,10 @@ void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
                 "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
                 "--gradation 1.3")
       ->check(CLI::Range(1.0, 1e9));
+  app->add_option("--element", options.element,
+                  "Elements: p1, p2 (curved), q1.0, q1.1 (quadrilaterals, .1 without triangles), q2.0, q2.1 (curved)")
+      ->check(CLI::IsMember({"p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"}))
+      ->type_name("ELEMENT");
   app->add_option("--min", options.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
   app->add_option("--max", options.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
   repeated(app->add_option("--face-size", options.face_sizes,

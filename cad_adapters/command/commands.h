@@ -37,6 +37,7 @@ struct MeshOptions {
   std::string size_map;                       ///< formula or file; empty: none
   double angle = 0;                           ///< degrees; 0: not given
   std::optional<double> gradation;            ///< 0: none
+  std::string element;                        ///< p1, p2, q1.0, ...; "": p1, unless the env file says otherwise
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> settings;          ///< "parameter=value"

@@ -48,6 +48,15 @@ std::vector<std::int32_t> faces_of_model(carreau_session* session) {
   return refs;
 }
 
+/// A format that has no such elements is told before anything is meshed. In .stl they are straight triangles.
+void refuse_elements(carreau_session* session, const std::vector<std::string>& outputs) {
+  const char* element = nullptr;
+  require(session, carreau_get_text(session, "element", &element));
+  for (const std::string& path : outputs)
+    if (std::string(element) != "p1" && suffix_of(path) == ".bl2d")
+      throw Failure("'" + path + "' cannot hold elements " + element + ": .bl2d knows straight triangles (p1) only.");
+}
+
 /// Throws Failure when there is no mesh.
 void generate(carreau_session* session, CadInput& input, const SizeMap& map, Adaptation& adaptation,
               FailedFaces& failed, Progress& progress) {
@@ -71,6 +80,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
               FailedFaces& failed, Progress& progress) {
   progress.listen_to(run.session, input);
   set_parameters(run.session, options, input, map);
+  refuse_elements(run.session, options.outputs);
   for (const std::string& sentence : sizes_beyond_bounds(options, input.diagonal())) progress.warning(sentence);
   constexpr std::size_t told = 20;
   const std::vector<std::string> losses = input.losses();

@@ -1,5 +1,7 @@
 #include "mesh_file.h"
 
+#include <algorithm>
+
 namespace command {
 
 MeshHandle read_mesh(const std::string& path) {
@@ -50,6 +52,30 @@ std::vector<FaceResult> faces_of(carreau_mesh* mesh) {
   return faces;
 }
 
+namespace {
+
+std::vector<Element> elements_of(carreau_mesh* mesh) {
+  std::vector<Element> elements;
+  for (const std::int32_t kind :
+       {CARREAU_CELL_QUAD8, CARREAU_CELL_QUAD4, CARREAU_CELL_TRIANGLE6, CARREAU_CELL_TRIANGLE3}) {
+    std::int64_t n = 0;
+    require(mesh, carreau_mesh_cell_count(mesh, kind, &n));
+    if (n == 0 || (kind == CARREAU_CELL_TRIANGLE3 && elements.empty())) continue;
+    Element element{.kind = kind, .ref = 0, .nodes = {}};
+    const auto nodes = static_cast<std::size_t>(element.corners() * (element.is_curved() ? 2 : 1));
+    std::vector<std::int32_t> all(static_cast<std::size_t>(n) * nodes), refs(static_cast<std::size_t>(n));
+    require(mesh, carreau_mesh_cells(mesh, kind, n, all.data(), refs.data()));
+    for (std::size_t i = 0; i < refs.size(); ++i) {
+      std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(i * nodes), nodes, element.nodes.begin());
+      element.ref = refs[i];
+      elements.push_back(element);
+    }
+  }
+  return elements;
+}
+
+}  // namespace
+
 MeshArrays arrays_of(carreau_mesh* mesh) {
   MeshArrays arrays;
   std::int64_t n = 0, m = 0, k = 0;
@@ -65,6 +91,7 @@ MeshArrays arrays_of(carreau_mesh* mesh) {
   if (m > 0) require(mesh, carreau_mesh_triangles(mesh, m, arrays.triangles.front().data()));
   if (m > 0) require(mesh, carreau_mesh_triangle_refs(mesh, m, arrays.triangle_refs.data()));
   if (k > 0) require(mesh, carreau_mesh_edges(mesh, k, arrays.edges.front().data()));
+  arrays.elements = elements_of(mesh);
   arrays.faces = faces_of(mesh);
   return arrays;
 }

@@ -41,6 +41,15 @@ std::string reason_of(const FaceResult& face);
 /// In the order of the mesh. Throws Failure.
 std::vector<FaceResult> faces_of(carreau_mesh* mesh);
 
+/// An element that is not a straight triangle (CARREAU_CELL_...).
+struct Element {
+  std::int32_t kind = 0, ref = 0;
+  std::array<std::int32_t, 8> nodes{};  ///< as many as the kind has
+
+  [[nodiscard]] int corners() const { return kind == CARREAU_CELL_QUAD4 || kind == CARREAU_CELL_QUAD8 ? 4 : 3; }
+  [[nodiscard]] bool is_curved() const { return kind == CARREAU_CELL_TRIANGLE6 || kind == CARREAU_CELL_QUAD8; }
+};
+
 /// Copies of the arrays of a mesh; vertices and triangles count from 0.
 struct MeshArrays {
   int dimension = 3;
@@ -48,6 +57,7 @@ struct MeshArrays {
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> triangle_refs;
   std::vector<std::array<std::int32_t, 2>> edges;  ///< of curves
+  std::vector<Element> elements;                   ///< empty: the triangles
   std::vector<FaceResult> faces;
 };
 

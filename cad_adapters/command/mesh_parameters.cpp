@@ -266,6 +266,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   if (options.threads > 0) set(session, "threads", options.threads);
   set_sizes(session, options, lengths_of(options, diagonal), input);
   set_estimator(session, options, diagonal);
+  if (!options.element.empty()) require(session, carreau_set_text(session, "element", options.element.c_str()));
   for (const std::string& setting : options.settings) set_by_name(session, setting, diagonal);
   if (sizes_by_face || !map.is_empty()) map.give_to(session, input);
 }

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "drawn_elements.h"
+
 namespace command {
 namespace {
 
@@ -146,6 +148,88 @@ std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Projection& p
   return triangles;
 }
 
+bool finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
+
+/// From elements to triangles on the picture.
+class Painter {
+ public:
+  /// Keeps references.
+  Painter(const MeshArrays& mesh, const Projection& projection, const SceneOptions& options)
+      : mesh_(mesh),
+        projection_(projection),
+        options_(options),
+        curves_(sides_on_curves(mesh)),
+        colours_(options.paint == Paint::reference ? colours_of_references(mesh) : colours_of_faces(mesh)),
+        sizes_(mesh) {}
+
+  void add(const Element& element, std::vector<ScreenTriangle>& triangles) const {
+    std::array<Point, 8> x{};
+    const int nodes = element.corners() * (element.is_curved() ? 2 : 1);
+    for (int i = 0; i < nodes; ++i) {
+      x[i] = mesh_.vertices.at(element.nodes[i]);
+      if (!finite(x[i])) return;
+    }
+    Colour colour = colour_of(element, x);
+    const bool dark = is_dark(colour) && (options_.paint == Paint::face || options_.paint == Paint::reference);
+    if (dark)
+      for (float& c : colour) c += 0.02f;  // black has no shades
+    std::array<Line, 4> lines;
+    const double pixels = side_in_pixels(element, x);
+    for (int k = 0; k < element.corners(); ++k)
+      lines[k] = line_on(pixels, is_on_curve(element, k), options_.edges);
+    for (const DrawnTriangle& piece : drawn(element, x)) add(piece, colour, lines, {element.ref, dark}, triangles);
+  }
+
+ private:
+  struct Of {
+    std::int32_t ref;
+    bool dark;
+  };
+
+  [[nodiscard]] Colour colour_of(const Element& element, const std::array<Point, 8>& x) const {
+    if (options_.paint == Paint::face || options_.paint == Paint::reference) return colours_.at(element.ref);
+    if (options_.paint == Paint::size) return scale_colour(sizes_.share(x[0], x[1], x[2]));
+    if (options_.paint != Paint::quality) return srgb(grey);
+    return scale_colour(element.corners() == 4 ? shape_of_quad(x) : shape_quality(x[0], x[1], x[2]));
+  }
+
+  [[nodiscard]] bool is_on_curve(const Element& element, int k) const {
+    return curves_.contains(key_of(element.nodes[k], element.nodes[(k + 1) % element.corners()]));
+  }
+
+  [[nodiscard]] double side_in_pixels(const Element& element, const std::array<Point, 8>& x) const {
+    const int n = element.corners();
+    double pixels = 0;
+    for (int k = 0; k < n; ++k) {
+      const Point a = projection_(x[k]), b = projection_(x[(k + 1) % n]);
+      pixels += std::hypot(a[0] - b[0], a[1] - b[1]) / n;
+    }
+    return pixels;
+  }
+
+  void add(const DrawnTriangle& piece, const Colour& colour, const std::array<Line, 4>& lines, Of of,
+           std::vector<ScreenTriangle>& triangles) const {
+    const auto& p = piece.corners;
+    const Point a = projection_.in_camera(p[0]);
+    Point normal = cross(minus(projection_.in_camera(p[1]), a), minus(projection_.in_camera(p[2]), a));
+    const double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0)) return;
+    for (double& c : normal) c /= length;
+    ScreenTriangle s{
+        {projection_(p[0]), projection_(p[1]), projection_(p[2])}, shaded(colour, normal), {}, of.ref, of.dark};
+    for (int k = 0; k < 3; ++k)  // side k is opposite to the corner before it
+      if (piece.side[k] >= 0) s.lines[(k + 2) % 3] = lines[piece.side[k]];
+    triangles.push_back(s);
+  }
+
+  const MeshArrays& mesh_;
+  const Projection& projection_;
+  const SceneOptions& options_;
+  std::unordered_set<std::uint64_t> curves_;
+  std::map<std::int32_t, Colour> colours_;
+  SizeScale sizes_;
+};
+
 }  // namespace
 
 Colour scale_colour(double q) {
@@ -180,7 +264,6 @@ double shape_quality(const Point& a, const Point& b, const Point& c) {
 
 std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, const SceneOptions& options, double x0,
                                     double y0, double width, double height) {
-  const auto finite = [](const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); };
   std::vector<Point> used;
   for (const auto& t : mesh.triangles)
     for (const std::int32_t v : t)
@@ -191,42 +274,16 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
         if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
   const Projection projection(view, used, x0, y0, width, height);
   if (mesh.triangles.empty()) return lines_of(mesh, projection);
-  const auto curves = sides_on_curves(mesh);
-  const auto colours = options.paint == Paint::reference ? colours_of_references(mesh) : colours_of_faces(mesh);
-  const SizeScale sizes(mesh);
-
+  const Painter painter(mesh, projection, options);
   std::vector<ScreenTriangle> triangles;
   triangles.reserve(mesh.triangles.size());
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto& t = mesh.triangles[i];
-    const std::array<Point, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-    if (!finite(p[0]) || !finite(p[1]) || !finite(p[2])) continue;
-    Colour colour = srgb(grey);
-    if (options.paint == Paint::face || options.paint == Paint::reference) colour = colours.at(mesh.triangle_refs[i]);
-    const bool dark = is_dark(colour);
-    if (dark)
-      for (float& c : colour) c += 0.02f;  // black has no shades
-    if (options.paint == Paint::size) colour = scale_colour(sizes.share(p[0], p[1], p[2]));
-    if (options.paint == Paint::quality) colour = scale_colour(shape_quality(p[0], p[1], p[2]));
-    const Point a = projection.in_camera(p[0]);
-    Point normal = cross(minus(projection.in_camera(p[1]), a), minus(projection.in_camera(p[2]), a));
-    const double length = std::sqrt(dot(normal, normal));
-    if (!(length > 0)) continue;
-    for (double& x : normal) x /= length;
-
-    ScreenTriangle s{{projection(p[0]), projection(p[1]), projection(p[2])},
-                     shaded(colour, normal),
-                     {},
-                     mesh.triangle_refs[i],
-                     dark};
-    double pixels = 0;
-    for (int k = 0; k < 3; ++k)
-      pixels +=
-          std::hypot(s.corners[k][0] - s.corners[(k + 1) % 3][0], s.corners[k][1] - s.corners[(k + 1) % 3][1]) / 3;
-    for (int k = 0; k < 3; ++k)
-      s.lines[k] = line_on(pixels, curves.contains(key_of(t[(k + 1) % 3], t[(k + 2) % 3])), options.edges);
-    triangles.push_back(s);
-  }
+  for (const Element& element : mesh.elements) painter.add(element, triangles);
+  if (mesh.elements.empty())
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      Element element{.kind = CARREAU_CELL_TRIANGLE3, .ref = mesh.triangle_refs[i], .nodes = {}};
+      std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), element.nodes.begin());
+      painter.add(element, triangles);
+    }
   return triangles;
 }
 

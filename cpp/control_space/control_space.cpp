@@ -63,4 +63,11 @@ ControlSpace ControlSpace::constant(Metric2 metric) {
   return space;
 }
 
+void ControlSpace::scale_lengths(double factor) noexcept {
+  const double k = factor * factor;
+  unit_ = k * unit_;
+  measure_ *= k;
+  for (double& measure : measures_) measure *= k;
+}
+
 }  // namespace carreau

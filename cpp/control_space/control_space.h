@@ -80,6 +80,9 @@ class ControlSpace {
   /// Largest bend of shapes (metric/chart.h) at the middle of a leaf.
   [[nodiscard]] double largest_bend() const noexcept;
 
+  /// Lengths become so many times as large everywhere.
+  void scale_lengths(double factor) noexcept;
+
   /// Number of triangles of unit edges that the domain holds: integral of sqrt(det M) over sqrt(3) / 4.
   [[nodiscard]] double measure() const noexcept { return measure_; }
   /// What a mesh, of which `vertex` gives `count` vertices, has missed: the squares of leaves that hold some vertices

@@ -191,11 +191,12 @@ void place_vertices(DiscreteCurve& d, const std::vector<double>& inside, const C
   carry(d, model, CurveOptions{}.carry_tolerance);
 }
 
-bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model) {
+bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model, double share) {
   if (d.indivisible) return false;
   const auto k = static_cast<std::size_t>(segment);
   const auto& uses = model.curve(d.curve).uses;
-  const double r = (d.r[k] + d.r[k + 1]) / 2;
+  const bool halved = share == 0.5;  // the same sums as ever
+  const double r = halved ? (d.r[k] + d.r[k + 1]) / 2 : d.r[k] + share * (d.r[k + 1] - d.r[k]);
   std::vector<double> t;
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const double left = d.t_of_use[u][k];

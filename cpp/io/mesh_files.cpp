@@ -30,6 +30,25 @@ void check_indices(const char* what, const std::vector<std::array<std::int32_t, 
                               " (from 0) names vertex " + std::to_string(vertex) + " of " + std::to_string(vertices));
 }
 
+// Elements and triangles are one surface.
+void check_cells(const FlatMesh& mesh) {
+  std::size_t t = 0;
+  for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
+    const Cell& cell = mesh.cells[c];
+    t += corner_count(cell.kind) == 4 ? 2 : 1;
+    for (int i = 0; i < node_count(cell.kind); ++i)
+      if (const std::int32_t v = cell.nodes[i]; v < 0 || static_cast<std::size_t>(v) >= mesh.vertices.size())
+        throw InvalidArgument("a mesh cannot be written: element " + std::to_string(c) + " (from 0) names vertex " +
+                              std::to_string(v) + " of " + std::to_string(mesh.vertices.size()));
+  }
+  if (!mesh.cells.empty()) check_length("the list of triangles", mesh.triangles.size(), t);
+  if (!mesh.edge_mids.empty()) check_length("the list of nodes on edges", mesh.edge_mids.size(), mesh.edges.size());
+  for (const std::int32_t v : mesh.edge_mids)
+    if (v < 0 || static_cast<std::size_t>(v) >= mesh.vertices.size())
+      throw InvalidArgument("a mesh cannot be written: an edge names vertex " + std::to_string(v) + " of " +
+                            std::to_string(mesh.vertices.size()));
+}
+
 void check_field(const MeshField& field, const FlatMesh& mesh) {
   if (field.components < 1)
     throw InvalidArgument("a mesh cannot be written: field '" + field.name + "' has " +
@@ -50,6 +69,7 @@ void check_mesh(const FlatMesh& mesh) {
   check_refs("the list of vertex references", mesh.vertex_refs, mesh.vertices.size());
   check_refs("the list of edge references", mesh.edge_refs, mesh.edges.size());
   check_refs("the list of triangle references", mesh.triangle_refs, mesh.triangles.size());
+  check_cells(mesh);
   check_indices("edge", mesh.edges, mesh.vertices.size());
   check_indices("triangle", mesh.triangles, mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)

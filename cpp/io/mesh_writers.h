@@ -17,7 +17,7 @@ std::string stl_bytes(const FlatMesh& mesh);
 std::string stl_text(const FlatMesh& mesh);
 /// Version 4.1 or 2.2 of Gmsh's format, with or without curves and corners as elements of groups of their own.
 std::string msh_text(const FlatMesh& mesh, bool version_2, bool curve_groups);
-/// A mesh of the plane z = 0, else InvalidArgument.
+/// A mesh of straight triangles of the plane z = 0, else InvalidArgument.
 std::string bl2d_text(const FlatMesh& mesh);
 /// Name of a face: its own, or `prefix` and its reference. Control characters and quotation marks become '_'.
 std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix);

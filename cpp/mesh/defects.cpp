@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "mesh/cell_defects.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 #include "predicates/predicates.h"
@@ -22,6 +23,8 @@ class DefectFinder {
     check_duplicates();
     check_unused();
     check_edges();
+    if (defects_.empty())
+      for (const std::string& sentence : find_cell_defects(mesh_)) add(sentence);
     return std::move(defects_);
   }
 

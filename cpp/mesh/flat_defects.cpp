@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mesh/cell_defects.h"
 #include "mesh/quality.h"
 
 namespace carreau {
@@ -17,6 +18,7 @@ class FlatDefectFinder {
     check_vertices();
     check_indices();
     if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
+    for (const std::string& sentence : find_cell_defects(mesh_)) add(sentence);
     check_triangles();
     check_duplicates();
     check_unused();
@@ -94,6 +96,9 @@ class FlatDefectFinder {
     std::vector<bool> used(mesh_.vertices.size());
     for (const auto& triangle : mesh_.triangles)
       for (const std::int32_t v : triangle) used[v] = true;
+    for (const Cell& cell : mesh_.cells)
+      for (const std::int32_t v : cell.nodes)
+        if (v >= 0 && std::size_t(v) < used.size()) used[v] = true;
     for (std::size_t v = 0; v < used.size(); ++v)
       if (!used[v]) add("vertex " + std::to_string(v) + ": it belongs to no triangle");
   }

@@ -38,7 +38,19 @@ struct FlatMesh {
   std::vector<std::int32_t> edge_refs;
   std::vector<MeshField> fields;
   std::vector<FlatFace> faces = {};  ///< may be empty, or lack references of triangles
+  /// Elements in the order of their triangles: one of three corners is one triangle, a quadrilateral a, b, c, d the
+  /// two that follow each other, (a, b, c) and (a, c, d); references are those of the triangles. Nodes number vertices.
+  /// Empty: the triangles are the elements.
+  std::vector<Cell> cells = {};
+  std::vector<std::int32_t> edge_mids = {};  ///< node of each edge, index in vertices; empty: edges are straight
+
+  [[nodiscard]] bool is_quadratic() const noexcept {
+    return !cells.empty() && carreau::is_quadratic(cells.front().kind);
+  }
 };
+
+/// Appends an element and its triangles, a quadrilateral as it is turned.
+void add_cell(FlatMesh& mesh, const Cell& cell, std::int32_t ref);
 
 /// What there is of a face and of its parts, which follow it.
 struct WholeFace {

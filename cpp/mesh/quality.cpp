@@ -15,21 +15,6 @@ namespace {
 
 double double_area(const Vec3& a, const Vec3& b, const Vec3& c) noexcept { return norm(cross(b - a, c - a)); }
 
-Distribution distribution(std::vector<double>& values) {
-  Distribution d;
-  if (values.empty()) return d;
-  double sum = 0;
-  for (const double v : values) sum += v;
-  d.mean = sum / static_cast<double>(values.size());
-  const auto first_percent = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
-  std::nth_element(values.begin(), first_percent, values.end());
-  d.p1 = *first_percent;
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  d.min = *low;
-  d.max = *high;
-  return d;
-}
-
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
 
 // Of this many triangles: sums do not depend on the number of threads.
@@ -114,6 +99,21 @@ void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
 
 }  // namespace
 
+Distribution distribution_of(std::vector<double>& values) {
+  Distribution d;
+  if (values.empty()) return d;
+  double sum = 0;
+  for (const double v : values) sum += v;
+  d.mean = sum / static_cast<double>(values.size());
+  const auto first_percent = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
+  std::nth_element(values.begin(), first_percent, values.end());
+  d.p1 = *first_percent;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  d.min = *low;
+  d.max = *high;
+  return d;
+}
+
 double quality_q1(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const double ab = norm(b - a), bc = norm(c - b), ca = norm(a - c);
   const double longest = std::max({ab, bc, ca});
@@ -152,7 +152,7 @@ QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
   }
   run_each(
       2, false, threads,
-      [&](std::size_t i, Monitor&) { (i == 0 ? summary.q1 : summary.q2) = distribution(i == 0 ? q1 : q2); }, silent);
+      [&](std::size_t i, Monitor&) { (i == 0 ? summary.q1 : summary.q2) = distribution_of(i == 0 ? q1 : q2); }, silent);
   return summary;
 }
 

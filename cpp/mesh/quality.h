@@ -19,6 +19,9 @@ struct Distribution {
   double mean = 0, min = 0, p1 = 0, max = 0;  ///< p1: first percentile
 };
 
+/// Of any list, which it reorders; zeros when empty.
+Distribution distribution_of(std::vector<double>& values);
+
 struct QualitySummary {
   std::size_t vertices = 0, triangles = 0, edges = 0, open_edges = 0;
   Distribution q1, q2;

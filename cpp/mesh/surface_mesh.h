@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "mesh/cells.h"
 #include "support/vec.h"
 
 namespace carreau {
@@ -28,8 +30,21 @@ struct FaceMesh {
   /// Triangles of (u, v) that a degenerate side flattens in space: part of the plane mesh, not of the mesh in space.
   std::vector<std::array<std::int32_t, 3>> flattened;
   int part_of = 0;  ///< reference of the face that results speak of in place of this one; 0: none
+  /// Quadrilaterals a, b, c, d: triangles[2k] = (a, b, c) and triangles[2k + 1] = (a, c, d), k < quads, are the halves
+  /// of one. The triangles behind them are elements themselves. So `triangles` is a straight mesh of any element.
+  std::int32_t quads = 0;
+  /// Elements of second order: the node of each side of each triangle (side i runs from corner i to the next), as an
+  /// index in mid_uv; -1 on the diagonals of quadrilaterals. Empty: elements are of first order.
+  std::vector<std::array<std::int32_t, 3>> mid = {};
+  std::vector<Vec2> mid_uv = {};              ///< of nodes on edges; one on a seam has two places
+  std::vector<std::int32_t> mid_vertex = {};  ///< the same -> index in SurfaceMesh::mid_vertices
 
   [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
+  [[nodiscard]] std::array<std::int32_t, 4> quad(std::size_t k) const noexcept {
+    const auto& t = triangles[2 * k];
+    return {t[0], t[1], t[2], triangles[2 * k + 1][2]};
+  }
+  [[nodiscard]] std::size_t cell_count() const noexcept { return triangles.size() - static_cast<std::size_t>(quads); }
 };
 
 /// One appearance of a discretised curve in a face.
@@ -43,6 +58,7 @@ struct CurveMesh {
   int ref = 0;
   std::vector<std::int32_t> vertices;  ///< indices in SurfaceMesh::vertices; one entry for a degenerate curve
   std::vector<CurveMeshUse> uses;
+  std::vector<std::int32_t> mid = {};  ///< node of each edge, index in SurfaceMesh::mid_vertices; empty: first order
   int part_of = 0;  ///< reference of the curve that results speak of in its place; 0: none
 
   [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
@@ -53,10 +69,26 @@ struct SurfaceMesh {
   std::vector<std::int32_t> vertex_ref;  ///< reference of the corner or imposed point; 0: made by the mesher
   std::vector<FaceMesh> faces;           ///< as in the model
   std::vector<CurveMesh> curves;         ///< as in the topology
+  /// Nodes on edges of elements of second order. Where nodes are numbered together, these follow the vertices.
+  std::vector<Vec3> mid_vertices = {};
 
   [[nodiscard]] std::size_t triangle_count() const noexcept;
   [[nodiscard]] std::size_t edge_count() const noexcept;
+  [[nodiscard]] std::size_t cell_count() const noexcept;
+  /// Some elements are quadrilaterals or of second order.
+  [[nodiscard]] bool cells_are_not_triangles() const noexcept;
 };
+
+/// The elements of a face, quadrilaterals first: nodes are local, those on edges uv.size() + index in mid_uv.
+std::vector<Cell> local_cells(const FaceMesh& face);
+/// The same, with nodes numbered in the mesh: vertices, then mid_vertices.
+std::vector<Cell> cells_of(const SurfaceMesh& mesh, const FaceMesh& face);
+
+/// Gives a face quadrilaterals and triangles of first order, counterclockwise and convex in (u, v), by local vertices.
+/// Each quadrilateral is cut along the diagonal whose worse half has the better shape in space (`vertices`: of the
+/// mesh).
+void set_cells(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quads,
+               std::span<const std::array<std::int32_t, 3>> triangles, std::span<const Vec3> vertices);
 
 struct DefectOptions {
   bool closed = false;  ///< an edge with one triangle is a defect

@@ -8,6 +8,7 @@
 #include "plane/placement/advancing_front.h"
 #include "plane/placement/algebraic.h"
 #include "plane/placement/degenerate_sides.h"
+#include "plane/placement/squares.h"
 #include "plane/placement/undersampled_regions.h"
 
 namespace carreau {
@@ -43,8 +44,9 @@ void place_points(plane::PlaneWork& work, const PlaneDomain& domain, const plane
   plane::Placement placement(work, options.max_triangles);
   surround_degenerate_sides(placement, domain);
   work.fixed = static_cast<int>(work.mesh.vertices.size());
+  if (options.squares) place_squares(placement);
   const auto fill = [&] { options.frontal ? advance_front(placement) : split_long_edges(placement); };
-  fill();
+  if (!options.squares) fill();
   bool seeded = false;
   for (const std::vector<Vec2>& places : options.undersampled)
     seeded =
@@ -62,7 +64,10 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
   plane::PlaneWork work{boundary.mesh, field, monitor};
   place_points(work, domain, boundary.frame, options);
   boundary.mesh.renumber_if_large();
-  plane::optimise(work);
+  if (options.squares)
+    plane::mend_squares(work);
+  else
+    plane::optimise(work);
   if (options.shape_trials) plane::search_around_bad_triangles(work, options.normals);
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }

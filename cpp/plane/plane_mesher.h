@@ -14,6 +14,7 @@ namespace carreau {
 
 struct PlaneMesherOptions {
   bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
+  bool squares = false;       ///< points for quadrilaterals: those of lattices of unit squares; `frontal` says nothing
   bool shape_trials = false;  ///< changes of the mesh around its worst triangles are tried, the best is kept
   /// Of a curved surface, indexed: changes leave no edges along which it turns more than it did along those before, and
   /// add none between two vertices of curves. Null: a plane.

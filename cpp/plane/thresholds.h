@@ -311,4 +311,17 @@ inline constexpr double least_turn2 = 0.12;
 /// decide. [LocalSearch.RaiseTheWorstOfEllipses, by symmetry]
 inline constexpr double tie = 1e-6;
 
+// Squares (placement/squares, placement/cross_field)
+/// Units. Least distance of a vertex of the lattice to others.
+inline constexpr double square_distance = 0.7;
+/// Lengths of the edge, at most of one. Least height over an imposed edge.
+inline constexpr double square_height = 0.6;
+/// Units. Circumradius that asks for one more point (half a unit square: 0.707).
+inline constexpr double large_square_radius = 1;
+/// Length of the mean of the crosses of two imposed edges that meet. Below, the corner does not tell a direction.
+inline constexpr double least_cross = 0.7;
+/// Nodes of the coarsest level, and sweeps on the others.
+inline constexpr std::size_t coarsest_crosses = 50;
+inline constexpr int cross_sweeps = 6;
+
 }  // namespace carreau::plane

@@ -10,6 +10,14 @@ namespace carreau {
 
 namespace {
 
+/// Fields belong to corners: without nodes on edges.
+FlatMesh straight_mesh(const SurfaceMesh& mesh) {
+  FlatMesh flat = flatten(mesh, false);
+  flat.vertices.resize(mesh.vertices.size());
+  flat.cells.clear();
+  return flat;
+}
+
 EstimatorOptions with_bounds(Session& session, EstimatorOptions options) {
   const double diag = session.report().diag;
   if (options.hmin == 0) options.hmin = session.parameters().real("hphymin", diag);
@@ -56,7 +64,7 @@ class Loop {
  private:
   /// Evaluates the field on the session's mesh and measures.
   void look(SizeRange range) {
-    const FlatMesh mesh = flatten(session_.mesh(), false);
+    const FlatMesh mesh = straight_mesh(session_.mesh());
     values_.resize(mesh.vertices.size());
     field_(mesh.vertices, values_);
     monitor_.checkpoint();
@@ -92,12 +100,12 @@ std::shared_ptr<BackgroundField> background_of(const Session& session, VertexVal
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options) {
-  const FlatMesh mesh = flatten(session.mesh(), false);
+  const FlatMesh mesh = straight_mesh(session.mesh());
   return estimate({mesh.vertices, mesh.triangles, values}, with_bounds(session, options));
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options) {
-  const FlatMesh mesh = flatten(session.mesh(), false);
+  const FlatMesh mesh = straight_mesh(session.mesh());
   return estimate_function(mesh.vertices, mesh.triangles, field, with_bounds(session, options));
 }
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <set>
 
+#include "mesh/cell_quality.h"
 #include "mesh/quality.h"
 #include "support/error.h"
 
@@ -43,7 +45,7 @@ struct FlatSources {
 class FaceAppender {
  public:
   FaceAppender(const SurfaceMesh& mesh, bool plane, bool with_edges)
-      : mesh_(mesh), wholes_(whole_faces(mesh)), plane_(plane) {
+      : mesh_(mesh), wholes_(whole_faces(mesh)), plane_(plane), of_cells_(mesh.cells_are_not_triangles()) {
     if (with_edges) curve_edges_ = edges_of_curves(mesh);
     flat_.dimension = plane ? 2 : 3;
   }
@@ -54,12 +56,15 @@ class FaceAppender {
     const bool goes_on = !flat_.faces.empty() && flat_.faces.back().ref == face.part_of && face.part_of != 0;
     if (plane_ || !goes_on) rank_.assign(plane_ ? face.uv.size() : mesh_.vertices.size(), -1);
     edges_.clear();
+    mid_rank_.assign(face.mid_uv.size(), -1);
     if (!goes_on) flat_.faces.push_back(whole_of(face.shown_ref()));
+    if (of_cells_)
+      for (const Cell& cell : local_cells(face)) append_cell(face, cell);
     for (const auto& t : face.triangles) {
       append_triangle(face, t);
       triangle_source_.push_back(static_cast<std::int64_t>(first++));
     }
-    if (plane_)
+    if (plane_ && !of_cells_)
       for (const auto& t : face.flattened) append_triangle(face, t);
     triangle_source_.resize(flat_.triangles.size(), -1);
     std::sort(edges_.begin(), edges_.end());
@@ -67,6 +72,7 @@ class FaceAppender {
     for (const CurveEdge& edge : edges_) {
       flat_.edges.push_back({edge.key[0], edge.key[1]});
       flat_.edge_refs.push_back(edge.ref);
+      if (const auto mid = mids_.find(edge.key); mid != mids_.end()) flat_.edge_mids.push_back(mid->second);
     }
   }
 
@@ -92,6 +98,30 @@ class FaceAppender {
     return rank;
   }
 
+  std::int32_t mid(const FaceMesh& face, std::int32_t local) {
+    std::int32_t& rank = mid_rank_[local];
+    if (rank < 0) {
+      rank = static_cast<std::int32_t>(flat_.vertices.size());
+      const Vec2& p = face.mid_uv[local];
+      flat_.vertices.push_back(plane_ ? Vec3{p.x(), p.y(), 0} : mesh_.mid_vertices[face.mid_vertex[local]]);
+      flat_.vertex_refs.push_back(0);
+      source_.push_back(-1);
+    }
+    return rank;
+  }
+
+  void append_cell(const FaceMesh& face, const Cell& cell) {
+    Cell own = cell;
+    const int n = corner_count(cell.kind), all = node_count(cell.kind);
+    for (int i = 0; i < n; ++i) own.nodes[i] = vertex(face, cell.nodes[i]);
+    const auto corners = static_cast<std::int32_t>(face.uv.size());
+    for (int i = n; i < all; ++i) {
+      own.nodes[i] = mid(face, cell.nodes[i] - corners);
+      mids_[ordered(own.nodes[i - n], own.nodes[(i - n + 1) % n])] = own.nodes[i];
+    }
+    flat_.cells.push_back(own);
+  }
+
   void append_triangle(const FaceMesh& face, const std::array<std::int32_t, 3>& t) {
     std::array<std::int32_t, 3> corners{};
     for (int i = 0; i < 3; ++i) corners[i] = vertex(face, t[i]);
@@ -107,10 +137,11 @@ class FaceAppender {
 
   const SurfaceMesh& mesh_;
   std::vector<WholeFace> wholes_;
-  bool plane_;
+  bool plane_, of_cells_;
   FlatMesh flat_;
+  std::map<std::array<std::int32_t, 2>, std::int32_t> mids_;  // by edge of the flat mesh
   std::vector<CurveEdge> curve_edges_, edges_;
-  std::vector<std::int32_t> rank_, source_;
+  std::vector<std::int32_t> rank_, mid_rank_, source_;
   std::vector<std::int64_t> triangle_source_;
 };
 
@@ -175,9 +206,34 @@ std::optional<FlatMesh> boundary_of_failed(const ExportSource& source, int ref) 
   return flat;
 }
 
+// Values at nodes on edges are the means of both ends.
+void fill_mids(const FlatMesh& flat, std::vector<double>& values) {
+  for (const Cell& cell : flat.cells) {
+    const int n = corner_count(cell.kind);
+    for (int i = 0; i < n && is_quadratic(cell.kind); ++i)
+      values[cell.nodes[n + i]] = 0.5 * (values[cell.nodes[i]] + values[cell.nodes[(i + 1) % n]]);
+  }
+}
+
+// Q1 and Q2 are of triangles: of other elements there are these.
+void add_shapes(FlatMesh& flat) {
+  MeshField shape{.name = "shape", .on_vertices = false, .components = 1, .values = {}, .edge_values = {}},
+      scaled = shape, least = shape;
+  scaled.name = "scaled_jacobian", least.name = "least_jacobian";
+  for_cells(flat, [&](std::size_t, const Cell& cell, std::span<const Vec3> nodes, std::size_t) {
+    const CellQuality q = cell_quality(cell.kind, nodes);
+    for (int k = corner_count(cell.kind) - 2; k > 0; --k) {
+      shape.values.push_back(q.shape), scaled.values.push_back(q.scaled_jacobian);
+      least.values.push_back(q.least_jacobian);
+    }
+  });
+  for (MeshField* field : {&shape, &scaled, &least}) flat.fields.push_back(std::move(*field));
+}
+
 void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const FlatSources& sources) {
   MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};
-  for (const std::int32_t v : sources.vertex) size.values.push_back(vertex_size[v]);
+  for (const std::int32_t v : sources.vertex) size.values.push_back(v < 0 ? 0 : vertex_size[v]);
+  fill_mids(flat, size.values);
   MeshField q1{.name = "Q1", .on_vertices = false, .components = 1, .values = {}, .edge_values = {}}, q2 = q1;
   q2.name = "Q2";
   for (const auto& t : flat.triangles) {
@@ -186,6 +242,7 @@ void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const Fl
     q2.values.push_back(quality_q2(a, b, c));
   }
   flat.fields = {std::move(size), std::move(q1), std::move(q2)};
+  if (!flat.cells.empty()) add_shapes(flat);
 }
 
 // A side of a triangle of the flat mesh: edge of the surface mesh, vertices of the flat one.
@@ -207,6 +264,7 @@ std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, con
   all.erase(std::unique(all.begin(), all.end()), all.end());
   flat.edges.clear();
   flat.edge_refs.clear();
+  flat.edge_mids.clear();
   for (const FlatEdge& each : all) {
     const std::int32_t segment = delivered.edges.segment[each.edge];
     flat.edges.push_back(each.vertices);
@@ -230,7 +288,8 @@ void add_evaluation(FlatMesh& flat, const ExportSource& source, const FlatSource
                     .values = {},
                     .edge_values = {}};
     if (row.entity == EvaluationEntity::vertex)
-      for (const std::int32_t v : sources.vertex) field.values.push_back(values[v]);
+      for (const std::int32_t v : sources.vertex)
+        field.values.push_back(v < 0 ? std::numeric_limits<double>::quiet_NaN() : values[v]);
     if (row.entity == EvaluationEntity::triangle)
       for (const std::int64_t t : sources.triangle)
         field.values.push_back(t < 0 ? std::numeric_limits<double>::quiet_NaN() : values[t]);
@@ -244,6 +303,7 @@ FlatSources all_of(const SurfaceMesh& mesh) {
   FlatSources sources{std::vector<std::int32_t>(mesh.vertices.size()),
                       std::vector<std::int64_t>(mesh.triangle_count())};
   std::iota(sources.vertex.begin(), sources.vertex.end(), 0);
+  sources.vertex.resize(mesh.vertices.size() + mesh.mid_vertices.size(), -1);
   std::iota(sources.triangle.begin(), sources.triangle.end(), 0);
   return sources;
 }

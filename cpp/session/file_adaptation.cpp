@@ -249,6 +249,10 @@ Start start_of(Session& session) {
     throw InvalidArgument("call adapt needs a mesh: none was made yet, and the parameter adapt_mesh names no file");
   start.own = mesh_path.empty();
   start.mesh = start.own ? flatten(session.mesh(), false) : read_mesh(mesh_path);
+  if (start.mesh.is_quadratic())
+    throw InvalidArgument(
+        "call adapt: the mesh of the field has elements of second order; a field belongs to the vertices of straight "
+        "ones (element p1, q1.0 or q1.1)");
   start.fields = read_fields(start.sol_path, start.mesh, start.own ? "the mesh made last" : mesh_path);
   return start;
 }

@@ -1,7 +1,9 @@
 #include "session/options.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "support/error.h"
@@ -34,6 +36,11 @@ NarrowFaces narrow_faces_of(const std::string& word) {
   return word == "collapse" ? NarrowFaces::collapse : word == "one_layer" ? NarrowFaces::one_layer : NarrowFaces::keep;
 }
 
+Element element_of(const std::string& word) {
+  constexpr std::array<std::string_view, 6> words{"p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"};
+  return static_cast<Element>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
 }  // namespace
 
 bool leaves_out(const Parameters& parameters) { return parameters.text("failing_faces") == "leave_out"; }
@@ -45,6 +52,7 @@ int threads_of(const Parameters& parameters) {
 
 CompositeOptions composite_options(const Parameters& parameters, double diag) {
   CompositeOptions options;
+  options.element = element_of(parameters.text("element"));
   SizeParameters& size = options.size;
   size.physical = physical_sizes_of(parameters.integer("hphy_flag"));
   size.geometric = geometric_sizes_of(parameters.integer("hgeo_flag"));

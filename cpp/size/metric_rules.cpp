@@ -60,6 +60,14 @@ void check(const Prescription& p, const PrescriptionSource& source, const Where&
   }
 }
 
+Prescription enlarged(Prescription p, double factor) noexcept {
+  const double k = 1 / (factor * factor);
+  p.size *= factor;
+  for (double* m : {&p.space.xx, &p.space.xy, &p.space.xz, &p.space.yy, &p.space.yz, &p.space.zz}) *m *= k;
+  p.parameter = k * p.parameter;
+  return p;
+}
+
 }  // namespace
 
 /// A place of a face on a curve: unit tangent in the frame, and what the geometry asks for.
@@ -118,7 +126,7 @@ SizeRules::Answers SizeRules::answers_on_surface(int face, const Vec2& uv, const
     for (PrescriptionSource* source : parameters_.sources) {
       const Prescription p = source->on_surface(ref, uv, xyz);
       check(p, *source, {.face = ref, .uv = uv});
-      if (p.kind != Prescription::Kind::none) answers.push_back(p);
+      if (p.kind != Prescription::Kind::none) answers.push_back(enlarged(p, parameters_.enlargement));
     }
   }
   if (parameters_.physical == PhysicalSizes::asked) {
@@ -148,7 +156,7 @@ SizeRules::Answers SizeRules::answers_on_curve(int curve, std::span<const double
           const Metric2 tangent = frame->of_parameters(p.parameter);
           p = Prescription::of_space(frame->in_space(tangent, eigen(tangent).minor));
         }
-        answers.push_back(p);
+        answers.push_back(enlarged(p, parameters_.enlargement));
         break;
       }
     }
@@ -169,7 +177,7 @@ SizeRules::Answers SizeRules::answers_at_point(int point) {
       check(answer, *source, where);
       const bool usable =
           answer.kind == Prescription::Kind::size || answer.kind == Prescription::Kind::space;  // no plane here
-      if (usable) answers.push_back(answer);
+      if (usable) answers.push_back(enlarged(answer, parameters_.enlargement));
     }
   }
   if (parameters_.physical == PhysicalSizes::asked) {

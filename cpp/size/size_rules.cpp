@@ -45,10 +45,16 @@ GeometricLimits geometric_limits(const SizeParameters& size) noexcept {
   const GeometricCriterion rule = size.geo_rule;
   const bool by_radius = rule == GeometricCriterion::radii && !size.geo_anisotropic;  // the angle's equation
   if (rule == GeometricCriterion::angle || rule == GeometricCriterion::both || by_radius)
-    limits.edge_angle_deg = size.angle_mesh;
-  if (rule == GeometricCriterion::chord || rule == GeometricCriterion::both) limits.deviation = size.eps_chord;
+    limits.edge_angle_deg = size.enlargement * size.angle_mesh;
+  if (rule == GeometricCriterion::chord || rule == GeometricCriterion::both) limits.deviation = size.enlargement * size.enlargement * size.eps_chord;
   limits.shortest_divided = std::numbers::sqrt2 * size.hgeomin;  // a half of it is as far from unit length
   return limits;
+}
+
+SizeParameters enlarged(SizeParameters size, double factor) noexcept {
+  for (double* h : {&size.hphydef, &size.hphymin, &size.hphymax, &size.hgeomin, &size.hgeomax, &size.enlargement})
+    *h *= factor;
+  return size;
 }
 
 double size_per_radius(double angle_deg) noexcept { return 2 * std::sin(angle_deg * std::numbers::pi / 180); }
@@ -62,6 +68,7 @@ GeometricRule rule_of(const SizeParameters& p) noexcept {
     rule.angle_factor = guaranteed_angle_factor;
     rule.chord_factor = guaranteed_chord_factor;
   }
+  rule.angle_factor *= p.enlargement, rule.chord_factor *= p.enlargement;
   return rule;
 }
 
@@ -181,13 +188,15 @@ std::optional<double> SizeRules::ask_surface(int face, const Vec2& uv) const {
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
   const auto answer = checked_size(cad_.surface_size(ref, uv), "cad_hphys", Where{.face = ref, .uv = uv});
   if (!answer) return {};
-  return clamped_physical(*answer);
+  return clamped_physical(parameters_.enlargement * *answer);
 }
 
 /// As the host has it; to be clamped.
 std::optional<double> SizeRules::ask_point(int point) const {
   const int ref = topology_.points[static_cast<std::size_t>(point)].ref;
-  return checked_size(cad_.point_size(ref), "cad_hphyp", Where{.point = ref});
+  std::optional<double> answer = checked_size(cad_.point_size(ref), "cad_hphyp", Where{.point = ref});
+  if (answer) *answer *= parameters_.enlargement;
+  return answer;
 }
 
 /// The uses of a curve are asked in their order, the first being the one that defines it; the first answer counts.
@@ -196,7 +205,7 @@ std::optional<double> SizeRules::ask_curve(int curve, std::span<const double> t)
   for (std::size_t u = 0; u < uses.size(); ++u) {
     const Where where = where_of(uses[u], t[u]);
     const auto answer = checked_size(cad_.curve_size(where.face, where.curve_index, t[u]), "cad_hphyc", where);
-    if (answer) return clamped_physical(*answer);
+    if (answer) return clamped_physical(parameters_.enlargement * *answer);
   }
   return {};
 }

@@ -49,6 +49,8 @@ struct SizeParameters {
   bool geo_anisotropic = false;  ///< sizes by both principal radii
   double anisotropy_max = 1000;  ///< largest ratio of geometric sizes in two directions, >= 1
   MetricCombination metric_combination = MetricCombination::intersection;
+  /// What hosts and sources answer, and what curvature asks for, is so many times as large: see enlarged().
+  double enlargement = 1;
   /// Asked in this order unless physical sizes are ignored; their answers all count. Not owned.
   std::vector<PrescriptionSource*> sources = {};
 };
@@ -62,6 +64,9 @@ struct GeometricLimits {
   [[nodiscard]] bool any() const noexcept { return std::isfinite(edge_angle_deg) || std::isfinite(deviation); }
 };
 GeometricLimits geometric_limits(const SizeParameters& size) noexcept;
+
+/// The same sizes, all so many times as large: for a mesh whose edges will be divided.
+SizeParameters enlarged(SizeParameters size, double factor) noexcept;
 
 /// Factor between a radius of curvature and a size: 2 sin(angle) (HDR eq. 2.33, 4.35).
 double size_per_radius(double angle_deg) noexcept;

@@ -26,8 +26,8 @@ void refuse_degenerate(CompositeRun& run) {
 }
 
 // At its ends, too, what the curve was cut with: a corner's size is the mean of directions that differ.
-std::vector<double> sizes_along(DiscreteCurve& curve) {
-  std::vector<double> size = std::move(curve.size);
+std::vector<double> sizes_along(const DiscreteCurve& curve) {
+  std::vector<double> size = curve.size;
   size.front() = curve.sizes.size_at(0);
   size.back() = curve.sizes.size_at(1);
   return size;

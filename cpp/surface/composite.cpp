@@ -18,7 +18,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void mesh_discretised(CompositeRun& run) {
   refine_boundaries(run);
-  if (run.options.crossing_rounds > 0) run.cut_curves = run.curves;
+  if (run.options.crossing_rounds > 0 || is_quadratic(run.options.element)) run.cut_curves = run.curves;
   mesh_patches(run);
   assemble_patches(run);
 }
@@ -68,6 +68,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   };
   mesh();
   part_crossing_triangles(run, mesh);
+  make_elements(run, mesh);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

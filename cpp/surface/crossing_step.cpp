@@ -195,9 +195,11 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
   Crossings now(run);
   Score best = score_of(now);
   std::optional<CompositeResult> best_result;  // empty: that of the run
+  std::vector<DiscreteCurve> curves, cut_curves;  // of best_result
   const std::size_t first = now.all.triangles.size();
   FinerPlaces places = places_to_refine(run, now);
   for (int round = 0; round < run.options.crossing_rounds && !places.edges.empty(); ++round) {
+    if (!best_result) curves = run.curves, cut_curves = run.cut_curves;
     make_finer(run, places);
     CompositeResult before = std::exchange(run.result, {});
     run.result.graded = before.graded, run.result.report = before.report;
@@ -212,7 +214,10 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     if (best_result && surfaces_cross(places, next)) break;
     places = std::move(next);
   }
-  if (best_result) run.result = std::move(*best_result);
+  if (best_result) {
+    run.result = std::move(*best_result);
+    run.curves = std::move(curves), run.cut_curves = std::move(cut_curves);
+  }
   run.result.report.crossings = best.pairs;
   say_what_is_new(run);
 }

@@ -125,6 +125,7 @@ void FaceJob::mesh(Monitor& monitor) {
   mesh_.emplace();
   mesh_->plane = mesh_plane(input_.domain->plane, *space_,
                             {.frontal = options_.frontal,
+                             .squares = has_quads(options_.element),
                              .shape_trials = options_.shape_trials,
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = options_.max_triangles,

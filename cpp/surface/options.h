@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "mesh/cells.h"
 #include "size/size_rules.h"
 
 namespace carreau {
@@ -16,6 +17,7 @@ enum class NarrowFaces : int {
 
 struct CompositeOptions {
   SizeParameters size;
+  Element element = Element::p1;
   double angle_smo = 1;  ///< degrees
   double lss = 0.5;
   double eps_ends = 0;  ///< model length; shorter curves are reported

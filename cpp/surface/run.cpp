@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "surface/quads/quadrilaterals.h"
+
 #if defined(__unix__)
 #include <unistd.h>
 
@@ -34,8 +36,9 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
       cad(given_cad),
       options(given_options),
       monitor(given_monitor),
-      rules(model, topology, cad, options.size),
+      rules(model, topology, cad, enlarged(options.size, enlargement_for(options.element))),
       curve_model{model, topology, supports.of_face, cad} {
+  options.size = enlarged(options.size, enlargement_for(options.element));
   if (options.max_triangles <= 0) options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4);
   result.report.diag = supports.diag;
 }

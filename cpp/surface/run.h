@@ -84,4 +84,8 @@ void collapse_narrow_one_by_one(CompositeRun& run);
 /// fail. What the geometry itself lets cross, or has twice at one place, stays.
 void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again);
 
+/// Quadrilaterals, and nodes on edges, as options.element wants them (surface/elements). Where edges of curves are so
+/// long that no valid element of second order holds them they are halved, and all is meshed again.
+void make_elements(CompositeRun& run, const std::function<void()>& mesh_again);
+
 }  // namespace carreau

@@ -3,26 +3,39 @@
 #include <map>
 #include <set>
 
+#include "io/element_lists.h"
 #include "io/gmsh/msh_numbers.h"
 #include "io/mesh_files.h"
 #include "io/text.h"
+#include "support/error.h"
 #include "support/format.h"
 
 namespace carreau {
 
 namespace {
 
-constexpr std::int32_t line_type = 1, triangle_type = 2, point_type = 15;
+constexpr std::int32_t line_type = 1, triangle_type = 2, quad_type = 3, line_of_order_2_type = 8,
+                       triangle_of_order_2_type = 9, quad_of_eight_nodes_type = 16, point_type = 15;
 
-/// Number of vertices of the elements that are read (points, lines, triangles) and of solids, which are skipped; 0: of
-/// others, without which a surface would have holes.
+/// Number of vertices of the elements that are read (points, lines, triangles and quadrilaterals of first and second
+/// order) and of solids, which are skipped; 0: of others, without which a surface would have holes.
 std::size_t vertices_of_type(std::int32_t type) {
   static constexpr std::pair<std::int32_t, std::size_t> known[] = {
-      {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {4, 4},   {5, 8},   {6, 6},   {7, 5},   {11, 10}, {12, 27},
+      {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {quad_type, 4}, {line_of_order_2_type, 3},
+      {triangle_of_order_2_type, 6}, {quad_of_eight_nodes_type, 8},
+      {4, 4},   {5, 8},   {6, 6},   {7, 5},   {11, 10}, {12, 27},
       {13, 18},        {14, 14},       {17, 20},           {18, 15}, {19, 13}, {29, 20}, {30, 35}, {31, 56}};
   for (const auto& [each, vertices] : known)
     if (each == type) return vertices;
   return 0;
+}
+
+bool is_surface(std::int32_t type) noexcept {
+  return type == triangle_type || type == quad_type || type == triangle_of_order_2_type ||
+         type == quad_of_eight_nodes_type;
+}
+bool is_read(std::int32_t type) noexcept {
+  return is_surface(type) || type == point_type || type == line_type || type == line_of_order_2_type;
 }
 
 using Key = std::pair<std::int32_t, std::int32_t>;  // dimension and tag, of an entity or a physical group
@@ -53,6 +66,7 @@ class MshReader {
 
   MshNumbers in_;
   FlatMesh mesh_;
+  ElementLists lists_;
   bool version_2_ = false, has_format_ = false, has_nodes_ = false, has_elements_ = false;
   std::map<Key, std::string> names_;             // of physical groups
   std::map<Key, std::int32_t> group_of_entity_;  // the first one
@@ -186,21 +200,30 @@ std::size_t MshReader::check_type(std::int32_t type, const char* at) const {
   const std::size_t vertices = vertices_of_type(type);
   if (vertices == 0)
     in_.fail(at, "an element has type " + std::to_string(type) +
-                     "; surfaces of triangles with three vertices (type 2) are read only");
+                     "; surfaces of triangles and quadrilaterals of order 1 and 2 (types 2, 3, 9, 16) are read only");
   return vertices;
 }
 
 /// The vertices of an element, behind all its other numbers.
 void MshReader::element(std::int32_t type, std::int32_t ref, std::size_t vertices) {
-  std::array<std::int32_t, 3> corners{};
+  std::array<std::int32_t, 8> nodes{};
   for (std::size_t k = 0; k < vertices; ++k) {
     const char* at = in_.here();
     const std::int64_t tag = version_2_ ? number_2("the number of a node") : in_.size("the number of a node");
-    if (vertices <= corners.size()) corners[k] = vertex_of(tag, at);
+    if (is_read(type)) nodes[k] = vertex_of(tag, at);
   }
-  if (type == point_type) mesh_.vertex_refs[static_cast<std::size_t>(corners[0])] = ref;
-  if (type == line_type) mesh_.edges.push_back({corners[0], corners[1]}), mesh_.edge_refs.push_back(ref);
-  if (type == triangle_type) mesh_.triangles.push_back(corners), mesh_.triangle_refs.push_back(ref);
+  const auto add = [&](auto& list) {
+    auto& own = list.nodes.emplace_back();
+    std::copy_n(nodes.begin(), own.size(), own.begin());
+    list.refs.push_back(ref);
+  };
+  if (type == point_type) mesh_.vertex_refs[static_cast<std::size_t>(nodes[0])] = ref;
+  if (type == line_type) add(lists_.edges);
+  if (type == line_of_order_2_type) add(lists_.edges3);
+  if (type == triangle_type) add(lists_.triangles);
+  if (type == triangle_of_order_2_type) add(lists_.triangles6);
+  if (type == quad_type) add(lists_.quads);
+  if (type == quad_of_eight_nodes_type) add(lists_.quads8);
 }
 
 void MshReader::elements_4() {
@@ -244,7 +267,7 @@ void MshReader::elements_2() {
         if (k == 0) group = ref = tag;
         if (k == 1) ref = tag;
       }
-      if (type == triangle_type && group != 0) group_of_entity_.emplace(Key{2, ref}, group);
+      if (is_surface(type) && group != 0) group_of_entity_.emplace(Key{2, ref}, group);
       element(type, ref, vertices);
     }
   }
@@ -297,6 +320,11 @@ FlatMesh MshReader::read() {
   if (!has_format_) in_.fail(in_.end(), "the file is empty");
   if (!has_nodes_) in_.fail(in_.end(), "the file has no $Nodes");
   if (!has_elements_) in_.fail(in_.end(), "the file has no $Elements");
+  try {
+    set_elements(lists_, mesh_);
+  } catch (const InvalidArgument& error) {
+    in_.fail(in_.end(), error.what());
+  }
   name_faces();
   return std::move(mesh_);
 }

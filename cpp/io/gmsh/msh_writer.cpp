@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "io/mesh_writers.h"
 #include "support/format.h"
@@ -11,12 +12,27 @@ namespace carreau {
 
 namespace {
 
-constexpr int line_type = 1, triangle_type = 2, point_type = 15;
+constexpr int line_type = 1, line_of_order_2_type = 8, point_type = 15;
+
+/// Of a kind of elements; nodes have the order of the format already.
+int type_of(CellKind kind) noexcept {
+  switch (kind) {
+    case CellKind::triangle3:
+      return 2;
+    case CellKind::triangle6:
+      return 9;
+    case CellKind::quad4:
+      return 3;
+    case CellKind::quad8:
+      return 16;
+  }
+  return 0;
+}
 
 struct Entity {
   int tag = 0, physical = 0;
   std::string name;                  // of the physical group
-  std::vector<std::size_t> members;  // triangles, edges or the vertex
+  std::vector<std::size_t> members;  // elements, kind by kind, edges or the vertex
   std::vector<std::size_t> nodes;    // that belong to no entity of a lower dimension
 };
 
@@ -47,6 +63,7 @@ class MshText {
  public:
   MshText(const FlatMesh& mesh, bool version_2, bool curve_groups)
       : mesh_(mesh), version_2_(version_2), curve_groups_(curve_groups) {
+    list_cells();
     collect_entities();
     classify_nodes();
   }
@@ -66,9 +83,26 @@ class MshText {
   }
 
  private:
+  void list_cells() {
+    std::size_t t = 0;
+    for (const Cell& cell : mesh_.cells) {
+      cells_.push_back(cell), cell_refs_.push_back(ref_of(mesh_.triangle_refs, t));
+      t += corner_count(cell.kind) == 4 ? 2 : 1;
+    }
+    for (; t < mesh_.triangles.size(); ++t) {
+      Cell& cell = cells_.emplace_back();
+      std::ranges::copy(mesh_.triangles[t], cell.nodes.begin());
+      cell_refs_.push_back(ref_of(mesh_.triangle_refs, t));
+    }
+  }
+  [[nodiscard]] std::span<const std::int32_t> nodes_of(std::size_t cell) const {
+    return std::span(cells_[cell].nodes).first(static_cast<std::size_t>(node_count(cells_[cell].kind)));
+  }
+
   void collect_entities() {
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      entities_[2][ref_of(mesh_.triangle_refs, t)].members.push_back(t);
+    for (const CellKind kind : {CellKind::quad8, CellKind::triangle6, CellKind::quad4, CellKind::triangle3})
+      for (std::size_t c = 0; c < cells_.size(); ++c)
+        if (cells_[c].kind == kind) entities_[2][cell_refs_[c]].members.push_back(c);
     if (curve_groups_) collect_curves();
     for (Entities& entities : entities_) give_tags(entities);
     // Faces of one name are one group, under the smallest of their tags.
@@ -97,11 +131,13 @@ class MshText {
     };
     for (auto& [ref, point] : entities_[0]) take(point, point.members.front());
     for (auto& [ref, curve] : entities_[1])
-      for (const std::size_t e : curve.members)
+      for (const std::size_t e : curve.members) {
         for (const std::int32_t v : mesh_.edges[e]) take(curve, static_cast<std::size_t>(v));
+        if (!mesh_.edge_mids.empty()) take(curve, static_cast<std::size_t>(mesh_.edge_mids[e]));
+      }
     for (auto& [ref, face] : entities_[2])
-      for (const std::size_t t : face.members)
-        for (const std::int32_t v : mesh_.triangles[t]) take(face, static_cast<std::size_t>(v));
+      for (const std::size_t c : face.members)
+        for (const std::int32_t v : nodes_of(c)) take(face, static_cast<std::size_t>(v));
     // Vertices that nothing holds.
     for (std::size_t v = 0; v < taken.size(); ++v)
       if (!taken[v] && !entities_[2].empty()) entities_[2].begin()->second.nodes.push_back(v);
@@ -124,19 +160,34 @@ class MshText {
   }
 
   [[nodiscard]] std::size_t element_count() const {
-    return mesh_.triangles.size() + (curve_groups_ ? mesh_.edges.size() : 0) + entities_[0].size();
+    return cells_.size() + (curve_groups_ ? mesh_.edges.size() : 0) + entities_[0].size();
   }
 
   void add_corners(int dim, std::size_t member) {
     if (dim == 0) number(text_, member + 1);
-    if (dim == 1)
+    if (dim == 1) {
       for (const std::int32_t v : mesh_.edges[member]) number(text_, v + 1);
+      if (!mesh_.edge_mids.empty()) number(text_, mesh_.edge_mids[member] + 1);
+    }
     if (dim == 2)
-      for (const std::int32_t v : mesh_.triangles[member]) number(text_, v + 1);
+      for (const std::int32_t v : nodes_of(member)) number(text_, v + 1);
     end_line(text_);
   }
 
-  static int type_of(int dim) { return dim == 0 ? point_type : dim == 1 ? line_type : triangle_type; }
+  [[nodiscard]] int type_of(int dim, std::size_t member) const {
+    if (dim == 0) return point_type;
+    if (dim == 1) return mesh_.edge_mids.empty() ? line_type : line_of_order_2_type;
+    return carreau::type_of(cells_[member].kind);
+  }
+
+  /// Members of one type, from `first` on.
+  [[nodiscard]] std::size_t end_of_type(int dim, const Entity& entity, std::size_t first) const {
+    std::size_t end = first;
+    while (end < entity.members.size() &&
+           type_of(dim, entity.members[end]) == type_of(dim, entity.members[first]))
+      ++end;
+    return end;
+  }
 
   void add_nodes_2() {
     text_ += "$Nodes\n" + std::to_string(mesh_.vertices.size()) + "\n";
@@ -150,7 +201,7 @@ class MshText {
     for (const int dim : {0, 1, 2})
       for (const auto& [ref, entity] : entities_[dim])
         for (const std::size_t member : entity.members) {
-          number(text_, ++tag), number(text_, type_of(dim)), number(text_, 2);
+          number(text_, ++tag), number(text_, type_of(dim, member)), number(text_, 2);
           number(text_, entity.physical), number(text_, entity.tag);
           add_corners(dim, member);
         }
@@ -171,7 +222,7 @@ class MshText {
       if (dim == 1)
         for (const std::int32_t v : mesh_.edges[member]) add(v);
       else
-        for (const std::int32_t v : mesh_.triangles[member]) add(v);
+        for (const std::int32_t v : nodes_of(member)) add(v);
     }
     for (const double x : {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()}) number(text_, x);
   }
@@ -213,21 +264,35 @@ class MshText {
   }
 
   void add_elements_4() {
-    const std::size_t blocks = entities_[0].size() + entities_[1].size() + entities_[2].size(), n = element_count();
+    std::size_t blocks = 0;
+    for_blocks([&](int, const Entity&, std::size_t, std::size_t) { ++blocks; });
+    const std::size_t n = element_count();
     text_ += "$Elements\n" + std::to_string(blocks) + " " + std::to_string(n) + " 1 " + std::to_string(n) + "\n";
     std::size_t tag = 0;
-    for (const int dim : {0, 1, 2})
-      for (const auto& [ref, entity] : entities_[dim]) {
-        number(text_, dim), number(text_, entity.tag), number(text_, type_of(dim));
-        number(text_, entity.members.size());
-        end_line(text_);
-        for (const std::size_t member : entity.members) number(text_, ++tag), add_corners(dim, member);
-      }
+    for_blocks([&](int dim, const Entity& entity, std::size_t first, std::size_t end) {
+      number(text_, dim), number(text_, entity.tag), number(text_, type_of(dim, entity.members[first]));
+      number(text_, end - first);
+      end_line(text_);
+      for (std::size_t i = first; i < end; ++i) number(text_, ++tag), add_corners(dim, entity.members[i]);
+    });
     text_ += "$EndElements\n";
+  }
+
+  /// use(dimension, entity, first member, end) for each block of elements of one type.
+  template <typename Use>
+  void for_blocks(const Use& use) const {
+    for (const int dim : {0, 1, 2})
+      for (const auto& [ref, entity] : entities_[dim])
+        for (std::size_t first = 0, end = 0; first < entity.members.size(); first = end) {
+          end = end_of_type(dim, entity, first);
+          use(dim, entity, first, end);
+        }
   }
 
   const FlatMesh& mesh_;
   bool version_2_, curve_groups_;
+  std::vector<Cell> cells_;  // every element, straight triangles too
+  std::vector<std::int32_t> cell_refs_;
   Entities entities_[3];  // by dimension
   std::string text_;
 };

@@ -20,6 +20,7 @@ enum class GmfCode : std::int32_t {
   triangles = 6,
   quadrilaterals = 7,
   triangles_of_order_2 = 24,
+  edges_of_order_2 = 25,
   quadrilaterals_of_order_2 = 27,
   end = 54,
   sol_at_vertices = 62

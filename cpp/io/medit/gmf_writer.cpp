@@ -1,6 +1,7 @@
 #include <cstring>
 #include <limits>
 
+#include "io/element_lists.h"
 #include "io/medit/gmf.h"
 #include "io/mesh_writers.h"
 
@@ -59,7 +60,9 @@ class GmfWriter {
 
 std::size_t estimated_size(const FlatMesh& mesh) noexcept {
   const std::size_t vertex = 8 * static_cast<std::size_t>(mesh.dimension) + 4;
-  return 200 + vertex * mesh.vertices.size() + 16 * mesh.triangles.size() + 12 * mesh.edges.size();
+  // Of elements of second order no more than 40 bytes, and a vertex for a quadrilateral.
+  return 300 + vertex * (mesh.vertices.size() + mesh.cells.size()) + 16 * mesh.triangles.size() +
+         40 * mesh.cells.size() + 16 * mesh.edges.size();
 }
 
 }  // namespace
@@ -73,17 +76,25 @@ std::string gmf_bytes(const FlatMesh& mesh, int version) {
   writer.bytes().reserve(estimated_size(mesh));
   writer.section(GmfCode::dimension, 4);
   writer.integer(mesh.dimension);
-  writer.section(GmfCode::vertices, 4 + mesh.vertices.size() * (8 * static_cast<std::size_t>(mesh.dimension) + 4));
-  writer.integer(static_cast<std::int32_t>(mesh.vertices.size()));
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& p = mesh.vertices[i];
+  const MeditElements elements(mesh);
+  const std::size_t vertices = mesh.vertices.size() + elements.centres.size();
+  writer.section(GmfCode::vertices, 4 + vertices * (8 * static_cast<std::size_t>(mesh.dimension) + 4));
+  writer.integer(static_cast<std::int32_t>(vertices));
+  const auto add = [&](const Vec3& p, std::int32_t ref) {
     writer.real(p.x());
     writer.real(p.y());
     if (mesh.dimension == 3) writer.real(p.z());
-    writer.integer(ref_of(mesh.vertex_refs, i));
-  }
-  writer.entities(GmfCode::edges, mesh.edges, mesh.edge_refs);
-  writer.entities(GmfCode::triangles, mesh.triangles, mesh.triangle_refs);
+    writer.integer(ref);
+  };
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) add(mesh.vertices[i], ref_of(mesh.vertex_refs, i));
+  for (const Vec3& centre : elements.centres) add(centre, 0);
+  const ElementLists& lists = elements.lists;
+  writer.entities(GmfCode::edges, lists.edges.nodes, lists.edges.refs);
+  writer.entities(GmfCode::triangles, lists.triangles.nodes, lists.triangles.refs);
+  writer.entities(GmfCode::quadrilaterals, lists.quads.nodes, lists.quads.refs);
+  writer.entities(GmfCode::triangles_of_order_2, lists.triangles6.nodes, lists.triangles6.refs);
+  writer.entities(GmfCode::edges_of_order_2, lists.edges3.nodes, lists.edges3.refs);
+  writer.entities(GmfCode::quadrilaterals_of_order_2, elements.quads9.nodes, elements.quads9.refs);
   writer.section(GmfCode::end, 0);
   return std::move(writer.bytes());
 }

@@ -1,6 +1,7 @@
 #include <array>
 #include <charconv>
 
+#include "io/element_lists.h"
 #include "io/mesh_writers.h"
 #include "support/format.h"
 
@@ -37,6 +38,19 @@ void append_entities(std::string& text, const char* keyword, const std::vector<s
   }
 }
 
+void append_vertex(std::string& text, int dimension, const Vec3& p, std::int32_t ref) {
+  append_number(text, p.x());
+  text += ' ';
+  append_number(text, p.y());
+  text += ' ';
+  if (dimension == 3) {
+    append_number(text, p.z());
+    text += ' ';
+  }
+  append_integer(text, ref);
+  text += '\n';
+}
+
 }  // namespace
 
 // RT-0232 sec. 4, with version 2 (reals of 64 bits) instead of 0, which today's readers refuse.
@@ -47,22 +61,18 @@ std::string medit_text(const FlatMesh& mesh) {
   text += "MeshVersionFormatted 2\n\nDimension\n";
   append_integer(text, mesh.dimension);
   text += '\n';
-  append_header(text, "Vertices", mesh.vertices.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& p = mesh.vertices[i];
-    append_number(text, p.x());
-    text += ' ';
-    append_number(text, p.y());
-    text += ' ';
-    if (mesh.dimension == 3) {
-      append_number(text, p.z());
-      text += ' ';
-    }
-    append_integer(text, ref_of(mesh.vertex_refs, i));
-    text += '\n';
-  }
-  append_entities(text, "Edges", mesh.edges, mesh.edge_refs);
-  append_entities(text, "Triangles", mesh.triangles, mesh.triangle_refs);
+  const MeditElements elements(mesh);
+  append_header(text, "Vertices", mesh.vertices.size() + elements.centres.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+    append_vertex(text, mesh.dimension, mesh.vertices[i], ref_of(mesh.vertex_refs, i));
+  for (const Vec3& centre : elements.centres) append_vertex(text, mesh.dimension, centre, 0);
+  const ElementLists& lists = elements.lists;
+  append_entities(text, "Edges", lists.edges.nodes, lists.edges.refs);
+  append_entities(text, "EdgesP2", lists.edges3.nodes, lists.edges3.refs);
+  append_entities(text, "Triangles", lists.triangles.nodes, lists.triangles.refs);
+  append_entities(text, "Quadrilaterals", lists.quads.nodes, lists.quads.refs);
+  append_entities(text, "TrianglesP2", lists.triangles6.nodes, lists.triangles6.refs);
+  append_entities(text, "QuadrilateralsQ2", elements.quads9.nodes, elements.quads9.refs);
   text += "\nEnd\n";
   return text;
 }

@@ -38,6 +38,8 @@ void read_entities(Tokens& in, std::size_t vertices, std::vector<std::array<std:
 }  // namespace
 
 std::string bl2d_text(const FlatMesh& mesh) {
+  if (!mesh.cells.empty())
+    throw InvalidArgument("a mesh cannot be written as .bl2d: it has elements that are not straight triangles (p1)");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     if (mesh.vertices[i].z() != 0)
       throw InvalidArgument("a mesh cannot be written as .bl2d: vertex " + std::to_string(i) +

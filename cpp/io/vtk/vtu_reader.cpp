@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "io/mesh_files.h"
 #include "io/text.h"
@@ -13,7 +14,23 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_triangle = 5;
+constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_quadratic_edge = 21;
+
+/// Kinds of elements by their types.
+std::optional<CellKind> kind_of(std::int64_t type) noexcept {
+  switch (type) {
+    case 5:
+      return CellKind::triangle3;
+    case 9:
+      return CellKind::quad4;
+    case 22:
+      return CellKind::triangle6;
+    case 23:
+      return CellKind::quad8;
+    default:
+      return std::nullopt;
+  }
+}
 
 /// Solids, of any order: they are skipped. Other cells are pieces of surfaces that are not triangles.
 bool is_solid(std::int64_t type) noexcept {
@@ -51,6 +68,8 @@ class VtuReader {
   void add_points(VtuArrays& numbers);
   void add_cells(VtuArrays& numbers);
   void add_cell(std::int64_t type, const std::vector<std::int32_t>& corners, std::size_t cell);
+  void take_elements();
+  void add_cell_to_mesh(const Cell& cell, bool plain);
   void add_fields(VtuArrays& numbers);
   void add_cell_field(const VtuArray& array, int components, const std::vector<double>& values);
   std::vector<std::int32_t> refs(const VtuArray& array, const std::vector<std::int64_t>& values) const;
@@ -65,6 +84,7 @@ class VtuReader {
   FlatMesh mesh_;
   std::size_t cells_ = 0;
   std::vector<std::size_t> cell_of_triangle_, cell_of_edge_;
+  std::vector<Cell> elements_;
 };
 
 void VtuReader::add_array(const std::string& section, VtuArray array) {
@@ -138,17 +158,41 @@ void VtuReader::add_cell(std::int64_t type, const std::vector<std::int32_t>& cor
   const bool of_points = type == vtk_vertex || type == vtk_points, chain = type == vtk_line || type == vtk_polyline;
   if (of_points || is_solid(type)) return;
   const std::size_t n = corners.size();
-  if (type == vtk_triangle && n == 3) {
-    mesh_.triangles.push_back({corners[0], corners[1], corners[2]});
-    cell_of_triangle_.push_back(cell);
+  const std::optional<CellKind> kind = kind_of(type);
+  if (kind && n == static_cast<std::size_t>(node_count(*kind))) {
+    Cell element{.kind = *kind, .nodes = {-1, -1, -1, -1, -1, -1, -1, -1}};
+    std::copy(corners.begin(), corners.end(), element.nodes.begin());
+    if (!elements_.empty() && is_quadratic(*kind) != is_quadratic(elements_.front().kind))
+      tags_.fail(array("Cells", "types").tag.at, "elements of first and of second order are mixed");
+    elements_.push_back(element);
+    cell_of_triangle_.resize(cell_of_triangle_.size() + (corner_count(*kind) == 4 ? 2 : 1), cell);
+  } else if (type == vtk_quadratic_edge && n == 3) {
+    mesh_.edges.push_back({corners[0], corners[1]}), cell_of_edge_.push_back(cell);
+    mesh_.edge_mids.push_back(corners[2]);
   } else if (chain && n >= 2) {
     for (std::size_t k = 1; k < n; ++k)
       mesh_.edges.push_back({corners[k - 1], corners[k]}), cell_of_edge_.push_back(cell);
   } else {
-    tags_.fail(array("Cells", "types").tag.at, "cell " + std::to_string(cell) + " (from 0) has type " +
-                                                   std::to_string(type) + " and " + std::to_string(n) +
-                                                   " points; surfaces of triangles (type 5) are read only");
+    tags_.fail(array("Cells", "types").tag.at,
+               "cell " + std::to_string(cell) + " (from 0) has type " + std::to_string(type) + " and " +
+                   std::to_string(n) +
+                   " points; triangles and quadrilaterals of order 1 and 2 (types 5, 9, 22, 23) are read only");
   }
+}
+
+/// Straight triangles alone are a mesh without elements of other kinds.
+void VtuReader::take_elements() {
+  const bool plain = std::all_of(elements_.begin(), elements_.end(),
+                                 [](const Cell& cell) { return cell.kind == CellKind::triangle3; });
+  for (const Cell& cell : elements_) add_cell_to_mesh(cell, plain);
+  if (mesh_.edge_mids.size() != mesh_.edges.size()) mesh_.edge_mids.clear();
+}
+
+void VtuReader::add_cell_to_mesh(const Cell& cell, bool plain) {
+  if (plain)
+    mesh_.triangles.push_back({cell.nodes[0], cell.nodes[1], cell.nodes[2]});
+  else
+    carreau::add_cell(mesh_, cell, 0);
 }
 
 void VtuReader::add_cells(VtuArrays& numbers) {
@@ -169,6 +213,8 @@ void VtuReader::add_cells(VtuArrays& numbers) {
     for (; begin < end; ++begin) corners.push_back(index(corners_array, all[static_cast<std::size_t>(begin)]));
     add_cell(types[c], corners, c);
   }
+  take_elements();
+  mesh_.triangle_refs.clear();  // add_fields() has them
 }
 
 std::vector<std::int32_t> VtuReader::refs(const VtuArray& array, const std::vector<std::int64_t>& values) const {

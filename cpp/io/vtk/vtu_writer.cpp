@@ -11,7 +11,43 @@ namespace carreau {
 
 namespace {
 
-constexpr std::uint8_t vtk_line = 3, vtk_triangle = 5;
+constexpr std::uint8_t vtk_line = 3, vtk_quadratic_edge = 21;
+
+/// Of a kind of elements; nodes have VTK's order already.
+std::uint8_t vtk_type(CellKind kind) noexcept {
+  switch (kind) {
+    case CellKind::triangle3:
+      return 5;
+    case CellKind::triangle6:
+      return 22;
+    case CellKind::quad4:
+      return 9;
+    case CellKind::quad8:
+      return 23;
+  }
+  return 0;
+}
+
+/// The elements of a mesh and the first triangle of each.
+struct VtuCells {
+  explicit VtuCells(const FlatMesh& flat) : mesh(flat) {
+    std::int32_t t = 0;
+    for (const Cell& cell : flat.cells) {
+      first.push_back(t);
+      t += corner_count(cell.kind) == 4 ? 2 : 1;
+    }
+    if (flat.cells.empty())
+      for (; t < static_cast<std::int32_t>(flat.triangles.size()); ++t) first.push_back(t);
+  }
+  [[nodiscard]] std::size_t size() const { return first.size(); }
+  [[nodiscard]] std::size_t with_edges() const { return first.size() + mesh.edges.size(); }
+  [[nodiscard]] bool is_quad(std::size_t c) const {
+    return !mesh.cells.empty() && corner_count(mesh.cells[c].kind) == 4;
+  }
+
+  const FlatMesh& mesh;
+  std::vector<std::int32_t> first;
+};
 
 template <typename T>
 struct VtkType;
@@ -86,22 +122,31 @@ std::vector<std::int32_t> all_refs(const std::vector<std::int32_t>& refs, std::s
   return refs.empty() ? std::vector<std::int32_t>(count, 0) : refs;
 }
 
-/// Triangles come first, so that the number of a triangle is that of its cell.
-void add_cells(VtuFile& file, const FlatMesh& mesh) {
+/// Elements come first, so that the number of an element is that of its cell.
+void add_cells(VtuFile& file, const VtuCells& cells) {
+  const FlatMesh& mesh = cells.mesh;
   std::vector<std::int32_t> connectivity;
   connectivity.reserve(3 * mesh.triangles.size() + 2 * mesh.edges.size());
   std::vector<std::int64_t> offsets;
-  offsets.reserve(mesh.triangles.size() + mesh.edges.size());
-  for (const auto& triangle : mesh.triangles) {
-    connectivity.insert(connectivity.end(), triangle.begin(), triangle.end());
+  offsets.reserve(cells.with_edges());
+  std::vector<std::uint8_t> types;
+  const auto end_cell = [&](std::uint8_t type) {
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    types.push_back(type);
+  };
+  for (const Cell& cell : mesh.cells) {
+    connectivity.insert(connectivity.end(), cell.nodes.begin(), cell.nodes.begin() + node_count(cell.kind));
+    end_cell(vtk_type(cell.kind));
   }
-  for (const auto& edge : mesh.edges) {
-    connectivity.insert(connectivity.end(), edge.begin(), edge.end());
-    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+  for (std::size_t t = 0; t < mesh.triangles.size() && mesh.cells.empty(); ++t) {
+    connectivity.insert(connectivity.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
+    end_cell(vtk_type(CellKind::triangle3));
   }
-  std::vector<std::uint8_t> types(mesh.triangles.size(), vtk_triangle);
-  types.resize(offsets.size(), vtk_line);
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    connectivity.insert(connectivity.end(), mesh.edges[e].begin(), mesh.edges[e].end());
+    if (!mesh.edge_mids.empty()) connectivity.push_back(mesh.edge_mids[e]);
+    end_cell(mesh.edge_mids.empty() ? vtk_line : vtk_quadratic_edge);
+  }
   file.xml("<Cells>\n");
   file.array("connectivity", 1, connectivity);
   file.array("offsets", 1, offsets);
@@ -111,16 +156,18 @@ void add_cells(VtuFile& file, const FlatMesh& mesh) {
 
 /// For each cell what programs that look at cells only would not find: the status of its face (edges: 0), and its
 /// colour when any face has one.
-void add_face_data(VtuFile& file, const FlatMesh& mesh) {
+void add_face_data(VtuFile& file, const VtuCells& all) {
+  const FlatMesh& mesh = all.mesh;
   if (mesh.faces.empty()) return;
   std::map<std::int32_t, const FlatFace*> by_ref;
   bool coloured = false;
   for (const FlatFace& face : mesh.faces) by_ref.emplace(face.ref, &face), coloured = coloured || face.rgb >= 0;
   constexpr std::int32_t grey = 0xC0C0C0;  // of cells without a colour
-  const std::size_t cells = mesh.triangles.size() + mesh.edges.size();
+  const std::size_t cells = all.with_edges();
   std::vector<std::uint8_t> status(cells, 0), rgb;
   for (std::size_t c = 0; c < cells; ++c) {
-    const auto face = c < mesh.triangles.size() ? by_ref.find(ref_of(mesh.triangle_refs, c)) : by_ref.end();
+    const auto face =
+        c < all.size() ? by_ref.find(ref_of(mesh.triangle_refs, static_cast<std::size_t>(all.first[c]))) : by_ref.end();
     const bool known = face != by_ref.end();
     if (known) status[c] = static_cast<std::uint8_t>(face->second->status);
     const std::int32_t colour = known && face->second->rgb >= 0 ? face->second->rgb : grey;
@@ -130,22 +177,35 @@ void add_face_data(VtuFile& file, const FlatMesh& mesh) {
   if (coloured) file.array("rgb", 3, rgb);
 }
 
-void add_cell_data(VtuFile& file, const FlatMesh& mesh) {
-  std::vector<std::int32_t> refs = all_refs(mesh.triangle_refs, mesh.triangles.size());
+/// Values of triangles as those of elements: of a quadrilateral the mean of its halves.
+std::vector<double> of_cells(const VtuCells& cells, const std::vector<double>& values, std::size_t components) {
+  std::vector<double> result;
+  for (std::size_t c = 0; c < cells.size() && !values.empty(); ++c)
+    for (std::size_t k = 0; k < components; ++k) {
+      const std::size_t at = static_cast<std::size_t>(cells.first[c]) * components + k;
+      result.push_back(cells.is_quad(c) ? 0.5 * (values[at] + values[at + components]) : values[at]);
+    }
+  return result;
+}
+
+void add_cell_data(VtuFile& file, const VtuCells& cells) {
+  const FlatMesh& mesh = cells.mesh;
+  std::vector<std::int32_t> refs;
+  for (const std::int32_t t : cells.first) refs.push_back(ref_of(mesh.triangle_refs, static_cast<std::size_t>(t)));
   const std::vector<std::int32_t> edge_refs = all_refs(mesh.edge_refs, mesh.edges.size());
   refs.insert(refs.end(), edge_refs.begin(), edge_refs.end());
   file.xml("<CellData Scalars=\"reference\">\n");
   file.array("reference", 1, refs);
-  add_face_data(file, mesh);
+  add_face_data(file, cells);
   for (const MeshField& field : mesh.fields) {
     if (field.on_vertices) continue;
     // VTK wants a value for every cell; NaN says that a cell has none and is left out of colour ranges.
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const auto components = static_cast<std::size_t>(field.components);
-    std::vector<double> values = field.values;
-    values.resize(mesh.triangles.size() * components, none);
+    std::vector<double> values = of_cells(cells, field.values, components);
+    values.resize(cells.size() * components, none);
     values.insert(values.end(), field.edge_values.begin(), field.edge_values.end());
-    values.resize((mesh.triangles.size() + mesh.edges.size()) * components, none);
+    values.resize(cells.with_edges() * components, none);
     file.array(field.name, field.components, values);
   }
   file.xml("</CellData>\n");
@@ -187,24 +247,25 @@ void add_faces(VtuFile& file, const FlatMesh& mesh) {
 
 std::string vtu_bytes(const FlatMesh& mesh) {
   VtuFile file;
+  const VtuCells cells(mesh);
   const std::string order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   file.xml("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" + order +
            "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
            std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
-           std::to_string(mesh.triangles.size() + mesh.edges.size()) + "\">\n");
+           std::to_string(cells.with_edges()) + "\">\n");
   file.xml("<PointData Scalars=\"reference\">\n");
   file.array("reference", 1, all_refs(mesh.vertex_refs, mesh.vertices.size()));
   for (const MeshField& field : mesh.fields)
     if (field.on_vertices) file.array(field.name, field.components, field.values);
   file.xml("</PointData>\n");
-  add_cell_data(file, mesh);
+  add_cell_data(file, cells);
   std::vector<double> points;
   points.reserve(3 * mesh.vertices.size());
   for (const Vec3& p : mesh.vertices) points.insert(points.end(), {p.x(), p.y(), mesh.dimension == 3 ? p.z() : 0});
   file.xml("<Points>\n");
   file.array("Points", 3, points);
   file.xml("</Points>\n");
-  add_cells(file, mesh);
+  add_cells(file, cells);
   file.xml("</Piece>\n");
   add_faces(file, mesh);
   file.xml("</UnstructuredGrid>\n");

@@ -53,4 +53,9 @@ void optimise(PlaneWork& work) {
   raise_flat_triangles(work, mend_bad_triangles(work));
 }
 
+void mend_squares(PlaneWork& work) {
+  swap_to_delaunay(work);
+  raise_flat_triangles(work, mend_bad_triangles(work));
+}
+
 }  // namespace carreau::plane

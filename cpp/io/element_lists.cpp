@@ -1,0 +1,166 @@
+#include "io/element_lists.h"
+
+#include <algorithm>
+
+#include "mesh/quality.h"
+#include "support/error.h"
+
+namespace carreau {
+
+namespace {
+
+template <std::size_t N>
+void add(const std::array<std::int32_t, 8>& nodes, std::int32_t ref, ElementList<N>& list) {
+  std::array<std::int32_t, N> own;
+  std::copy_n(nodes.begin(), N, own.begin());
+  list.nodes.push_back(own);
+  list.refs.push_back(ref);
+}
+
+template <std::size_t N>
+void add_all(const ElementList<N>& list, CellKind kind, FlatMesh& mesh) {
+  for (std::size_t i = 0; i < list.nodes.size(); ++i) {
+    Cell cell;
+    cell.kind = kind;
+    std::ranges::copy(list.nodes[i], cell.nodes.begin());
+    add_cell(mesh, cell, list.refs[i]);
+  }
+}
+
+double worse_half(const FlatMesh& mesh, const std::array<std::int32_t, 8>& n) {
+  const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[n[i]]; };
+  return std::min(quality_q2(at(0), at(1), at(2)), quality_q2(at(0), at(2), at(3)));
+}
+
+// The diagonal from corner 0 is the one that cuts.
+void turn_quads(FlatMesh& mesh, std::size_t first_cell, std::size_t first_triangle) {
+  for (std::size_t c = first_cell, t = first_triangle; c < mesh.cells.size(); ++c) {
+    std::array<std::int32_t, 8>& n = mesh.cells[c].nodes;
+    if (corner_count(mesh.cells[c].kind) == 3) {
+      ++t;
+      continue;
+    }
+    std::array<std::int32_t, 8> turned = n;
+    std::rotate(turned.begin(), turned.begin() + 1, turned.begin() + 4);
+    std::rotate(turned.begin() + 4, turned.begin() + 5, turned.end());
+    if (worse_half(mesh, turned) > worse_half(mesh, n)) n = turned;
+    mesh.triangles[t++] = {n[0], n[1], n[2]};
+    mesh.triangles[t++] = {n[0], n[2], n[3]};
+  }
+}
+
+}  // namespace
+
+ElementLists lists_of(const FlatMesh& mesh) {
+  ElementLists lists;
+  const auto ref = [&](std::size_t t) { return mesh.triangle_refs.empty() ? 0 : mesh.triangle_refs[t]; };
+  std::size_t t = 0;
+  for (const Cell& cell : mesh.cells) {
+    if (cell.kind == CellKind::triangle3) add(cell.nodes, ref(t), lists.triangles);
+    if (cell.kind == CellKind::triangle6) add(cell.nodes, ref(t), lists.triangles6);
+    if (cell.kind == CellKind::quad4) add(cell.nodes, ref(t), lists.quads);
+    if (cell.kind == CellKind::quad8) add(cell.nodes, ref(t), lists.quads8);
+    t += corner_count(cell.kind) == 4 ? 2 : 1;
+  }
+  if (mesh.cells.empty()) {
+    lists.triangles.nodes = mesh.triangles;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) lists.triangles.refs.push_back(ref(i));
+  }
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    const auto [a, b] = mesh.edges[e];
+    const std::int32_t edge_ref = mesh.edge_refs.empty() ? 0 : mesh.edge_refs[e];
+    if (mesh.edge_mids.empty())
+      lists.edges.nodes.push_back({a, b}), lists.edges.refs.push_back(edge_ref);
+    else
+      lists.edges3.nodes.push_back({a, b, mesh.edge_mids[e]}), lists.edges3.refs.push_back(edge_ref);
+  }
+  return lists;
+}
+
+Vec3 centre_of(const FlatMesh& mesh, const std::array<std::int32_t, 8>& n) noexcept {
+  const auto at = [&](std::size_t i) -> const Vec3& { return mesh.vertices[n[i]]; };
+  return 0.5 * (at(4) + at(5) + at(6) + at(7)) - 0.25 * (at(0) + at(1) + at(2) + at(3));
+}
+
+MeditElements::MeditElements(const FlatMesh& mesh) : lists(lists_of(mesh)) {
+  for (const std::array<std::int32_t, 8>& nodes : lists.quads8.nodes) {
+    std::array<std::int32_t, 9> nine;
+    std::ranges::copy(nodes, nine.begin());
+    nine[8] = static_cast<std::int32_t>(mesh.vertices.size() + centres.size());
+    quads9.nodes.push_back(nine);
+    centres.push_back(centre_of(mesh, nodes));
+  }
+  quads9.refs = lists.quads8.refs;
+}
+
+void set_elements(const ElementLists& lists, FlatMesh& mesh) {
+  const bool straight = !lists.triangles.nodes.empty() || !lists.quads.nodes.empty();
+  const bool curved = !lists.triangles6.nodes.empty() || !lists.quads8.nodes.empty();
+  if (straight && curved) throw InvalidArgument("elements of first and of second order are mixed");
+  if (!curved && lists.quads.nodes.empty()) {
+    mesh.triangles = lists.triangles.nodes, mesh.triangle_refs = lists.triangles.refs;
+  } else {
+    add_all(lists.quads8, CellKind::quad8, mesh);
+    add_all(lists.triangles6, CellKind::triangle6, mesh);
+    add_all(lists.quads, CellKind::quad4, mesh);
+    add_all(lists.triangles, CellKind::triangle3, mesh);
+    turn_quads(mesh, 0, 0);
+  }
+  // Of straight and curved edges only the ends are kept.
+  const bool with_mids = lists.edges.nodes.empty();
+  mesh.edges = lists.edges.nodes, mesh.edge_refs = lists.edges.refs;
+  for (std::size_t e = 0; e < lists.edges3.nodes.size(); ++e) {
+    const auto [a, b, middle] = lists.edges3.nodes[e];
+    mesh.edges.push_back({a, b});
+    if (with_mids) mesh.edge_mids.push_back(middle);
+    mesh.edge_refs.push_back(lists.edges3.refs[e]);
+  }
+}
+
+namespace {
+
+// Takes the vertices out that `gone` marks, and numbers the others again.
+void remove_vertices(const std::vector<char>& gone, ElementLists& lists, FlatMesh& mesh) {
+  std::vector<std::int32_t> rank(gone.size(), -1);
+  std::int32_t next = 0;
+  for (std::size_t v = 0; v < gone.size(); ++v) {
+    if (gone[v] != 0) continue;
+    rank[v] = next;
+    mesh.vertices[static_cast<std::size_t>(next)] = Vec3(mesh.vertices[v]);
+    mesh.vertex_refs[static_cast<std::size_t>(next++)] = mesh.vertex_refs[v];
+  }
+  mesh.vertices.resize(static_cast<std::size_t>(next)), mesh.vertex_refs.resize(static_cast<std::size_t>(next));
+  const auto renumber = [&](auto& list) {
+    for (auto& nodes : list.nodes)
+      for (std::int32_t& v : nodes) v = rank[v];
+  };
+  renumber(lists.triangles), renumber(lists.triangles6), renumber(lists.quads), renumber(lists.quads8);
+  renumber(lists.edges), renumber(lists.edges3);
+}
+
+}  // namespace
+
+bool take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const std::vector<std::int32_t>& refs,
+                 ElementLists& lists, FlatMesh& mesh, std::size_t& bad) {
+  // Single precision of the coordinates.
+  constexpr double rounding = 1e-6;
+  std::vector<char> gone(mesh.vertices.size(), 0);
+  for (std::size_t i = 0; i < quads.size(); ++i) {
+    std::array<std::int32_t, 8> nodes;
+    std::copy_n(quads[i].begin(), 8, nodes.begin());
+    const double size = norm(mesh.vertices[nodes[2]] - mesh.vertices[nodes[0]]);
+    if (!(norm(mesh.vertices[quads[i][8]] - centre_of(mesh, nodes)) <= rounding * size)) return bad = i, false;
+    gone[quads[i][8]] = 1;
+    lists.quads8.nodes.push_back(nodes), lists.quads8.refs.push_back(refs[i]);
+  }
+  const auto keep = [&](const auto& list) {
+    for (const auto& nodes : list.nodes)
+      for (const std::int32_t v : nodes) gone[v] = 0;
+  };
+  keep(lists.triangles), keep(lists.triangles6), keep(lists.quads), keep(lists.quads8), keep(lists.edges);
+  keep(lists.edges3);
+  if (!quads.empty()) remove_vertices(gone, lists, mesh);
+  return true;
+}
+
+}  // namespace carreau

@@ -1,0 +1,54 @@
+// The elements of a mesh by kind, as formats with a section a kind want them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "mesh/flat_mesh.h"
+
+namespace carreau {
+
+/// Elements of one kind in their order: nodes count from 0.
+template <std::size_t N>
+struct ElementList {
+  std::vector<std::array<std::int32_t, N>> nodes;
+  std::vector<std::int32_t> refs;
+};
+
+struct ElementLists {
+  ElementList<3> triangles;
+  ElementList<6> triangles6;
+  ElementList<4> quads;
+  ElementList<8> quads8;
+  ElementList<2> edges;
+  ElementList<3> edges3;  ///< two ends, then the node between them
+};
+
+/// Every list of references is full.
+ElementLists lists_of(const FlatMesh& mesh);
+
+/// The value of a Q2 element of eight nodes at its centre: that of the same element with nine nodes.
+Vec3 centre_of(const FlatMesh& mesh, const std::array<std::int32_t, 8>& nodes) noexcept;
+
+/// With nine nodes a quadrilateral of second order, as the formats of Medit know it.
+struct MeditElements {
+  explicit MeditElements(const FlatMesh& mesh);
+
+  ElementLists lists;         ///< quads8 stays as it is
+  ElementList<9> quads9;      ///< the same with their centres
+  std::vector<Vec3> centres;  ///< the vertices behind those of the mesh
+};
+
+/// Fills the elements of a mesh of which the vertices are known. Where all are straight triangles FlatMesh::cells stays
+/// empty. Corners of quadrilaterals are turned so that their triangles have the better shape. Throws InvalidArgument,
+/// with a sentence for the reader to place, when elements of both orders are mixed.
+void set_elements(const ElementLists& lists, FlatMesh& mesh);
+
+/// Nine-node elements as the format of Medit has them: those whose centre is that of their eight other nodes lose it,
+/// and so does the mesh. False when another one is found; `bad` tells which.
+bool take_quads9(const std::vector<std::array<std::int32_t, 9>>& quads, const std::vector<std::int32_t>& refs,
+                 ElementLists& lists, FlatMesh& mesh, std::size_t& bad);
+
+}  // namespace carreau

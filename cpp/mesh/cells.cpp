@@ -1,0 +1,80 @@
+#include "mesh/cells.h"
+
+#include <algorithm>
+
+#include "mesh/quality.h"
+#include "mesh/surface_mesh.h"
+
+namespace carreau {
+
+namespace {
+
+// The nodes on the edges of a quadrilateral whose halves are the triangles t and t + 1, or of the triangle t.
+void add_mids(const FaceMesh& face, std::size_t t, Cell& cell) {
+  const std::int32_t first = static_cast<std::int32_t>(face.uv.size());
+  const std::array<std::int32_t, 3>& m = face.mid[t];
+  if (cell.kind == CellKind::quad8) {
+    const std::array<std::int32_t, 3>& n = face.mid[t + 1];
+    cell.nodes[4] = first + m[0], cell.nodes[5] = first + m[1];
+    cell.nodes[6] = first + n[1], cell.nodes[7] = first + n[2];
+  } else {
+    for (std::size_t i = 0; i < 3; ++i) cell.nodes[3 + i] = first + m[i];
+  }
+}
+
+double worse_half(std::span<const Vec3> xyz, const std::array<std::int32_t, 4>& v) {
+  return std::min(quality_q2(xyz[v[0]], xyz[v[1]], xyz[v[2]]), quality_q2(xyz[v[0]], xyz[v[2]], xyz[v[3]]));
+}
+
+}  // namespace
+
+std::vector<Cell> local_cells(const FaceMesh& face) {
+  std::vector<Cell> cells;
+  cells.reserve(face.cell_count());
+  const bool quadratic = !face.mid.empty();
+  const auto halves = 2 * static_cast<std::size_t>(face.quads);
+  for (std::size_t t = 0; t < face.triangles.size(); t += t < halves ? 2 : 1) {
+    Cell cell;
+    if (t < halves) {
+      cell.kind = quadratic ? CellKind::quad8 : CellKind::quad4;
+      std::ranges::copy(face.quad(t / 2), cell.nodes.begin());
+    } else {
+      cell.kind = quadratic ? CellKind::triangle6 : CellKind::triangle3;
+      std::ranges::copy(face.triangles[t], cell.nodes.begin());
+    }
+    if (quadratic) add_mids(face, t, cell);
+    cells.push_back(cell);
+  }
+  return cells;
+}
+
+std::vector<Cell> cells_of(const SurfaceMesh& mesh, const FaceMesh& face) {
+  std::vector<Cell> cells = local_cells(face);
+  const auto corners = static_cast<std::int32_t>(face.uv.size()), all = static_cast<std::int32_t>(mesh.vertices.size());
+  for (Cell& cell : cells)
+    for (std::int32_t& node : cell.nodes)
+      if (node >= 0) node = node < corners ? face.vertex[node] : all + face.mid_vertex[node - corners];
+  return cells;
+}
+
+void set_cells(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quads,
+               std::span<const std::array<std::int32_t, 3>> triangles, std::span<const Vec3> vertices) {
+  face.quads = static_cast<std::int32_t>(quads.size());
+  face.triangles.clear();
+  face.mid.clear(), face.mid_uv.clear(), face.mid_vertex.clear();
+  for (const std::array<std::int32_t, 4>& q : quads) {
+    const auto [a, b, c, d] = q;
+    const std::array<std::int32_t, 4> one{face.vertex[a], face.vertex[b], face.vertex[c], face.vertex[d]},
+        other{one[1], one[2], one[3], one[0]};
+    if (worse_half(vertices, other) > worse_half(vertices, one)) {
+      face.triangles.push_back({b, c, d});
+      face.triangles.push_back({b, d, a});
+    } else {
+      face.triangles.push_back({a, b, c});
+      face.triangles.push_back({a, c, d});
+    }
+  }
+  face.triangles.insert(face.triangles.end(), triangles.begin(), triangles.end());
+}
+
+}  // namespace carreau

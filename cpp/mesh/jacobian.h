@@ -1,0 +1,36 @@
+// Jacobians of elements, by their Bernstein coefficients: where all are positive the element is valid everywhere, not
+// at some points only.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "mesh/cells.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Bernstein coefficients of x_s cross x_t, the derivatives of an element by the coordinates of its reference (the unit
+/// triangle or the unit square): vectors of degree 0, 2, (1, 1) or (3, 3). Of a plane element only z differs from 0.
+struct Jacobian {
+  int count = 0;
+  std::array<Vec3, 16> c;
+
+  /// The integral of the normal over the reference triangle or square, up to a factor: it depends on the border alone.
+  [[nodiscard]] Vec3 mean() const noexcept;
+  /// Least coefficient along the mean normal over the mean: 1 where the Jacobian is constant, positive: the element is
+  /// valid. 0 or less where the mean vanishes.
+  [[nodiscard]] double least() const noexcept;
+  /// The same along a direction that is given: of plane elements {0, 0, 1}.
+  [[nodiscard]] double least_along(const Vec3& direction) const noexcept;
+};
+
+/// `nodes`: node_count(kind) positions in the order of cells.h.
+Jacobian jacobian(CellKind kind, std::span<const Vec3> nodes) noexcept;
+
+/// The point of an element at (s, t) of its reference: the triangle s, t >= 0, s + t <= 1, or the unit square.
+Vec3 point_of_cell(CellKind kind, std::span<const Vec3> nodes, double s, double t) noexcept;
+/// The point of side `side` (from corner `side` to the next) at s in [0, 1].
+Vec3 point_of_side(CellKind kind, std::span<const Vec3> nodes, int side, double s) noexcept;
+
+}  // namespace carreau

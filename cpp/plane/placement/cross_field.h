@@ -1,0 +1,42 @@
+// Directions in which squares are to lie: tangent to the boundary, smooth inside.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "plane/kernel/frame.h"
+#include "plane/kernel/triangulation.h"
+#include "support/monitor.h"
+
+namespace carreau::plane {
+
+/// Directions of the plane as complex numbers of an orthonormal frame of a metric (its Cholesky factor).
+struct MetricFrame {
+  double p, q, r;
+  explicit MetricFrame(Metric2 m) noexcept;
+  [[nodiscard]] std::complex<double> to_frame(const Vec2& d) const noexcept {
+    return {p * d.x() + q * d.y(), r * d.y()};
+  }
+  [[nodiscard]] Vec2 from_frame(std::complex<double> z) const noexcept {
+    const double y = z.imag() / r;
+    return {(z.real() - q * y) / p, y};
+  }
+};
+
+/// A unit cross at each vertex of a triangulation, as the fourth power of one of its arms in the frame of the vertex.
+/// Parallel along an edge are crosses that make the same angle with it at both ends, in the metrics there.
+class CrossField {
+ public:
+  /// Of a mesh that has metrics at its vertices. Crosses at imposed edges are tangent to them; inside their squared
+  /// differences along edges have the least sum. Keeps a reference to the mesh and the field.
+  CrossField(const Triangulation& mesh, const Field& field, Monitor& monitor);
+  /// One arm of the cross at p, a unit vector of the frame of `at_p`. `triangle`: of the mesh, near p; it becomes the
+  /// one that holds p, where that is known.
+  [[nodiscard]] std::complex<double> arm(const Vec2& p, const MetricFrame& at_p, int& triangle) const;
+
+ private:
+  const Triangulation& mesh_;
+  std::vector<std::complex<double>> cross_;
+};
+
+}  // namespace carreau::plane

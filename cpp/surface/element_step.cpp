@@ -1,0 +1,103 @@
+// Elements other than straight triangles, made of the whole mesh.
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "support/error.h"
+#include "support/format.h"
+#include "surface/elements/quadratic.h"
+#include "surface/elements/thresholds.h"
+#include "surface/quads/quadrilaterals.h"
+#include "surface/run.h"
+#include "surface/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::elements;
+
+QuadraticReport make_once(CompositeRun& run) {
+  const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
+  if (has_quads(run.options.element)) make_quadrilaterals(work);
+  return is_quadratic(run.options.element) ? make_quadratic(work) : QuadraticReport{};
+}
+
+std::size_t count(const QuadraticReport& report) {
+  std::size_t sum = 0;
+  for (const InvalidElements& invalid : report.invalid) sum += invalid.count;
+  return sum;
+}
+
+// Smaller elements inside faces, too.
+void divide_faces(CompositeRun& run, const QuadraticReport& report) {
+  run.finer.resize(report.finer.size());
+  for (std::size_t f = 0; f < report.finer.size(); ++f)
+    run.finer[f].insert(run.finer[f].end(), report.finer[f].begin(), report.finer[f].end());
+}
+
+// Quadrilaterals may have divided the edges of curves: those before are meant.
+void divide_curves(CompositeRun& run, const std::vector<CurveEdge>& coarse) {
+  std::vector<DiscreteCurve> curves = run.cut_curves;
+  for (auto edge = coarse.rbegin(); edge != coarse.rend(); ++edge) {
+    DiscreteCurve& curve = curves[edge->curve];
+    const int before = run.cut_curves[edge->curve].segments(), now = run.curves[edge->curve].segments();
+    const int segment = static_cast<int>(std::int64_t{edge->segment} * before / now);
+    const auto next = std::next(edge);
+    const bool again = next != coarse.rend() && next->curve == edge->curve &&
+                       static_cast<int>(std::int64_t{next->segment} * before / now) == segment;
+    if (!again) (void)split_segment(curve, segment, run.curve_model);
+  }
+  run.curves = std::move(curves);
+  if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, run.curves);
+}
+
+// The run goes on with what it has where smaller triangles ask for too many, or for what the host cannot answer.
+bool could_mesh_again(const std::function<void()>& mesh_again) {
+  try {
+    mesh_again();
+    return true;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void tell(CompositeRun& run, const QuadraticReport& report) {
+  for (const InvalidElements& invalid : report.invalid) {
+    FaceMesh& face = run.result.mesh.faces[invalid.face];
+    const std::string what =
+        Where{.face = face.ref, .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
+        (invalid.count == 1 ? " element of second order has" : " elements of second order have") +
+        " a Jacobian that is not positive everywhere";
+    face.status = FaceStatus::mended;
+    face.why += (face.why.empty() ? "" : "; ") + what;
+    run.say(Level::warning, what);
+  }
+}
+
+}  // namespace
+
+void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
+  if (run.options.element == Element::p1) return;
+  QuadraticReport now = make_once(run), best = now;
+  std::optional<CompositeResult> best_result;  // empty: that of the run
+  const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+  for (int round = 0; round < most_divisions && count(now) > 0; ++round) {
+    divide_curves(run, now.coarse);
+    divide_faces(run, now);
+    CompositeResult before = std::exchange(run.result, {});
+    run.result.graded = before.graded, run.result.report = before.report;
+    if (!best_result) best_result = std::move(before);
+    run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
+    if (!could_mesh_again(mesh_again)) break;
+    now = make_once(run);
+    if (count(now) < count(best)) best = now, best_result.reset();
+    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first) break;
+  }
+  if (best_result) run.result = std::move(*best_result);
+  tell(run, best);
+}
+
+}  // namespace carreau

@@ -1,0 +1,116 @@
+#include "surface/elements/curve_middles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace carreau {
+
+namespace {
+
+bool is_known(const ElementWork& work, std::size_t curve) {
+  const DiscreteCurve& d = work.curves[curve];
+  const std::vector<std::int32_t>& v = work.result.mesh.curves[curve].vertices;
+  return !d.indivisible && v.size() == static_cast<std::size_t>(d.segments()) + 1;
+}
+
+/// An edge of a curve by its vertices in space, ascending.
+struct Segment {
+  std::array<std::int32_t, 2> key;
+  std::int32_t curve, segment;
+  friend auto operator<=>(const Segment&, const Segment&) = default;
+};
+
+std::array<std::int32_t, 2> ordered(std::int32_t a, std::int32_t b) { return {std::min(a, b), std::max(a, b)}; }
+
+std::vector<Segment> segments_of(const ElementWork& work, std::size_t face) {
+  std::vector<Segment> all;
+  const SurfaceMesh& mesh = work.result.mesh;
+  for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
+    const CurveMesh& curve = mesh.curves[c];
+    if (std::none_of(curve.uses.begin(), curve.uses.end(),
+                     [&](const CurveMeshUse& use) { return static_cast<std::size_t>(use.face) == face; }))
+      continue;
+    for (std::size_t k = 1; k < curve.vertices.size(); ++k)
+      all.push_back({ordered(curve.vertices[k - 1], curve.vertices[k]), static_cast<std::int32_t>(c),
+                     static_cast<std::int32_t>(k) - 1});
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// The use of a curve in the face whose image of the segment is the side from p to q of (u, v), p over the segment's
+// first vertex.
+std::int32_t nearest_use(const ElementWork& work, std::size_t face, const Segment& s, const Vec2& p, const Vec2& q) {
+  const std::vector<CurveUse>& uses = work.model.topology.curves[s.curve].uses;
+  const bool known = is_known(work, static_cast<std::size_t>(s.curve));
+  const auto k = static_cast<std::size_t>(s.segment);
+  std::int32_t best = -1;
+  double least = 0;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    if (static_cast<std::size_t>(uses[u].face) != face) continue;
+    double apart = 0;
+    if (known) {
+      const std::vector<Vec2>& uv = work.curves[s.curve].uv_of_use[u];
+      const Vec2 at_p = uv[k] - p, at_q = uv[k + 1] - q;
+      apart = dot(at_p, at_p) + dot(at_q, at_q);
+    }
+    if (best < 0 || apart < least) best = static_cast<std::int32_t>(u), least = apart;
+  }
+  return best;
+}
+
+}  // namespace
+
+// Half the integral of the line f + g s over [-1, 1] is reached where k s^2 + s = k, k = g / (2 f).
+double metric_middle(double left, double middle, double right) noexcept {
+  const double f = (left + 4 * middle + right) / 6, g = (right - left) / 2;
+  if (!(f > 0) || !std::isfinite(f)) return 0.5;
+  const double k = std::clamp(g / (2 * f), -0.5, 0.5);
+  return 0.5 + k / (1 + std::sqrt(1 + 4 * k * k));
+}
+
+std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k) {
+  if (!is_known(work, curve)) return std::nullopt;
+  const DiscreteCurve& d = work.curves[curve];
+  const SizeSamples& sizes = d.sizes;
+  const double left = d.r[k], right = d.r[k + 1];
+  const double share =
+      metric_middle(1 / sizes.size_at(left), 1 / sizes.size_at((left + right) / 2), 1 / sizes.size_at(right));
+  DiscreteCurve piece;
+  piece.curve = d.curve;
+  piece.refined = d.refined;
+  piece.sizes = {{0, 1}, {1, 1}, {1, 1}};
+  piece.r = {left, right};
+  piece.xyz = {d.xyz[k], d.xyz[k + 1]};
+  for (std::size_t u = 0; u < d.t_of_use.size(); ++u) {
+    piece.t_of_use.push_back({d.t_of_use[u][k], d.t_of_use[u][k + 1]});
+    piece.uv_of_use.push_back({d.uv_of_use[u][k], d.uv_of_use[u][k + 1]});
+  }
+  piece.size = piece.physical = {1, 1};
+  if (!split_segment(piece, 0, work.model, share)) return std::nullopt;
+  CurveMiddle middle{piece.xyz[1], {}};
+  for (const std::vector<Vec2>& uv : piece.uv_of_use) middle.uv_of_use.push_back(uv[1]);
+  return middle;
+}
+
+std::vector<CurveSide> curve_sides(const ElementWork& work, std::size_t face) {
+  const std::vector<Segment> segments = segments_of(work, face);
+  const FaceMesh& mesh = work.result.mesh.faces[face];
+  std::vector<CurveSide> sides;
+  for (const std::array<std::int32_t, 3>& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int32_t a = t[i], b = t[(i + 1) % 3], va = mesh.vertex[a], vb = mesh.vertex[b];
+      const auto found = std::lower_bound(segments.begin(), segments.end(), Segment{ordered(va, vb), 0, 0});
+      if (found == segments.end() || found->key != ordered(va, vb)) continue;
+      const bool forward = work.result.mesh.curves[found->curve].vertices[found->segment] == va;
+      const std::int32_t p = forward ? a : b, q = forward ? b : a;
+      sides.push_back({std::min(a, b), std::max(a, b), found->curve, found->segment,
+                       nearest_use(work, face, *found, mesh.uv[p], mesh.uv[q])});
+    }
+  std::sort(sides.begin(), sides.end());
+  sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+  return sides;
+}
+
+}  // namespace carreau

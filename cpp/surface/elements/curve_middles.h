@@ -1,0 +1,37 @@
+// Middles of the edges of curves, once for all faces that hold them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "surface/elements/work.h"
+
+namespace carreau {
+
+/// A point of a curve between two of its vertices.
+struct CurveMiddle {
+  Vec3 xyz;                     ///< on the surface of the first use
+  std::vector<Vec2> uv_of_use;  ///< by use of the topology's curve: exact values of curv0
+};
+
+/// Where half of a segment's metric length lies, as a share of the segment: `left`, `middle`, `right` are densities of
+/// length (1 / size, say) at its ends and its middle, of which a line is made. Exactly 0.5 for equal ones, and between
+/// 0.29 and 0.71: a node there keeps the segment's own Jacobian positive.
+double metric_middle(double left, double middle, double right) noexcept;
+
+/// The point at half the metric length of edge k of result.mesh.curves[curve], in every use. Empty when the curve is
+/// one point of space, or its vertices are no longer those of work.curves[curve] (a narrow face has vanished there).
+std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k);
+
+/// A side of a face's triangles that lies on a curve.
+struct CurveSide {
+  std::int32_t a = 0, b = 0;           ///< local vertices, a < b
+  std::int32_t curve = 0, segment = 0;  ///< of result.mesh.curves: edge `segment`
+  std::int32_t use = 0;                ///< of the topology's curve
+  friend auto operator<=>(const CurveSide&, const CurveSide&) = default;
+};
+
+/// All of a face, ascending, each once. The two sides of a seam are told apart by their (u, v).
+std::vector<CurveSide> curve_sides(const ElementWork& work, std::size_t face);
+
+}  // namespace carreau

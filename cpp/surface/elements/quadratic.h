@@ -1,0 +1,43 @@
+// Elements of second order: nodes on the edges of a mesh of first order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gradation/edge_sizes.h"
+#include "surface/elements/work.h"
+
+namespace carreau {
+
+/// An edge of a curve.
+struct CurveEdge {
+  std::int32_t curve = 0, segment = 0;
+  friend auto operator<=>(const CurveEdge&, const CurveEdge&) = default;
+};
+
+/// What stays invalid in a face.
+struct InvalidElements {
+  std::size_t face = 0, count = 0;
+  Vec2 uv;  ///< in the middle of the worst one
+};
+
+struct QuadraticReport {
+  std::size_t crossed = 0;      ///< elements that were invalid with nodes in the middles of straight edges of (u, v)
+  std::size_t moved_nodes = 0;  ///< nodes inside faces that mending has moved, of edges and of corners
+  std::vector<InvalidElements> invalid;
+  std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
+  /// By face: sides of elements that stay invalid, with half of the longest one as the size wanted there.
+  std::vector<std::vector<EdgeSizes::Source>> finer;
+};
+
+/// Gives each edge of result.mesh a node: on a curve the point at half the metric length of the edge, once for all
+/// faces; inside a face S at the metric middle of the segment of (u, v). Then mends elements whose Jacobian is not
+/// positive in (u, v) and in space (Bernstein coefficients of degree 2, or (3, 3)): nodes inside the face move, then
+/// vertices. Meshes that have nodes on edges get new ones.
+QuadraticReport make_quadratic(const ElementWork& work);
+
+/// The second half of it, for one face: `fixed_mid` and `fixed_vertex` tell by local index what stays in its place.
+void mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
+               const std::vector<char>& fixed_vertex, QuadraticReport& report);
+
+}  // namespace carreau

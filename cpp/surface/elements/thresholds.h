@@ -1,0 +1,24 @@
+// Thresholds of elements: what they are, in which unit, why, and what supports them.
+#pragma once
+
+namespace carreau::thresholds::elements {
+
+/// Least Jacobian over its mean (Jacobian::least) that mending stops at: solvers' condition numbers grow with its
+/// inverse, and 0 is the limit of validity. [Quadratic.InnerEdgesBendBeforeACurvedBorder]
+inline constexpr double good_jacobian = 0.2;
+/// Below this an element is not valid: rounding of coefficients is far smaller.
+inline constexpr double least_jacobian = 1e-6;
+/// First and last step of the search for a node's place, shares of its edge. The first one reaches over the bulge of an
+/// edge that turns by 90 degrees (its sagitta is a fifth of it).
+inline constexpr double first_step = 0.2, last_step = 0.01;
+/// Rounds over the elements of a face that are not good: each moves what the one before has blocked.
+inline constexpr int most_rounds = 8;
+/// Times that the model is meshed again with half the size beside elements that stay invalid: an edge of a whole circle
+/// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
+inline constexpr int most_divisions = 6;
+/// Ratio of triangles. A mesh that grows more for it is not what was asked for.
+inline constexpr double most_growth = 4;
+/// Triangles. Meshes of fewer may grow as if they had so many.
+inline constexpr double few_triangles = 1000;
+
+}  // namespace carreau::thresholds::elements

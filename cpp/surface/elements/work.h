@@ -1,0 +1,33 @@
+// What the steps work on that make elements out of the triangles of a whole mesh.
+#pragma once
+
+#include <vector>
+
+#include "cad/cad.h"
+#include "curve/curve_model.h"
+#include "curve/discrete_curve.h"
+#include "size/size_rules.h"
+#include "support/monitor.h"
+#include "surface/options.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// References only. `result` holds the whole mesh of straight triangles, its faces with (u, v), its curves, the size
+/// prescribed at each vertex, and by face the metric of (u, v) (CompositeResult::spaces; empty where a face has failed,
+/// and for some extreme parametrisations). Steps change result.mesh and result.vertex_size, and, where they divide edges
+/// of curves, result.curve_size and `curves` too.
+struct ElementWork {
+  const CurveModel& model;  ///< model, topology, supports and evaluators of curves and faces
+  /// By curve of the topology: vertex k is result.mesh.curves[c].vertices[k], unless a narrow face has vanished there.
+  std::vector<DiscreteCurve>& curves;
+  const SizeRules& rules;
+  const CompositeOptions& options;
+  CompositeResult& result;
+  Monitor& monitor;
+
+  /// The evaluator; faces are asked by FaceMesh::ref.
+  [[nodiscard]] Cad& cad() const noexcept { return model.cad; }
+};
+
+}  // namespace carreau

@@ -1,0 +1,158 @@
+#include "surface/quads/face_quads.h"
+
+#include <algorithm>
+
+#include "cad/batches.h"
+#include "surface/quads/quad_shape.h"
+#include "surface/sample/face_metric.h"
+
+namespace carreau {
+
+const CurveSide* FaceQuads::side_between(std::int32_t a, std::int32_t b) const noexcept {
+  const std::int32_t low = std::min(a, b), high = std::max(a, b);
+  const auto found = std::lower_bound(sides.begin(), sides.end(), CurveSide{low, high, 0, 0, 0});
+  return found != sides.end() && found->a == low && found->b == high ? &*found : nullptr;
+}
+
+FaceQuads face_quads(const ElementWork& work, std::size_t face) {
+  const SurfaceMesh& mesh = work.result.mesh;
+  const FaceMesh& from = mesh.faces[face];
+  FaceQuads quads;
+  quads.face = face;
+  quads.patch.uv = quads.lifted = from.uv;
+  quads.patch.fixed.assign(from.uv.size(), 0);
+  quads.vertex = from.vertex;
+  quads.size.assign(from.uv.size(), 0);
+  quads.flattened = from.flattened;
+  quads.sides = curve_sides(work, face);
+  for (const std::int32_t v : from.vertex) quads.xyz.push_back(mesh.vertices[v]);
+  for (const auto& t : from.triangles) quads.patch.cells.push_back({t[0], t[1], t[2], -1});
+  for (const CurveSide& side : quads.sides) quads.patch.fixed[side.a] = quads.patch.fixed[side.b] = 1;
+  for (const auto& t : from.flattened)
+    for (const std::int32_t v : t) quads.patch.fixed[v] = 1;
+  for (std::size_t v = 0; v < from.vertex.size(); ++v)
+    if (mesh.vertex_ref[from.vertex[v]] != 0) quads.patch.fixed[v] = 1;
+  return quads;
+}
+
+void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor) {
+  std::vector<std::int32_t> local;
+  std::vector<Vec2> uv;
+  const std::size_t known = quads.lifted.size();
+  quads.xyz.resize(quads.patch.uv.size()), quads.size.resize(quads.patch.uv.size(), 0);
+  for (std::size_t v = 0; v < quads.patch.uv.size(); ++v) {
+    const bool is_new = v >= known;
+    if (is_new ? quads.vertex[v] >= 0 : quads.lifted[v] == quads.patch.uv[v]) continue;
+    local.push_back(static_cast<std::int32_t>(v));
+    uv.push_back(quads.patch.uv[v]);
+  }
+  const auto use = [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      quads.xyz[local[first + k]] = jets[k].s;
+      if (metric != nullptr) quads.size[local[first + k]] = geometric_mean_size(jets[k], metric->at(here[k]));
+    }
+  };
+  const int ref = work.result.mesh.faces[quads.face].ref;
+  for_batches(work.cad(), ref, want_position | (metric != nullptr ? want_first : 0U), uv, monitor, use);
+  quads.lifted = quads.patch.uv;
+}
+
+std::size_t split_folded(FaceQuads& quads) {
+  std::size_t count = 0;
+  for (std::size_t c = 0, n = quads.patch.cells.size(); c < n; ++c) {
+    const MixedCell q = quads.patch.cells[c];
+    if (corners_of(q) == 3) continue;
+    const auto at = [&](int k) -> const Vec3& { return quads.xyz[q[k]]; };
+    if (scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > 0) continue;
+    const bool other = norm(at(3) - at(1)) < norm(at(2) - at(0));
+    quads.patch.cells[c] = other ? MixedCell{q[0], q[1], q[3], -1} : MixedCell{q[0], q[1], q[2], -1};
+    quads.patch.cells.push_back(other ? MixedCell{q[1], q[2], q[3], -1} : MixedCell{q[0], q[2], q[3], -1});
+    ++count;
+  }
+  return count;
+}
+
+namespace {
+
+/// Drops local vertices that nothing needs; marks theirs of the mesh.
+void compact(FaceQuads& quads, std::vector<char>& gone) {
+  const std::size_t n = quads.patch.uv.size();
+  std::vector<std::int32_t> now(n, -1);
+  for (const MixedCell& cell : quads.patch.cells)
+    for (int k = 0; k < corners_of(cell); ++k) now[cell[k]] = 0;
+  std::int32_t count = 0;
+  for (std::size_t v = 0; v < n; ++v) {
+    if (now[v] < 0 && quads.patch.fixed[v] == 0) {
+      if (quads.vertex[v] >= 0) gone[quads.vertex[v]] = 1;
+      continue;
+    }
+    now[v] = count;
+    quads.patch.uv[count] = quads.patch.uv[v], quads.vertex[count] = quads.vertex[v];
+    quads.xyz[count] = quads.xyz[v], quads.size[count] = quads.size[v];
+    ++count;
+  }
+  const auto size = static_cast<std::size_t>(count);
+  quads.patch.uv.resize(size), quads.vertex.resize(size), quads.xyz.resize(size), quads.size.resize(size);
+  for (MixedCell& cell : quads.patch.cells)
+    for (int k = 0; k < corners_of(cell); ++k) cell[k] = now[cell[k]];
+  for (auto& t : quads.flattened)
+    for (std::int32_t& v : t) v = now[v];
+}
+
+/// New numbers of the vertices of the mesh.
+std::vector<std::int32_t> drop(const std::vector<char>& gone, CompositeResult& result) {
+  SurfaceMesh& mesh = result.mesh;
+  std::vector<std::int32_t> now(gone.size(), -1);
+  std::int32_t count = 0;
+  for (std::size_t v = 0; v < gone.size(); ++v) {
+    if (gone[v] != 0) continue;
+    mesh.vertices[count] = mesh.vertices[v];
+    mesh.vertex_ref[count] = mesh.vertex_ref[v];
+    result.vertex_size[count] = result.vertex_size[v];
+    now[v] = count++;
+  }
+  const auto size = static_cast<std::size_t>(count);
+  mesh.vertices.resize(size), mesh.vertex_ref.resize(size), result.vertex_size.resize(size);
+  for (CurveMesh& curve : mesh.curves)
+    for (std::int32_t& v : curve.vertices) v = now[v];
+  return now;
+}
+
+void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeResult& result) {
+  SurfaceMesh& mesh = result.mesh;
+  FaceMesh& face = mesh.faces[quads.face];
+  for (std::size_t v = 0; v < quads.vertex.size(); ++v) {
+    std::int32_t& in_mesh = quads.vertex[v];
+    if (in_mesh < 0) {
+      in_mesh = static_cast<std::int32_t>(mesh.vertices.size());
+      mesh.vertices.push_back(quads.xyz[v]), mesh.vertex_ref.push_back(0);
+      result.vertex_size.push_back(quads.size[v]);
+      continue;
+    }
+    in_mesh = now[in_mesh];
+    if (quads.size[v] > 0) mesh.vertices[in_mesh] = quads.xyz[v], result.vertex_size[in_mesh] = quads.size[v];
+  }
+  face.uv = std::move(quads.patch.uv);
+  face.vertex = std::move(quads.vertex);
+  face.flattened = std::move(quads.flattened);
+  std::vector<std::array<std::int32_t, 4>> four;
+  std::vector<std::array<std::int32_t, 3>> three;
+  for (const MixedCell& c : quads.patch.cells) {
+    if (corners_of(c) == 4)
+      four.push_back(c);
+    else
+      three.push_back({c[0], c[1], c[2]});
+  }
+  set_cells(face, four, three, mesh.vertices);
+}
+
+}  // namespace
+
+void put_back(std::vector<FaceQuads>& faces, CompositeResult& result) {
+  std::vector<char> gone(result.mesh.vertices.size(), 0);
+  for (FaceQuads& quads : faces) compact(quads, gone);
+  const std::vector<std::int32_t> now = drop(gone, result);
+  for (FaceQuads& quads : faces) put_back(quads, now, result);
+}
+
+}  // namespace carreau

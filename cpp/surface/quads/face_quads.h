@@ -1,0 +1,39 @@
+// A face on its way to quadrilaterals.
+#pragma once
+
+#include <vector>
+
+#include "surface/elements/curve_middles.h"
+#include "surface/quads/quad_patch.h"
+
+namespace carreau {
+
+/// The cells of one face, and what they come from.
+struct FaceQuads {
+  std::size_t face = 0;
+  QuadPatch patch;
+  std::vector<std::int32_t> vertex;  ///< local -> index in SurfaceMesh::vertices; -1: new, and of this face only
+  std::vector<Vec3> xyz;             ///< positions; those of new vertices are missing until lift()
+  std::vector<Vec2> lifted;          ///< (u, v) that xyz belongs to
+  std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: as it was
+  std::vector<CurveSide> sides;      ///< on curves, ascending
+  std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
+
+  [[nodiscard]] const CurveSide* side_between(std::int32_t a, std::int32_t b) const noexcept;
+};
+
+/// Vertices on curves, imposed points and corners of flattened triangles are fixed.
+FaceQuads face_quads(const ElementWork& work, std::size_t face);
+
+/// Asks the surface for positions of vertices that are new or were moved, and for sizes there: those of `metric`, none
+/// where it is null. One evaluation a vertex.
+void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor);
+
+/// Cuts quadrilaterals that are turned over in space somewhere into two triangles each. How many.
+std::size_t split_folded(FaceQuads& quads);
+
+/// Puts the cells of faces into the mesh, all at once: vertices that no cell has any more are removed, new ones are
+/// appended face by face. Order stays.
+void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);
+
+}  // namespace carreau

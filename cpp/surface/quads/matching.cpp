@@ -1,0 +1,183 @@
+#include "surface/quads/matching.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "surface/quads/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::quads;
+
+class Matching {
+ public:
+  Matching(std::size_t count, const std::vector<WeightedPair>& pairs, Monitor& monitor)
+      : pairs_(pairs), monitor_(monitor), pairs_at_(count, {-1, -1, -1}), chosen_(count, -1), on_path_(count, 0) {
+    for (std::size_t e = 0; e < pairs.size(); ++e)
+      for (const std::int32_t t : pairs[e].triangles) {
+        auto& at = pairs_at_[t];
+        *std::find(at.begin(), at.end(), -1) = static_cast<std::int32_t>(e);
+      }
+  }
+
+  std::vector<std::int32_t> run() {
+    choose_greedily();
+    std::vector<std::int32_t> todo;
+    for (std::size_t t = 0; t < chosen_.size(); ++t)
+      if (!is_content(static_cast<std::int32_t>(t))) todo.push_back(static_cast<std::int32_t>(t));
+    for (int round = 0; round < most_rounds && !todo.empty(); ++round) todo = improve(todo);
+    std::vector<std::int32_t> result;
+    for (std::size_t t = 0; t < chosen_.size(); ++t)
+      if (chosen_[t] >= 0 && pairs_[chosen_[t]].triangles[0] == static_cast<std::int32_t>(t))
+        result.push_back(chosen_[t]);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::int32_t other(std::int32_t pair, std::int32_t t) const {
+    const auto& both = pairs_[pair].triangles;
+    return both[0] == t ? both[1] : both[0];
+  }
+
+  // Nearly all that a pair can weigh: what gains starts elsewhere.
+  [[nodiscard]] bool is_content(std::int32_t t) const {
+    return chosen_[t] >= 0 && pairs_[chosen_[t]].weight > content * heaviest_;
+  }
+
+  void choose_greedily() {
+    std::vector<std::int32_t> order(pairs_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t a, std::int32_t b) { return pairs_[a].weight > pairs_[b].weight; });
+    if (!order.empty()) heaviest_ = pairs_[order.front()].weight;
+    for (const std::int32_t e : order) {
+      const auto [t, u] = pairs_[e].triangles;
+      if (chosen_[t] < 0 && chosen_[u] < 0) chosen_[t] = chosen_[u] = e;
+    }
+  }
+
+  // The triangles of those that changed, and their neighbours.
+  std::vector<std::int32_t> improve(const std::vector<std::int32_t>& todo) {
+    std::vector<std::int32_t> changed;
+    int n = 0;
+    for (const std::int32_t t : todo) {
+      if (++n % searches_between_checks == 0) monitor_.checkpoint();
+      if (is_content(t) || !search_from(t)) continue;
+      for (const std::int32_t x : best_path_) {
+        changed.push_back(x);
+        for (const std::int32_t e : pairs_at_[x])
+          if (e >= 0) changed.push_back(other(e, x));
+      }
+    }
+    std::sort(changed.begin(), changed.end());
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    return changed;
+  }
+
+  // The best alternating path or circle from t, applied if it gains.
+  bool search_from(std::int32_t t) {
+    best_gain_ = least_gain;
+    best_path_.clear();
+    path_.assign(1, t);
+    on_path_[t] = 1;
+    if (chosen_[t] < 0) {
+      add_pairs(t, 0);
+    } else {
+      const std::int32_t u = other(chosen_[t], t);
+      step_along_chosen(u, -pairs_[chosen_[t]].weight);
+      if (best_path_.empty()) add_pairs_of_circle(t);
+    }
+    on_path_[t] = 0;
+    if (best_path_.empty()) return false;
+    apply();
+    return true;
+  }
+
+  // t is free, or has lost its pair: every pair that it is not in may be added.
+  void add_pairs(std::int32_t t, double gain) {
+    if (path_.size() > longest_path) return;
+    for (const std::int32_t e : pairs_at_[t]) {
+      if (e < 0 || e == chosen_[t]) continue;
+      const std::int32_t u = other(e, t);
+      if (on_path_[u] != 0) continue;
+      const double now = gain + pairs_[e].weight;
+      path_.push_back(u);
+      on_path_[u] = 1;
+      if (chosen_[u] < 0)
+        keep_if_best(now, false);
+      else
+        lose_pair(u, now);
+      on_path_[u] = 0;
+      path_.pop_back();
+    }
+  }
+
+  void lose_pair(std::int32_t u, double gain) {
+    const std::int32_t w = other(chosen_[u], u);
+    const double now = gain - pairs_[chosen_[u]].weight;
+    if (w == path_.front()) {
+      if (path_.size() % 2 == 0) keep_if_best(now, true);
+      return;
+    }
+    if (on_path_[w] != 0) return;
+    step_along_chosen(w, now);
+  }
+
+  // The end of a pair that goes: the path may end there, or go on.
+  void step_along_chosen(std::int32_t w, double gain) {
+    path_.push_back(w);
+    on_path_[w] = 1;
+    keep_if_best(gain, false);
+    if (gain > -most_loss) add_pairs(w, gain);
+    on_path_[w] = 0;
+    path_.pop_back();
+  }
+
+  // Circles: t takes a new pair, and loses its own at the end.
+  void add_pairs_of_circle(std::int32_t t) { add_pairs(t, 0); }
+
+  void keep_if_best(double gain, bool circle) {
+    if (!circle && chosen_[path_.front()] >= 0 && starts_with_new_pair()) return;
+    if (gain <= best_gain_) return;
+    best_gain_ = gain;
+    best_path_ = path_;
+    best_is_circle_ = circle;
+  }
+  // A path from a triangle that keeps its own pair is none, unless it closes.
+  [[nodiscard]] bool starts_with_new_pair() const {
+    return path_.size() > 1 && other(chosen_[path_.front()], path_.front()) != path_[1];
+  }
+
+  void apply() {
+    const auto n = static_cast<int>(best_path_.size());
+    const bool drops_first = chosen_[best_path_[0]] >= 0 && !best_is_circle_;
+    if (drops_first) chosen_[best_path_[0]] = -1;
+    if (chosen_[best_path_[n - 1]] >= 0 && !best_is_circle_ && (n % 2 == (drops_first ? 0 : 1)))
+      chosen_[best_path_[n - 1]] = -1;
+    for (int k = drops_first ? 1 : 0; k + 1 < n; k += 2) {
+      const std::int32_t a = best_path_[k], b = best_path_[k + 1];
+      for (const std::int32_t e : pairs_at_[a])
+        if (e >= 0 && other(e, a) == b) chosen_[a] = chosen_[b] = e;
+    }
+  }
+
+  const std::vector<WeightedPair>& pairs_;
+  Monitor& monitor_;
+  std::vector<std::array<std::int32_t, 3>> pairs_at_;  // by triangle
+  std::vector<std::int32_t> chosen_;                   // by triangle: its pair, or -1
+  std::vector<char> on_path_;
+  std::vector<std::int32_t> path_, best_path_;
+  double best_gain_ = 0, heaviest_ = 0;
+  bool best_is_circle_ = false;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> match(std::size_t count, const std::vector<WeightedPair>& pairs, Monitor& monitor) {
+  return Matching(count, pairs, monitor).run();
+}
+
+}  // namespace carreau

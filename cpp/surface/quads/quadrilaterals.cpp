@@ -1,0 +1,111 @@
+#include "surface/quads/quadrilaterals.h"
+
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "support/stepped_tasks.h"
+#include "surface/quads/cleanup.h"
+#include "surface/quads/face_quads.h"
+#include "surface/quads/halving.h"
+#include "surface/quads/pairing.h"
+#include "surface/quads/smoothing.h"
+#include "surface/quads/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::quads;
+
+class Quadrilaterals {
+ public:
+  explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
+
+  void run() {
+    for (std::size_t f = 0; f < work_.result.mesh.faces.size(); ++f)
+      if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
+    for_each([&](FaceQuads& quads, Monitor& monitor) {
+      quads = face_quads(work_, quads.face);
+      pair(quads, monitor);
+    });
+    if (has_quads_only(work_.options.element)) cut();
+    const bool bound = !asks_from_threads(work_.options, work_.cad());
+    for_each(
+        [&](FaceQuads& quads, Monitor& monitor) {
+          lift(work_, space(quads), quads, monitor);
+          if (!has_quads_only(work_.options.element)) split_folded(quads);
+        },
+        bound);
+    put_back(faces_, work_.result);
+  }
+
+ private:
+  template <typename Use>
+  void for_each(const Use& use, bool bound = false) {
+    run_each(
+        faces_.size(), bound, work_.options.threads, [&](std::size_t k, Monitor& monitor) { use(faces_[k], monitor); },
+        work_.monitor);
+  }
+
+  [[nodiscard]] const ControlSpace* space(const FaceQuads& quads) const {
+    const std::optional<ControlSpace>& space = work_.result.spaces[quads.face];
+    return space ? &*space : nullptr;
+  }
+
+  void pair(FaceQuads& quads, Monitor& monitor) const {
+    const double edge = turns_per_edge * work_.options.size.angle_mesh * std::numbers::pi / 180;
+    const PairRules rules{
+        [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
+        [&](std::int32_t v) { return quads.xyz[v]; },
+        edge * enlargement_for(work_.options.element)};
+    if (space(quads) == nullptr) {
+      pair_triangles(quads.patch, nullptr, rules, monitor);
+      return;
+    }
+    const FaceCharts charts(*space(quads));
+    pair_triangles(quads.patch, &charts, rules, monitor);
+    improve(quads, charts, monitor);
+  }
+
+  static void improve(FaceQuads& quads, const FaceCharts& charts, Monitor& monitor) {
+    const auto is_imposed = [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; };
+    clean_up(quads.patch, charts, is_imposed, monitor);
+    smooth_quads(quads.patch, charts, {}, monitor);
+    improve_worst_quads(quads.patch, charts, poor, monitor);
+  }
+
+  void cut() {
+    const std::vector<std::vector<std::int32_t>> middles = halve_curves(work_, faces_);
+    halve_sizes();
+    for_each([&](FaceQuads& quads, Monitor& monitor) {
+      halve_cells(work_, middles, quads);
+      if (space(quads) == nullptr) return;
+      const FaceCharts charts(*space(quads));
+      smooth_quads(quads.patch, charts, {}, monitor);
+      improve_worst_quads(quads.patch, charts, poor, monitor);
+    });
+  }
+
+  void halve_sizes() {
+    CompositeResult& result = work_.result;
+    const auto halve = [](std::vector<double>& sizes) {
+      for (double& h : sizes) h /= 2;
+    };
+    halve(result.vertex_size);
+    for (std::vector<double>& sizes : result.curve_size) halve(sizes);
+    for (FaceInterfaces& face : result.interfaces) halve(face.physical);
+    for (DiscreteCurve& curve : work_.curves) halve(curve.size), halve(curve.physical);
+    for (std::optional<ControlSpace>& space : result.spaces)
+      if (space) space->scale_lengths(2);
+  }
+
+  const ElementWork& work_;
+  std::vector<FaceQuads> faces_;
+};
+
+}  // namespace
+
+void make_quadrilaterals(const ElementWork& work) { Quadrilaterals(work).run(); }
+
+}  // namespace carreau

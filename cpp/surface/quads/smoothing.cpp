@@ -1,0 +1,179 @@
+#include "surface/quads/smoothing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/local_search.h"
+#include "support/incidence.h"
+#include "surface/quads/quad_shape.h"
+#include "surface/quads/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::quads;
+
+// The square that fits four points best: mean + z i^k, z their first Fourier coefficient.
+std::array<Vec2, 4> fitted_square(const std::array<Vec2, 4>& y, double radius, double pull) {
+  const Vec2 mean = 0.25 * (y[0] + y[1] + y[2] + y[3]);
+  Vec2 z{0.25 * (y[0].x() + y[1].y() - y[2].x() - y[3].y()), 0.25 * (y[0].y() - y[1].x() - y[2].y() + y[3].x())};
+  const double size = norm(z);
+  if (size > 0) z = ((1 - pull) + pull * radius / size) * z;
+  const Vec2 iz{-z.y(), z.x()};
+  return {mean + z, mean + iz, mean - z, mean - iz};
+}
+
+std::array<Vec2, 4> fitted_triangle(const std::array<Vec2, 4>& y, double radius, double pull) {
+  const Vec2 mean = (1.0 / 3) * (y[0] + y[1] + y[2]);
+  const auto turned = [](const Vec2& p, double sine) -> Vec2 {
+    return {-0.5 * p.x() - sine * p.y(), sine * p.x() - 0.5 * p.y()};
+  };
+  constexpr double s = half_root3;
+  Vec2 z = (1.0 / 3) * (y[0] + turned(y[1], -s) + turned(y[2], s));
+  const double size = norm(z);
+  if (size > 0) z = ((1 - pull) + pull * radius / size) * z;
+  return {mean + z, mean + turned(z, s), mean + turned(z, -s), mean};
+}
+
+class Smoothing {
+ public:
+  Smoothing(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor)
+      : patch_(patch), how_(how), monitor_(monitor), sum_(patch.uv.size()), count_(patch.uv.size()) {
+    charts_.reserve(patch.cells.size());
+    for (const MixedCell& cell : patch.cells) {
+      if (charts_.size() % cells_between_checks == 0) monitor.checkpoint();
+      charts_.push_back(charts.about(patch, cell));
+    }
+  }
+
+  void run() {
+    for (int pass = 0; pass < how_.passes; ++pass) {
+      monitor_.checkpoint();
+      propose();
+      before_ = patch_.uv;
+      for (std::size_t v = 0; v < sum_.size(); ++v)
+        if (patch_.fixed[v] == 0 && count_[v] > 0) patch_.uv[v] += (how_.share / count_[v]) * sum_[v];
+      while (take_back()) {
+      }
+    }
+  }
+
+ private:
+  void propose() {
+    std::fill(sum_.begin(), sum_.end(), Vec2{0, 0});
+    std::fill(count_.begin(), count_.end(), 0.);
+    for (std::size_t c = 0; c < patch_.cells.size(); ++c) {
+      const MixedCell& cell = patch_.cells[c];
+      const Chart& chart = charts_[c];
+      const int n = corners_of(cell);
+      std::array<Vec2, 4> y;
+      for (int k = 0; k < n; ++k) y[k] = chart.at(patch_.uv[cell[k]]);
+      const std::array<Vec2, 4> wanted =
+          n == 4 ? fitted_square(y, how_.unit * std::numbers::sqrt2 / 2, how_.pull)
+                 : fitted_triangle(y, how_.unit / std::numbers::sqrt3, how_.pull);
+      const double weight = n == 4 ? 1 : triangle_weight;
+      for (int k = 0; k < n; ++k) {
+        sum_[cell[k]] += weight * chart.offset(wanted[k] - y[k]);
+        count_[cell[k]] += weight;
+      }
+    }
+  }
+
+  // Vertices of cells that have turned over go back, and then those of others that have because of that.
+  bool take_back() {
+    bool any = false;
+    for (const MixedCell& cell : patch_.cells) {
+      if (is_convex(patch_, cell)) continue;
+      for (int k = 0; k < corners_of(cell); ++k)
+        if (patch_.uv[cell[k]] != before_[cell[k]]) patch_.uv[cell[k]] = before_[cell[k]], any = true;
+    }
+    return any;
+  }
+
+  QuadPatch& patch_;
+  const QuadSmoothing& how_;
+  Monitor& monitor_;
+  std::vector<Chart> charts_;  // by cell; they stay while vertices move
+  std::vector<Vec2> sum_, before_;
+  std::vector<double> count_;
+};
+
+/// The cells around each vertex.
+class Worst {
+ public:
+  Worst(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor)
+      : patch_(patch), charts_(charts), good_(good), monitor_(monitor), around_(patch.uv.size(), closed(patch.cells)) {}
+
+  void run() {
+    improve_in_passes(
+        worst_passes, monitor_, [this] { return corners_of_bad(); }, [this](std::int32_t v) { return improve(v); });
+  }
+
+ private:
+  // Triangles name their first corner twice.
+  static std::vector<MixedCell> closed(std::vector<MixedCell> cells) {
+    for (MixedCell& cell : cells)
+      if (cell[3] < 0) cell[3] = cell[0];
+    return cells;
+  }
+
+  std::vector<std::int32_t> corners_of_bad() const {
+    std::vector<std::pair<double, std::int32_t>> bad;
+    for (std::size_t c = 0; c < patch_.cells.size(); ++c)
+      if (const double q = cell_quality(patch_, charts_, patch_.cells[c]); q < good_)
+        bad.emplace_back(q, static_cast<std::int32_t>(c));
+    std::sort(bad.begin(), bad.end());
+    std::vector<std::int32_t> corners;
+    for (const auto& [q, c] : bad)
+      for (int k = 0; k < corners_of(patch_.cells[c]); ++k)
+        if (patch_.fixed[patch_.cells[c][k]] == 0) corners.push_back(patch_.cells[c][k]);
+    return corners;
+  }
+
+  // Below `enough` it need not be known; beyond what is good all are alike.
+  double worst_around(double enough) const {
+    double worst = good_;
+    for (const auto& [c, chart] : star_) {
+      if (!is_convex(patch_, patch_.cells[c])) return -1;
+      worst = std::min(worst, cell_quality(patch_, chart, patch_.cells[c]));
+      if (worst < enough) break;
+    }
+    return worst;
+  }
+
+  bool improve(std::int32_t v) {
+    star_.clear();
+    for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, charts_.about(patch_, patch_.cells[c]));
+    const double start = worst_around(-1);
+    if (start >= good_) return false;
+    const Vec2 home = patch_.uv[v];
+    const Chart chart = charts_.about(home);
+    const Vec2 way = search_along_compass(start, first_step, last_step, [&](const Vec2& there, double best) {
+      patch_.uv[v] = home + chart.offset(there);
+      return worst_around(best);
+    });
+    patch_.uv[v] = home + chart.offset(way);
+    return !(way == Vec2{0, 0});
+  }
+
+  QuadPatch& patch_;
+  const FaceCharts& charts_;
+  double good_;
+  Monitor& monitor_;
+  Incidence around_;
+  std::vector<std::pair<std::int32_t, Chart>> star_;  // cells around the vertex at hand, with charts that stay
+};
+
+}  // namespace
+
+void smooth_quads(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor) {
+  Smoothing(patch, charts, how, monitor).run();
+}
+
+void improve_worst_quads(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor) {
+  Worst(patch, charts, good, monitor).run();
+}
+
+}  // namespace carreau

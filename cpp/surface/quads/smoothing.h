@@ -1,0 +1,25 @@
+// Vertices of quadrilaterals moved in the parameter plane.
+#pragma once
+
+#include "support/monitor.h"
+#include "surface/quads/quad_patch.h"
+
+namespace carreau {
+
+struct QuadSmoothing {
+  int passes = 5;
+  double share = 1;   ///< of the way to the mean of the places that cells propose
+  double pull = 0.3;  ///< 0: cells keep their size; 1: they propose that of unit edges
+  /// Length of edges wanted, in the metric.
+  double unit = 1;
+};
+
+/// Each cell proposes to its corners those of the square (a triangle: of the equilateral triangle) that fits it best in
+/// the metric, and each vertex that is not fixed goes towards the mean of proposals. No cell that is convex turns over
+/// or gets flat.
+void smooth_quads(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor);
+
+/// Vertices of cells below `good`, worst first, go where the worst cell around is best.
+void improve_worst_quads(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,51 @@
+// Thresholds of the room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+#include <cstddef>
+
+namespace carreau::thresholds::quads {
+
+// Charts (quad_patch)
+/// Bend a unit (metric/chart.h). Below it a tensor serves a whole cell: an edge's sagitta is less than a fortieth.
+inline constexpr double least_bend = 0.05;
+
+// Pairs (pairing)
+/// Quality. Worse quadrilaterals are no candidates.
+inline constexpr double least_pair = 0.08;
+/// Edges of sizes by angle_mesh turn by twice that angle from end to end, and so may two triangles.
+inline constexpr double turns_per_edge = 2;
+
+// Matching
+/// Weight of a pair beside its quality: two poor quadrilaterals are better than a good one and two triangles.
+inline constexpr double pair_bonus = 0.7;
+/// Triangles on an alternating path or circle.
+inline constexpr std::size_t longest_path = 10;
+/// Share of the heaviest pair's weight. Triangles of such pairs start no search.
+inline constexpr double content = 0.92;
+/// Least gain that counts, more than rounding.
+inline constexpr double least_gain = 1e-9;
+/// A path that has lost so much on its way is given up.
+inline constexpr double most_loss = 2.5;
+inline constexpr int most_rounds = 20;
+inline constexpr int searches_between_checks = 4096;
+
+// Smoothing
+/// Of what a triangle proposes beside a quadrilateral.
+inline constexpr double triangle_weight = 0.5;
+inline constexpr std::size_t cells_between_checks = 4096;
+/// Quality. Vertices of worse cells are moved one by one.
+inline constexpr double poor = 0.6;
+/// Units. Of the search for a better place: its first steps, and those at which it ends.
+inline constexpr double first_step = 0.2, last_step = 0.02;
+/// Passes over the worst cells.
+inline constexpr int worst_passes = 5;
+
+
+// Clean-up
+inline constexpr int cleanup_passes = 6;
+/// Quality. Changes of the topology may leave so poor cells for smoothing to mend.
+inline constexpr double least_after_change = 0.15;
+/// Metric length of edges that a change makes.
+inline constexpr double shortest_edge = 0.5, longest_edge = 1.6;
+
+}  // namespace carreau::thresholds::quads
