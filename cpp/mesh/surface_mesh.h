@@ -28,8 +28,14 @@ struct FaceMesh {
   /// Triangles of (u, v) that a degenerate side flattens in space: part of the plane mesh, not of the mesh in space.
   std::vector<std::array<std::int32_t, 3>> flattened;
   int part_of = 0;  ///< reference of the face that results speak of in place of this one; 0: none
+  /// Of a mesh that is independent of its patches; else empty. By local vertex: the face (index in SurfaceMesh::faces)
+  /// whose (u, v) it has; by triangle: 1 where its corners are of several charts (faces, or sides of a seam), so that
+  /// it is no triangle of (u, v).
+  std::vector<std::int32_t> uv_face = {};
+  std::vector<char> spread = {};
 
   [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
+  [[nodiscard]] bool is_spread(std::size_t triangle) const noexcept { return !spread.empty() && spread[triangle] != 0; }
 };
 
 /// One appearance of a discretised curve in a face.
@@ -53,6 +59,8 @@ struct SurfaceMesh {
   std::vector<std::int32_t> vertex_ref;  ///< reference of the corner or imposed point; 0: made by the mesher
   std::vector<FaceMesh> faces;           ///< as in the model
   std::vector<CurveMesh> curves;         ///< as in the topology
+  /// Borders that are not sharp mean nothing: curves have the edges that are sharp, others may lie between faces.
+  bool independent = false;
 
   [[nodiscard]] std::size_t triangle_count() const noexcept;
   [[nodiscard]] std::size_t edge_count() const noexcept;
@@ -66,8 +74,9 @@ struct DefectOptions {
 /// One sentence a defect, e.g. "triangle 17 of face 3: no area in space"; empty when the mesh is sound. Checks sizes
 /// and index ranges, finite coordinates, repeated vertices, area in (u, v) (exact) and in space, orientation inside
 /// each face, duplicated triangles, unused vertices, and the number of triangles on every edge: on a curve one for each
-/// boundary use and two for each internal use in a meshed face; two, of one face, anywhere else. Faces that are not
-/// meshed are passed over.
+/// boundary use and two for each internal use in a meshed face; two, of one face, anywhere else (of any faces, when the mesh
+/// is independent of them; triangles of several charts have no area in (u, v)). Faces that are not meshed are passed
+/// over.
 std::vector<std::string> find_defects(const SurfaceMesh& mesh, const DefectOptions& options = {});
 
 }  // namespace carreau

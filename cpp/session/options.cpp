@@ -84,6 +84,8 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.failing_faces_alone = leaves_out(parameters);
   options.crossing_rounds = parameters.integer("crossing_rounds");
   options.frontal = parameters.integer("frontal") != 0;
+  options.independent = parameters.text("patches") == "independent";
+  options.sharp_angle = parameters.real("sharp_angle");
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);
   return options;
