@@ -233,6 +233,7 @@ class Reassembler {
     for (Run& run : runs) {
       CurveMesh curve = mesh.curves[run.curve];
       curve.uses = uses_of(run);
+      curve.vertices.clear();
       for (const std::int32_t v : run.vertices) curve.vertices.push_back(number_[v]);
       if (mesh.curves[run.curve].vertices.empty())
         mesh.curves[run.curve] = std::move(curve);
