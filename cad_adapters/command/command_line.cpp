@@ -207,6 +207,13 @@ void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
                 "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
                 "--gradation 1.3")
       ->check(CLI::Range(1.0, 1e9));
+  CLI::Option* independent = app->add_flag("--independent", options.independent,
+                                           "Borders between faces that are not sharp mean nothing: triangles cross them");
+  app->add_option("--sharp-angle", options.sharp_angle,
+                  "With --independent: degrees between faces beyond which their border is sharp; 1 when not given")
+      ->check(CLI::Range(0.0, 180.0))
+      ->needs(independent)
+      ->type_name("DEGREES");
   app->add_option("--min", options.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
   app->add_option("--max", options.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
   repeated(app->add_option("--face-size", options.face_sizes,

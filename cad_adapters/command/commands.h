@@ -33,6 +33,8 @@ struct MeshOptions {
   std::string size_map;                       ///< formula or file; empty: none
   double angle = 0;                           ///< degrees; 0: not given
   std::optional<double> gradation;            ///< 0: none
+  bool independent = false;                   ///< borders of patches that are not sharp mean nothing
+  std::optional<double> sharp_angle;          ///< degrees
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> settings;          ///< "parameter=value"
