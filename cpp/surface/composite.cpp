@@ -69,7 +69,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   };
   mesh();
   part_crossing_triangles(run, mesh);
-  if (options.independent) free_from_patches(topology, supports, cad, options, run.result, monitor);
+  if (options.independent) free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

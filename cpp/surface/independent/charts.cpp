@@ -25,8 +25,9 @@ struct SideOf {
 
 Charts::Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size, Cad& cad,
                Monitor& monitor)
-    : size_(size.begin(), size.end()), cad_(cad) {
+    : xyz_(mesh.vertices), size_(size.begin(), size.end()), cad_(cad) {
   collect(mesh);
+  guarded_.assign(triangles_.size(), 0);
   monitor.checkpoint();
   link(barriers);
   monitor.checkpoint();
@@ -58,7 +59,16 @@ void Charts::link(std::span<const MeshEdge> barriers) {
     for (n = 1; k + n < sides.size() && sides[k + n].edge == sides[k].edge;) ++n;
     if (n == 2 && !std::ranges::binary_search(barriers, sides[k].edge))
       link(sides[k].triangle, sides[k].side, sides[k + 1].triangle, sides[k + 1].side);
+    else
+      for (std::size_t i = k; i < k + n; ++i) barrier_.push_back({sides[i].edge, {sides[i].triangle, sides[i].side}});
   }
+}
+
+std::vector<Charts::OnEdge> Charts::triangles_on(const MeshEdge& barrier) const {
+  std::vector<OnEdge> found;
+  for (const BarrierSide& side : std::ranges::equal_range(barrier_, barrier, {}, &BarrierSide::edge))
+    found.push_back(side.on);
+  return found;
 }
 
 void Charts::link(std::int32_t t, int i, std::int32_t u, int j) {
@@ -105,6 +115,12 @@ std::array<double, 3> Charts::weights(std::int32_t triangle, const Vec2& p) cons
   const double area = cross(b - a, c - a);
   const double wb = cross(p - a, c - a) / area, wc = cross(b - a, p - a) / area;
   return {1 - wb - wc, wb, wc};
+}
+
+void Charts::guard(const Vec3& place, double distance) {
+  for (std::size_t t = 0; t < triangles_.size(); ++t)
+    for (const std::int32_t v : triangles_[t].vertex)
+      if (norm(xyz_[v] - place) <= distance) guarded_[t] = 1;
 }
 
 double Charts::size(const Foot& f) const {

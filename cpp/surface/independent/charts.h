@@ -50,11 +50,21 @@ class Charts {
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
   [[nodiscard]] const std::vector<MeshEdge>& twisted() const noexcept { return twisted_; }
+  /// Triangles on a barrier, with the side that it is.
+  struct OnEdge {
+    std::int32_t triangle;
+    int side;
+  };
+  [[nodiscard]] std::vector<OnEdge> triangles_on(const MeshEdge& barrier) const;
   [[nodiscard]] std::int32_t face(const Foot& f) const { return triangles_[f.triangle].face; }
   [[nodiscard]] Vec2 uv(std::int32_t triangle, int corner) const {
     const Triangle& t = triangles_[triangle];
     return uv_[t.face][t.local[corner]];
   }
+
+  /// Triangles with a vertex no farther from a place: edits there must leave nothing farther from the surface than before.
+  void guard(const Vec3& place, double distance);
+  [[nodiscard]] bool is_guarded(const Foot& f) const { return guarded_[f.triangle] != 0; }
 
   /// The size there, linear between those of the vertices.
   [[nodiscard]] double size(const Foot& f) const;
@@ -71,6 +81,11 @@ class Charts {
     enum class End { there, border, blocked } end = End::blocked;
     Foot foot;
   };
+  /// A side of a triangle on a barrier.
+  struct BarrierSide {
+    MeshEdge edge;
+    OnEdge on;
+  };
   void collect(const SurfaceMesh& mesh);
   void link(std::span<const MeshEdge> barriers);
   void link(std::int32_t t, int i, std::int32_t u, int j);
@@ -81,9 +96,12 @@ class Charts {
 
   std::vector<Triangle> triangles_;
   std::vector<std::vector<Vec2>> uv_;  // by face and local vertex
-  std::vector<double> size_;           // by vertex of the mesh
+  std::vector<Vec3> xyz_;              // by vertex of the mesh
+  std::vector<double> size_;           // the same
   std::vector<int> ref_;               // by face
   std::vector<MeshEdge> twisted_;
+  std::vector<BarrierSide> barrier_;  // by edge, ascending
+  std::vector<char> guarded_;         // by triangle
   Cad& cad_;
 };
 

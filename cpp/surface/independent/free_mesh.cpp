@@ -6,8 +6,11 @@
 
 #include "mesh/quality.h"
 #include "support/infinity.h"
+#include "surface/independent/thresholds.h"
 
 namespace carreau {
+
+using namespace thresholds::independent;
 
 FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
                    std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners,
@@ -90,11 +93,14 @@ void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleSha
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
   std::array<Vec3, 3> normal;
+  bool guarded = false;
+  double share = 0;
   for (int i = 0; i < 3; ++i) {
     normal[i] = normal_at(v[i], n);
+    guarded = guarded || charts_.is_guarded(place_[v[i]].foot);
     if (dot(normal[i], normal[i]) == 0) continue;  // singular
     const double cosine = area > 0 ? dot(normal[i], n) / area : -1;
-    shapes.share = std::max(shapes.share, (1 - cosine) / (1 - cosine_));
+    share = std::max(share, (1 - cosine) / (1 - cosine_));
   }
   const double h = (size_[a] + size_[b] + size_[c]) / 3;
   const double allowed = tolerances_.deviation > 0 ? tolerances_.deviation : tolerances_.share_of_size * h;
@@ -102,8 +108,9 @@ void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleSha
     const int j = (i + 1) % 3;
     const Vec3 d = p[j] - p[i];
     const double offset = (std::abs(dot(d, normal[i])) + std::abs(dot(d, normal[j]))) / 8;
-    shapes.share = std::max(shapes.share, offset * offset / (allowed * allowed));
+    share = std::max(share, offset * offset / (allowed * allowed));
   }
+  shapes.share = std::max(shapes.share, guarded ? guarded_factor * share : share);
 }
 
 TriangleShapes FreeMesh::judge_around(std::int32_t v) const {
@@ -139,6 +146,11 @@ void FreeMesh::forget_vertex() { place_.pop_back(), size_.pop_back(), several_.p
 std::int32_t FreeMesh::split(const Quad& q, const SurfacePlace& at) {
   (void)try_vertex(at);
   return mesh_->split(q, at.foot.uv, at.xyz).local;
+}
+
+void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size) {
+  put(v, at.front(), size);
+  kept_places_[several_[v]].assign(at.begin(), at.end());
 }
 
 void FreeMesh::put(std::int32_t v, const SurfacePlace& at, double size) {

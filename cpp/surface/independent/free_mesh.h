@@ -73,6 +73,8 @@ class FreeMesh {
   std::int32_t split(const Quad& q, const SurfacePlace& at);
   /// Puts a free vertex there, and gives what it was; tests nothing.
   void put(std::int32_t v, const SurfacePlace& at, double size);
+  /// The same of a vertex on a line; the first place has the position.
+  void put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size);
 
   Charts& charts() noexcept { return charts_; }
 

@@ -34,6 +34,9 @@ class Remesher {
       split_long();
       swap_all();
       move_all();
+      thin_out();
+      swap_all();
+      move_all();
       swap_all();
       move_all();
       if (report_.collapses + report_.splits == before) break;
@@ -55,6 +58,7 @@ class Remesher {
   void activate_all() {
     active_.assign(mesh_.vertices(), 0);
     for (const auto& t : mesh_.triangles()) {
+      if (t[0] < 0) continue;
       TriangleShapes shape;
       mesh_.judge(t[0], t[1], t[2], shape);
       bool bad = shape.worst < good_enough;
@@ -114,6 +118,7 @@ class Remesher {
     for (const LongEdge& e : edges([](double l) { return l < shortest; }, std::less<>())) {
       monitor_.checkpoint();
       if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < shortest)) continue;
+      if (mesh_.mesh().is_imposed(e.v, e.w)) continue;  // line_remeshing
       const auto forth = worst_after(e.v, e.w), back = worst_after(e.w, e.v);
       const bool turned = back > forth;
       (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
@@ -142,6 +147,53 @@ class Remesher {
       mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
     if (!adjacent || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape)) return -1;
+    return after.worst;
+  }
+
+  // Where triangles are smaller than equilateral ones of unit length, though no edge is short: while triangles stay no
+  // larger in the mean.
+  void thin_out() {
+    for (const LongEdge& e : edges([](double l) { return l < short_when_dense; }, std::less<>())) {
+      monitor_.checkpoint();
+      if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < short_when_dense)) continue;
+      if (mesh_.mesh().is_imposed(e.v, e.w) || !is_dense(e.v, e.w)) continue;
+      const auto forth = worst_when_dense(e.v, e.w), back = worst_when_dense(e.w, e.v);
+      const bool turned = back > forth;
+      (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
+          (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));
+    }
+  }
+
+  // Without two of the triangles around.
+  [[nodiscard]] bool is_dense(std::int32_t v, std::int32_t w) const {
+    const EditableMesh& mesh = mesh_.mesh();
+    double area = 0;
+    int count = -2;
+    for (const std::int32_t end : {v, w})
+      for (const Place p : mesh.fan(end)) {
+        const auto& t = mesh.at(p);
+        if (end == w && (t[0] == v || t[1] == v || t[2] == v)) continue;
+        const double h = (mesh_.size(t[0]) + mesh_.size(t[1]) + mesh_.size(t[2])) / 3;
+        area += norm(mesh.normal(p)) / (2 * h * h);
+        ++count;
+      }
+    return area <= 0.5 * half_root3 * count * most_mean_area;
+  }
+
+  [[nodiscard]] double worst_when_dense(std::int32_t gone, std::int32_t kept) const {
+    if (!mesh_.is_free(gone)) return -1;
+    const EditableMesh& mesh = mesh_.mesh();
+    TriangleShapes before, after;
+    for (const Place p : mesh.fan(gone)) {
+      const auto t = mesh.at(p);
+      if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
+      mesh_.judge(t[0], t[1], t[2], before);
+      const int i = mesh.rank_in(p, gone);
+      for (const std::int32_t w : {t[(i + 1) % 3], t[(i + 2) % 3]})
+        if (mesh_.length(kept, w) > never_longer) return -1;
+      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+    }
+    if (!FreeMesh::agrees(before, after) || after.worst < least_shape_when_dense) return -1;
     return after.worst;
   }
 
@@ -201,9 +253,25 @@ class Remesher {
     TriangleShapes before, after;
     mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
     mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
-    if (after.worst < before.worst + least_gain || !FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
+    const bool better = after.worst >= before.worst + least_gain ||
+                        (after.worst >= least_shape_of_degrees && evens_degrees(*q));
+    if (!better || !FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
     for (const std::int32_t k : {q->a, q->b, q->c, q->d}) activate(k);
     ++report_.swaps;
+  }
+
+  // Towards six edges at each vertex.
+  [[nodiscard]] bool evens_degrees(const Quad& q) const {
+    if (report_.rounds >= most_rounds_of_degrees) return false;
+    const auto excess = [&](std::int32_t v) {
+      return mesh_.is_free(v) ? static_cast<int>(mesh_.mesh().fan(v).size()) - 6 : 0;
+    };
+    if (!mesh_.is_free(q.a) || !mesh_.is_free(q.b)) return false;
+    // Moving one edge from a and b to c and d.
+    int gain = 0;
+    for (const std::int32_t v : {q.a, q.b}) gain += 2 * excess(v) - 1;
+    for (const std::int32_t v : {q.c, q.d}) gain -= mesh_.is_free(v) ? 2 * excess(v) + 1 : 1;
+    return gain > 0;
   }
 
   void move_all() {

@@ -149,7 +149,7 @@ std::span<const Incidence> at_vertex(const std::vector<Incidence>& all, std::int
 /// Directions in which curves leave their ends, as their supports have them.
 class Tangents {
  public:
-  Tangents(const SurfaceMesh& mesh, const Topology* topology, const ModelSupports& supports)
+  Tangents(const SurfaceMesh& mesh, const Topology* topology, const std::vector<std::vector<CurveSupport>>& supports)
       : mesh_(mesh), topology_(topology), supports_(supports) {}
 
   /// Whether the two edges at a vertex are of one line that goes straight on.
@@ -169,7 +169,7 @@ class Tangents {
   [[nodiscard]] std::optional<Vec3> leaving(const Incidence& edge) const {
     const auto& chain = mesh_.curves[edge.curve].vertices;
     const CurveUse& use = topology_->curves[edge.curve].uses.front();
-    const std::vector<Vec3>& xyz = supports_.of_face[use.face][use.curve].xyz;
+    const std::vector<Vec3>& xyz = supports_[use.face][use.curve].xyz;
     if (chain.front() == edge.vertex && chain[1] == edge.other) return Vec3(xyz[1] - xyz[0]);
     if (chain.back() == edge.vertex) return Vec3(xyz[xyz.size() - 2] - xyz.back());
     return {};
@@ -177,7 +177,7 @@ class Tangents {
 
   const SurfaceMesh& mesh_;
   const Topology* topology_;
-  const ModelSupports& supports_;
+  const std::vector<std::vector<CurveSupport>>& supports_;
 };
 
 // Imposed points have references and end no curve.
@@ -200,7 +200,7 @@ VertexJets evaluate_vertices(const SurfaceMesh& mesh, Cad& cad, Monitor& monitor
     const FaceMesh& face = mesh.faces[f];
     all[f].resize(face.uv.size());
     if (face.triangles.empty()) continue;
-    for_batches(cad, face.ref, want_position | want_first, face.uv, monitor,
+    for_batches(cad, face.ref, want_first, face.uv, monitor,
                 [&](std::size_t first, std::span<const Vec2>, std::span<const SurfaceJet> jets) {
                   std::ranges::copy(jets, all[f].begin() + static_cast<std::ptrdiff_t>(first));
                 });
@@ -223,7 +223,7 @@ std::vector<MeshEdge> find_sharp_edges(const SurfaceMesh& mesh, const VertexJets
 
 std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets& jets, const Charts& charts,
                                        const std::vector<MeshEdge>& sharp, const Topology* topology,
-                                       const ModelSupports& supports, double angle) {
+                                       const std::vector<std::vector<CurveSupport>>& supports, double angle) {
   const Surroundings around(mesh, charts);
   const std::vector<Incidence> edges = incidences(mesh, sharp);
   const Tangents tangents(mesh, topology, supports);
@@ -274,8 +274,10 @@ std::vector<SharpLine> find_lines(const SurfaceMesh& mesh, const std::vector<Mes
   };
   for (std::size_t k = 0; k < edges.size(); ++k)
     if (used[k] == 0 && std::ranges::binary_search(corners, edges[k].vertex)) follow(k);
-  for (std::size_t k = 0; k < edges.size(); ++k)
-    if (used[k] == 0) follow(k);
+  // Loops start where a curve does, if they may.
+  for (const bool any : {false, true})
+    for (std::size_t k = 0; k < edges.size(); ++k)
+      if (used[k] == 0 && (any || mesh.vertex_ref[edges[k].vertex] != 0)) follow(k);
   return lines;
 }
 

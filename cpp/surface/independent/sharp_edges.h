@@ -7,7 +7,7 @@
 #include "cad/cad.h"
 #include "model/topology.h"
 #include "surface/independent/charts.h"
-#include "surface/supports.h"
+#include "curve/support.h"
 
 namespace carreau {
 
@@ -19,7 +19,7 @@ struct SharpLine {
   [[nodiscard]] bool closed() const noexcept { return vertices.front() == vertices.back(); }
 };
 
-/// Position and first derivatives at each local vertex: [face][local].
+/// First derivatives at each local vertex: [face][local].
 using VertexJets = std::vector<std::vector<SurfaceJet>>;
 /// One evaluation each.
 VertexJets evaluate_vertices(const SurfaceMesh& mesh, Cad& cad, Monitor& monitor);
@@ -33,7 +33,7 @@ std::vector<MeshEdge> find_sharp_edges(const SurfaceMesh& mesh, const VertexJets
 /// meet at the edges of the line. `topology` may be null: then every end of a curve on a line is one.
 std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets& jets, const Charts& charts,
                                        const std::vector<MeshEdge>& sharp, const Topology* topology,
-                                       const ModelSupports& supports, double angle);
+                                       const std::vector<std::vector<CurveSupport>>& supports, double angle);
 
 std::vector<SharpLine> find_lines(const SurfaceMesh& mesh, const std::vector<MeshEdge>& sharp,
                                   const std::vector<std::int32_t>& corners);

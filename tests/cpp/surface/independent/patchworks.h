@@ -47,7 +47,7 @@ inline AnalyticCad cube_of_squares(int n) {
   return cad;
 }
 
-/// Radius 1, height 2, open at both ends, strips along the axis.
+/// Radius 1, height 10, open at both ends, strips along the axis.
 inline AnalyticCad cylinder_of_strips(int strips) {
   AnalyticCad cad;
   add_grid(
@@ -56,7 +56,7 @@ inline AnalyticCad cylinder_of_strips(int strips) {
         const double c = std::cos(p.x()), s = std::sin(p.x());
         return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {0, 0, 0}, {0, 0, 0}};
       },
-      {0, 0}, {2 * std::numbers::pi, 2}, strips, 1);
+      {0, 0}, {2 * std::numbers::pi, 10}, strips, 1);
   return cad;
 }
 
