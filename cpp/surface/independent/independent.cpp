@@ -21,7 +21,9 @@ using namespace thresholds::independent;
 
 SurfaceTolerances tolerances_of(const CompositeOptions& options) {
   const GeometricLimits limits = geometric_limits(options.size);
-  SurfaceTolerances tolerances{.angle_deg = usual_angle, .deviation = 0, .share_of_size = usual_deviation};
+  // What is folded by less than the sharp angle may be flattened.
+  const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
+  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg;
   if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
   return tolerances;

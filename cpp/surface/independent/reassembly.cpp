@@ -116,17 +116,44 @@ class TrianglePlacer {
     return best;
   }
 
+  /// The surface over a place of the triangle, from the nearest corner that has a normal.
+  [[nodiscard]] std::optional<SurfacePlace> below(const std::array<double, 3>& weight,
+                                                  const std::array<std::int32_t, 3>& k) {
+    const Vec3 target = weight[0] * mesh_.position(vertex_[0]) + weight[1] * mesh_.position(vertex_[1]) +
+                        weight[2] * mesh_.position(vertex_[2]);
+    std::array<int, 3> order{0, 1, 2};
+    std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
+    for (const int i : order) {
+      const SurfacePlace& from = mesh_.places(vertex_[i])[k[i]];
+      if (!from.regular) continue;
+      if (auto place = mesh_.charts().towards(from, target)) return place;
+    }
+    return {};
+  }
+
+  // The face that holds most of some places, where the corners are of three; else that of the centroid.
+  [[nodiscard]] std::optional<SurfacePlace> most_of(const std::array<std::int32_t, 3>& k) {
+    constexpr double third = 1. / 3, most = 2. / 3, rest = 1. / 6;
+    auto found = below({third, third, third}, k);
+    const auto corner = [&](int i) { return face_of(mesh_.places(vertex_[i])[k[i]]); };
+    if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) return found;
+    std::map<std::int32_t, int> votes;
+    std::vector<SurfacePlace> places;
+    if (found) places.push_back(*found);
+    for (const auto& weight : {std::array{most, rest, rest}, {rest, most, rest}, {rest, rest, most},
+                               {0.5, 0.5, 0.}, {0., 0.5, 0.5}, {0.5, 0., 0.5}})
+      if (auto place = below(weight, k)) places.push_back(*place);
+    for (const SurfacePlace& p : places) ++votes[face_of(p)];
+    for (const SurfacePlace& p : places)
+      if (!found || votes[face_of(p)] > votes[face_of(*found)]) found = p;
+    return found;
+  }
+
   PlacedTriangle over_several() {
-    const Vec3 centre = (mesh_.position(vertex_[0]) + mesh_.position(vertex_[1]) + mesh_.position(vertex_[2])) / 3;
     std::array<std::int32_t, 3> k{};
     for (int i = 0; i < 3; ++i) k[i] = nearest_place(vertex_[i], -1);
-    std::optional<SurfacePlace> foot;
-    int first = 0;
-    for (int i = 0; i < 3 && !foot; ++i) {
-      const SurfacePlace& from = mesh_.places(vertex_[i])[k[i]];
-      if (from.regular) foot = mesh_.charts().towards(from, centre), first = i;
-    }
-    const SurfacePlace middle = foot ? *foot : mesh_.places(vertex_[first])[k[first]];
+    const std::optional<SurfacePlace> foot = most_of(k);
+    const SurfacePlace middle = foot ? *foot : mesh_.places(vertex_[0])[k[0]];
     const std::int32_t face = face_of(middle);
     PlacedTriangle placed{face, {}, true};
     for (int i = 0; i < 3; ++i) placed.corners[i] = {vertex_[i], nearest_place(vertex_[i], face)};

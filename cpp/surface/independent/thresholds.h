@@ -67,6 +67,8 @@ inline constexpr double guarded_factor = 1e4;
 inline constexpr int most_attempts = 4;
 /// Sizes around such a place that are guarded.
 inline constexpr double guarded_sizes = 2;
+/// Degrees. A larger sharp_angle does not let triangles stand upright.
+inline constexpr double most_angle = 80;
 /// Share of the size: A0 there.
 inline constexpr double usual_deviation = 0.3;
 
