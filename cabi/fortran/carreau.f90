@@ -41,7 +41,7 @@ module carreau
   public :: carreau_mesh_from_arrays
   public :: carreau_mesh_read, carreau_mesh_write, carreau_mesh_count, carreau_mesh_dimension
   public :: carreau_mesh_vertices, carreau_mesh_vertex_refs, carreau_mesh_vertex_sizes
-  public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv
+  public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv, carreau_mesh_corner_faces
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
   public :: carreau_mesh_intersections
   public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_edge_mids
@@ -1234,6 +1234,19 @@ contains
     status = c_mesh_corner_uv(mesh%handle, m, uv)
     if (status /= CARREAU_OK) deallocate (uv)
   end subroutine carreau_mesh_corner_uv
+
+  !> refs(3, m): of the faces that corner_uv is of
+  subroutine carreau_mesh_corner_faces(mesh, refs, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), allocatable, intent(out) :: refs(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: n, m, k, f
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(3, m))
+    status = c_mesh_corner_faces(mesh%handle, m, refs)
+    if (status /= CARREAU_OK) deallocate (refs)
+  end subroutine carreau_mesh_corner_faces
 
   !> vertices(2, k), from 1
   subroutine carreau_mesh_edges(mesh, vertices, status)

@@ -850,6 +850,15 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_corner_uv
 
+    function c_mesh_corner_faces(mesh, capacity, refs) result(status) bind(c, name="carreau_mesh_corner_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_corner_faces
+
     function c_mesh_edges(mesh, capacity, vertices) result(status) bind(c, name="carreau_mesh_edges")
       import :: c_int32_t, c_int64_t, c_ptr
       implicit none

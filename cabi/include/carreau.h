@@ -682,7 +682,9 @@ CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* o
  *   vertex_sizes    n          prescribed size, model length; mesh of a session only
  *   triangles       m x 3      vertices, counterclockwise in (u, v); face by face in the order of the model
  *   triangle_refs   m          reference of the face
- *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle; mesh of a session, or of arrays with it
+ *   corner_uv       m x 3 x 2  u v of each corner in the face of the triangle, or, when the mesh is independent of its
+ *                              patches (parameter patches), in that of corner_faces; mesh of a session, or of arrays with it
+ *   corner_faces    m x 3      reference of the face that corner_uv is of; mesh of a session only
  *   edges           k x 2      vertices, along each curve from its first end to its second
  *   edge_refs       k          reference of the curve */
 CARREAU_API carreau_status carreau_mesh_vertices(carreau_mesh* mesh, int64_t capacity, double out_xyz[]);
@@ -691,6 +693,7 @@ CARREAU_API carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t
 CARREAU_API carreau_status carreau_mesh_triangles(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
 CARREAU_API carreau_status carreau_mesh_triangle_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 CARREAU_API carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, double out_uv[]);
+CARREAU_API carreau_status carreau_mesh_corner_faces(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 CARREAU_API carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
 CARREAU_API carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int32_t out_refs[]);
 
@@ -737,8 +740,8 @@ typedef struct carreau_cell_quality {
 CARREAU_API carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_quality* out_quality);
 
 /* The status of a face. A `mended` face is meshed, but something was repaired, or triangles are turned over; `why` says
- * which. A `failed` face has no triangles. A `collapsed` face is narrow (parameter narrow_faces) and has vanished
- * between its neighbours, which share one curve in its place. */
+ * which. A `failed` face has no triangles. A `collapsed` face has vanished between its neighbours: it is narrow
+ * (parameter narrow_faces), and they share one curve in its place, or its borders mean nothing (parameter patches). */
 enum {
   CARREAU_FACE_NOT_MESHED = 0,
   CARREAU_FACE_MESHED = 1,

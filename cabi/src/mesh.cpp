@@ -277,6 +277,19 @@ carreau_status carreau_mesh_corner_uv(carreau_mesh* mesh, int64_t capacity, doub
   });
 }
 
+carreau_status carreau_mesh_corner_faces(carreau_mesh* mesh, int64_t capacity, int32_t* out_refs) {
+  return guarded(mesh, [&] {
+    required(out_refs, "out_refs");
+    check_capacity(capacity, Counts(*mesh).triangles, "triangles");
+    std::int32_t* out = out_refs;
+    const carreau::SurfaceMesh& surface = session_only(*mesh, "(u, v)");
+    for_each_triangle(surface, [&](const FaceMesh& face, const auto& corners) {
+      for (const std::int32_t local : corners)
+        *out++ = face.uv_face.empty() ? face.shown_ref() : surface.faces[face.uv_face[std::size_t(local)]].shown_ref();
+    });
+  });
+}
+
 carreau_status carreau_mesh_edges(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices) {
   return guarded(mesh, [&] {
     required(out_vertices, "out_vertices");

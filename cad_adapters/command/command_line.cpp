@@ -282,6 +282,13 @@ void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
                   "Elements: p1, p2 (curved), q1.0, q1.1 (quadrilaterals, .1 without triangles), q2.0, q2.1 (curved)")
       ->check(CLI::IsMember({"p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"}))
       ->type_name("ELEMENT");
+  CLI::Option* independent = app->add_flag("--independent", options.independent,
+                                           "Borders between faces that are not sharp mean nothing: triangles cross them");
+  app->add_option("--sharp-angle", options.sharp_angle,
+                  "With --independent: degrees between faces beyond which their border is sharp; 1 when not given")
+      ->check(CLI::Range(0.0, 180.0))
+      ->needs(independent)
+      ->type_name("DEGREES");
   app->add_option("--min", options.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
   app->add_option("--max", options.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
   repeated(app->add_option("--face-size", options.face_sizes,

@@ -38,6 +38,8 @@ struct MeshOptions {
   double angle = 0;                           ///< degrees; 0: not given
   std::optional<double> gradation;            ///< 0: none
   std::string element;                        ///< p1, p2, q1.0, ...; "": p1, unless the env file says otherwise
+  bool independent = false;                   ///< borders of patches that are not sharp mean nothing
+  std::optional<double> sharp_angle;          ///< degrees
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
   std::vector<std::string> settings;          ///< "parameter=value"

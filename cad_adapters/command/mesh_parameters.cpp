@@ -264,6 +264,8 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   const bool asked = asks_for(options, "narrow_faces") || std::strcmp(narrow_faces, "collapse") != 0;
   if (asked && real(session, "narrow_ratio") == narrower_than_cuts) set(session, "narrow_ratio", usual_ratio);
   if (options.threads > 0) set(session, "threads", options.threads);
+  if (options.independent) require(session, carreau_set_text(session, "patches", "independent"));
+  if (options.sharp_angle) set(session, "sharp_angle", *options.sharp_angle);
   set_sizes(session, options, lengths_of(options, diagonal), input);
   set_estimator(session, options, diagonal);
   if (!options.element.empty()) require(session, carreau_set_text(session, "element", options.element.c_str()));

@@ -94,7 +94,7 @@ class DefectFinder {
         add(of_face(t, face) + "a vertex appears twice");
         continue;
       }
-      if (orientation(face.uv[a], face.uv[b], face.uv[c]) <= 0) add(of_face(t, face) + "no positive area in (u, v)");
+      if (!face.is_spread(t) && orientation(face.uv[a], face.uv[b], face.uv[c]) <= 0) add(of_face(t, face) + "no positive area in (u, v)");
       if (!(quality_q2(mesh_.vertices[va], mesh_.vertices[vb], mesh_.vertices[vc]) > flat_quality))
         add(of_face(t, face) + "no area in space");
       directed.push_back({a, b});
@@ -176,10 +176,23 @@ class DefectFinder {
                                " of face " + std::to_string(mesh_.faces[edge.face].ref) + ": ";
       if (want > 0 && have != want)
         add(name + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want));
-      else if (want == 0 && have != 2)
+      else if (want == 0 && have != 2 && !mesh_.independent)
         add(name + std::to_string(have) + " triangles away from any curve");
     }
+    if (mesh_.independent) check_edges_between(found, expected);
     if (options_.closed) check_closed(found);
+  }
+
+  // Away from curves two triangles of any faces.
+  void check_edges_between(const std::vector<EdgeUse>& found, const std::vector<EdgeUse>& expected) {
+    for (std::size_t i = 0; i < found.size();) {
+      std::size_t j = i;
+      while (j < found.size() && found[j].key == found[i].key) ++j;
+      if (j - i != 2 && !std::ranges::binary_search(expected, found[i].key, {}, &EdgeUse::key))
+        add("edge " + std::to_string(found[i].key[0]) + " - " + std::to_string(found[i].key[1]) + ": " +
+            std::to_string(j - i) + " triangles away from any curve");
+      i = j;
+    }
   }
 
   void check_closed(const std::vector<EdgeUse>& found) {

@@ -117,7 +117,8 @@ class EditableMesh {
 
   /// Whether all four triangles would be counterclockwise with a new vertex there. Never where one is mixed.
   [[nodiscard]] bool can_split(const Quad& q, const Vec2& uv) const;
-  /// A new vertex on the edge, which is the last one of its face and of all. Tests nothing.
+  /// A new vertex on the edge, which is the last one of its face and of all. Tests nothing; parts of mixed triangles are
+  /// mixed.
   Vertex split(const Quad& q, const Vec2& uv, const Vec3& xyz, Split keeps = Split::at_a);
 
   /// Whether all triangles around stay counterclockwise when a vertex goes there.
@@ -189,7 +190,7 @@ class EditableMesh {
   Edit& begin_edit();
   void put(Place p, const Triangle& t);
   void replace(Place p, const Triangle& t, bool mixed);
-  void add(std::int32_t face, const Triangle& t);
+  void add(std::int32_t face, const Triangle& t, bool mixed);
   void change_line(std::int32_t v, std::int32_t w, bool added);
   void undo_last();
 

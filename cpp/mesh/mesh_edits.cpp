@@ -23,11 +23,11 @@ void EditableMesh::replace(Place p, const Triangle& t, bool mixed) {
   if (auto* marks = faces_[p.face].mixed; marks != nullptr) (*marks)[p.triangle] = static_cast<char>(mixed);
 }
 
-void EditableMesh::add(std::int32_t face, const Triangle& t) {
+void EditableMesh::add(std::int32_t face, const Triangle& t, bool mixed) {
   std::vector<Triangle>& all = *faces_[face].triangles;
   const Place p{face, static_cast<std::int32_t>(all.size())};
   all.push_back(t);
-  if (auto* marks = faces_[face].mixed; marks != nullptr) marks->push_back(0);
+  if (auto* marks = faces_[face].mixed; marks != nullptr) marks->push_back(static_cast<char>(mixed));
   for (const std::int32_t v : t) star(global(face, v)).fan.push_back(p);
   ++edits_.back().new_triangles;
 }
@@ -57,10 +57,11 @@ EditableMesh::Vertex EditableMesh::split(const Quad& q, const Vec2& uv, const Ve
   stars_.emplace_back();
   Triangle u{m, q.a, q.d}, beside{q.b, m, q.d};
   if (keeps == Split::at_start) std::swap(u, beside);
-  replace({q.face, q.t}, {q.a, m, q.c}, is_mixed({q.face, q.t}));
-  replace({q.face, q.u}, u, is_mixed({q.face, q.u}));
-  add(q.face, {m, q.b, q.c});
-  add(q.face, beside);
+  const bool t_mixed = is_mixed({q.face, q.t}), u_mixed = is_mixed({q.face, q.u});
+  replace({q.face, q.t}, {q.a, m, q.c}, t_mixed);
+  replace({q.face, q.u}, u, u_mixed);
+  add(q.face, {m, q.b, q.c}, t_mixed);
+  add(q.face, beside, u_mixed);
   return {q.face, m};
 }
 

@@ -38,6 +38,11 @@ struct FaceMesh {
   std::vector<std::array<std::int32_t, 3>> mid = {};
   std::vector<Vec2> mid_uv = {};              ///< of nodes on edges; one on a seam has two places
   std::vector<std::int32_t> mid_vertex = {};  ///< the same -> index in SurfaceMesh::mid_vertices
+  /// Of a mesh that is independent of its patches; else empty. By local vertex: the face (index in SurfaceMesh::faces)
+  /// whose (u, v) it has; by triangle: 1 where its corners are of several charts (faces, or sides of a seam), so that
+  /// it is no triangle of (u, v).
+  std::vector<std::int32_t> uv_face = {};
+  std::vector<char> spread = {};
 
   [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
   [[nodiscard]] std::array<std::int32_t, 4> quad(std::size_t k) const noexcept {
@@ -45,6 +50,7 @@ struct FaceMesh {
     return {t[0], t[1], t[2], triangles[2 * k + 1][2]};
   }
   [[nodiscard]] std::size_t cell_count() const noexcept { return triangles.size() - static_cast<std::size_t>(quads); }
+  [[nodiscard]] bool is_spread(std::size_t triangle) const noexcept { return !spread.empty() && spread[triangle] != 0; }
 };
 
 /// One appearance of a discretised curve in a face.
@@ -71,6 +77,8 @@ struct SurfaceMesh {
   std::vector<CurveMesh> curves;         ///< as in the topology
   /// Nodes on edges of elements of second order. Where nodes are numbered together, these follow the vertices.
   std::vector<Vec3> mid_vertices = {};
+  /// Borders that are not sharp mean nothing: curves have the edges that are sharp, others may lie between faces.
+  bool independent = false;
 
   [[nodiscard]] std::size_t triangle_count() const noexcept;
   [[nodiscard]] std::size_t edge_count() const noexcept;
@@ -98,8 +106,9 @@ struct DefectOptions {
 /// One sentence a defect, e.g. "triangle 17 of face 3: no area in space"; empty when the mesh is sound. Checks sizes
 /// and index ranges, finite coordinates, repeated vertices, area in (u, v) (exact) and in space, orientation inside
 /// each face, duplicated triangles, unused vertices, and the number of triangles on every edge: on a curve one for each
-/// boundary use and two for each internal use in a meshed face; two, of one face, anywhere else. Faces that are not
-/// meshed are passed over.
+/// boundary use and two for each internal use in a meshed face; two, of one face, anywhere else (of any faces, when the mesh
+/// is independent of them; triangles of several charts have no area in (u, v)). Faces that are not meshed are passed
+/// over.
 std::vector<std::string> find_defects(const SurfaceMesh& mesh, const DefectOptions& options = {});
 
 }  // namespace carreau

@@ -33,7 +33,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
 // the figure is hphymin in the text. Ours: max_triangles, measure, crossing_rounds, edge_gradation, shape_trials,
-// stagger_strips, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
+// stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
 // metric_combination).
 constexpr std::array kTable = {
     integer_row("CheckAdjacentEdges", 0, 1000, 0, "number of passes that balance the lengths of adjacent edges"),
@@ -111,6 +111,8 @@ constexpr std::array kTable = {
              "faces narrower than narrow_ratio: as others, with one layer of triangles, or collapsed"),
     real_row("narrow_ratio", 0, 1, 0.1, "narrow_faces: largest width, as a share of the size prescribed there"),
     text_row("option", "", "|allsurf3d|allsurf2d|onesurf3d|onesurf2d|smo3d", "what is exported (\"\": allsurf3d)"),
+    text_row("patches", "dependent", "dependent|independent",
+             "borders between patches that are not sharp: kept, or the mesh is made free of them"),
     text_row("pref", "x", nullptr, "prefix of the names of files"),
     integer_row(
         "proximity", 0, 1000, 0,
@@ -118,6 +120,8 @@ constexpr std::array kTable = {
     integer_row("refs", INT_MIN, INT_MAX, 1, "reference of the face that onesurf3d and onesurf2d export"),
     integer_row("shape_trials", 0, 1, 0,
                 "1: changes of the mesh around its worst triangles are tried, the best is kept"),
+    real_row("sharp_angle", 0, 180, 1,
+             "patches independent: borders whose normals differ by more are sharp, degrees"),
     integer_row("stagger_strips", 0, 1, 0,
                 "1: vertices of one side of a strip of one layer face the middles of the other side's edges"),
     integer_row("threads", 0, 1024, 1, "threads at work, 0: one for each processor; the mesh does not depend on it"),

@@ -5,6 +5,7 @@
 
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
+#include "surface/independent/independent.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -68,6 +69,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   };
   mesh();
   part_crossing_triangles(run, mesh);
+  if (options.independent) free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
   make_elements(run, mesh);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);

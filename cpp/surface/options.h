@@ -45,6 +45,10 @@ struct CompositeOptions {
   /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
   int crossing_rounds = 0;
   bool frontal = true;
+  /// Borders between patches whose normals differ by no more than sharp_angle (degrees) mean nothing: the mesh is made
+  /// free of them (surface/independent).
+  bool independent = false;
+  double sharp_angle = 1;
   std::int64_t max_triangles = 0;  ///< 0: by memory
   /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
   /// from the caller's thread only.

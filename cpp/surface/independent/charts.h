@@ -1,0 +1,108 @@
+// The mesh of before as an atlas of the surface: from a place of one face to a place of another.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cad/cad.h"
+#include "mesh/surface_mesh.h"
+#include "support/monitor.h"
+
+namespace carreau {
+
+/// An edge of the mesh in space: the smaller vertex first.
+using MeshEdge = std::array<std::int32_t, 2>;
+inline MeshEdge mesh_edge(std::int32_t v, std::int32_t w) noexcept { return v < w ? MeshEdge{v, w} : MeshEdge{w, v}; }
+
+/// A place of the surface: (u, v) in the face of a triangle of the atlas which holds it.
+struct Foot {
+  std::int32_t triangle = -1;
+  Vec2 uv;
+};
+
+/// The surface at a foot.
+struct SurfacePlace {
+  Foot foot;
+  Vec3 xyz, su, sv;
+  Vec3 normal;           ///< unit, on the side that the atlas has turned to; zero where singular
+  bool regular = false;  ///< there is a normal
+};
+
+/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies the mesh; keeps a
+/// reference to `cad`.
+class Charts {
+ public:
+  struct Triangle {
+    std::int32_t face = 0;
+    std::array<std::int32_t, 3> local{}, vertex{};    ///< of the face, and of the mesh
+    std::array<std::int32_t, 3> beyond{-1, -1, -1};   ///< triangle over the side from corner i to the next one; -1: none
+    std::array<char, 3> same_chart{};                 ///< it goes on with the same (u, v)
+    bool turned = false;                              ///< runs against its face, so that neighbours agree
+  };
+
+  /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too, and
+  /// those where no side is that of all neighbours (a Moebius strip), which become `twisted`.
+  Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size, Cad& cad,
+         Monitor& monitor);
+
+  [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  [[nodiscard]] const std::vector<MeshEdge>& twisted() const noexcept { return twisted_; }
+  /// Triangles on a barrier, with the side that it is.
+  struct OnEdge {
+    std::int32_t triangle;
+    int side;
+  };
+  [[nodiscard]] std::vector<OnEdge> triangles_on(const MeshEdge& barrier) const;
+  [[nodiscard]] std::int32_t face(const Foot& f) const { return triangles_[f.triangle].face; }
+  [[nodiscard]] Vec2 uv(std::int32_t triangle, int corner) const {
+    const Triangle& t = triangles_[triangle];
+    return uv_[t.face][t.local[corner]];
+  }
+
+  /// Triangles with a vertex no farther from a place: edits there must leave nothing farther from the surface than before.
+  void guard(const Vec3& place, double distance);
+  [[nodiscard]] bool is_guarded(const Foot& f) const { return guarded_[f.triangle] != 0; }
+
+  /// The size there, linear between those of the vertices.
+  [[nodiscard]] double size(const Foot& f) const;
+  /// One evaluation.
+  [[nodiscard]] SurfacePlace evaluate(const Foot& f);
+  /// What is known of it is enough: derivatives from elsewhere.
+  [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
+  /// A place of the surface near `target`, by Gauss-Newton steps from `from`, which is regular. Empty where a barrier
+  /// or a singular place is in the way.
+  [[nodiscard]] std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target);
+
+ private:
+  struct Walk {
+    enum class End { there, border, blocked } end = End::blocked;
+    Foot foot;
+  };
+  /// A side of a triangle on a barrier.
+  struct BarrierSide {
+    MeshEdge edge;
+    OnEdge on;
+  };
+  void collect(const SurfaceMesh& mesh);
+  void link(std::span<const MeshEdge> barriers);
+  void link(std::int32_t t, int i, std::int32_t u, int j);
+  void turn();
+  [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
+  [[nodiscard]] Walk walk(const Foot& from, const Vec2& to) const;
+  [[nodiscard]] Foot over(std::int32_t t, int side, const Vec2& at) const;
+
+  std::vector<Triangle> triangles_;
+  std::vector<std::vector<Vec2>> uv_;  // by face and local vertex
+  std::vector<Vec3> xyz_;              // by vertex of the mesh
+  std::vector<double> size_;           // the same
+  std::vector<int> ref_;               // by face
+  std::vector<MeshEdge> twisted_;
+  std::vector<BarrierSide> barrier_;  // by edge, ascending
+  std::vector<char> guarded_;         // by triangle
+  Cad& cad_;
+};
+
+}  // namespace carreau

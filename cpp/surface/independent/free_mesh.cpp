@@ -1,0 +1,163 @@
+#include "surface/independent/free_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/quality.h"
+#include "support/infinity.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+using namespace thresholds::independent;
+
+FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
+                   std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners,
+                   const SurfaceTolerances& tolerances, Charts& charts)
+    : xyz_(mesh.vertices),
+      size_(size.begin(), size.end()),
+      several_(mesh.vertices.size(), -1),
+      tolerances_(tolerances),
+      cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
+      charts_(charts) {
+  std::int32_t kept = 0;
+  const auto keep = [&](std::int32_t v) {
+    if (several_[v] < 0) several_[v] = kept++;
+  };
+  for (const MeshEdge& e : sharp) keep(e[0]), keep(e[1]);
+  for (const std::int32_t v : corners) keep(v);
+  kept_places_.resize(kept);
+  place_vertices(mesh, jets);
+  for (const Charts::Triangle& t : charts.triangles()) {
+    const auto& [a, b, c] = t.vertex;
+    triangles_.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
+  }
+  mixed_.assign(triangles_.size(), 1);
+  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
+}
+
+void FreeMesh::place_vertices(const SurfaceMesh& mesh, const VertexJets& jets) {
+  place_.resize(xyz_.size());
+  for (std::size_t v = 0; v < xyz_.size(); ++v) place_[v].xyz = xyz_[v];
+  const auto& triangles = charts_.triangles();
+  std::vector<std::vector<char>> met(mesh.faces.size());
+  for (std::size_t f = 0; f < met.size(); ++f) met[f].resize(mesh.faces[f].uv.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t v = triangles[t].vertex[i], local = triangles[t].local[i];
+      // Sharp edges inside one chart have two sides.
+      if (several_[v] < 0 && met[triangles[t].face][local] != 0) continue;
+      met[triangles[t].face][local] = 1;
+      const Foot foot{static_cast<std::int32_t>(t), charts_.uv(static_cast<std::int32_t>(t), i)};
+      SurfacePlace place = charts_.place(foot, jets[triangles[t].face][local]);
+      place.xyz = xyz_[v];
+      if (place_[v].foot.triangle < 0 || (!place_[v].regular && place.regular)) place_[v] = place;
+      if (several_[v] < 0) continue;
+      auto& known = kept_places_[several_[v]];
+      const auto same = [&](const SurfacePlace& p) {
+        return charts_.face(p.foot) == triangles[t].face && p.foot.uv == foot.uv && dot(p.normal, place.normal) > 0;
+      };
+      if (!std::ranges::any_of(known, same)) known.push_back(place);
+    }
+  uv_.reserve(place_.size());
+  for (const SurfacePlace& p : place_) uv_.push_back(p.foot.uv);
+}
+
+std::span<const SurfacePlace> FreeMesh::places(std::int32_t v) const {
+  if (several_[v] < 0) return {&place_[v], 1};
+  return kept_places_[several_[v]];
+}
+
+double FreeMesh::length(std::int32_t v, std::int32_t w) const {
+  const double p = size_[v], q = size_[w], d = norm(position(w) - position(v));
+  return std::abs(q - p) > 1e-6 * p ? d * std::log(q / p) / (q - p) : d / p;
+}
+
+// The nearest to that of a triangle.
+Vec3 FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
+  if (several_[v] < 0) return place_[v].normal;
+  Vec3 best{0, 0, 0};
+  double most = -infinity;
+  for (const SurfacePlace& p : kept_places_[several_[v]])
+    if (const double here = dot(p.normal, of_triangle); p.regular && here > most) most = here, best = p.normal;
+  return best;
+}
+
+void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
+  const std::array<std::int32_t, 3> v{a, b, c};
+  const std::array<Vec3, 3> p{position(a), position(b), position(c)};
+  const double quality = quality_q2(p[0], p[1], p[2]);
+  shapes.worst = std::min(shapes.worst, quality);
+  shapes.inverses += 1 / std::max(quality, flat_quality);
+  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+  const double area = norm(n);
+  std::array<Vec3, 3> normal;
+  bool guarded = false;
+  double share = 0;
+  for (int i = 0; i < 3; ++i) {
+    normal[i] = normal_at(v[i], n);
+    guarded = guarded || charts_.is_guarded(place_[v[i]].foot);
+    if (dot(normal[i], normal[i]) == 0) continue;  // singular
+    const double cosine = area > 0 ? dot(normal[i], n) / area : -1;
+    share = std::max(share, (1 - cosine) / (1 - cosine_));
+  }
+  const double h = (size_[a] + size_[b] + size_[c]) / 3;
+  const double allowed = tolerances_.deviation > 0 ? tolerances_.deviation : tolerances_.share_of_size * h;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const Vec3 d = p[j] - p[i];
+    const double offset = (std::abs(dot(d, normal[i])) + std::abs(dot(d, normal[j]))) / 8;
+    share = std::max(share, offset * offset / (allowed * allowed));
+  }
+  shapes.share = std::max(shapes.share, guarded ? guarded_factor * share : share);
+}
+
+TriangleShapes FreeMesh::judge_around(std::int32_t v) const {
+  TriangleShapes shapes;
+  for (const Place p : mesh_->fan(v)) {
+    const auto& [a, b, c] = mesh_->at(p);
+    judge(a, b, c, shapes);
+  }
+  return shapes;
+}
+
+bool FreeMesh::agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept {
+  return after.share <= std::max(1.0, before.share);
+}
+
+std::optional<SurfacePlace> FreeMesh::near(std::int32_t v, const Vec3& normal, const Vec3& target) {
+  const SurfacePlace* from = &place_[v];
+  if (several_[v] >= 0)
+    for (const SurfacePlace& p : kept_places_[several_[v]])
+      if (p.regular && (!from->regular || dot(p.normal, normal) > dot(from->normal, normal))) from = &p;
+  return charts_.towards(*from, target);
+}
+
+std::int32_t FreeMesh::try_vertex(const SurfacePlace& at) {
+  place_.push_back(at);
+  size_.push_back(size_at(at));
+  several_.push_back(-1);
+  return static_cast<std::int32_t>(place_.size()) - 1;
+}
+
+void FreeMesh::forget_vertex() { place_.pop_back(), size_.pop_back(), several_.pop_back(); }
+
+std::int32_t FreeMesh::split(const Quad& q, const SurfacePlace& at) {
+  (void)try_vertex(at);
+  return mesh_->split(q, at.foot.uv, at.xyz).local;
+}
+
+void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size) {
+  put(v, at.front(), size);
+  kept_places_[several_[v]].assign(at.begin(), at.end());
+}
+
+void FreeMesh::put(std::int32_t v, const SurfacePlace& at, double size) {
+  place_[v] = at;
+  size_[v] = size;
+  xyz_[v] = at.xyz;
+  uv_[v] = at.foot.uv;
+}
+
+}  // namespace carreau

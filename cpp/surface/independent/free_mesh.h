@@ -1,0 +1,99 @@
+// Triangles of all faces in one mesh of space, each vertex with its place on the surface.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mesh/editable_mesh.h"
+#include "surface/independent/charts.h"
+#include "surface/independent/sharp_edges.h"
+
+namespace carreau {
+
+/// How far triangles may leave the surface.
+struct SurfaceTolerances {
+  double angle_deg = 0;       ///< A1: of a triangle's normal with those of the surface at its corners
+  double deviation = 0;       ///< A0, model length; 0: `share_of_size` counts
+  double share_of_size = 0;   ///< A0 as a share of the size
+};
+
+/// Of some triangles.
+struct TriangleShapes {
+  double worst = 1;      ///< Q2 in the metric
+  double inverses = 0;   ///< sum of 1 / Q2
+  double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
+};
+
+/// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`.
+class FreeMesh {
+ public:
+  using Place = EditableMesh::Place;
+  using Quad = EditableMesh::Quad;
+
+  FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
+           std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
+           Charts& charts);
+  FreeMesh(const FreeMesh&) = delete;
+  FreeMesh& operator=(const FreeMesh&) = delete;
+
+  [[nodiscard]] const EditableMesh& mesh() const noexcept { return *mesh_; }
+  [[nodiscard]] std::size_t vertices() const noexcept { return place_.size(); }
+  [[nodiscard]] const std::vector<EditableMesh::Triangle>& triangles() const noexcept { return triangles_; }
+  /// Neither on a sharp edge nor a corner.
+  [[nodiscard]] bool is_free(std::int32_t v) const { return several_[v] < 0; }
+  [[nodiscard]] bool is_alive(std::int32_t v) const { return !mesh_->fan(v).empty(); }
+  [[nodiscard]] const SurfacePlace& place(std::int32_t v) const { return place_[v]; }
+  /// The places of a vertex: several where it is kept, one for each vertex of a face that it was.
+  [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const;
+  [[nodiscard]] double size(std::int32_t v) const { return size_[v]; }
+  [[nodiscard]] Vec3 position(std::int32_t v) const { return place_[v].xyz; }
+
+  /// In the prescribed metric (HDR eq. 4.83).
+  [[nodiscard]] double length(std::int32_t v, std::int32_t w) const;
+  /// Adds the triangle with these corners.
+  void judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
+  [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const;
+  /// Whether edits may leave `after` where there was `before`.
+  [[nodiscard]] static bool agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept;
+
+  /// The surface near `target`, sought from the vertex v; `normal`: on which side, where v is kept.
+  [[nodiscard]] std::optional<SurfacePlace> near(std::int32_t v, const Vec3& normal, const Vec3& target);
+  [[nodiscard]] double size_at(const SurfacePlace& place) const { return charts_.size(place.foot); }
+
+  /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
+  std::int32_t try_vertex(const SurfacePlace& at);
+  void forget_vertex();
+
+  // Edits. Those that are refused change nothing.
+  bool collapse(std::int32_t gone, std::int32_t kept) { return mesh_->collapse(gone, kept); }
+  bool swap(const Quad& q) { return mesh_->swap(q); }
+  std::int32_t split(const Quad& q, const SurfacePlace& at);
+  /// Puts a free vertex there, and gives what it was; tests nothing.
+  void put(std::int32_t v, const SurfacePlace& at, double size);
+  /// The same of a vertex on a line; the first place has the position.
+  void put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size);
+
+  Charts& charts() noexcept { return charts_; }
+
+ private:
+  void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
+  [[nodiscard]] Vec3 normal_at(std::int32_t v, const Vec3& of_triangle) const;
+
+  std::vector<Vec3> xyz_;
+  std::vector<Vec2> uv_;
+  std::vector<EditableMesh::Triangle> triangles_;
+  std::vector<char> mixed_;
+  std::vector<SurfacePlace> place_;
+  std::vector<double> size_;
+  std::vector<std::int32_t> several_;  // by vertex: index in kept_places_, -1: free
+  std::vector<std::vector<SurfacePlace>> kept_places_;
+  SurfaceTolerances tolerances_;
+  double cosine_;  // of the angle that is tolerated
+  Charts& charts_;
+  std::optional<EditableMesh> mesh_;
+};
+
+}  // namespace carreau

@@ -1,0 +1,145 @@
+#include "surface/independent/independent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "mesh/flat_mesh.h"
+#include "mesh/intersections.h"
+#include "surface/independent/line_remeshing.h"
+#include "surface/independent/reassembly.h"
+#include "surface/independent/remeshing.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+SurfaceTolerances tolerances_of(const CompositeOptions& options) {
+  const GeometricLimits limits = geometric_limits(options.size);
+  // What is folded by less than the sharp angle may be flattened.
+  const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
+  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
+  if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg;
+  if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
+  return tolerances;
+}
+
+Intersections crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
+  const FlatMesh flat = flatten(mesh, false);
+  return find_intersections(flat.vertices, flat.triangles, {.threads = threads}, monitor);
+}
+
+/// Vertices - edges + triangles.
+std::int64_t euler(const SurfaceMesh& mesh) {
+  std::vector<MeshEdge> edges;
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const FaceMesh& face : mesh.faces)
+    for (const auto& t : face.triangles)
+      for (int i = 0; i < 3; ++i) {
+        edges.push_back(mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]));
+        used[face.vertex[t[i]]] = 1;
+      }
+  std::ranges::sort(edges);
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return std::ranges::count(used, 1) - static_cast<std::int64_t>(edges.size()) +
+         static_cast<std::int64_t>(mesh.triangle_count());
+}
+
+/// The atlas, and what of the borders stays.
+struct Frame {
+  VertexJets jets;
+  std::vector<MeshEdge> sharp;
+  std::unique_ptr<Charts> charts;
+  std::vector<std::int32_t> corners;
+  std::vector<SharpLine> lines;
+};
+
+Frame frame_of(const CurveModel& model, double angle, const CompositeResult& result, Monitor& monitor) {
+  const SurfaceMesh& mesh = result.mesh;
+  Frame frame{.jets = evaluate_vertices(mesh, model.cad, monitor), .sharp = {}, .charts = {}, .corners = {}, .lines = {}};
+  frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
+  const auto link = [&] {
+    frame.charts = std::make_unique<Charts>(mesh, frame.sharp, result.vertex_size, model.cad, monitor);
+  };
+  link();
+  if (const std::vector<MeshEdge> twisted = frame.charts->twisted(); !twisted.empty()) {
+    frame.sharp.insert(frame.sharp.end(), twisted.begin(), twisted.end());
+    std::ranges::sort(frame.sharp);
+    link();
+  }
+  const Topology* known = mesh.curves.size() == model.topology.curves.size() ? &model.topology : nullptr;
+  frame.corners = find_corners(mesh, frame.jets, *frame.charts, frame.sharp, known, model.supports, angle);
+  frame.lines = find_lines(mesh, frame.sharp, frame.corners);
+  return frame;
+}
+
+FreedMesh freed(const CurveModel& model, std::span<const DiscreteCurve> curves, const SurfaceTolerances& tolerances,
+                const CompositeResult& result, Frame& frame, Monitor& monitor) {
+  FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts);
+  std::vector<WorkedLine> worked;
+  for (const SharpLine& line : frame.lines)
+    worked.emplace_back(line, result.mesh, model, curves, *frame.charts, model.cad);
+  const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
+  RemeshingReport report;
+  for (int round = 0; round < most_line_rounds; ++round) {
+    const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
+    if (round > 0 && changed == 0) break;
+    report += remesh(free, monitor);
+  }
+  monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
+                                     std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
+                                     " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
+                                     std::to_string(report.rounds) + " rounds");
+  return reassemble(result.mesh, free, frame.lines, frame.corners, monitor);
+}
+
+// Around triangles that cross.
+void guard(const Intersections& found, const FreedMesh& made, Charts& charts) {
+  const FlatMesh flat = flatten(made.mesh, false);
+  for (const TriangleIntersection& pair : found.pairs)
+    charts.guard(pair.place, guarded_sizes * made.vertex_size[flat.triangles[pair.triangles[0]][0]]);
+}
+
+// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
+std::string worse(const SurfaceMesh& made, const SurfaceMesh& before) {
+  const std::vector<std::string> defects = find_defects(made, {.closed = false, .limit = 1});
+  if (!defects.empty() && find_defects(before, {.closed = false, .limit = 1}).empty()) return defects.front();
+  return euler(made) != euler(before) ? "its Euler number would differ" : "";
+}
+
+}  // namespace
+
+void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
+                       CompositeResult& result, Monitor& monitor) {
+  Frame frame = frame_of(model, options.sharp_angle, result, monitor);
+  const SurfaceTolerances tolerances = tolerances_of(options);
+  const std::int64_t known = crossings(result.mesh, options.threads, monitor).count;
+  FreedMesh made;
+  std::string why = "more triangles would cross";
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    made = freed(model, curves, tolerances, result, frame, monitor);
+    const Intersections found = crossings(made.mesh, options.threads, monitor);
+    if (found.count <= known) {
+      why = worse(made.mesh, result.mesh);
+      break;
+    }
+    guard(found, made, *frame.charts);
+  }
+  if (!why.empty()) {
+    monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
+    return;
+  }
+  for (std::size_t f = 0; f < made.mesh.faces.size(); ++f)
+    if (made.mesh.faces[f].status != result.mesh.faces[f].status)
+      monitor.message(Level::warning, made.mesh.faces[f].why);
+  result.mesh = std::move(made.mesh);
+  result.vertex_size = std::move(made.vertex_size);
+  result.curve_size = std::move(made.curve_size);
+}
+
+}  // namespace carreau

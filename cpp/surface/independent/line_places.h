@@ -1,0 +1,59 @@
+// Vertices of sharp lines: where they are on the curves of the host, and where else they may be.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "curve/curve_model.h"
+#include "curve/discrete_curve.h"
+#include "surface/independent/charts.h"
+#include "surface/independent/sharp_edges.h"
+
+namespace carreau {
+
+/// Places of one vertex of a line, one for each use of its curve; the first one has the position.
+using KeptPlaces = std::vector<SurfacePlace>;
+
+/// One line by its length in space, as the supports of its curves measure it. Keeps references to all that it is given.
+class LinePlaces {
+ public:
+  /// `known`: the discrete curves by index in SurfaceMesh::curves.
+  LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
+             std::span<const DiscreteCurve> known, Charts& charts, Cad& cad);
+
+  /// The line has curves whose vertices are where the discrete ones have them.
+  [[nodiscard]] bool is_known() const noexcept { return arc_.size() == line_.vertices.size(); }
+  /// Of the vertices of the line, from 0, ascending.
+  [[nodiscard]] const std::vector<double>& arcs() const noexcept { return arc_; }
+  /// Off the curve by no more than its support; no evaluation.
+  [[nodiscard]] Vec3 near(double arc) const;
+  /// On the curves, evaluated: about four times a use.
+  [[nodiscard]] KeptPlaces at(double arc);
+
+ private:
+  /// A part of the line: a whole curve, or some edges of it.
+  struct Part {
+    std::int32_t curve = 0;
+    double from = 0, to = 0;            ///< of the line
+    double curve_from = 0, curve_to = 0;  ///< of the curve, in the direction of its first use
+    std::size_t first_edge = 0;         ///< of the line
+  };
+  [[nodiscard]] std::optional<std::size_t> rank_on(std::int32_t curve, std::int32_t v, std::int32_t other) const;
+  void add_part(std::size_t first, std::size_t last);
+  [[nodiscard]] const Part& part_at(double arc) const;
+  [[nodiscard]] double curve_arc(const Part& part, double arc) const;
+  [[nodiscard]] std::int32_t triangle_beside(double arc, std::int32_t face, const Vec2& uv) const;
+
+  const SharpLine& line_;
+  const SurfaceMesh& mesh_;
+  const CurveModel& model_;
+  std::span<const DiscreteCurve> known_;
+  Charts& charts_;
+  Cad& cad_;
+  std::vector<double> arc_;
+  std::vector<Part> parts_;
+};
+
+}  // namespace carreau

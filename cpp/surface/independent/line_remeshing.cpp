@@ -1,0 +1,161 @@
+#include "surface/independent/line_remeshing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "curve/unit_discretisation.h"
+#include "support/infinity.h"
+#include "support/segment.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+class LineRemesher {
+ public:
+  LineRemesher(FreeMesh& mesh, WorkedLine& line, const LineTolerance& tolerance, Monitor& monitor)
+      : mesh_(mesh),
+        places_(line.places),
+        left_(line.left),
+        closed_(line.closed),
+        tolerance_(tolerance),
+        monitor_(monitor) {}
+
+  std::vector<std::int32_t> run() {
+    const int wanted = std::max(unit_edge_count(length()), closed_ ? 3 : 1);
+    std::set<std::int32_t> refused;
+    while (static_cast<int>(left_.size()) - 1 > wanted && collapse_shortest(refused)) monitor_.checkpoint();
+    for (int sweep = 0; sweep < line_sweeps; ++sweep)
+      for (std::size_t k = 1; k + 1 < left_.size(); ++k) {
+        monitor_.checkpoint();
+        move(k);
+      }
+    return changed_;
+  }
+
+ private:
+  using Node = LineNode;
+
+  [[nodiscard]] double length() const {
+    double sum = 0;
+    for (std::size_t k = 1; k < left_.size(); ++k) sum += mesh_.length(left_[k - 1].vertex, left_[k].vertex);
+    return sum;
+  }
+
+  // The edge of a line leaves its curve no farther than is tolerated, or than one of those before.
+  [[nodiscard]] double distance(const Node& p, const Node& q) const {
+    double most = 0;
+    for (const double s : {0.25, 0.5, 0.75})
+      most = std::max(most, distance_to_segment(places_.near(p.arc + s * (q.arc - p.arc)), mesh_.position(p.vertex),
+                                                mesh_.position(q.vertex)));
+    return most;
+  }
+  [[nodiscard]] double tolerated(std::int32_t v) const {
+    return tolerance_.deviation > 0 ? tolerance_.deviation : tolerance_.share_of_size * mesh_.size(v);
+  }
+
+  /// A vertex inside the line that may be left out: beside the shortest edges, the shorter ones first.
+  bool collapse_shortest(std::set<std::int32_t>& refused) {
+    std::size_t best = 0;
+    double shortest_pair = infinity;
+    for (std::size_t k = 1; k + 1 < left_.size(); ++k) {
+      if (refused.contains(left_[k].vertex)) continue;
+      const double before = mesh_.length(left_[k - 1].vertex, left_[k].vertex),
+                   after = mesh_.length(left_[k].vertex, left_[k + 1].vertex);
+      const double worth = std::min(before, after) + 1e-3 * std::max(before, after);
+      if (worth < shortest_pair) shortest_pair = worth, best = k;
+    }
+    if (best == 0) return false;
+    if (!collapse(best)) refused.insert(left_[best].vertex);
+    return true;
+  }
+
+  bool collapse(std::size_t k) {
+    const Node &previous = left_[k - 1], &here = left_[k], &next = left_[k + 1];
+    if (mesh_.length(previous.vertex, next.vertex) > never_longer) return false;
+    const double allowed =
+        std::max({tolerated(here.vertex), distance(previous, here), distance(here, next)});
+    if (distance(previous, next) > allowed) return false;
+    const bool back = mesh_.length(previous.vertex, here.vertex) <= mesh_.length(here.vertex, next.vertex);
+    for (const Node& kept : {back ? previous : next, back ? next : previous})
+      if (agrees(here.vertex, kept.vertex) && mesh_.collapse(here.vertex, kept.vertex)) {
+        changed_.push_back(kept.vertex);
+        left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(k));
+        return true;
+      }
+    return false;
+  }
+
+  [[nodiscard]] bool agrees(std::int32_t gone, std::int32_t kept) const {
+    TriangleShapes before, after;
+    for (const FreeMesh::Place p : mesh_.mesh().fan(gone)) {
+      const auto& t = mesh_.mesh().at(p);
+      if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
+      mesh_.judge(t[0], t[1], t[2], before);
+      const int i = mesh_.mesh().rank_in(p, gone);
+      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+    }
+    return FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape);
+  }
+
+  // Where both edges have one length in the metric.
+  void move(std::size_t k) {
+    const Node &previous = left_[k - 1], &next = left_[k + 1];
+    Node& here = left_[k];
+    const double p = mesh_.length(previous.vertex, here.vertex), q = mesh_.length(here.vertex, next.vertex);
+    const double mean = (p + q) / 2;
+    if (std::abs(p - q) < least_move * mean) return;
+    const double to = p > mean ? previous.arc + mean / p * (here.arc - previous.arc)
+                               : next.arc - mean / q * (next.arc - here.arc);
+    const KeptPlaces from(mesh_.places(here.vertex).begin(), mesh_.places(here.vertex).end());
+    const double size = mesh_.size(here.vertex), arc = here.arc;
+    const TriangleShapes before = mesh_.judge_around(here.vertex);
+    for (const double share : {1.0, 0.5}) {
+      here.arc = arc + share * (to - arc);
+      const KeptPlaces places = places_.at(here.arc);
+      if (places.empty()) break;
+      mesh_.put_kept(here.vertex, places, mesh_.size_at(places.front()));
+      const TriangleShapes after = mesh_.judge_around(here.vertex);
+      if (FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape)) {
+        changed_.push_back(here.vertex);
+        return;
+      }
+      mesh_.put_kept(here.vertex, from, size);
+    }
+    here.arc = arc;
+  }
+
+  FreeMesh& mesh_;
+  LinePlaces& places_;
+  std::vector<LineNode>& left_;
+  bool closed_;
+  const LineTolerance& tolerance_;
+  Monitor& monitor_;
+  std::vector<std::int32_t> changed_;
+};
+
+}  // namespace
+
+WorkedLine::WorkedLine(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
+                       std::span<const DiscreteCurve> known, Charts& charts, Cad& cad)
+    : places(line, mesh, model, known, charts, cad), closed(line.closed()) {
+  if (places.is_known())
+    for (std::size_t k = 0; k < line.vertices.size(); ++k) left.push_back({line.vertices[k], places.arcs()[k]});
+}
+
+std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,
+                                       Monitor& monitor) {
+  std::vector<std::int32_t> changed;
+  for (WorkedLine& line : lines) {
+    if (line.left.size() < 3) continue;
+    const auto more = LineRemesher(mesh, line, tolerance, monitor).run();
+    changed.insert(changed.end(), more.begin(), more.end());
+  }
+  return changed;
+}
+
+}  // namespace carreau

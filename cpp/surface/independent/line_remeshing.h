@@ -1,0 +1,43 @@
+// Sharp lines are cut anew, whatever curves they are of.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "support/monitor.h"
+#include "surface/independent/free_mesh.h"
+#include "surface/independent/line_places.h"
+
+namespace carreau {
+
+/// How far edges may be from the line that they stand for.
+struct LineTolerance {
+  double deviation = 0;      ///< model length; 0: `share_of_size` counts
+  double share_of_size = 0;  ///< of the size
+};
+
+/// A vertex that is left of a line, and where it is on it.
+struct LineNode {
+  std::int32_t vertex;
+  double arc;
+};
+
+/// A line that is worked at.
+struct WorkedLine {
+  LinePlaces places;
+  std::vector<LineNode> left;
+  bool closed;
+
+  /// Arguments as for LinePlaces.
+  WorkedLine(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
+             std::span<const DiscreteCurve> known, Charts& charts, Cad& cad);
+};
+
+/// Collapses edges of lines until there are as many as their length in the prescribed metric wants (RR-2818 sec. 4.5),
+/// and moves their vertices until edges are of equal length in it, where triangles beside agree with the surface.
+/// Vertices changed. Throws what the host throws, and Cancelled.
+std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,
+                                       Monitor& monitor);
+
+}  // namespace carreau

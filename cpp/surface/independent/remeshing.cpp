@@ -1,0 +1,350 @@
+#include "surface/independent/remeshing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "metric/metric2.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+/// HDR eq. 4.84.
+double edge_quality(double length) noexcept { return length <= 1 ? length : 1 / length; }
+
+struct LongEdge {
+  double length;
+  std::int32_t v, w;
+};
+
+class Remesher {
+ public:
+  Remesher(FreeMesh& mesh, Monitor& monitor) : mesh_(mesh), monitor_(monitor) {}
+
+  RemeshingReport run() {
+    activate_all();
+    for (report_.rounds = 0; report_.rounds < most_rounds; ++report_.rounds) {
+      const std::int64_t before = report_.collapses + report_.splits;
+      collapse_short();
+      split_long();
+      swap_all();
+      move_all();
+      thin_out();
+      swap_all();
+      move_all();
+      swap_all();
+      move_all();
+      if (report_.collapses + report_.splits == before) break;
+    }
+    for (int pass = 0; pass < most_last_passes; ++pass) {
+      const std::int64_t before = report_.swaps + report_.moves;
+      swap_all();
+      move_all();
+      if (report_.swaps + report_.moves == before) break;
+    }
+    return report_;
+  }
+
+ private:
+  using Place = FreeMesh::Place;
+  using Quad = FreeMesh::Quad;
+
+  // What is bad, and what is around.
+  void activate_all() {
+    active_.assign(mesh_.vertices(), 0);
+    for (const auto& t : mesh_.triangles()) {
+      if (t[0] < 0) continue;
+      TriangleShapes shape;
+      mesh_.judge(t[0], t[1], t[2], shape);
+      bool bad = shape.worst < good_enough;
+      for (int i = 0; i < 3; ++i) {
+        const double l = mesh_.length(t[i], t[(i + 1) % 3]);
+        bad = bad || l < shortest || l > longest;
+      }
+      if (bad)
+        for (const std::int32_t v : t) active_[v] = 1;
+    }
+    widen();
+    widen();
+  }
+
+  void widen() {
+    std::vector<char> wider = active_;
+    for (const auto& t : mesh_.triangles())
+      if (t[0] >= 0 && (active_[t[0]] != 0 || active_[t[1]] != 0 || active_[t[2]] != 0))
+        for (const std::int32_t v : t) wider[v] = 1;
+    active_ = std::move(wider);
+  }
+
+  void activate(std::int32_t v) {
+    active_.resize(mesh_.vertices(), 1);
+    for (const Place p : mesh_.mesh().fan(v))
+      for (const std::int32_t w : mesh_.mesh().at(p)) active_[w] = 1;
+  }
+
+  /// Edges between vertices at work whose length is `wanted`, in this order.
+  template <typename Wanted, typename Before>
+  std::vector<LongEdge> edges(const Wanted& wanted, const Before& before) {
+    active_.resize(mesh_.vertices(), 1);
+    std::vector<LongEdge> found;
+    for (const auto& t : mesh_.triangles()) {
+      if (t[0] < 0) continue;
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t v = t[i], w = t[(i + 1) % 3];
+        if (active_[v] == 0 && active_[w] == 0) continue;
+        if (v > w && mesh_.mesh().fan(v).size() > 1 && has_twin(v, w)) continue;
+        if (const double l = mesh_.length(v, w); wanted(l)) found.push_back({l, std::min(v, w), std::max(v, w)});
+      }
+    }
+    std::ranges::sort(found, [&](const LongEdge& p, const LongEdge& q) {
+      return p.length != q.length ? before(p.length, q.length) : std::tie(p.v, p.w) < std::tie(q.v, q.w);
+    });
+    return found;
+  }
+  // The edge runs the other way, too.
+  [[nodiscard]] bool has_twin(std::int32_t v, std::int32_t w) const {
+    return std::ranges::any_of(mesh_.mesh().fan(w), [&](Place p) {
+      const auto& t = mesh_.mesh().at(p);
+      return (t[0] == w && t[1] == v) || (t[1] == w && t[2] == v) || (t[2] == w && t[0] == v);
+    });
+  }
+
+  void collapse_short() {
+    for (const LongEdge& e : edges([](double l) { return l < shortest; }, std::less<>())) {
+      monitor_.checkpoint();
+      if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < shortest)) continue;
+      if (mesh_.mesh().is_imposed(e.v, e.w)) continue;  // line_remeshing
+      const auto forth = worst_after(e.v, e.w), back = worst_after(e.w, e.v);
+      const bool turned = back > forth;
+      (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
+          (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));
+    }
+  }
+
+  /// The worst shape that a collapse leaves; negative where it may not be.
+  [[nodiscard]] double worst_after(std::int32_t gone, std::int32_t kept) const {
+    const EditableMesh& mesh = mesh_.mesh();
+    const double short_one = mesh_.length(gone, kept);
+    TriangleShapes before, after;
+    bool adjacent = false;
+    for (const Place p : mesh.fan(gone)) {
+      const auto t = mesh.at(p);
+      if (t[0] == kept || t[1] == kept || t[2] == kept) {
+        adjacent = true;
+        continue;
+      }
+      mesh_.judge(t[0], t[1], t[2], before);
+      const int i = mesh.rank_in(p, gone);
+      for (const std::int32_t w : {t[(i + 1) % 3], t[(i + 2) % 3]}) {
+        const double l = mesh_.length(kept, w);
+        if (l > longest && (l > never_longer || 1 / l < short_one)) return -1;
+      }
+      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+    }
+    if (!adjacent || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape)) return -1;
+    return after.worst;
+  }
+
+  // Where triangles are smaller than equilateral ones of unit length, though no edge is short: while triangles stay no
+  // larger in the mean.
+  void thin_out() {
+    for (const LongEdge& e : edges([](double l) { return l < short_when_dense; }, std::less<>())) {
+      monitor_.checkpoint();
+      if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < short_when_dense)) continue;
+      if (mesh_.mesh().is_imposed(e.v, e.w) || !is_dense(e.v, e.w)) continue;
+      const auto forth = worst_when_dense(e.v, e.w), back = worst_when_dense(e.w, e.v);
+      const bool turned = back > forth;
+      (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
+          (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));
+    }
+  }
+
+  // Without two of the triangles around.
+  [[nodiscard]] bool is_dense(std::int32_t v, std::int32_t w) const {
+    const EditableMesh& mesh = mesh_.mesh();
+    double area = 0;
+    int count = -2;
+    for (const std::int32_t end : {v, w})
+      for (const Place p : mesh.fan(end)) {
+        const auto& t = mesh.at(p);
+        if (end == w && (t[0] == v || t[1] == v || t[2] == v)) continue;
+        const double h = (mesh_.size(t[0]) + mesh_.size(t[1]) + mesh_.size(t[2])) / 3;
+        area += norm(mesh.normal(p)) / (2 * h * h);
+        ++count;
+      }
+    return area <= 0.5 * half_root3 * count * most_mean_area;
+  }
+
+  [[nodiscard]] double worst_when_dense(std::int32_t gone, std::int32_t kept) const {
+    if (!mesh_.is_free(gone)) return -1;
+    const EditableMesh& mesh = mesh_.mesh();
+    TriangleShapes before, after;
+    for (const Place p : mesh.fan(gone)) {
+      const auto t = mesh.at(p);
+      if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
+      mesh_.judge(t[0], t[1], t[2], before);
+      const int i = mesh.rank_in(p, gone);
+      for (const std::int32_t w : {t[(i + 1) % 3], t[(i + 2) % 3]})
+        if (mesh_.length(kept, w) > never_longer) return -1;
+      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+    }
+    if (!FreeMesh::agrees(before, after) || after.worst < least_shape_when_dense) return -1;
+    return after.worst;
+  }
+
+  bool collapse(std::int32_t gone, std::int32_t kept, double worst) {
+    if (worst < 0 || !mesh_.collapse(gone, kept)) return false;
+    activate(kept);
+    ++report_.collapses;
+    return true;
+  }
+
+  void split_long() {
+    for (const LongEdge& e : edges([](double l) { return l > longest; }, std::greater<>())) {
+      monitor_.checkpoint();
+      const auto quad = quad_between(e.v, e.w);
+      if (quad && mesh_.length(e.v, e.w) > longest && split(*quad)) ++report_.splits;
+    }
+  }
+
+  [[nodiscard]] std::optional<Quad> quad_between(std::int32_t v, std::int32_t w) const {
+    return mesh_.mesh().quad_between({0, v}, w);
+  }
+
+  bool split(const Quad& q) {
+    const Vec3 middle = 0.5 * (mesh_.position(q.a) + mesh_.position(q.b));
+    const Vec3 normal = mesh_.mesh().mean_normal(q.places());
+    auto at = mesh_.near(q.a, normal, middle);
+    if (!at) at = mesh_.near(q.b, normal, middle);
+    if (!at) return false;
+    TriangleShapes before, after;
+    mesh_.judge(q.a, q.b, q.c, before), mesh_.judge(q.b, q.a, q.d, before);
+    const double was = edge_quality(mesh_.length(q.a, q.b));
+    const std::int32_t m = mesh_.try_vertex(*at);
+    double least = 1;
+    for (const std::int32_t v : {q.a, q.b, q.c, q.d}) least = std::min(least, edge_quality(mesh_.length(m, v)));
+    for (const auto& [v, w] : {std::pair{q.a, q.c}, std::pair{q.c, q.b}, std::pair{q.b, q.d}, std::pair{q.d, q.a}})
+      mesh_.judge(w, v, m, after);
+    mesh_.forget_vertex();
+    if (least <= was || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape))
+      return false;
+    activate(mesh_.split(q, *at));
+    return true;
+  }
+
+  void swap_all() {
+    active_.resize(mesh_.vertices(), 1);
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices()); ++v) {
+      if (active_[v] == 0 || !mesh_.is_alive(v)) continue;
+      monitor_.checkpoint();
+      for (const std::int32_t w : mesh_.mesh().ring(v))
+        if (v < w || active_[w] == 0) swap(v, w);
+    }
+  }
+
+  void swap(std::int32_t v, std::int32_t w) {
+    const auto q = quad_between(v, w);
+    if (!q || mesh_.length(q->c, q->d) > std::max(longest, mesh_.length(v, w))) return;
+    TriangleShapes before, after;
+    mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
+    mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
+    const bool better = after.worst >= before.worst + least_gain ||
+                        (after.worst >= least_shape_of_degrees && evens_degrees(*q));
+    if (!better || !FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
+    for (const std::int32_t k : {q->a, q->b, q->c, q->d}) activate(k);
+    ++report_.swaps;
+  }
+
+  // Towards six edges at each vertex.
+  [[nodiscard]] bool evens_degrees(const Quad& q) const {
+    if (report_.rounds >= most_rounds_of_degrees) return false;
+    const auto excess = [&](std::int32_t v) {
+      return mesh_.is_free(v) ? static_cast<int>(mesh_.mesh().fan(v).size()) - 6 : 0;
+    };
+    if (!mesh_.is_free(q.a) || !mesh_.is_free(q.b)) return false;
+    // Moving one edge from a and b to c and d.
+    int gain = 0;
+    for (const std::int32_t v : {q.a, q.b}) gain += 2 * excess(v) - 1;
+    for (const std::int32_t v : {q.c, q.d}) gain -= mesh_.is_free(v) ? 2 * excess(v) + 1 : 1;
+    return gain > 0;
+  }
+
+  void move_all() {
+    active_.resize(mesh_.vertices(), 1);
+    std::vector<char> was(mesh_.vertices(), 0);
+    std::swap(was, active_);
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(was.size()); ++v) {
+      if (was[v] == 0 || !mesh_.is_free(v) || !mesh_.is_alive(v)) continue;
+      monitor_.checkpoint();
+      if (!move(v)) continue;
+      activate(v);
+      ++report_.moves;
+    }
+  }
+
+  // The mean of the places where each triangle around would be equilateral, its sides the mean of the one that stays
+  // and of the wanted one.
+  [[nodiscard]] Vec3 ideal_place(std::int32_t v) const {
+    Vec3 sum{0, 0, 0};
+    double count = 0;
+    for (const Place p : mesh_.mesh().fan(v)) {
+      const auto& t = mesh_.mesh().at(p);
+      const int i = mesh_.mesh().rank_in(p, v);
+      const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+      const Vec3 a = mesh_.position(j), b = mesh_.position(k), side = b - a, up = mesh_.position(v) - a;
+      const double l = norm(side);
+      const Vec3 across = up - (dot(up, side) / (l * l)) * side;
+      const double height = norm(across);
+      if (!(l > 0) || !(height > 0)) continue;
+      const double wanted = 0.5 * (l + 0.5 * (mesh_.size(j) + mesh_.size(k)));
+      sum = sum + 0.5 * (a + b) + (half_root3 * wanted / height) * across;
+      count += 1;
+    }
+    return count > 0 ? Vec3(sum / count) : mesh_.position(v);
+  }
+
+  [[nodiscard]] int out_of_range(std::int32_t v) const {
+    int out = 0;
+    for (const std::int32_t w : mesh_.mesh().ring(v)) {
+      const double l = mesh_.length(v, w);
+      out += l < shortest || l > longest ? 1 : 0;
+    }
+    return out;
+  }
+
+  bool move(std::int32_t v) {
+    const SurfacePlace from = mesh_.place(v);
+    const double size = mesh_.size(v);
+    const TriangleShapes before = mesh_.judge_around(v);
+    const int out = out_of_range(v);
+    const Vec3 ideal = ideal_place(v);
+    if (norm(ideal - from.xyz) < least_move * size) return false;
+    for (const double share : {1.0, 0.4}) {
+      const auto to = mesh_.near(v, from.normal, lerp(from.xyz, ideal, share));
+      if (!to) continue;
+      mesh_.put(v, *to, mesh_.size_at(*to));
+      const TriangleShapes after = mesh_.judge_around(v);
+      if (after.inverses < before.inverses - least_gain && after.worst >= std::min(before.worst, good_enough) &&
+          FreeMesh::agrees(before, after) && out_of_range(v) <= out)
+        return true;
+      mesh_.put(v, from, size);
+    }
+    return false;
+  }
+
+  FreeMesh& mesh_;
+  Monitor& monitor_;
+  std::vector<char> active_;  // by vertex
+  RemeshingReport report_;
+};
+
+}  // namespace
+
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor).run(); }
+
+}  // namespace carreau

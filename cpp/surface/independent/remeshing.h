@@ -1,0 +1,26 @@
+// Lengths and shapes as they are wanted, all over a free mesh.
+#pragma once
+
+#include <cstdint>
+
+#include "support/monitor.h"
+#include "surface/independent/free_mesh.h"
+
+namespace carreau {
+
+struct RemeshingReport {
+  std::int64_t collapses = 0, splits = 0, swaps = 0, moves = 0;
+  int rounds = 0;
+
+  RemeshingReport& operator+=(const RemeshingReport& other) noexcept {
+    collapses += other.collapses, splits += other.splits, swaps += other.swaps, moves += other.moves;
+    rounds += other.rounds;
+    return *this;
+  }
+};
+
+/// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
+/// Deterministic. Throws what the host throws, and Cancelled.
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor);
+
+}  // namespace carreau

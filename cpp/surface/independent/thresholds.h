@@ -1,0 +1,75 @@
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+namespace carreau::thresholds::independent {
+
+// Walks in the atlas (charts)
+/// Triangles that a straight way may lead through; vertices move by an edge or so.
+inline constexpr int most_steps = 200;
+/// Share of a triangle. A place so little beyond a side is on it.
+inline constexpr double on_side = 1e-9;
+/// Gauss-Newton steps, those that end on a border among them.
+inline constexpr int most_newton_steps = 6;
+/// Share of the way. What is left along the surface: the place need not be the foot of the target, it is judged itself.
+inline constexpr double near_enough = 0.3;
+
+// Sharp edges (sharp_edges)
+/// Degrees, added to the angle between tangents of curves that meet: supports are known as well as that.
+inline constexpr double support_angle = 2;
+
+// Edits (remeshing). Lengths are in the prescribed metric, shapes are Q2.
+// Lines (line_remeshing)
+/// Times that lines are cut anew and the mesh between them follows.
+inline constexpr int most_line_rounds = 3;
+/// Sweeps that even out the lengths of a line.
+inline constexpr int line_sweeps = 6;
+/// Shape that an edit of a line may leave where shapes were better.
+inline constexpr double least_line_shape = 0.05;
+
+/// Edges out of this range are collapsed and split (HDR sec. 4.5.5, and the range of RR-2818 sec. 4.5).
+inline constexpr double shortest = 0.70710678118654752, longest = 1.41421356237309505;
+/// Shorter edges are collapsed where triangles are small, too: an edge of a fine mesh would become too long, but the
+/// moves that follow share its length out.
+inline constexpr double short_when_dense = 0.95;
+/// Of unit equilateral triangles: the mean area that triangles around such an edge may have afterwards.
+inline constexpr double most_mean_area = 1.02;
+/// Shape that such a collapse may leave.
+inline constexpr double least_shape_when_dense = 0.35;
+/// No edit makes a longer edge.
+inline constexpr double never_longer = 1.8;
+/// Rounds of collapses, splits, swaps and moves.
+inline constexpr int most_rounds = 8;
+/// Passes of swaps and moves after them.
+inline constexpr int most_last_passes = 8;
+/// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
+inline constexpr double least_shape = 0.15;
+/// Shape. Triangles below are worked at, with two rings around.
+inline constexpr double good_enough = 0.7;
+/// Shape that a swap for the sake of degrees may leave, and rounds that have such swaps.
+inline constexpr double least_shape_of_degrees = 0.55;
+inline constexpr int most_rounds_of_degrees = 4;
+/// Share of the size. Shorter moves are not worth an evaluation.
+inline constexpr double least_move = 0.02;
+/// Shape. Gains below do not count.
+inline constexpr double least_gain = 1e-4;
+
+// Triangles in (u, v) (reassembly)
+/// Share of an edge in space. Where what derivatives make of it in (u, v) differs more, the corners are not of one chart.
+inline constexpr double most_distortion = 0.7;
+
+// Agreement with the surface
+/// Degrees: A1 where no geometric rule governs. That of a triangle of unit length on a sphere of this radius.
+inline constexpr double usual_angle = 52;
+/// Of squares of angles and distances beside triangles that crossed others in an attempt before: as if tolerances were a
+/// hundred times smaller.
+inline constexpr double guarded_factor = 1e4;
+/// Attempts, each of which guards the places where triangles crossed in those before.
+inline constexpr int most_attempts = 4;
+/// Sizes around such a place that are guarded.
+inline constexpr double guarded_sizes = 2;
+/// Degrees. A larger sharp_angle does not let triangles stand upright.
+inline constexpr double most_angle = 80;
+/// Share of the size: A0 there.
+inline constexpr double usual_deviation = 0.3;
+
+}  // namespace carreau::thresholds::independent

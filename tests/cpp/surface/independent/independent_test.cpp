@@ -1,0 +1,137 @@
+// Meshes that are independent of their patches (HDR sec. 4.5.5): as those of the same surface in one piece, never worse.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "independent/patchworks.h"
+#include "session_of_size.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+
+std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, const char* patches, Monitor& monitor,
+                                double sharp_angle = 1, int threads = 1) {
+  auto session = session_of_size(cad, size, monitor);
+  session->parameters().set("patches", patches);
+  session->parameters().set("sharp_angle", sharp_angle);
+  session->parameters().set("threads", threads);
+  session->make_mesh();
+  return session;
+}
+
+void expect_sound(const Session& session, bool closed) {
+  const std::vector<std::string> defects = find_defects(session.mesh(), {.closed = closed});
+  EXPECT_TRUE(defects.empty()) << defects.front();
+}
+
+/// Vertices - edges + triangles.
+int euler(const FlatMesh& mesh) {
+  std::set<std::array<std::int32_t, 2>> edges;
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i < 3; ++i) edges.insert({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3])});
+  return static_cast<int>(mesh.vertices.size()) - static_cast<int>(edges.size()) +
+         static_cast<int>(mesh.triangles.size());
+}
+
+double mean_q2(const FlatMesh& mesh) { return summarise_quality(mesh).q2.mean; }
+
+double area_of(const FlatMesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 2;
+  return area;
+}
+
+// As many as one patch has, or as equilateral triangles of that size, whichever is more: few triangles of one patch are
+// as many as its corners let them be.
+void expect_as_many(const FlatMesh& mesh, const FlatMesh& whole, double size, double area) {
+  const double ideal = area / (std::numbers::sqrt3 / 4 * size * size);
+  const double of_one = static_cast<double>(whole.triangles.size());
+  EXPECT_GE(static_cast<double>(mesh.triangles.size()), 0.95 * std::min(of_one, ideal));
+  EXPECT_LE(static_cast<double>(mesh.triangles.size()), 1.1 * std::max(of_one, ideal));
+}
+
+TEST(Independent, SquaresOfACubeMeanNothing) {
+  Monitor quiet;
+  for (const int n : {4, 12}) {
+    const double size = 3.0 / n;
+    const auto one = meshed(cube_of_squares(1), size, "dependent", quiet),
+               freed = meshed(cube_of_squares(n), size, "independent", quiet);
+    expect_sound(*freed, true);
+    const FlatMesh whole = one->exported(), mesh = freed->exported();
+    expect_as_many(mesh, whole, size, 6);
+    EXPECT_EQ(euler(mesh), 2);
+    EXPECT_NEAR(area_of(mesh), 6, 1e-12);  // all twelve edges are exact
+    for (const Vec3& p : mesh.vertices) {
+      double off = 1;
+      for (int k = 0; k < 3; ++k) off = std::min({off, std::abs(p[k]), std::abs(p[k] - 1)});
+      EXPECT_LE(off, 1e-15);
+    }
+  }
+}
+
+struct Patchwork {
+  AnalyticCad cut, whole;
+  double size, area;
+  bool closed;
+  double before;  // Q2 of the worst triangle with its patches, at most
+};
+
+void expect_as_one_patch(const Patchwork& p) {
+  Monitor quiet;
+  const auto one = meshed(p.whole, p.size, "dependent", quiet), patches = meshed(p.cut, p.size, "dependent", quiet),
+             freed = meshed(p.cut, p.size, "independent", quiet);
+  expect_sound(*freed, p.closed);
+  const FlatMesh whole = one->exported(), before = patches->exported(), mesh = freed->exported();
+  expect_as_many(mesh, whole, p.size, p.area);
+  EXPECT_GE(mean_q2(mesh), 0.95);
+  EXPECT_GE(worst_q2(mesh), 0.5);
+  EXPECT_LT(worst_q2(before), p.before);
+  EXPECT_GT(before.triangles.size(), 2 * whole.triangles.size());
+  EXPECT_EQ(euler(mesh), euler(whole));
+}
+
+TEST(Independent, CylinderOf24StripsIsAsOne) {
+  // Five strips wide.
+  expect_as_one_patch({cylinder_of_strips(24), cylinder_of_strips(1), 5 * 2 * std::numbers::pi / 24, 20 * std::numbers::pi, false, 0.6});
+}
+
+TEST(Independent, SphereOf320PatchesIsAsOne) {
+  // A patch is about .2 wide.
+  expect_as_one_patch({sphere_of_triangles(2), sphere_of_triangles(0), 1.0, 4 * std::numbers::pi, true, 0.99});
+}
+
+TEST(Independent, CornersKnowTheirPlacesOnTheSurface) {
+  Monitor quiet;
+  AnalyticCad cad = sphere_of_triangles(1);
+  const auto session = meshed(cad, 0.15, "independent", quiet);
+  const SurfaceMesh& mesh = session->mesh();
+  bool several = false;
+  for (const FaceMesh& face : mesh.faces)
+    for (std::size_t k = 0; k < face.vertex.size(); ++k) {
+      const int ref = mesh.faces[face.uv_face[k]].ref;
+      several = several || ref != face.ref;
+      const Vec3 s = surface_at(cad, ref, want_position, face.uv[k]).s;
+      EXPECT_LE(norm(s - mesh.vertices[face.vertex[k]]), 1e-12);
+    }
+  EXPECT_TRUE(several);
+}
+
+TEST(Independent, MeshDoesNotDependOnThreads) {
+  Monitor quiet;
+  const AnalyticCad cad = sphere_of_triangles(1);
+  const FlatMesh one = meshed(cad, 0.2, "independent", quiet)->exported();
+  for (const int threads : {2, 8}) {
+    const FlatMesh other = meshed(cad, 0.2, "independent", quiet, 1, threads)->exported();
+    EXPECT_EQ(one.triangles, other.triangles);
+    EXPECT_EQ(one.triangle_refs, other.triangle_refs);
+    EXPECT_TRUE(one.vertices == other.vertices);
+  }
+}
+
+}  // namespace
+}  // namespace carreau
