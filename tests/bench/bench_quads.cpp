@@ -15,6 +15,7 @@
 #include "surface/quads/pairing.h"
 #include "surface/quads/quad_shape.h"
 #include "surface/quads/smoothing.h"
+#include "surface/quads/walks.h"
 
 namespace {
 
@@ -141,6 +142,8 @@ int main(int argc, char** argv) {
     report(what, c, patch, now() - start);
   };
   step("paired", [&] { pair_triangles(patch, &charts, rules, monitor); });
+  step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
+  step("walked", [&] { join_triangles(patch, charts, rules.is_imposed, monitor); });
   step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
   step("smoothed", [&] { smooth_quads(patch, charts, {}, monitor); });
   step("worst", [&] { improve_worst_quads(patch, charts, 0.6, monitor); });

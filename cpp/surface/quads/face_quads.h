@@ -15,7 +15,7 @@ struct FaceQuads {
   std::vector<std::int32_t> vertex;  ///< local -> index in SurfaceMesh::vertices; -1: new, and of this face only
   std::vector<Vec3> xyz;             ///< positions; those of new vertices are missing until lift()
   std::vector<Vec2> lifted;          ///< (u, v) that xyz belongs to
-  std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: as it was
+  std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: not known; below: as it was
   std::vector<CurveSide> sides;      ///< on curves, ascending
   std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
 

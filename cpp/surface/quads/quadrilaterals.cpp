@@ -10,7 +10,9 @@
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
 #include "surface/quads/smoothing.h"
+#include "surface/quads/space_search.h"
 #include "surface/quads/thresholds.h"
+#include "surface/quads/walks.h"
 
 namespace carreau {
 
@@ -34,6 +36,7 @@ class Quadrilaterals {
     for_each(
         [&](FaceQuads& quads, Monitor& monitor) {
           lift(work_, space(quads), quads, monitor);
+          if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
           if (!has_quads_only(work_.options.element)) split_folded(quads);
         },
         bound);
@@ -70,6 +73,8 @@ class Quadrilaterals {
 
   static void improve(FaceQuads& quads, const FaceCharts& charts, Monitor& monitor) {
     const auto is_imposed = [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; };
+    clean_up(quads.patch, charts, is_imposed, monitor);
+    join_triangles(quads.patch, charts, is_imposed, monitor);
     clean_up(quads.patch, charts, is_imposed, monitor);
     smooth_quads(quads.patch, charts, {}, monitor);
     improve_worst_quads(quads.patch, charts, poor, monitor);

@@ -7,9 +7,9 @@
 namespace carreau {
 
 struct QuadSmoothing {
-  int passes = 5;
-  double share = 1;   ///< of the way to the mean of the places that cells propose
-  double pull = 0.3;  ///< 0: cells keep their size; 1: they propose that of unit edges
+  int passes = 10;
+  double share = 1.4;   ///< of the way to the mean of the places that cells propose
+  double pull = 0.1;  ///< 0: cells keep their size; 1: they propose that of unit edges
   /// Length of edges wanted, in the metric.
   double unit = 1;
 };
