@@ -42,6 +42,7 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
   quads.xyz.resize(quads.patch.uv.size()), quads.size.resize(quads.patch.uv.size(), -1);
   for (std::size_t v = 0; v < quads.patch.uv.size(); ++v) {
     const bool is_new = v >= known;
+    if (is_new && quads.vertex[v] >= 0) quads.xyz[v] = work.result.mesh.vertices[quads.vertex[v]];
     if (is_new ? quads.vertex[v] >= 0 : quads.lifted[v] == quads.patch.uv[v]) continue;
     local.push_back(static_cast<std::int32_t>(v));
     uv.push_back(quads.patch.uv[v]);

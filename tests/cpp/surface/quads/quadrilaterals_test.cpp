@@ -105,7 +105,8 @@ TEST(Quadrilaterals, OfThePlateAreGood) {
       }
       EXPECT_EQ(euler(mesh), 1);
       const double exact = 1 - std::numbers::pi / 16;
-      EXPECT_NEAR(f.area, exact, 0.1 * h * h) << element << " " << h;
+      // Chords of length h cut a segment of area h^3 / (12 r) off the arc of length pi r / 2.
+      EXPECT_NEAR(f.area, exact, 1.2 * std::numbers::pi / 24 * h * h) << element << " " << h;
       const auto wanted = exact / (h * h);
       EXPECT_NEAR(static_cast<double>(f.quads) + 0.5 * static_cast<double>(f.triangles), wanted, 0.35 * wanted)
           << element << " " << h;
