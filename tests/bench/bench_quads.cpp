@@ -135,7 +135,7 @@ int main(int argc, char** argv) {
   std::set<std::pair<int, int>> imposed;
   for (const PlaneEdge& e : c.domain.edges) imposed.insert({std::min(e.a, e.b), std::max(e.a, e.b)});
   const PairRules rules{[&](int a, int b) { return imposed.count({std::min(a, b), std::max(a, b)}) != 0; },
-                        [&](int v) { return c.surface(patch.uv[v]); }, 0.5};
+                        [&](int v) { return c.surface(patch.uv[v]); }, 0.5, 0};
   const auto step = [&](const char* what, auto&& work) {
     start = now();
     work();

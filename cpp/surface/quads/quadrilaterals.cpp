@@ -37,7 +37,7 @@ class Quadrilaterals {
         [&](FaceQuads& quads, Monitor& monitor) {
           lift(work_, space(quads), quads, monitor);
           if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
-          if (!has_quads_only(work_.options.element)) split_folded(quads);
+          if (!has_quads_only(work_.options.element)) split_poor(quads, least_in_space());
         },
         bound);
     put_back(faces_, work_.result);
@@ -56,12 +56,16 @@ class Quadrilaterals {
     return space ? &*space : nullptr;
   }
 
+  // Where sizes differ by direction, good quadrilaterals may have any angles in space.
+  [[nodiscard]] double least_in_space() const { return work_.rules.uses_metrics() ? 0 : least_jacobian; }
+
   void pair(FaceQuads& quads, Monitor& monitor) const {
     const double edge = turns_per_edge * work_.options.size.angle_mesh * std::numbers::pi / 180;
     const PairRules rules{
         [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
         [&](std::int32_t v) { return quads.xyz[v]; },
-        edge * enlargement_for(work_.options.element)};
+        edge * enlargement_for(work_.options.element),
+        least_in_space()};
     if (space(quads) == nullptr) {
       pair_triangles(quads.patch, nullptr, rules, monitor);
       return;

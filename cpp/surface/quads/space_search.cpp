@@ -22,7 +22,7 @@ class SpaceSearch {
         metric_(metric),
         charts_(metric),
         quads_(quads),
-        poor_(work.rules.uses_metrics() ? least_jacobian : poor_jacobian),
+        poor_(work.rules.uses_metrics() ? poor_jacobian_in_metric : poor_jacobian),
         monitor_(monitor),
         around_(quads.patch.uv.size(), closed(quads.patch.cells)) {}
 
