@@ -1,4 +1,4 @@
-!> Fortran 2003 face of cabi/include/carreau_geometry.h: molecules and plane domains. What each routine means and its errors are written
+!> Fortran 2003 face of cabi/include/carreau_geometry.h: molecules, plane domains and grids. What each routine means and its errors are written
 !> there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
 !> are optional.
 module carreau_geometry
@@ -12,6 +12,7 @@ module carreau_geometry
 
   public :: carreau_molecule_options, carreau_molecule_measures, carreau_add_molecule, carreau_load_molecule
   public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_name
+  public :: carreau_grid_options, carreau_add_grid, carreau_load_grid
   public :: carreau_geometry_points, carreau_geometry_curve
 
   integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
@@ -21,6 +22,17 @@ module carreau_geometry
     integer(c_int32_t) :: surface = CARREAU_VWS, drop_cavities = 0
     real(c_double) :: probe = 1.4_c_double
   end type carreau_molecule_options
+
+  integer(c_int32_t), parameter, public :: CARREAU_MEASURED_POINTS = 0, CARREAU_MEASURED_HEIGHTS = 1, CARREAU_MEASURED_RADII = 2
+  integer(c_int32_t), parameter, public :: CARREAU_GRID_BY_SUFFIX = 0, CARREAU_GRID_PLOT3D = 1, CARREAU_GRID_HEIGHTS = 2
+  integer(c_int32_t), parameter, public :: CARREAU_GRID_SCAN = 3, CARREAU_GRID_NODES = 4
+
+  type :: carreau_grid_options
+    integer(c_int32_t) :: measured = CARREAU_MEASURED_POINTS, smoothing_rounds = 0
+    real(c_double) :: smoothing_inward = 0.06_c_double, smoothing_outward = 0.061_c_double
+    logical :: lengths = .false.
+    real(c_double) :: join_angle = 0, tolerance = 0, step = 0
+  end type carreau_grid_options
 
   type :: carreau_molecule_measures
     real(c_double) :: area, volume
@@ -103,6 +115,49 @@ contains
     c%drop_cavities = options%drop_cavities
     c%probe = options%probe
   end function c_options
+
+  ! ---- Structured grids ----
+
+  !> counts(2, n): columns and rows of each block; nodes(3, sum of their products), columns running fastest
+  subroutine carreau_add_grid(session, options, counts, nodes, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_grid_options), intent(in) :: options
+    integer(c_int32_t), intent(in) :: counts(:, :)
+    real(c_double), intent(in) :: nodes(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (size(counts, 1) /= 2 .or. size(nodes, 1) /= 3) return
+    if (sum(product(int(counts, c_int64_t), 1)) /= size(nodes, 2, kind=c_int64_t)) return
+    status = c_add_grid(session%handle, c_grid(options), size(counts, 2, kind=c_int64_t), &
+      reshape(counts, [size(counts)]), reshape(nodes, [size(nodes)]))
+  end subroutine carreau_add_grid
+
+  !> format: left out, by suffix
+  subroutine carreau_load_grid(session, options, path, status, format)
+    type(carreau_session), intent(in) :: session
+    type(carreau_grid_options), intent(in) :: options
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: format
+    integer(c_int32_t) :: known
+    known = CARREAU_GRID_BY_SUFFIX
+    if (present(format)) known = format
+    status = c_load_grid(session%handle, c_grid(options), trim(path)//c_null_char, known)
+  end subroutine carreau_load_grid
+
+  function c_grid(options) result(c)
+    type(carreau_grid_options), intent(in) :: options
+    type(c_grid_options) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%measured = options%measured
+    c%smoothing_rounds = options%smoothing_rounds
+    c%smoothing_inward = options%smoothing_inward
+    c%smoothing_outward = options%smoothing_outward
+    c%lengths = merge(1, 0, options%lengths)
+    c%join_angle = options%join_angle
+    c%tolerance = options%tolerance
+    c%step = options%step
+  end function c_grid
 
   ! ---- Points of built-in geometries ----
 

@@ -32,6 +32,15 @@ module carreau_geometry_c
       seed_refs = c_null_ptr
   end type c_plane_domain
 
+  !> Zeros in all members but struct_size are the defaults; NULL in place of the struct is the same.
+  type, bind(c) :: c_grid_options
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int32_t) :: measured = 0, smoothing_rounds = 0
+    real(c_double) :: smoothing_inward = 0, smoothing_outward = 0
+    integer(c_int32_t) :: lengths = 0, reserved = 0
+    real(c_double) :: join_angle = 0, tolerance = 0, step = 0
+  end type c_grid_options
+
   interface
     !> Makes the surface of n balls the geometry and the model of a session that has no model: see carreau_model_clear.
     function c_add_molecule(session, options, n, centers, radii) result(status) bind(c, name="carreau_add_molecule")
@@ -112,6 +121,30 @@ module carreau_geometry_c
       integer(c_int32_t), intent(inout) :: answer
       integer(c_int32_t) :: status
     end function c_plane_has_sizes
+
+    !> Makes a surface through the nodes of n structured grids the geometry and the model of a session that has no
+    !! model.
+    function c_add_grid(session, options, n, counts, nodes) result(status) bind(c, name="carreau_add_grid")
+      import :: c_double, c_grid_options, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_grid_options), intent(in) :: options
+      integer(c_int64_t), value :: n
+      integer(c_int32_t), intent(in) :: counts(*)
+      real(c_double), intent(in) :: nodes(*)
+      integer(c_int32_t) :: status
+    end function c_add_grid
+
+    !> The same from a file.
+    function c_load_grid(session, options, path, format) result(status) bind(c, name="carreau_load_grid")
+      import :: c_char, c_grid_options, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      type(c_grid_options), intent(in) :: options
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: format
+      integer(c_int32_t) :: status
+    end function c_load_grid
 
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")

@@ -140,6 +140,54 @@ CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, c
 /* Tells whether the plane domain that the session was given last has sizes or metrics at its points. */
 CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
 
+/* ---- Structured grids ---- */
+
+/* What the nodes of a grid were measured as, and so what smoothing moves. */
+enum {
+  CARREAU_MEASURED_POINTS = 0,  /* all coordinates */
+  CARREAU_MEASURED_HEIGHTS = 1, /* z, at regular x and y */
+  CARREAU_MEASURED_RADII = 2    /* the distance from the axis z, at regular angles and heights */
+};
+
+/* Formats of carreau_load_grid. */
+enum {
+  CARREAU_GRID_BY_SUFFIX = 0, /* .fmt .p3d .x .grd .xyz: PLOT3D; .asc .dem .txt: heights; .cyl: a scan; .ijk: nodes */
+  CARREAU_GRID_PLOT3D = 1,
+  CARREAU_GRID_HEIGHTS = 2,
+  CARREAU_GRID_SCAN = 3,
+  CARREAU_GRID_NODES = 4
+};
+
+/* Zeros in all members but struct_size are the defaults; NULL in place of the struct is the same. */
+typedef struct carreau_grid_options {
+  size_t struct_size;
+  int32_t measured;         /* CARREAU_MEASURED_...; carreau_load_grid knows it from the format */
+  int32_t smoothing_rounds; /* of Taubin's filter, which does not shrink (HDR sec. 4.7.1); 0: none */
+  double smoothing_inward, smoothing_outward; /* its weights, both between 0 and 1; both 0: .06 and .061 */
+  int32_t lengths;  /* 1: parameters are cumulated lengths of edges, for abrupt steps of a grid; 0: the integers */
+  int32_t reserved; /* 0 */
+  double join_angle; /* degrees: blocks get one tangent plane along borders where their normals differ by less; 0: none */
+  double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
+  double step; /* of heights and scans whose file does not tell it; 0: 1 */
+} carreau_grid_options;
+
+/* Makes a surface through the nodes of n structured grids the geometry and the model of a session that has no model.
+ * Block b has counts[2 b] columns and counts[2 b + 1] rows, and its nodes (x, y, z) lie behind those of block b - 1,
+ * columns running fastest. A node with a NaN is missing, and with it the cells around. Each block is a face, whose
+ * reference is its rank from 1; it is bicubic on each cell and C1 between cells (HDR eq. 4.87-4.91). Where missing nodes cut a
+ * block in two, all its parts have its reference in results, and a message tells it. Common nodes of borders glue
+ * blocks, and the sides of one; a side may be one point. Messages tell cells that fold and cells without area, which
+ * are left out. Errors: ARGUMENT (counts below 2, infinite coordinates, options, the session has faces), MODEL (no cell
+ * at all, blocks that overlap), CANCELLED. */
+CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
+                                            const int32_t counts[], const double nodes[]);
+
+/* The same from a file: PLOT3D (text or binary, any byte order and precision, with or without IBLANK), heights (ASCII grids
+ * of ESRI, DEM of USGS, plain rows of numbers), a scan r(z, theta), or a list of nodes; docs/grids.md has the
+ * layouts. Errors: those above, FILE (with the line or byte, and the block). */
+CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
+                                             const char* path, int32_t format);
+
 /* ---- Points of built-in geometries ---- */
 
 /* Evaluates a face at n places (u, v). Errors: SEQUENCE (the geometry of the session is not built in), ARGUMENT. */

@@ -50,7 +50,10 @@ const SurfaceMesh& mesh_of(const carreau_session& handle) {
 std::size_t checked_rows(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
   if (n >= 0 && std::uint64_t(n) == mesh.vertices.size()) return mesh.vertices.size();
   throw InvalidArgument("there are " + std::to_string(n) + " rows, but the " + which + " has " +
-                        std::to_string(mesh.vertices.size()) + " vertices");
+                        std::to_string(mesh.vertices.size()) +
+                        (mesh.mid_vertices.empty() ? " vertices"
+                                                   : " corners of elements of second order, its first vertices: fields "
+                                                     "belong to corners, not to nodes on edges"));
 }
 
 std::size_t checked_count(std::int64_t n, const char* name) {

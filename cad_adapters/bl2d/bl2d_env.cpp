@@ -28,10 +28,9 @@ void take(const Setting& setting, const std::string& where, Env& env) {
     env.steps.push_back(number_of(setting, where, most));
   else if (setting.name == "file_h")
     env.writes_sizes = number_of(setting, where, 1) == 1;
-  else if (setting.name != "element")
+  else
     env.settings.push_back(setting);
-  else if (setting.value != "p1")
-    throw Failure(where + "element '" + setting.value + "': there are triangles of order one only, p1");
+  if (setting.name == "element") env.writes_bl2d = setting.value == "p1";
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Env {
   int geometry = 0;
   std::vector<int> steps;         ///< values of `adapt`, in their order; 0 when there is none
   bool writes_sizes = false;      ///< file_h 1
+  bool writes_bl2d = true;        ///< the format knows element p1 only
   std::vector<Setting> settings;  ///< other names: parameters of the library
 };
 

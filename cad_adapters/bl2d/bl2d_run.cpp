@@ -116,11 +116,11 @@ class Step {
     require(session_.get(), carreau_session_mesh(session_.get(), &mesh));
     std::int64_t vertices = 0, triangles = 0;
     require(session_.get(), carreau_mesh_count(mesh, &vertices, &triangles, nullptr, nullptr));
-    for (const char* suffix : {".bl2d", ".mesh"})
-      require(session_.get(), carreau_mesh_write(mesh, (name + suffix).c_str()));
+    if (env_.writes_bl2d) require(session_.get(), carreau_mesh_write(mesh, (name + ".bl2d").c_str()));
+    require(session_.get(), carreau_mesh_write(mesh, (name + ".mesh").c_str()));
     if (env_.writes_sizes) write_sizes(mesh, vertices, name + ".h");
-    std::printf("step %d: %lld vertices, %lld triangles: %s.bl2d, %s.mesh\n", number_, static_cast<long long>(vertices),
-                static_cast<long long>(triangles), name.c_str(), name.c_str());
+    std::printf("step %d: %lld vertices, %lld triangles: %s%s.mesh\n", number_, static_cast<long long>(vertices),
+                static_cast<long long>(triangles), env_.writes_bl2d ? (name + ".bl2d, ").c_str() : "", name.c_str());
   }
 
   void write_sizes(carreau_mesh* mesh, std::int64_t vertices, const std::string& path) {

@@ -18,7 +18,7 @@ namespace {
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2 or .bl2d";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
-    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif";
+    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk";
 constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
 constexpr int most_listed = 1'000'000;
 constexpr int unusable = 2;  // exit code
@@ -140,7 +140,7 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 }
 
 void CommandLine::add_mesh() {
-  CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, a .pardom, or the surface of a molecule");
+  CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, a .pardom, a grid, or the surface of a molecule");
   mesh->add_option("INPUT", mesh_.input, geometry_files)->required()->type_name(kind::file);
   mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
       ->type_name(kind::file);
@@ -150,6 +150,7 @@ void CommandLine::add_mesh() {
       ->required()
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);
+  add_grid_options(mesh, mesh_.grid);
   add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
                    "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
@@ -195,7 +196,7 @@ void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
       ->type_name(kind::file);
   app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
       ->check(CLI::Range(0.01, 89.0))
-      ->type_name("DEGREES");
+      ->type_name(kind::number);
   app->add_option("--chord", options.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
       ->check(not_empty)
       ->type_name(kind::length);
@@ -234,6 +235,7 @@ void CommandLine::add_info() {
       ->type_name(kind::number)
       ->capture_default_str();
   info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
+  add_grid_options(info, info_.grid);
   info->add_flag("--json", info_.json, "Print JSON");
 }
 
@@ -247,6 +249,26 @@ void CommandLine::add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
       ->type_name(kind::length)
       ->capture_default_str();
   app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells of a molecule");
+}
+
+void CommandLine::add_grid_options(CLI::App* app, GridChoice& choice) {
+  app->add_option("--grid", choice.format, "Read a structured grid in this format, whatever the suffix")
+      ->check(CLI::IsMember(std::vector<std::string>(std::begin(grid_formats), std::end(grid_formats))));
+  app->add_option("--smooth", choice.smoothing,
+                  "Smooth a grid without shrinking: rounds, or rounds,w1,w2 (Taubin's weights, .06 and .061)")
+      ->check(smoothing_defect)
+      ->type_name(kind::rounds);
+  app->add_flag("--lengths", choice.lengths, "Make lengths of edges the parameters of a grid: for abrupt steps");
+  app->add_option("--join", choice.join_angle,
+                  "Give blocks of a grid one tangent plane where their normals differ by less than this")
+      ->check(CLI::Range(0.0, 180.0))
+      ->type_name(kind::number);
+  app->add_option("--step", choice.step, "Step of heights and scans whose file does not tell it")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
+  app->add_option("--join-nodes", choice.tolerance, "Nodes on borders of grids are one when they are nearer than this")
+      ->check(CLI::Range(0.0, 1e9))
+      ->type_name(kind::length);
 }
 
 void CommandLine::add_areas() {
@@ -334,6 +356,7 @@ void CommandLine::add_fields() {
   fields->add_flag("--piz", fields_.piz, "PIZ in place of ZIP; both are lossless");
   fields->add_flag("--raw", fields_.raw, "What the geometry answers, without a mesh");
   add_molecule_options(fields, fields_.mesh.molecule);
+  add_grid_options(fields, fields_.mesh.grid);
   add_mesh_options(fields, fields_.mesh);
   fields->add_flag("--json", fields_.mesh.json, "Print the files as JSON");
 }

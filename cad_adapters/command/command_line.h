@@ -17,6 +17,7 @@ inline constexpr const char* setting = "NAME=VALUE";
 inline constexpr const char* view = "VIEW";
 inline constexpr const char* length = "LENGTH";
 inline constexpr const char* number = "N";
+inline constexpr const char* rounds = "ROUNDS";
 }  // namespace kind
 
 /// The parser and what it fills.
@@ -38,6 +39,7 @@ class CommandLine {
   /// What governs a mesh: of `mesh` and `fields`.
   static void add_mesh_options(CLI::App* app, MeshOptions& options);
   static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
+  static void add_grid_options(CLI::App* app, GridChoice& choice);
   void add_info();
   void add_areas();
   void add_picture();

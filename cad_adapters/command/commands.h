@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grid_input.h"
 #include "molecule_input.h"
 #include "plane_input.h"
 #include "scene.h"
@@ -27,6 +28,7 @@ struct MeshOptions {
   std::string host;         ///< shared library, of a .pardom
   MoleculeChoice molecule;  ///< of a molecule
   PlaneChoice plane;        ///< of a plane domain
+  GridChoice grid;          ///< of a structured grid
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -49,6 +51,7 @@ int mesh(const MeshOptions& options);
 struct InfoOptions {
   std::string input;
   std::string host;    ///< shared library, of a .pardom
+  GridChoice grid;     ///< of a structured grid
   int limit = 10;      ///< sentences of each kind
   bool faces = false;  ///< a line for each
   bool json = false;

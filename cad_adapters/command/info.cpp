@@ -27,12 +27,13 @@ std::string sentence(const ModelDanger& danger) {
 
 int info(const InfoOptions& options) {
   check_geometry_name(options.input);
-  const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" || is_molecule(options.input);
+  const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" ||
+                         is_molecule(options.input) || is_grid(options.input, options.grid);
   if (!in_memory) {
     if (!options.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + options.input + "'.");
     return print_cad_info(options);
   }
-  const auto input = open_input(options.input, options.host);
+  const auto input = open_input(options.input, options.host, {}, {}, options.grid);
   const ModelFigures figures = static_cast<const ModelInput&>(*input).look_at();
   if (options.json) {
     Json dangers = Json::array();

@@ -138,7 +138,8 @@ int mesh(const MeshOptions& options) {
       options.plane.is_plane
           ? open_plane(options.input, options.plane)
           : open_input(
-                options.input, options.host, [&](double fraction) { progress.reading(fraction); }, options.molecule);
+                options.input, options.host, [&](double fraction) { progress.reading(fraction); }, options.molecule,
+                options.grid);
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();

@@ -4,12 +4,9 @@
 #include <carreau_geometry.h>
 
 #include <algorithm>
-#include <array>
-#include <mutex>
 
-#include "face_model.h"
+#include "built_input.h"
 #include "failure.h"
-#include "model_input.h"
 #include "text_file.h"
 
 namespace command {
@@ -24,31 +21,10 @@ carreau_molecule_options options_of(const MoleculeChoice& choice) {
   return options;
 }
 
-/// A molecule in a session of its own, which answers where points are.
-class MoleculeInput final : public ModelInput {
+class MoleculeInput final : public BuiltInput {
  public:
   MoleculeInput(SessionHandle session, const std::string& path, const MoleculeChoice& choice)
-      : ModelInput(model_of(session.get())), session_(std::move(session)), path_(path), choice_(choice) {
-    measure(path);
-  }
-
-  [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
-    const std::array<double, 2> uv{u, v};
-    std::array<double, 3> x{};
-    const std::lock_guard lock(mutex_);
-    if (carreau_geometry_points(session_.get(), face, 1, uv.data(), x.data()) != CARREAU_OK) return false;
-    place = {x[0], x[1], x[2], u, v};
-    return true;
-  }
-
-  [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
-                              double& v) const noexcept override {
-    std::array<double, 2> uv{};
-    const std::lock_guard lock(mutex_);
-    if (carreau_geometry_curve(session_.get(), face, ic, share, uv.data()) != CARREAU_OK) return false;
-    u = uv[0], v = uv[1];
-    return true;
-  }
+      : BuiltInput(std::move(session), path), path_(path), choice_(choice) {}
 
   carreau_status give_to(carreau_session* session) override {
     const carreau_molecule_options options = options_of(choice_);
@@ -58,7 +34,7 @@ class MoleculeInput final : public ModelInput {
   [[nodiscard]] std::string summary() const override {
     carreau_molecule_measures measures{};
     measures.struct_size = sizeof measures;
-    require(session_.get(), carreau_molecule_measure(session_.get(), &measures));
+    ask([&](carreau_session* session) { require(session, carreau_molecule_measure(session, &measures)); });
     return std::to_string(measures.atoms) + " atoms, " + std::to_string(measures.exposed_atoms) + " exposed, " +
            ModelInput::summary();
   }
@@ -70,10 +46,7 @@ class MoleculeInput final : public ModelInput {
 
  private:
   [[nodiscard]] std::string kind(std::int32_t) const override { return "sphere"; }
-  carreau_status give_geometry(carreau_session* session) override { return give_to(session); }
 
-  SessionHandle session_;
-  mutable std::mutex mutex_;  // a session is used by one thread at a time
   std::string path_;
   MoleculeChoice choice_;
 };
@@ -92,8 +65,7 @@ void load_molecule(carreau_session* session, const std::string& path, const Mole
 }
 
 std::unique_ptr<CadInput> open_molecule(const std::string& path, const MoleculeChoice& choice) {
-  SessionHandle session = make_session();
-  require(session.get(), carreau_set_integer(session.get(), "verb", 0));  // warnings come when the mesh is made
+  SessionHandle session = make_silent_session();
   load_molecule(session.get(), path, choice);
   return std::make_unique<MoleculeInput>(std::move(session), path, choice);
 }

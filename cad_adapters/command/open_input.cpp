@@ -15,13 +15,15 @@ void check_geometry_name(const std::string& path) {
 }
 
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
-                                     const ReadingProgress& progress, const MoleculeChoice& molecule) {
+                                     const ReadingProgress& progress, const MoleculeChoice& molecule,
+                                     const GridChoice& grid) {
   check_geometry_name(path);
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
     return open_pardom(path, host);
   }
   if (!host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
+  if (is_grid(path, grid)) return open_grid(path, grid);
   if (is_molecule(path)) return open_molecule(path, molecule);
   return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path, progress);
 }

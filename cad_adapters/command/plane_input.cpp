@@ -3,13 +3,8 @@
 
 #include <carreau_geometry.h>
 
-#include <array>
-#include <mutex>
-
-#include "face_model.h"
+#include "built_input.h"
 #include "failure.h"
-#include "model_input.h"
-#include "session_handle.h"
 
 namespace command {
 namespace {
@@ -19,25 +14,13 @@ carreau_status load(carreau_session* session, const std::string& path, const Pla
                                    choice.corner_angle);
 }
 
-/// A domain in a session of its own, which answers where points are.
-class PlaneInput final : public ModelInput {
+class PlaneInput final : public BuiltInput {
  public:
   PlaneInput(SessionHandle session, const std::string& path, const PlaneChoice& choice)
-      : ModelInput(model_of(session.get())), session_(std::move(session)), path_(path), choice_(choice) {
-    measure(path);
-  }
+      : BuiltInput(std::move(session), path), path_(path), choice_(choice) {}
 
   [[nodiscard]] bool locate(std::int32_t, double u, double v, Place& place) const noexcept override {
     place = {u, v, 0, u, v};
-    return true;
-  }
-
-  [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
-                              double& v) const noexcept override {
-    std::array<double, 2> uv{};
-    const std::lock_guard lock(mutex_);
-    if (carreau_geometry_curve(session_.get(), face, ic, share, uv.data()) != CARREAU_OK) return false;
-    u = uv[0], v = uv[1];
     return true;
   }
 
@@ -45,16 +28,13 @@ class PlaneInput final : public ModelInput {
 
   [[nodiscard]] bool has_sizes() const override {
     std::int32_t answer = 0;
-    const std::lock_guard lock(mutex_);
-    return carreau_plane_has_sizes(session_.get(), &answer) == CARREAU_OK && answer != 0;
+    return ask([&](carreau_session* session) { return carreau_plane_has_sizes(session, &answer); }) == CARREAU_OK &&
+           answer != 0;
   }
 
  private:
   [[nodiscard]] std::string kind(std::int32_t) const override { return "plane"; }
-  carreau_status give_geometry(carreau_session* session) override { return give_to(session); }
 
-  SessionHandle session_;
-  mutable std::mutex mutex_;  // a session is used by one thread at a time
   std::string path_;
   PlaneChoice choice_;
 };
@@ -62,8 +42,7 @@ class PlaneInput final : public ModelInput {
 }  // namespace
 
 std::unique_ptr<CadInput> open_plane(const std::string& path, const PlaneChoice& choice) {
-  SessionHandle session = make_session();
-  require(session.get(), carreau_set_integer(session.get(), "verb", 0));  // warnings come when the mesh is made
+  SessionHandle session = make_silent_session();
   require(session.get(), load(session.get(), path, choice));
   return std::make_unique<PlaneInput>(std::move(session), path, choice);
 }

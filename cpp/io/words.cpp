@@ -68,15 +68,27 @@ bool Words::fast(Number& value) {
   return true;
 }
 
-double Words::real(const char* what) {
+double Words::real_or_nan(const char* what) {
   double value = 0;
   const char* const before = p_;
-  if (fast(value) && std::isfinite(value)) return value;
+  if (fast(value) && !std::isinf(value)) return value;
   p_ = before;
   // The slow path knows Fortran's exponents and the plus sign, and finds out what is wrong.
   const std::string_view found = number_word(what);
   if (!parse_number(found, value)) fail(found.data(), std::string(what) + " should be a number, not " + shown(found));
-  if (!std::isfinite(value)) fail(found.data(), std::string(what) + " is not finite: " + shown(found));
+  if (std::isinf(value)) fail(found.data(), std::string(what) + " is not finite: " + shown(found));
+  return value;
+}
+
+double Words::real(const char* what) {
+  skip_blanks();
+  const char* const before = p_;
+  const double value = real_or_nan(what);
+  if (std::isnan(value)) {
+    p_ = before;
+    const std::string_view found = word();
+    fail(found.data(), std::string(what) + " is not finite: " + shown(found));
+  }
   return value;
 }
 

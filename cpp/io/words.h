@@ -22,6 +22,8 @@ class Words {
   std::string_view word();
   /// A finite number; Fortran's exponents are taken too.
   double real(const char* what);
+  /// The same, but NaN is a number too.
+  double real_or_nan(const char* what);
   std::int32_t integer(const char* what);
   std::int64_t integer_64(const char* what);
   /// A number of entities of `words_each` words each: not negative, and no more than the rest of the text can hold.

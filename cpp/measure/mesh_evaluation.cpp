@@ -9,6 +9,7 @@
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
 #include "measure/degenerate_sides.h"
+#include "measure/element_evaluation.h"
 #include "measure/gauss.h"
 #include "measure/thresholds.h"
 #include "mesh/quality.h"
@@ -455,6 +456,7 @@ MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const Prescribed
   const auto start = std::chrono::steady_clock::now();
   const CallCounts before = cad.counts();
   MeshEvaluation d = Measurement(mesh, cad, prescribed, options, monitor).run();
+  evaluate_elements(mesh, cad, prescribed, monitor, d);
   d[EvaluationKind::edge_angle].limit = options.edge_angle_limit;
   d[EvaluationKind::gradation].limit = options.gradation_limit;
   d[EvaluationKind::length_ratio].limit = options.length_ratio_limit;

@@ -158,8 +158,9 @@ void summarise(MeshEvaluation& d) {
 
 double MeshEvaluation::share_in_range() const noexcept {
   const Delivery& length = (*this)[EvaluationKind::length];
-  if (length.values.empty()) return 0;
-  return 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(length.values.size());
+  // Diagonals of quadrilaterals have none.
+  const auto measured = std::count_if(length.values.begin(), length.values.end(), [](double l) { return l == l; });
+  return measured == 0 ? 0 : 1 - static_cast<double>(short_edges + long_edges) / static_cast<double>(measured);
 }
 
 DeliveredText describe(const MeshEvaluation& d) {

@@ -17,6 +17,14 @@ namespace carreau {
 
 namespace {
 
+/// Fields belong to corners: without nodes on edges.
+FlatMesh straight_mesh(const SurfaceMesh& mesh) {
+  FlatMesh flat = flatten(mesh, false);
+  flat.vertices.resize(mesh.vertices.size());
+  flat.cells.clear();
+  return flat;
+}
+
 VertexValues values_of(const Solution& solution) {
   VertexValues values;
   if (!solution.tensor) {
@@ -133,7 +141,7 @@ class Loop {
  private:
   /// Evaluates the field on the session's mesh and measures.
   void look(SizeRange range) {
-    const FlatMesh mesh = flatten(session_.mesh(), false);
+    const FlatMesh mesh = straight_mesh(session_.mesh());
     values_.resize(mesh.vertices.size());
     field_(mesh.vertices, values_);
     monitor_.checkpoint();
@@ -271,12 +279,12 @@ std::shared_ptr<BackgroundField> background_of(const Session& session, VertexVal
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options) {
-  const FlatMesh mesh = flatten(session.mesh(), false);
+  const FlatMesh mesh = straight_mesh(session.mesh());
   return estimate({mesh.vertices, mesh.triangles, values}, with_bounds(session, options));
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options) {
-  const FlatMesh mesh = flatten(session.mesh(), false);
+  const FlatMesh mesh = straight_mesh(session.mesh());
   return estimate_function(mesh.vertices, mesh.triangles, field, with_bounds(session, options));
 }
 
@@ -297,6 +305,10 @@ void adapt_by_files(Session& session, Monitor& monitor) {
   const bool own = mesh_path.empty();
   const FlatMesh flat = own ? flatten(session.mesh(), false) : read_mesh(mesh_path);
   if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a mesh with a field needs triangles; it has none");
+  if (flat.is_quadratic())
+    throw InvalidArgument(
+        "call adapt: the mesh of the field has elements of second order; a field belongs to the vertices of straight "
+        "ones (element p1, q1.0 or q1.1)");
   const Solution field = read_field(sol_path, flat.vertices.size(), own ? "the mesh made last" : mesh_path);
   const VertexPrescriptions wanted =
       estimate({flat.vertices, flat.triangles, field.values}, estimator_of(parameters, flat.vertices));

@@ -1,4 +1,5 @@
 // Elements other than straight triangles, made of the whole mesh.
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -14,6 +15,8 @@ namespace carreau {
 
 namespace {
 
+using namespace thresholds::elements;
+
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
   if (has_quads(run.options.element)) make_quadrilaterals(work);
@@ -24,6 +27,13 @@ std::size_t count(const QuadraticReport& report) {
   std::size_t sum = 0;
   for (const InvalidElements& invalid : report.invalid) sum += invalid.count;
   return sum;
+}
+
+// Smaller elements inside faces, too.
+void divide_faces(CompositeRun& run, const QuadraticReport& report) {
+  run.finer.resize(report.finer.size());
+  for (std::size_t f = 0; f < report.finer.size(); ++f)
+    run.finer[f].insert(run.finer[f].end(), report.finer[f].begin(), report.finer[f].end());
 }
 
 // Quadrilaterals may have divided the edges of curves: those before are meant.
@@ -71,22 +81,23 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
 
 void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.element == Element::p1) return;
-  QuadraticReport report = make_once(run);
-  for (int round = 0; round < thresholds::elements::most_divisions && !report.coarse.empty(); ++round) {
-    divide_curves(run, report.coarse);
+  QuadraticReport now = make_once(run), best = now;
+  std::optional<CompositeResult> best_result;  // empty: that of the run
+  const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
+  for (int round = 0; round < most_divisions && count(now) > 0; ++round) {
+    divide_curves(run, now.coarse);
+    divide_faces(run, now);
     CompositeResult before = std::exchange(run.result, {});
     run.result.graded = before.graded, run.result.report = before.report;
+    if (!best_result) best_result = std::move(before);
     run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
-    const bool again = could_mesh_again(mesh_again);
-    QuadraticReport finer;
-    if (again) finer = make_once(run);
-    if (!again || count(finer) > count(report)) {
-      run.result = std::move(before);
-      break;
-    }
-    report = std::move(finer);
+    if (!could_mesh_again(mesh_again)) break;
+    now = make_once(run);
+    if (count(now) < count(best)) best = now, best_result.reset();
+    if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first) break;
   }
-  tell(run, report);
+  if (best_result) run.result = std::move(*best_result);
+  tell(run, best);
 }
 
 }  // namespace carreau

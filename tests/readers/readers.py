@@ -96,6 +96,84 @@ READERS = {"vtk": (by_vtk, ("vtu", "stl")), "gmsh": (by_gmsh, ("msh", "msh2", "m
            "meshio": (by_meshio, ("vtu", "msh", "msh2", "mesh", "meshb", "stl"))}
 
 
+KINDS = {"triangles3": 3, "triangles6": 6, "quads4": 4, "quads8": 8}  # elements, as `carreau check` calls them: nodes
+
+
+def elements_by_vtk(path):
+    import vtk
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    grid = reader.GetOutput()
+    kinds = {vtk.VTK_TRIANGLE: "triangles3", vtk.VTK_QUADRATIC_TRIANGLE: "triangles6", vtk.VTK_QUAD: "quads4",
+             vtk.VTK_QUADRATIC_QUAD: "quads8"}
+    counts = {}
+    for i in range(grid.GetNumberOfCells()):
+        kind = kinds.get(grid.GetCellType(i))
+        if kind is None:
+            continue
+        counts[kind] = counts.get(kind, 0) + 1
+        # Each node is where VTK's own functions put it: the order is VTK's.
+        cell, places, weights, where, part = grid.GetCell(i), grid.GetCell(i).GetParametricCoords(), [0] * 8, [0] * 3, vtk.mutable(0)
+        for k in range(KINDS[kind]):
+            cell.EvaluateLocation(part, places[3 * k:3 * k + 3], where, weights)
+            assert math.dist(where, cell.GetPoints().GetPoint(k)) < 1e-12, (path, i, k)
+    return counts
+
+
+def elements_by_meshio(path):
+    import meshio
+    mesh = meshio.read(path, file_format="gmsh") if path.endswith(".msh2") else meshio.read(path)
+    names = {"triangle": "triangles3", "triangle6": "triangles6", "quad": "quads4", "quad8": "quads8"}
+    counts = {}
+    for block in mesh.cells:
+        if block.type in names:
+            counts[names[block.type]] = counts.get(names[block.type], 0) + len(block.data)
+    return counts
+
+
+def elements_by_gmsh(path):
+    import gmsh
+    if path.endswith(".msh2"):
+        copy = path[:-5] + ".2.msh"
+        os.link(path, copy)
+        path = copy
+    gmsh.initialize()
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.open(path)
+        names = {2: "triangles3", 9: "triangles6", 3: "quads4", 16: "quads8", 10: "quads8"}  # 10: nine nodes, of Medit
+        counts = {}
+        types, tags, _ = gmsh.model.mesh.getElements(2)
+        for kind, elements in zip(types, tags):
+            counts[names[int(kind)]] = counts.get(names[int(kind)], 0) + len(elements)
+            # Nodes in another order would turn elements over.
+            worst = min(gmsh.model.mesh.getElementQualities(elements, "minSJ"))
+            assert worst > 0, (path, kind, worst)
+        return counts
+    finally:
+        gmsh.finalize()
+
+
+ELEMENT_READERS = {"vtk": (elements_by_vtk, ("vtu",), ("vtu",)), "gmsh": (elements_by_gmsh, ("msh", "msh2", "mesh"), ("msh", "msh2", "mesh")),
+                   "meshio": (elements_by_meshio, ("vtu", "msh", "msh2", "mesh"), ("vtu", "msh", "msh2"))}
+
+
+def check_elements(folder, geometry, element, options):
+    """Kinds and numbers of elements are those that `carreau check` counts, in formats that READER knows of that order."""
+    read, straight, curved = ELEMENT_READERS[READER]
+    names = [os.path.join(folder, "e." + form) for form in (straight if element.startswith("q1") else curved)]
+    outputs = [word for name in names for word in ("-o", name)]
+    subprocess.run([PROGRAM, "mesh", geometry, *outputs, "--element", element, "-q", *options], check=True)
+    for name in names:
+        told = json.loads(subprocess.run([PROGRAM, "check", name, "--json"], check=True, capture_output=True, text=True).stdout)
+        wanted = {kind: told["elements"][kind] for kind in KINDS if told["elements"][kind] > 0}
+        assert told["elements"]["invalid"] == 0, (name, told["elements"])
+        found = read(name)
+        assert found == wanted, (name, found, wanted)
+        print(READER, element, os.path.splitext(name)[1], found)
+
+
 def check(folder, geometry, options):
     read, formats = READERS[READER]
     names = {form: os.path.join(folder, "m." + form) for form in formats}
@@ -123,3 +201,7 @@ with tempfile.TemporaryDirectory(prefix="carreau readers ") as home:
         folder = os.path.join(home, str(number))
         os.mkdir(folder)
         check(folder, geometry, options)
+    for element in ("p2", "q1.0", "q1.1", "q2.0", "q2.1"):
+        folder = os.path.join(home, element)
+        os.mkdir(folder)
+        check_elements(folder, TEAPOT, element, ("--size", "0.4"))

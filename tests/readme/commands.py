@@ -70,6 +70,8 @@ def prepare():
         shutil.copy(os.path.join(PARABOLOID, name), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/packages/blsurf/blsurf.env"), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/data/molecule/1bna.pdb"), CLONE)
+    for name in ("wing.fmt", "volcano.txt", "head.cyl"):
+        shutil.copy(os.path.join(SOURCE, "tests/data/grid", name), CLONE)
 
 
 def environment():
@@ -177,7 +179,8 @@ def main():
             link_by_cmake(block)
     run("./blsurf")
     assert min(done.values()) > 0 and done["sh"] >= 5, done
-    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "out/teapot/teapot.png"):
+    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "wing.vtu", "volcano.mesh", "head.mesh",
+                 "out/teapot/teapot.png"):
         assert os.path.getsize(os.path.join(CLONE, made)) > 0, made
     if refreshed_text != text:
         with open(README, "w", encoding="utf-8") as file:

@@ -45,7 +45,7 @@ class Mender {
     for (int round = 0; round < most_rounds; ++round) {
       work_.monitor.checkpoint();
       const std::size_t before = moves_;
-      for (const std::int32_t c : bad_) mend(cells_[c]);
+      for (std::size_t i = 0, n = bad_.size(); i < n; ++i) mend(cells_[bad_[i]]);
       std::erase_if(bad_, [&](std::int32_t c) { return score(cells_[c]) >= good_jacobian; });
       if (moves_ == before || bad_.empty()) break;
     }
@@ -157,7 +157,21 @@ class Mender {
     return longest;
   }
 
-  /// The node, and, of a corner, the nodes on its sides, by half its way; empty where the host has no answer.
+  // Hosts are asked inside the domain only: in the straight triangles around.
+  [[nodiscard]] bool is_inside(const Trial& trial) const {
+    const auto cells = around(trial.node);
+    return std::any_of(cells.begin(), cells.end(), [&](std::int32_t c) {
+      const std::array<std::int32_t, 8>& n = cells_[c].nodes;
+      return holds(n[0], n[1], n[2], trial.uv) ||
+             (corner_count(cells_[c].kind) == 4 && holds(n[0], n[2], n[3], trial.uv));
+    });
+  }
+  [[nodiscard]] bool holds(std::int32_t a, std::int32_t b, std::int32_t c, const Vec2& p) const {
+    return orientation(uv(a), uv(b), p) >= 0 && orientation(uv(b), uv(c), p) >= 0 && orientation(uv(c), uv(a), p) >= 0;
+  }
+
+  /// The node, and, of a corner, the nodes on its sides, by half its way; empty outside the domain, or where the host
+  /// has no answer.
   [[nodiscard]] std::vector<Trial> moved(std::int32_t node, const Vec2& by) const {
     std::vector<Trial> trials{{node, uv(node) + by, {}}};
     if (node < corners_)
@@ -166,7 +180,10 @@ class Mender {
         if (!known && fixed_[mid] == 0) trials.push_back({mid, uv(mid) + 0.5 * by, {}});
       });
     std::vector<Vec2> places;
-    for (const Trial& trial : trials) places.push_back(trial.uv);
+    for (const Trial& trial : trials) {
+      if (!is_inside(trial)) return {};
+      places.push_back(trial.uv);
+    }
     std::vector<SurfaceJet> jets(places.size());
     try {
       work_.cad().surface(face_.ref, want_position, places, jets);
@@ -231,7 +248,14 @@ class Mender {
       }
       for (const Trial& trial : chosen) put(trial);
       ++moves_;
+      note_bad(node);
     }
+  }
+
+  // What was good may be bad now, as long as something beside was worse.
+  void note_bad(std::int32_t node) {
+    for (const std::int32_t c : around(node))
+      if (score(cells_[c]) < good_jacobian && std::find(bad_.begin(), bad_.end(), c) == bad_.end()) bad_.push_back(c);
   }
 
   void tell(QuadraticReport& report) const {
@@ -244,6 +268,7 @@ class Mender {
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells_[c]);
       add_coarse(cells_[c], sides, report.coarse);
+      add_finer(cells_[c], report.finer[f_]);
     }
     if (invalid.count > 0) report.invalid.push_back(invalid);
   }
@@ -252,6 +277,12 @@ class Mender {
     Vec2 sum{0, 0};
     for (int i = 0; i < n; ++i) sum += uv(cell.nodes[i]);
     return (1.0 / n) * sum;
+  }
+  void add_finer(const Cell& cell, std::vector<EdgeSizes::Source>& finer) const {
+    const int n = corner_count(cell.kind);
+    double longest = 0;
+    for (int i = 0; i < n; ++i) longest = std::max(longest, norm(xyz(cell.nodes[(i + 1) % n]) - xyz(cell.nodes[i])));
+    for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), longest / 2});
   }
   static void add_coarse(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CurveEdge>& coarse) {
     const int n = corner_count(cell.kind);

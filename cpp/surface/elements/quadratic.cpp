@@ -89,6 +89,7 @@ class FaceNodes {
   void run() {
     face_.mid.assign(face_.triangles.size(), {-1, -1, -1});
     face_.mid_uv.clear(), face_.mid_vertex.clear();
+    find_poles();
     number_sides();
     place_on_curves();
     join_at_poles();
@@ -120,8 +121,34 @@ class FaceNodes {
     for (std::size_t e = 0; e < edges_.size(); ++e) face_.mid_uv[e] = middle_uv(edges_[e]);
   }
 
+  // Sides of (u, v) that are one point of space, by its vertex.
+  void find_poles() {
+    for (const std::array<std::int32_t, 3>& t : face_.flattened)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int32_t a = t[i], b = t[(i + 1) % 3];
+        if (face_.vertex[a] != face_.vertex[b]) continue;
+        const Vec2 low = face_.uv[a].cwiseMin(face_.uv[b]), high = face_.uv[a].cwiseMax(face_.uv[b]);
+        const auto [pole, is_new] = poles_.try_emplace(face_.vertex[a], Box{low, high});
+        if (is_new) continue;
+        pole->second.low = pole->second.low.cwiseMin(low), pole->second.high = pole->second.high.cwiseMax(high);
+      }
+  }
+
+  // Where the way from `other` arrives at the vertex: along a line of one parameter at a pole whose side is one of the
+  // other, as the shortest way in space does.
+  [[nodiscard]] Vec2 arrival(std::int32_t v, std::int32_t other) const {
+    Vec2 p = face_.uv[v];
+    const auto pole = poles_.find(face_.vertex[v]);
+    if (pole == poles_.end() || poles_.contains(face_.vertex[other])) return p;
+    const auto& [low, high] = pole->second;
+    const Vec2 q = face_.uv[other];
+    if (low.y() == high.y()) p.x() = std::clamp(q.x(), low.x(), high.x());
+    if (low.x() == high.x()) p.y() = std::clamp(q.y(), low.y(), high.y());
+    return p;
+  }
+
   [[nodiscard]] Vec2 middle_uv(const Key& edge) const {
-    const Vec2 p = face_.uv[edge[0]], q = face_.uv[edge[1]], d = q - p;
+    const Vec2 p = arrival(edge[0], edge[1]), q = arrival(edge[1], edge[0]), d = q - p;
     const std::optional<ControlSpace>& space = work_.result.spaces[f_];
     if (!space) return 0.5 * (p + q);
     const auto density = [&](const Vec2& at) { return length(space->at(at), d); };
@@ -187,7 +214,11 @@ class FaceNodes {
   CurveNodes& of_curves_;
   std::size_t f_;
   FaceMesh& face_;
-  std::vector<Key> edges_;  // by index in mid_uv
+  struct Box {
+    Vec2 low, high;
+  };
+  std::map<std::int32_t, Box> poles_;  // by vertex in space
+  std::vector<Key> edges_;             // by index in mid_uv
   std::vector<char> fixed_;
   std::vector<CurveSide> sides_;
   std::vector<std::pair<std::size_t, std::size_t>> joined_;
@@ -199,6 +230,7 @@ QuadraticReport make_quadratic(const ElementWork& work) {
   QuadraticReport report;
   SurfaceMesh& mesh = work.result.mesh;
   mesh.mid_vertices.clear();
+  report.finer.resize(mesh.faces.size());
   CurveNodes of_curves(work);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].triangles.empty()) continue;

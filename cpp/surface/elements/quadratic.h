@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gradation/edge_sizes.h"
 #include "surface/elements/work.h"
 
 namespace carreau {
@@ -25,6 +26,8 @@ struct QuadraticReport {
   std::size_t moved_nodes = 0;  ///< nodes inside faces that mending has moved, of edges and of corners
   std::vector<InvalidElements> invalid;
   std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
+  /// By face: sides of elements that stay invalid, with half of the longest one as the size wanted there.
+  std::vector<std::vector<EdgeSizes::Source>> finer;
 };
 
 /// Gives each edge of result.mesh a node: on a curve the point at half the metric length of the edge, once for all

@@ -13,8 +13,12 @@ inline constexpr double least_jacobian = 1e-6;
 inline constexpr double first_step = 0.2, last_step = 0.01;
 /// Rounds over the elements of a face that are not good: each moves what the one before has blocked.
 inline constexpr int most_rounds = 8;
-/// Times that the model is meshed again with edges of curves halved beside elements that stay invalid: an edge of a
-/// whole circle is one of 6 degrees then.
+/// Times that the model is meshed again with half the size beside elements that stay invalid: an edge of a whole circle
+/// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int most_divisions = 6;
+/// Ratio of triangles. A mesh that grows more for it is not what was asked for.
+inline constexpr double most_growth = 4;
+/// Triangles. Meshes of fewer may grow as if they had so many.
+inline constexpr double few_triangles = 1000;
 
 }  // namespace carreau::thresholds::elements

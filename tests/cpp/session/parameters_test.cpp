@@ -124,7 +124,7 @@ TEST(Parameters, RefuseValuesOutOfRangeAndKeepTheOldOne) {
             "parameter hphydef must be a finite number; nan is not");
   EXPECT_EQ(sentence_of([&] { parameters.set("hphydef", infinity); }),
             "parameter hphydef must be a finite number; inf is not");
-  EXPECT_EQ(sentence_of([&] { parameters.set("element", "q1"); }), "parameter element must be 'p1'; 'q1' is not");
+  EXPECT_EQ(sentence_of([&] { parameters.set("element", "q1"); }), "parameter element must be 'p1', 'p2', 'q1.0', 'q1.1', 'q2.0' or 'q2.1'; 'q1' is not");
   EXPECT_EQ(sentence_of([&] { parameters.set("option", "all"); }),
             "parameter option must be '', 'allsurf3d', 'allsurf2d', 'onesurf3d', 'onesurf2d' or 'smo3d'; 'all' is not");
   EXPECT_EQ(sentence_of([&] { parameters.set("pref", ""); }), "parameter pref must not be empty");

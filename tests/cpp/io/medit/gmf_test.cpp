@@ -109,7 +109,7 @@ TEST(Gmf, NamesTheByteOfEveryViolation) {
   EXPECT_EQ(after_header(one_vertex().i32(5).i32(84).i32(1).i32(1).i32(2).i32(0).i32(54).i32(0)),
             "x.meshb: byte 72: edge 1 names a vertex that does not exist (there are 1)");
   EXPECT_EQ(after_header(one_vertex().i32(7).i32(84).i32(1).i32(1).i32(1).i32(1).i32(54).i32(0)),
-            "x.meshb: byte 68: 1 quadrilaterals; triangles with three vertices are read only");
+            "x.meshb: byte 68: 1 quadrilaterals are announced, but there is room for 0");
   EXPECT_EQ(after_header(one_vertex().i32(24).i32(72).i32(0).i32(54).i32(0)), "");
   EXPECT_EQ(after_header(one_vertex().i32(4).i32(72).i32(0)), "x.meshb: byte 68: vertices are given twice");
   EXPECT_EQ(error_of(Bytes().i32(1).i32(4).i32(3).i64(24).i32(3).i32(4).i64(44).i64(std::int64_t{1} << 40).text() +

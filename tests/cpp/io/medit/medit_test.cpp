@@ -109,10 +109,10 @@ TEST(Medit, NamesTheLineOfEveryViolation) {
   EXPECT_EQ(with("Dimension\n2", ""), "x.mesh, line 3: Vertices comes before Dimension");
   EXPECT_EQ(with("Triangles\n8", "Vertices\n8"), "x.mesh, line 15: Vertices comes twice");
   EXPECT_EQ(with("End", "Triangles 0\nEnd"), "x.mesh, line 25: triangles come twice");
-  EXPECT_EQ(with("End", "Quadrilaterals\n2\n1 2 9 8 1\n1 2 3 4 1\nEnd"),
-            "x.mesh, line 25: 2 Quadrilaterals; triangles with three vertices are read only");
+  EXPECT_EQ(with("End", "Quadrilaterals\n2\n1 2 9 8 1\n1 2 3 10 1\nEnd"),
+            "x.mesh, line 28: quadrilateral 2 names vertex 10, but there are 9");
   EXPECT_EQ(with("End", "TrianglesP2 1\n1 2 9 8 5 6 1\nEnd"),
-            "x.mesh, line 25: 1 TrianglesP2; triangles with three vertices are read only");
+            "x.mesh, line 27: elements of first and of second order are mixed");
   EXPECT_EQ(with("End", "Quadrilaterals 0\nEnd"), "");
   EXPECT_EQ(with("End\n", ""), "x.mesh, line 25: the file ends without the word End: it may be truncated");
   EXPECT_EQ(with("End", "Ridges ;"), "x.mesh, line 25: a number or the name of a section was expected, not ';'");

@@ -148,6 +148,51 @@ TEST(CurvedElements, TheMeshOfStraightTrianglesIsThatOfP1) {
   EXPECT_TRUE(straight.mesh().mid_vertices.empty());
 }
 
+// HDR fig. 3.6.
+TEST(CurvedElements, TheSixKindsOfTheQuarterPlate) {
+  const double exact = 1 - pi / 16;
+  for (const std::string element : {"p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"}) {
+    const auto error = [&](double h) { return std::abs(Curved(quarter_plate(), h, element).area() - exact); };
+    const bool curved = element[0] == 'q' ? element[1] == '2' : element == "p2", quads = element[0] == 'q';
+    // Numbers of edges of the arc are not multiples: orders over three halvings.
+    EXPECT_NEAR(std::log2(error(0.2) / error(0.025)) / 3, curved ? 4 : 2, 0.4) << element;
+    const Curved run(quarter_plate(), 0.05, element);
+    EXPECT_EQ(find_defects(run.mesh()), std::vector<std::string>{}) << element;
+    const CellSummary summary = summarise_cells(run.flat());
+    EXPECT_EQ(summary.invalid, 0U) << element;
+    EXPECT_GE(summary.shape.mean, 0.85) << element;
+    EXPECT_GE(summary.shape.min, 0.35) << element;
+    if (!quads) continue;
+    if (element.ends_with(".1")) {
+      EXPECT_EQ(summary.triangles3 + summary.triangles6, 0U) << element;
+    }
+    EXPECT_LE(summary.triangle_share, 0.05) << element;
+  }
+}
+
+TEST(CurvedElements, CurvedQuadrilateralsLieOnSurfaces) {
+  for (const AnalyticCad& cad : {testing::hemisphere(), testing::torus_patch(), testing::teapot()})
+    for (const char* element : {"q2.0", "q2.1"}) {
+      const Curved run(cad, 0.2, element);
+      EXPECT_EQ(find_defects(run.mesh()), std::vector<std::string>{}) << element;
+      EXPECT_EQ(summarise_cells(run.flat()).invalid, 0U) << element;
+    }
+}
+
+// Measured with the element's own map, A0 is of a higher order.
+TEST(CurvedElements, WhatIsDeliveredIsThatOfTheCurvedElement) {
+  const auto deviation = [](double h, const char* element) {
+    Curved run(testing::hemisphere(), h, element);
+    return run.session->delivered()[EvaluationKind::deviation].spread.max;
+  };
+  // The sagitta of a chord of length l is l^2 / 8, times 4 / 3 in the middle of an equilateral triangle.
+  EXPECT_NEAR(deviation(0.1, "p1"), 0.1 * 0.1 / 6, 0.35 * 0.01 / 6);
+  EXPECT_LT(deviation(0.1, "p2"), deviation(0.1, "p1") / 20);
+  EXPECT_GT(std::log2(deviation(0.2, "p2") / deviation(0.05, "p2")) / 2, 2.6);
+  EXPECT_GT(std::log2(deviation(0.2, "q2.0") / deviation(0.05, "q2.0")) / 2, 2.6);
+  EXPECT_NEAR(std::log2(deviation(0.2, "q1.0") / deviation(0.05, "q1.0")) / 2, 2, 0.4);
+}
+
 // HDR sec. 5.2: an inner edge of a triangle that the curved border crosses.
 TEST(CurvedElements, InnerEdgesBendBeforeACurvedBorder) {
   for (const double radius : {0.3, 0.6, 0.9, 0.98})

@@ -1,0 +1,117 @@
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "arguments.h"
+#include "carreau_geometry.h"
+#include "geometry/grid/grid.h"
+#include "guard.h"
+#include "io/grid/grid_files.h"
+
+using carreau::GridFormat;
+using carreau::InvalidArgument;
+using carreau::Level;
+using namespace carreau::abi;
+
+namespace {
+
+carreau::grid::Options options_of(const carreau_grid_options* given) {
+  carreau::grid::Options options;
+  if (given == nullptr) return options;
+  const carreau_grid_options known = read_struct(given, "carreau_grid_options");
+  options.smoothing.rounds = known.smoothing_rounds;
+  if (known.smoothing_inward != 0 || known.smoothing_outward != 0)
+    options.smoothing.inward = known.smoothing_inward, options.smoothing.outward = known.smoothing_outward;
+  options.lengths = known.lengths != 0;
+  constexpr double half_turn = 180;
+  if (!(known.join_angle >= 0 && known.join_angle <= half_turn))
+    throw InvalidArgument("the join_angle of a grid must lie between 0 and 180 degrees");
+  options.join_angle = known.join_angle * std::numbers::pi / half_turn;
+  options.tolerance = known.tolerance;
+  return options;
+}
+
+void check_empty(const carreau_session& session) {
+  if (!session.model().faces.empty())
+    throw InvalidArgument("the session has faces already: call carreau_model_clear first");
+}
+
+void add(carreau_session& session, const carreau::grid::Grid& grid, const carreau::grid::Options& options) {
+  session.monitor.begin_run();
+  carreau::grid::GridGeometry made = build_grid_geometry(grid, options, session.monitor);
+  for (const std::string& warning : made.warnings)
+    session.monitor.message(Level::warning, (grid.source.empty() ? "" : grid.source + ": ") + warning);
+  session.draft = {}, session.draft_changed = false;
+  session.session.set_model(std::move(made.built.model));
+  session.session.set_cad(made.built.cad);
+  session.has_cad = true;
+  session.built = std::move(made.built.cad);
+}
+
+carreau::grid::Measured measured_of(std::int32_t given) {
+  switch (given) {
+    case CARREAU_MEASURED_POINTS:
+      return carreau::grid::Measured::points;
+    case CARREAU_MEASURED_HEIGHTS:
+      return carreau::grid::Measured::heights;
+    case CARREAU_MEASURED_RADII:
+      return carreau::grid::Measured::radii;
+    default:
+      throw InvalidArgument("what a grid has measured is " + std::to_string(given) + "; it must be 0, 1 or 2");
+  }
+}
+
+GridFormat format_of(std::int32_t given) {
+  switch (given) {
+    case CARREAU_GRID_BY_SUFFIX:
+      return GridFormat::by_suffix;
+    case CARREAU_GRID_PLOT3D:
+      return GridFormat::plot3d;
+    case CARREAU_GRID_HEIGHTS:
+      return GridFormat::heights;
+    case CARREAU_GRID_SCAN:
+      return GridFormat::scan;
+    case CARREAU_GRID_NODES:
+      return GridFormat::nodes;
+    default:
+      throw InvalidArgument("the format of a grid is " + std::to_string(given) + "; it must lie between 0 and 4");
+  }
+}
+
+}  // namespace
+
+carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
+                                const int32_t counts[], const double nodes[]) {
+  return guarded(session, [&] {
+    const carreau::grid::Options known = options_of(options);
+    check_empty(*session);
+    if (n < 1) throw InvalidArgument("there is no block: n is " + std::to_string(n));
+    required(counts, "counts"), required(nodes, "nodes");
+    const std::int32_t measured = options != nullptr ? read_struct(options, "carreau_grid_options").measured : 0;
+    carreau::grid::Grid grid;
+    const double* next = nodes;
+    for (std::int64_t b = 0; b < n; ++b) {
+      carreau::grid::Block block;
+      block.columns = counts[2 * b], block.rows = counts[2 * b + 1];
+      block.measured = measured_of(measured);
+      if (block.columns < 1 || block.rows < 1 || block.columns > std::numeric_limits<std::int32_t>::max() / block.rows)
+        throw InvalidArgument("block " + std::to_string(b + 1) + " has " + std::to_string(block.columns) + " x " +
+                              std::to_string(block.rows) + " nodes");
+      const auto count = static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows);
+      for (std::size_t k = 0; k < count; ++k, next += 3) block.nodes.emplace_back(next[0], next[1], next[2]);
+      grid.blocks.push_back(std::move(block));
+    }
+    add(*session, grid, known);
+  });
+}
+
+carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options, const char* path,
+                                 int32_t format) {
+  return guarded(session, [&] {
+    const carreau::grid::Options known = options_of(options);
+    check_empty(*session);
+    const double step = options != nullptr ? read_struct(options, "carreau_grid_options").step : 0;
+    if (!(step >= 0) || !std::isfinite(step)) throw InvalidArgument("the step of a grid must be finite and not negative");
+    add(*session, carreau::read_grid(required(path, "path"), format_of(format), step > 0 ? step : 1), known);
+  });
+}

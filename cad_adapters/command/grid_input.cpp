@@ -1,0 +1,84 @@
+#include "grid_input.h"
+
+#include <carreau_geometry.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "built_input.h"
+#include "failure.h"
+#include "text_file.h"
+
+namespace command {
+namespace {
+
+/// "rounds" or "rounds,w1,w2".
+bool read_smoothing(const std::string& text, carreau_grid_options& options) {
+  const char *p = text.data(), *const end = p + text.size();
+  auto result = std::from_chars(p, end, options.smoothing_rounds);
+  if (result.ec != std::errc() || options.smoothing_rounds < 0) return false;
+  if (result.ptr == end) return true;
+  for (double* weight : {&options.smoothing_inward, &options.smoothing_outward}) {
+    if (result.ptr == end || *result.ptr != ',') return false;
+    result = std::from_chars(result.ptr + 1, end, *weight);
+    if (result.ec != std::errc() || !(*weight > 0 && *weight < 1)) return false;
+  }
+  return result.ptr == end;
+}
+
+carreau_grid_options options_of(const GridChoice& choice) {
+  carreau_grid_options options{};
+  options.struct_size = sizeof options;
+  if (!choice.smoothing.empty()) read_smoothing(choice.smoothing, options);
+  options.lengths = choice.lengths ? 1 : 0;
+  options.join_angle = choice.join_angle;
+  options.tolerance = choice.tolerance;
+  options.step = choice.step;
+  return options;
+}
+
+carreau_status load(carreau_session* session, const std::string& path, const GridChoice& choice) {
+  const auto* const format = std::find(std::begin(grid_formats), std::end(grid_formats), choice.format);
+  const auto rank = static_cast<std::int32_t>(format - std::begin(grid_formats));
+  const carreau_grid_options options = options_of(choice);
+  return carreau_load_grid(session, &options, path.c_str(),
+                           choice.format.empty() ? CARREAU_GRID_BY_SUFFIX : CARREAU_GRID_PLOT3D + rank);
+}
+
+class GridInput final : public BuiltInput {
+ public:
+  GridInput(SessionHandle session, const std::string& path, const GridChoice& choice)
+      : BuiltInput(std::move(session), path), path_(path), choice_(choice) {}
+
+  carreau_status give_to(carreau_session* session) override { return load(session, path_, choice_); }
+
+  /// Nodes that are one have one reference: short curves are no mistake.
+  [[nodiscard]] double ends_tolerance() const override { return 1e-9 * diagonal(); }
+
+ private:
+  [[nodiscard]] std::string kind(std::int32_t) const override { return "grid"; }
+
+  std::string path_;
+  GridChoice choice_;
+};
+
+}  // namespace
+
+bool is_grid(const std::string& path, const GridChoice& choice) {
+  const std::string suffix = suffix_of(path);
+  return !choice.format.empty() || std::any_of(std::begin(grid_suffixes), std::end(grid_suffixes),
+                                               [&](const char* known) { return suffix == known; });
+}
+
+std::string smoothing_defect(const std::string& text) {
+  carreau_grid_options options{};
+  return read_smoothing(text, options) ? "" : "'" + text + "' is no number of rounds, alone or with two weights: 2000,0.06,0.061";
+}
+
+std::unique_ptr<CadInput> open_grid(const std::string& path, const GridChoice& choice) {
+  SessionHandle session = make_silent_session();
+  require(session.get(), load(session.get(), path, choice));
+  return std::make_unique<GridInput>(std::move(session), path, choice);
+}
+
+}  // namespace command

@@ -1,0 +1,26 @@
+// Derivatives at the nodes of a grid by finite differences (HDR sec. 4.7.2).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "support/vec.h"
+
+namespace carreau::grid {
+
+/// A point of a line, with its parameter.
+struct Sample {
+  double x = 0;
+  Vec3 p;
+};
+
+/// The derivative at a's, b's or c's parameter `at` of the parabola through the three.
+Vec3 parabola_derivative(const Sample& a, const Sample& b, const Sample& c, double at);
+
+/// Derivatives at the points of a line; `there` tells which are not missing, and lines end beside those that are. At
+/// inner points, and at the joint of a closed line (whose last point is its first one), of the parabola through the point
+/// and its neighbours; at ends of the one through the last three. Of two points: their difference; of one: 0. Order two
+/// for even parameters; exact for parabolas.
+std::vector<Vec3> line_derivatives(std::span<const Sample> line, std::span<const char> there, bool closed);
+
+}  // namespace carreau::grid

@@ -1,0 +1,39 @@
+// Grids as an evaluator of the engine.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "cad/cad.h"
+#include "geometry/grid/coons_surface.h"
+
+namespace carreau::grid {
+
+/// A straight line of the parameter plane, run through at unit speed.
+struct SideLine {
+  Vec2 start, end;
+};
+
+class GridCad final : public Cad {
+ public:
+  /// A face that is part of a block; several may share a surface. Not while others evaluate.
+  void add(int ref, std::shared_ptr<const CoonsSurface> surface, std::vector<SideLine> sides);
+
+  void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override;
+  Interval curve_interval(int face, int ic) override;
+  CurveJet curve(int face, int ic, unsigned want, double t) override;
+  [[nodiscard]] bool reentrant() const noexcept override { return true; }
+
+ private:
+  struct Part {
+    std::shared_ptr<const CoonsSurface> surface;
+    std::vector<SideLine> sides;
+  };
+  [[nodiscard]] const Part& part(int face) const;
+  [[nodiscard]] const SideLine& side(int face, int ic) const;
+
+  std::unordered_map<int, Part> parts_;
+};
+
+}  // namespace carreau::grid

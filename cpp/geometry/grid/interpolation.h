@@ -1,0 +1,21 @@
+// The C1 surface through the nodes of each block, and what blocks have in common on their borders.
+#pragma once
+
+#include <vector>
+
+#include "geometry/grid/borders.h"
+#include "geometry/grid/coons_surface.h"
+#include "geometry/grid/parameters.h"
+#include "geometry/grid/smoothing.h"
+
+namespace carreau::grid {
+
+/// A surface for each block. The derivative along a common border is the same in all blocks that have it, the best that
+/// one of them knows, so that the border is one curve. Where `join_angle` (radians) is positive and the normals of two
+/// blocks differ by less all along a chain, derivatives across it are central ones over both blocks, and their normals
+/// agree; `joined` counts such chains.
+std::vector<CoonsSurface> interpolate(const std::vector<Block>& blocks, const Borders& borders,
+                                      const std::vector<Knots>& knots, const std::vector<Closed>& closed,
+                                      const Options& options, std::size_t* joined = nullptr);
+
+}  // namespace carreau::grid

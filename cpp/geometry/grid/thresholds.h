@@ -1,0 +1,21 @@
+// The numbers that decide something about grids.
+#pragma once
+
+#include <numbers>
+
+namespace carreau::grid::thresholds {
+
+/// Nodes on borders nearer than this share of the diagonal are one: files of single precision have 1e-7. [Glue.*]
+inline constexpr double same_node_share = 1e-6;
+/// ... but never farther than this share of the shortest edge between nodes that differ: cells would vanish. [Glue.*]
+inline constexpr double same_node_share_of_edge = 0.1;
+/// A cell whose corners all have less than this share of the square of its longest line is a line. [Cells.*]
+inline constexpr double flat_share = 1e-12;
+/// A corner turns against its cell when its normal leans this share of the area back: rounding does not count. [Cells.*]
+inline constexpr double folded_share = 1e-6;
+/// Mean turn at the joint of a closed grid, radians, from which on it is an edge: eight cells make a circle. [Glue.*]
+inline constexpr double closed_turn = std::numbers::pi / 4;
+/// Parameter length of a row of cells without extent, as a share of the mean one: parameters must ascend. [Lengths.*]
+inline constexpr double least_interval = 1e-3;
+
+}  // namespace carreau::grid::thresholds

@@ -1,0 +1,273 @@
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "io/grid/grid_files.h"
+#include "io/grid/grid_text.h"
+#include "io/raw_numbers.h"
+#include "io/text.h"
+#include "io/words.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+using grid::Block;
+using grid::Grid;
+using Counts = std::array<std::int32_t, 3>;
+
+std::string block_name(std::size_t b) { return "block " + std::to_string(b + 1); }
+
+std::string shape_of(const Counts& n) {
+  return std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]);
+}
+
+std::uint64_t nodes_of(const Counts& n) {
+  return static_cast<std::uint64_t>(n[0]) * static_cast<std::uint64_t>(n[1]) * static_cast<std::uint64_t>(n[2]);
+}
+
+/// What is wrong with the counts of a block; "" when nothing is.
+std::string defect_of(const Counts& n) {
+  int ones = 0;
+  for (const std::int32_t k : n) {
+    if (k < 1) return "has " + shape_of(n) + " nodes; all three counts must be positive";
+    if (k == 1) ++ones;
+  }
+  if (ones == 0) return "is a volume of " + shape_of(n) + " nodes; one of the three counts of a surface is 1";
+  if (ones > 1) return "has " + shape_of(n) + " nodes, one row only; a surface has two or more";
+  if (nodes_of(n) > std::numeric_limits<std::int32_t>::max()) return "has more than 2^31 nodes";
+  return "";
+}
+
+Block empty_block(const Counts& n) {
+  Block block;
+  block.columns = n[0] == 1 ? n[1] : n[0];
+  block.rows = n[2] == 1 ? n[1] : n[2];
+  block.nodes.resize(static_cast<std::size_t>(nodes_of(n)));
+  return block;
+}
+
+void leave_out(Vec3& node) { node = Vec3::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
+/// Numbers of a text, `5*0.25` standing for five of them.
+class Numbers {
+ public:
+  Numbers(Words& words) : words_(words) {}  // NOLINT(google-explicit-constructor)
+
+  double next(const char* what) {
+    if (left_ > 0) return --left_, value_;
+    const char* const before = words_.position();
+    const std::string_view word = words_.word();
+    const std::size_t star = word.find('*');
+    if (star == std::string_view::npos) {
+      words_.go_back(before);
+      return words_.real_or_nan(what);
+    }
+    int times = 0;
+    if (!parse_number(word.substr(0, star), times) || times < 1 || !parse_number(word.substr(star + 1), value_))
+      words_.fail(word.data(), std::string(what) + " should be a number, not " + shown(word));
+    left_ = times - 1;
+    return value_;
+  }
+
+ private:
+  Words& words_;
+  int left_ = 0;
+  double value_ = 0;
+};
+
+std::size_t words_on_first_line(std::string_view text, const std::string& name) {
+  std::size_t n = 0;
+  const std::string_view line = text.substr(0, text.find('\n'));
+  for (Words words(line, name); !words.word().empty();) ++n;
+  return n;
+}
+
+std::vector<Counts> read_counts(Words& words, std::size_t on_first_line, const std::string& name) {
+  std::size_t blocks = 1;
+  const char* const start = words.position();
+  if (on_first_line != 3) {
+    const std::int32_t n = words.integer("the number of blocks");
+    if (on_first_line != 1 && on_first_line != 1 + 3 * static_cast<std::size_t>(n))
+      words.fail(start, "the first line should be a number of blocks, or the three counts of one, and has " +
+                            std::to_string(on_first_line) + " words");
+    if (n == 0) throw FileError({.file = name, .line = 1}, "the file has no block");
+    blocks = words.checked_count(n, start, "blocks", 3);
+  }
+  std::vector<Counts> counts(blocks);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    for (std::int32_t& n : counts[b]) n = words.integer("a count of nodes");
+    if (const std::string defect = defect_of(counts[b]); !defect.empty())
+      words.fail(words.position() - 1, block_name(b) + " " + defect);
+  }
+  return counts;
+}
+
+void check_room(const Words& words, const std::vector<Counts>& counts, const std::string& name) {
+  std::uint64_t nodes = 0;
+  for (const Counts& n : counts) nodes += nodes_of(n);
+  // `9*0 ` is the shortest way to write several numbers.
+  constexpr std::uint64_t most_repeated = 1 << 20;
+  const auto bytes = static_cast<std::uint64_t>(words.end() - words.position());
+  if (nodes > most_repeated && nodes > bytes)
+    throw FileError({.file = name}, std::to_string(nodes) + " nodes are announced, more than the file can hold");
+}
+
+/// How a binary file is laid out.
+struct Layout {
+  bool records = false, swapped = false, single = false, blanks = false;
+  std::size_t bytes = 8;  ///< of a real number
+};
+
+class BinaryFile {
+ public:
+  BinaryFile(std::string_view bytes, const Layout& layout) : bytes_(bytes), layout_(layout) {}
+
+  /// Whether header and size fit.
+  bool fits() {
+    std::uint64_t at = 0;
+    std::int32_t blocks = 1;
+    if (!layout_.single) {
+      if (!enter(at, 4) || !integer(at, blocks) || blocks < 1 || !leave(at, 4)) return false;
+      if (static_cast<std::uint64_t>(blocks) * 12 > bytes_.size()) return false;
+    }
+    const std::uint64_t header = 12 * static_cast<std::uint64_t>(blocks);
+    if (!enter(at, header)) return false;
+    counts_.resize(static_cast<std::size_t>(blocks));
+    for (Counts& n : counts_)
+      for (std::int32_t& k : n)
+        if (!integer(at, k) || k < 1) return false;
+    if (!leave(at, header)) return false;
+    data_ = at;
+    for (const Counts& n : counts_) {
+      const std::uint64_t length = length_of(n);
+      if (length > bytes_.size() || !enter(at, length)) return false;
+      at += length;
+      if (!leave(at, length)) return false;
+    }
+    return at == bytes_.size();
+  }
+
+  [[nodiscard]] const std::vector<Counts>& counts() const { return counts_; }
+
+  [[nodiscard]] Grid grid() const {
+    Grid made;
+    std::uint64_t at = data_;
+    for (const Counts& n : counts_) {
+      at += layout_.records ? 4 : 0;
+      made.blocks.push_back(block(n, at));
+      at += length_of(n) + (layout_.records ? 4 : 0);
+    }
+    return made;
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t length_of(const Counts& n) const {
+    constexpr std::uint64_t too_many = std::uint64_t{1} << 40U;
+    if (nodes_of({n[0], n[1], 1}) > too_many || nodes_of(n) > too_many) return ~std::uint64_t{0};
+    return nodes_of(n) * (3 * layout_.bytes + (layout_.blanks ? 4 : 0));
+  }
+  bool integer(std::uint64_t& at, std::int32_t& value) const {
+    if (at + 4 > bytes_.size()) return false;
+    value = raw_number<std::int32_t>(bytes_.data() + at, layout_.swapped);
+    at += 4;
+    return true;
+  }
+  /// The mark of a record of Fortran.
+  bool enter(std::uint64_t& at, std::uint64_t length) const {
+    std::int32_t mark = 0;
+    return !layout_.records || (integer(at, mark) && static_cast<std::uint32_t>(mark) == length);
+  }
+  bool leave(std::uint64_t& at, std::uint64_t length) const { return enter(at, length); }
+
+  [[nodiscard]] double real(std::uint64_t at) const {
+    const char* const p = bytes_.data() + at;
+    return layout_.bytes == 8 ? raw_number<double>(p, layout_.swapped) : raw_number<float>(p, layout_.swapped);
+  }
+
+  [[nodiscard]] Block block(const Counts& n, std::uint64_t at) const {
+    Block made = empty_block(n);
+    for (int axis = 0; axis < 3; ++axis)
+      for (Vec3& node : made.nodes) node[axis] = real(at), at += layout_.bytes;
+    for (std::size_t k = 0; layout_.blanks && k < made.nodes.size(); ++k, at += 4)
+      if (raw_number<std::int32_t>(bytes_.data() + at, layout_.swapped) == 0) leave_out(made.nodes[k]);
+    return made;
+  }
+
+  std::string_view bytes_;
+  Layout layout_;
+  std::vector<Counts> counts_;
+  std::uint64_t data_ = 0;
+};
+
+std::vector<Layout> layouts() {
+  std::vector<Layout> all;
+  for (const bool records : {true, false})
+    for (const bool swapped : {false, true})
+      for (const bool single : {false, true})
+        for (const bool blanks : {false, true})
+          for (const std::size_t bytes : {std::size_t{8}, std::size_t{4}})
+            all.push_back({records, swapped, single, blanks, bytes});
+  return all;
+}
+
+std::vector<Block> read_blocks(Words& words, const std::vector<Counts>& counts, bool blanks, std::string_view text) {
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  Numbers numbers(words);
+  std::vector<Block> blocks;
+  for (std::size_t b = 0; b < counts.size(); ++b) {
+    Block block = empty_block(counts[b]);
+    block.line = line_at(text, static_cast<std::size_t>(words.position() - text.data()));
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string what = axes[static_cast<std::size_t>(axis)] + std::string(" of ") + block_name(b);
+      for (Vec3& node : block.nodes) node[axis] = numbers.next(what.c_str());
+    }
+    const std::string what = "IBLANK of " + block_name(b);
+    if (blanks)
+      for (Vec3& node : block.nodes)
+        if (numbers.next(what.c_str()) == 0) leave_out(node);
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
+}  // namespace
+
+Grid read_plot3d_text(std::string_view text, const std::string& name) {
+  text = without_byte_order_mark(text);
+  Words words(text, name);
+  const std::vector<Counts> counts = read_counts(words, words_on_first_line(text, name), name);
+  check_room(words, counts, name);
+  const char* const start = words.position();
+  Grid made{.blocks = read_blocks(words, counts, false, text), .source = name};
+  if (words.word().empty()) return made;
+  words.go_back(start);
+  made.blocks = read_blocks(words, counts, true, text);
+  if (const std::string_view more = words.word(); !more.empty())
+    words.fail(more.data(), "the file goes on behind the last block: " + shown(more));
+  return made;
+}
+
+Grid read_plot3d_binary(std::string_view bytes, const std::string& name) {
+  for (const Layout& layout : layouts()) {
+    BinaryFile file(bytes, layout);
+    if (!file.fits()) continue;
+    for (std::size_t b = 0; b < file.counts().size(); ++b)
+      if (const std::string defect = defect_of(file.counts()[b]); !defect.empty())
+        throw FileError({.file = name}, block_name(b) + " " + defect);
+    Grid made = file.grid();
+    made.source = name;
+    return made;
+  }
+  throw FileError({.file = name},
+                  "the file is binary, but its " + std::to_string(bytes.size()) +
+                      " bytes are no PLOT3D: with no byte order, precision and kind of records do counts and size agree");
+}
+
+Grid read_plot3d(std::string_view content, const std::string& name) {
+  return is_text(content) ? read_plot3d_text(content, name) : read_plot3d_binary(content, name);
+}
+
+}  // namespace carreau
