@@ -155,7 +155,7 @@ void FaceJob::lift(Monitor& monitor) {
   }
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
-  shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
+  if (!has_quads(options_.element)) shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
   const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
   const std::vector<int> doubtful = refine_in_space(
       input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);

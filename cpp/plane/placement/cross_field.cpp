@@ -46,20 +46,32 @@ struct Triple {
   std::int32_t from, to;
   Complex transport;
 };
-void set_links(Level& level, std::vector<Triple>& triples) {
-  std::sort(triples.begin(), triples.end(), [](const Triple& a, const Triple& b) {
-    return a.from != b.from ? a.from < b.from : a.to < b.to;
-  });
-  level.start.assign(level.size() + 1, 0);
-  for (std::size_t k = 0; k < triples.size(); ++k) {
-    if (k > 0 && triples[k].from == triples[k - 1].from && triples[k].to == triples[k - 1].to) {
-      level.links.back().transport += triples[k].transport;
-      continue;
+// Of a few, stable.
+template <typename Iterator, typename Less>
+void insertion_sort(Iterator first, Iterator last, const Less& less) {
+  for (Iterator x = first; x != last; ++x)
+    for (Iterator y = x; y != first && less(*y, *(y - 1)); --y) std::iter_swap(y, y - 1);
+}
+
+void set_links(Level& level, const std::vector<Triple>& triples) {
+  std::vector<std::int32_t> end(level.size() + 1, 0);
+  for (const Triple& t : triples) ++end[t.from + 1];
+  for (std::size_t i = 0; i < level.size(); ++i) end[i + 1] += end[i];
+  std::vector<Level::Link> all(triples.size());
+  for (const Triple& t : triples) all[end[t.from]++] = {t.to, t.transport};  // end[i] is that of row i afterwards
+  level.start.assign(1, 0);
+  for (std::size_t i = 0, first = 0; i < level.size(); ++i) {
+    const auto row = all.begin() + static_cast<std::ptrdiff_t>(first), last = all.begin() + end[i];
+    insertion_sort(row, last, [](const Level::Link& a, const Level::Link& b) { return a.to < b.to; });
+    for (auto link = row; link != last; ++link) {
+      if (link != row && level.links.back().to == link->to)
+        level.links.back().transport += link->transport;
+      else
+        level.links.push_back(*link);
     }
-    level.links.push_back({triples[k].to, triples[k].transport});
-    ++level.start[triples[k].from + 1];
+    level.start.push_back(static_cast<std::int32_t>(level.links.size()));
+    first = static_cast<std::size_t>(end[i]);
   }
-  for (std::size_t i = 0; i < level.size(); ++i) level.start[i + 1] += level.start[i];
 }
 
 // Pairs of free nodes become one, each with the neighbour that it is linked to most.

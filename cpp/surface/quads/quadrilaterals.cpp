@@ -10,7 +10,9 @@
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
 #include "surface/quads/smoothing.h"
+#include "surface/quads/space_search.h"
 #include "surface/quads/thresholds.h"
+#include "surface/quads/walks.h"
 
 namespace carreau {
 
@@ -34,7 +36,8 @@ class Quadrilaterals {
     for_each(
         [&](FaceQuads& quads, Monitor& monitor) {
           lift(work_, space(quads), quads, monitor);
-          if (!has_quads_only(work_.options.element)) split_folded(quads);
+          if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
+          if (!has_quads_only(work_.options.element)) split_poor(quads, least_in_space());
         },
         bound);
     put_back(faces_, work_.result);
@@ -53,12 +56,16 @@ class Quadrilaterals {
     return space ? &*space : nullptr;
   }
 
+  // Where sizes differ by direction, good quadrilaterals may have any angles in space.
+  [[nodiscard]] double least_in_space() const { return work_.rules.uses_metrics() ? 0 : least_jacobian; }
+
   void pair(FaceQuads& quads, Monitor& monitor) const {
     const double edge = turns_per_edge * work_.options.size.angle_mesh * std::numbers::pi / 180;
     const PairRules rules{
         [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
         [&](std::int32_t v) { return quads.xyz[v]; },
-        edge * enlargement_for(work_.options.element)};
+        edge * enlargement_for(work_.options.element),
+        least_in_space()};
     if (space(quads) == nullptr) {
       pair_triangles(quads.patch, nullptr, rules, monitor);
       return;
@@ -70,6 +77,8 @@ class Quadrilaterals {
 
   static void improve(FaceQuads& quads, const FaceCharts& charts, Monitor& monitor) {
     const auto is_imposed = [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; };
+    clean_up(quads.patch, charts, is_imposed, monitor);
+    join_triangles(quads.patch, charts, is_imposed, monitor);
     clean_up(quads.patch, charts, is_imposed, monitor);
     smooth_quads(quads.patch, charts, {}, monitor);
     improve_worst_quads(quads.patch, charts, poor, monitor);
