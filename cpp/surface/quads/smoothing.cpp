@@ -73,6 +73,7 @@ class Smoothing {
     std::fill(sum_.begin(), sum_.end(), Vec2{0, 0});
     std::fill(count_.begin(), count_.end(), 0.);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (c % cells_between_checks == 0) monitor_.checkpoint();
       const MixedCell& cell = cells_[c];
       const Chart& chart = charts_[c];
       const int n = corners_of(cell);
