@@ -19,8 +19,9 @@ using namespace thresholds::elements;
 
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
-  if (has_quads(run.options.element)) make_quadrilaterals(work);
-  return is_quadratic(run.options.element) ? make_quadratic(work) : QuadraticReport{};
+  QuadraticReport report;
+  if (has_quads(run.options.element)) report = make_quadrilaterals(work);
+  return is_quadratic(run.options.element) ? make_quadratic(work) : report;
 }
 
 std::size_t count(const QuadraticReport& report) {
@@ -69,7 +70,7 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
     const std::string what =
         Where{.face = face.ref, .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
-        (invalid.count == 1 ? " element of second order has" : " elements of second order have") +
+        (invalid.count == 1 ? " element has" : " elements have") +
         " a Jacobian that is not positive everywhere";
     face.status = FaceStatus::mended;
     face.why += (face.why.empty() ? "" : "; ") + what;

@@ -75,6 +75,7 @@ class Halving {
       : work_(work), middles_(middles), quads_(quads) {}
 
   void run() {
+    quads_.middles.assign(quads_.sides.size(), -1);
     join_flattened();
     std::vector<MixedCell> cut;
     cut.reserve(4 * quads_.patch.cells.size());
@@ -110,7 +111,9 @@ class Halving {
     const bool known = uv.size() == 2 * middles_[side.curve].size() + 1;
     const Vec2 place = known ? uv[2 * side.segment + 1]
                              : Vec2(0.5 * (quads_.patch.uv[side.a] + quads_.patch.uv[side.b]));
-    return add(place, in_mesh, 1);
+    const std::int32_t local = add(place, in_mesh, 1);
+    quads_.middles[static_cast<std::size_t>(&side - quads_.sides.data())] = local;
+    return local;
   }
 
   // The two sides that a flattened triangle has beside its apex are one in space: they share one middle.
