@@ -17,11 +17,25 @@ namespace {
 
 using namespace thresholds::elements;
 
+bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
+  bool any = false;
+  for (std::size_t f = 0; f < report.quads.size(); ++f) {
+    if (report.quads[f].empty()) continue;
+    part_quads(mesh.faces[f], report.quads[f]);
+    any = true;
+  }
+  return any;
+}
+
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
   QuadraticReport report;
   if (has_quads(run.options.element)) report = make_quadrilaterals(work);
-  return is_quadratic(run.options.element) ? make_quadratic(work) : report;
+  if (!is_quadratic(run.options.element)) return report;
+  report = make_quadratic(work);
+  // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
+  if (run.options.element != Element::q2_0 || !part_invalid_quads(report, run.result.mesh)) return report;
+  return make_quadratic(work);
 }
 
 std::size_t count(const QuadraticReport& report) {
