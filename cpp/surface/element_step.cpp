@@ -29,9 +29,10 @@ bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
 
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
-  if (has_quads(run.options.element)) make_quadrilaterals(work);
-  if (!is_quadratic(run.options.element)) return {};
-  QuadraticReport report = make_quadratic(work);
+  QuadraticReport report;
+  if (has_quads(run.options.element)) report = make_quadrilaterals(work);
+  if (!is_quadratic(run.options.element)) return report;
+  report = make_quadratic(work);
   // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
   for (int round = 0; round < most_partings && run.options.element == Element::q2_0; ++round) {
     if (!part_invalid_quads(report, run.result.mesh)) break;
@@ -86,7 +87,7 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
     const std::string what =
         Where{.face = face.ref, .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
-        (invalid.count == 1 ? " element of second order has" : " elements of second order have") +
+        (invalid.count == 1 ? " element has" : " elements have") +
         " a Jacobian that is not positive everywhere";
     face.status = FaceStatus::mended;
     face.why += (face.why.empty() ? "" : "; ") + what;

@@ -16,7 +16,8 @@ struct FaceQuads {
   std::vector<Vec3> xyz;             ///< positions; those of new vertices are missing until lift()
   std::vector<Vec2> lifted;          ///< (u, v) that xyz belongs to
   std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: not known; below: as it was
-  std::vector<CurveSide> sides;      ///< on curves, ascending
+  std::vector<CurveSide> sides;      ///< on curves, ascending; of cells before they are cut
+  std::vector<std::int32_t> middles;  ///< of sides: local vertices, once the cells are cut; -1: none
   std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
 
   [[nodiscard]] const CurveSide* side_between(std::int32_t a, std::int32_t b) const noexcept;

@@ -1,5 +1,7 @@
 #include "surface/quads/quadrilaterals.h"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "surface/quads/face_quads.h"
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
+#include "surface/quads/quad_shape.h"
 #include "surface/quads/smoothing.h"
 #include "surface/quads/space_search.h"
 #include "surface/quads/thresholds.h"
@@ -24,7 +27,7 @@ class Quadrilaterals {
  public:
   explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
 
-  void run() {
+  QuadraticReport run() {
     for (std::size_t f = 0; f < work_.result.mesh.faces.size(); ++f)
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
@@ -40,7 +43,13 @@ class Quadrilaterals {
           if (!has_quads_only(work_.options.element)) split_poor(quads, least_in_space());
         },
         bound);
+    QuadraticReport report;
+    report.finer.resize(work_.result.mesh.faces.size());
+    for (const FaceQuads& quads : faces_) report_turned(quads, report);
+    std::sort(report.coarse.begin(), report.coarse.end());
+    report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
     put_back(faces_, work_.result);
+    return report;
   }
 
  private:
@@ -96,6 +105,29 @@ class Quadrilaterals {
     });
   }
 
+  static bool is_turned(const FaceQuads& quads, const MixedCell& c) {
+    if (corners_of(c) == 3) return false;
+    const auto at = [&](int k) -> const Vec3& { return quads.xyz[c[k]]; };
+    return !is_convex(quads.patch, c) || !(scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > 0);
+  }
+
+  // Half of the edges that were cut is what they are now.
+  static void report_turned(const FaceQuads& quads, QuadraticReport& report) {
+    InvalidElements invalid{quads.face, 0, {}};
+    for (const MixedCell& c : quads.patch.cells) {
+      if (!is_turned(quads, c)) continue;
+      if (++invalid.count == 1)
+        invalid.uv = 0.25 * (quads.patch.uv[c[0]] + quads.patch.uv[c[1]] + quads.patch.uv[c[2]] + quads.patch.uv[c[3]]);
+      double longest = 0;
+      for (int k = 0; k < 4; ++k) longest = std::max(longest, norm(quads.xyz[c[(k + 1) % 4]] - quads.xyz[c[k]]));
+      for (int k = 0; k < 4; ++k) report.finer[quads.face].push_back({quads.xyz[c[k]], quads.xyz[c[(k + 1) % 4]], longest});
+      for (std::size_t s = 0; s < quads.middles.size(); ++s)
+        if (std::find(c.begin(), c.end(), quads.middles[s]) != c.end())
+          report.coarse.push_back({quads.sides[s].curve, 2 * quads.sides[s].segment});
+    }
+    if (invalid.count > 0) report.invalid.push_back(invalid);
+  }
+
   void halve_sizes() {
     CompositeResult& result = work_.result;
     const auto halve = [](std::vector<double>& sizes) {
@@ -115,6 +147,6 @@ class Quadrilaterals {
 
 }  // namespace
 
-void make_quadrilaterals(const ElementWork& work) { Quadrilaterals(work).run(); }
+QuadraticReport make_quadrilaterals(const ElementWork& work) { return Quadrilaterals(work).run(); }
 
 }  // namespace carreau

@@ -73,6 +73,7 @@ class Smoothing {
     std::fill(sum_.begin(), sum_.end(), Vec2{0, 0});
     std::fill(count_.begin(), count_.end(), 0.);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (c % cells_between_checks == 0) monitor_.checkpoint();
       const MixedCell& cell = cells_[c];
       const Chart& chart = charts_[c];
       const int n = corners_of(cell);
@@ -131,7 +132,7 @@ class Worst {
   std::vector<std::int32_t> corners_of_bad() const {
     std::vector<std::pair<double, std::int32_t>> bad;
     for (std::size_t c = 0; c < patch_.cells.size(); ++c)
-      if (const double q = cell_quality(patch_, charts_, patch_.cells[c]); q < good_)
+      if (const double q = untangling_quality(patch_, charts_.about(patch_, patch_.cells[c]), patch_.cells[c]); q < good_)
         bad.emplace_back(q, static_cast<std::int32_t>(c));
     std::sort(bad.begin(), bad.end());
     std::vector<std::int32_t> corners;
@@ -145,8 +146,7 @@ class Worst {
   double worst_around(double enough) const {
     double worst = good_;
     for (const auto& [c, chart] : star_) {
-      if (!is_convex(patch_, patch_.cells[c])) return -1;
-      worst = std::min(worst, cell_quality(patch_, chart, patch_.cells[c]));
+      worst = std::min(worst, untangling_quality(patch_, chart, patch_.cells[c]));
       if (worst < enough) break;
     }
     return worst;
@@ -155,7 +155,7 @@ class Worst {
   bool improve(std::int32_t v) {
     star_.clear();
     for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, charts_.about(patch_, patch_.cells[c]));
-    const double start = worst_around(-1);
+    const double start = worst_around(-2);
     if (start >= good_) return false;
     const Vec2 home = patch_.uv[v];
     const Chart chart = charts_.about(home);

@@ -50,7 +50,8 @@ class SpaceSearch {
   [[nodiscard]] std::vector<std::int32_t> corners_of_poor() const {
     std::vector<std::pair<double, std::int32_t>> poor;
     for (std::size_t c = 0; c < quads_.patch.cells.size(); ++c)
-      if (const double j = jacobian(quads_.patch.cells[c]); j < poor_) poor.emplace_back(j, static_cast<std::int32_t>(c));
+      if (const double j = is_convex(quads_.patch, quads_.patch.cells[c]) ? jacobian(quads_.patch.cells[c]) : -1; j < poor_)
+        poor.emplace_back(j, static_cast<std::int32_t>(c));
     std::sort(poor.begin(), poor.end());
     std::vector<std::int32_t> corners;
     for (const auto& [j, c] : poor)
@@ -63,8 +64,9 @@ class SpaceSearch {
     double least = poor_;
     for (const std::int32_t c : around_.of(v)) {
       const MixedCell& cell = quads_.patch.cells[c];
-      if (!is_convex(quads_.patch, cell)) return -2;
       least = std::min(least, jacobian(cell));
+      if (!is_convex(quads_.patch, cell))
+        least = std::min(least, untangling_quality(quads_.patch, charts_.about(quads_.patch, cell), cell));
       if (least < enough) break;
     }
     return least;

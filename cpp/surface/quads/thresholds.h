@@ -20,6 +20,8 @@ inline constexpr double turns_per_edge = 2;
 inline constexpr double pair_bonus = 0.7;
 /// Triangles on an alternating path or circle.
 inline constexpr std::size_t longest_path = 10;
+/// Of weights, which are looked at in turn.
+inline constexpr std::size_t weight_classes = 4096;
 /// Share of the heaviest pair's weight. Triangles of such pairs start no search.
 inline constexpr double content = 0.92;
 /// Least gain that counts, more than rounding.
