@@ -62,7 +62,7 @@ Vec3 bernstein_value(const Jacobian& j, CellKind kind, double s, double t) noexc
   if (kind == CellKind::triangle6)
     return r * r * j.c[0] + s * s * j.c[1] + t * t * j.c[2] + 2 * r * s * j.c[3] + 2 * s * t * j.c[4] +
            2 * t * r * j.c[5];
-  if (kind == CellKind::quad4) return p * q * j.c[0] + p * t * j.c[1] + s * t * j.c[2] + s * q * j.c[3];
+  if (kind == CellKind::quad4) return p * q * j.c[0] + s * q * j.c[1] + s * t * j.c[2] + p * t * j.c[3];
   const std::array<double, 4> in_s{p * p * p, 3 * p * p * s, 3 * p * s * s, s * s * s},
       in_t{q * q * q, 3 * q * q * t, 3 * q * t * t, t * t * t};
   Vec3 sum{0, 0, 0};

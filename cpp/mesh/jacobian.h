@@ -11,7 +11,9 @@
 namespace carreau {
 
 /// Bernstein coefficients of x_s cross x_t, the derivatives of an element by the coordinates of its reference (the unit
-/// triangle or the unit square): vectors of degree 0, 2, (1, 1) or (3, 3). Of a plane element only z differs from 0.
+/// triangle or the unit square): vectors of degree 0, 2, (1, 1) or (3, 3). Degree 2: the corners, then the coefficients
+/// of the sides in the order of cells.h; (1, 1): the corners in their order; (3, 3): c[4 i + k] of the powers i of s and
+/// k of t. Of a plane element only z differs from 0.
 struct Jacobian {
   int count = 0;
   std::array<Vec3, 16> c;

@@ -68,7 +68,7 @@ PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, cons
     plane::mend_squares(work);
   else
     plane::optimise(work);
-  if (options.shape_trials) plane::search_around_bad_triangles(work, options.normals);
+  if (options.shape_trials && !options.squares) plane::search_around_bad_triangles(work, options.normals);
   return to_mesh(domain, boundary.mesh, boundary.frame);
 }
 

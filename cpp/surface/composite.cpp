@@ -19,7 +19,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 void mesh_discretised(CompositeRun& run) {
   refine_boundaries(run);
-  if (run.options.crossing_rounds > 0 || is_quadratic(run.options.element)) run.cut_curves = run.curves;
+  if (run.options.crossing_rounds > 0 || run.options.element != Element::p1) run.cut_curves = run.curves;
   mesh_patches(run);
   assemble_patches(run);
 }

@@ -17,10 +17,28 @@ namespace {
 
 using namespace thresholds::elements;
 
+bool part_invalid_quads(const QuadraticReport& report, SurfaceMesh& mesh) {
+  bool any = false;
+  for (std::size_t f = 0; f < report.quads.size(); ++f) {
+    if (report.quads[f].empty()) continue;
+    part_quads(mesh.faces[f], report.quads[f]);
+    any = true;
+  }
+  return any;
+}
+
 QuadraticReport make_once(CompositeRun& run) {
   const ElementWork work{run.curve_model, run.curves, run.rules, run.options, run.result, run.monitor};
-  if (has_quads(run.options.element)) make_quadrilaterals(work);
-  return is_quadratic(run.options.element) ? make_quadratic(work) : QuadraticReport{};
+  QuadraticReport report;
+  if (has_quads(run.options.element)) report = make_quadrilaterals(work);
+  if (!is_quadratic(run.options.element)) return report;
+  report = make_quadratic(work);
+  // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
+  for (int round = 0; round < most_partings && run.options.element == Element::q2_0; ++round) {
+    if (!part_invalid_quads(report, run.result.mesh)) break;
+    report = make_quadratic(work);
+  }
+  return report;
 }
 
 std::size_t count(const QuadraticReport& report) {
@@ -69,7 +87,7 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
     const std::string what =
         Where{.face = face.ref, .uv = invalid.uv}.prefix() + std::to_string(invalid.count) +
-        (invalid.count == 1 ? " element of second order has" : " elements of second order have") +
+        (invalid.count == 1 ? " element has" : " elements have") +
         " a Jacobian that is not positive everywhere";
     face.status = FaceStatus::mended;
     face.why += (face.why.empty() ? "" : "; ") + what;
@@ -84,7 +102,8 @@ void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   QuadraticReport now = make_once(run), best = now;
   std::optional<CompositeResult> best_result;  // empty: that of the run
   const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
-  for (int round = 0; round < most_divisions && count(now) > 0; ++round) {
+  const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
+  for (int round = 0; round < rounds && count(now) > 0; ++round) {
     divide_curves(run, now.coarse);
     divide_faces(run, now);
     CompositeResult before = std::exchange(run.result, {});

@@ -125,7 +125,7 @@ void FaceJob::mesh(Monitor& monitor) {
   mesh_.emplace();
   mesh_->plane = mesh_plane(input_.domain->plane, *space_,
                             {.frontal = options_.frontal,
-                             .squares = has_quads(options_.element),
+                             .squares = squares_,
                              .shape_trials = options_.shape_trials,
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = options_.max_triangles,
@@ -155,7 +155,7 @@ void FaceJob::lift(Monitor& monitor) {
   }
   refuse_unsound(monitor);
   const Stopwatch watch(report_.seconds_lift);
-  shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
+  if (!squares_) shape_in_space(input_, *cad_, *rules_, *mesh_, monitor);
   const bool kept = options_.size.geo_guarantee && rules_->uses_metrics();
   const std::vector<int> doubtful = refine_in_space(
       input_, *cad_, *rules_, kept ? geometric_limits(options_.size) : GeometricLimits{}, *mesh_, monitor);
@@ -168,6 +168,12 @@ void FaceJob::check_agreement(const std::vector<int>& doubtful, Monitor& monitor
   if (bounded_rounds_ == 0) prescribed_ = agreement;
   if (!best_ || agreement.better_than(best_->agreement))
     best_.emplace(Attempt{std::move(*mesh_), std::move(*space_), agreement, bounded_rounds_ > 0});
+  if (best_->agreement.wrong() && squares_) {  // equilateral triangles may follow the surface where halves of squares do not
+    squares_ = false;
+    space_.emplace(best_->space);
+    next_ = Step::mesh;
+    return;
+  }
   const bool again = best_->agreement.wrong() && rules_->uses_metrics() && !input_.one_size && sample_bounded(monitor);
   if (again)
     next_ = Step::mesh;

@@ -27,7 +27,8 @@ class FaceJob final : public SteppedTask {
         rules_(&rules),
         options_(options),
         reentrant_(reentrant),
-        given_slope_(input_.slope) {}
+        given_slope_(input_.slope),
+        squares_(has_quads(options.element)) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
@@ -107,6 +108,7 @@ class FaceJob final : public SteppedTask {
   std::optional<Attempt> best_;
   SurfaceAgreement prescribed_;  // of the mesh of the sizes prescribed
   int bounded_rounds_ = 0;       // that had them bounded
+  bool squares_ = false;         // points are placed for quadrilaterals
   std::optional<PatchMesh> mesh_;
   std::string failure_, remark_;
   CompositeReport report_;

@@ -15,6 +15,7 @@
 #include "surface/quads/pairing.h"
 #include "surface/quads/quad_shape.h"
 #include "surface/quads/smoothing.h"
+#include "surface/quads/walks.h"
 
 namespace {
 
@@ -134,13 +135,15 @@ int main(int argc, char** argv) {
   std::set<std::pair<int, int>> imposed;
   for (const PlaneEdge& e : c.domain.edges) imposed.insert({std::min(e.a, e.b), std::max(e.a, e.b)});
   const PairRules rules{[&](int a, int b) { return imposed.count({std::min(a, b), std::max(a, b)}) != 0; },
-                        [&](int v) { return c.surface(patch.uv[v]); }, 0.5};
+                        [&](int v) { return c.surface(patch.uv[v]); }, 0.5, 0};
   const auto step = [&](const char* what, auto&& work) {
     start = now();
     work();
     report(what, c, patch, now() - start);
   };
   step("paired", [&] { pair_triangles(patch, &charts, rules, monitor); });
+  step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
+  step("walked", [&] { join_triangles(patch, charts, rules.is_imposed, monitor); });
   step("cleaned", [&] { clean_up(patch, charts, rules.is_imposed, monitor); });
   step("smoothed", [&] { smooth_quads(patch, charts, {}, monitor); });
   step("worst", [&] { improve_worst_quads(patch, charts, 0.6, monitor); });

@@ -68,7 +68,7 @@ TEST_F(SessionTest, NodesOfP2LieOnTheSurfaceAtTheirParameters) {
 }
 
 TEST_F(SessionTest, QualityOfElementsCountsThem) {
-  use_paraboloid();
+  use_paraboloid(0.2);
   ASSERT_EQ(carreau_set_text(session, "element", "q2.1"), CARREAU_OK) << error();
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   auto quality = sized<carreau_cell_quality>();

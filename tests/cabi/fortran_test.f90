@@ -160,6 +160,7 @@ program fortran_test
   call test_versions_and_parameters
   call test_same_mesh_as_in_c
   call test_callbacks_by_value_and_files
+  call test_elements
   call test_curve
   call test_adaptation
   call test_fields
@@ -314,6 +315,49 @@ contains
       all(curve_refs == [1, 2, 3, 4]), 'model_curves')
     call carreau_session_free(session)
   end subroutine test_same_mesh_as_in_c
+
+  ! Curved triangles: nodes from 1, on the paraboloid, corners those of the triangles.
+  subroutine test_elements
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    type(carreau_cell_quality) :: quality
+    real(c_double), allocatable :: xyz(:, :), uv(:, :, :)
+    integer(c_int32_t), allocatable :: triangles(:, :), nodes(:, :), refs(:), mids(:)
+    integer(c_int64_t) :: n, m, k, f, cells, e
+    integer(c_int32_t) :: status
+    real(c_double) :: off
+    integer :: i
+    call carreau_session_create(session, status)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status, surf1=surf1, surf2=surf2, curv1=curv1, curv2=curv2)
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', h, status)
+    call carreau_set_text(session, 'element', 'p2', status)
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'generate p2')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_count(mesh, n, m, k, f, status)
+    call carreau_mesh_cell_count(mesh, CARREAU_CELL_TRIANGLE6, cells, status)
+    call expect(status == CARREAU_OK .and. cells == m, 'cell_count')
+    call carreau_mesh_vertices(mesh, xyz, status)
+    call carreau_mesh_triangles(mesh, triangles, status)
+    call carreau_mesh_cells(mesh, CARREAU_CELL_TRIANGLE6, nodes, refs, status)
+    call expect(status == CARREAU_OK .and. all(nodes(1:3, :) == triangles) .and. all(refs == 1), 'cells')
+    call expect(minval(nodes) == 1 .and. maxval(nodes) == n, 'nodes count from 1')
+    call carreau_mesh_cell_uv(mesh, CARREAU_CELL_TRIANGLE6, uv, status)
+    off = 0
+    do e = 1, m
+      do i = 1, 6
+        off = max(off, maxval(abs(uv(:, i, e) - xyz(1:2, nodes(i, e)))))
+      end do
+    end do
+    call expect(status == CARREAU_OK .and. off < 1d-14, '(u, v) of each node')
+    call carreau_mesh_edge_mids(mesh, mids, status)
+    call expect(size(mids, kind=c_int64_t) == k .and. minval(mids) > maxval(triangles), 'edge_mids')
+    call carreau_mesh_cell_quality(mesh, quality, status)
+    call expect(status == CARREAU_OK .and. quality%triangles6 == m .and. quality%invalid == 0 .and. &
+      quality%least_jacobian_min > 0, 'cell_quality')
+    call carreau_session_free(session)
+  end subroutine test_elements
 
   subroutine check_delivered(session, xyz, triangles)
     type(carreau_session), intent(in) :: session

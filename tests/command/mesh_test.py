@@ -322,6 +322,33 @@ class Sizes(Folder):
         self.refused(bent, "-o", "a.mesh", "--angle", "3", "--anisotropic=0.5", sentence="--anisotropic")
         self.refused(bent, "-o", "a.mesh", "--angle", "3", "--anisotropic=x", sentence="--anisotropic")
 
+    def test_elements_of_six_kinds(self):
+        # A quarter of a cylinder of radius 1 and length 2 nearly: its area is pi.
+        k = 4 / 3 * (math.sqrt(2) - 1)
+        rows = "".join(f"{x!r} {y!r} {z}\n" for x, y in ((1, 0), (1, k), (k, 1), (0, 1)) for z in (0, 2))
+        bent = self.write("bent.bpt", "1\n3 1\n" + rows)
+        exact, kinds = math.pi, {"p2": "triangles6", "q1.0": "quads4", "q1.1": "quads4", "q2.0": "quads8", "q2.1": "quads8"}
+        for element, kind in kinds.items():
+            self.run_mesh(bent, "--size", "0.2", "--element", element, "-o", "a.vtu", "-o", "a.stl", "-q")
+            done = subprocess.run([PROGRAM, "check", self.path("a.vtu"), "--json"], capture_output=True, text=True, check=True)
+            found = json.loads(done.stdout)["elements"]
+            self.assertEqual(found["invalid"], 0)
+            self.assertGreater(found[kind], 0)
+            self.assertLess(found["triangle_share"] if element != "p2" else 0, 0.05 if element.endswith("0") else 1e-12)
+            # An edge of .2 turns by .2: the area between chord and arc is a share of .2^2 / 24 of it, that of a parabola far less.
+            error = abs(found["area"] / exact - 1)
+            self.assertLess(error, 1e-3 if element.endswith(("2", "2.0", "2.1")) and element[:2] != "q1" else 3e-3)
+            subprocess.run([PROGRAM, "picture", self.path("a.vtu"), "-o", self.path("a.png")], check=True, capture_output=True)
+            self.assertEqual(json.loads(subprocess.run([PROGRAM, "check", self.path("a.stl"), "--json"], capture_output=True,
+                                                       text=True, check=True).stdout).get("elements"), None)
+            os.remove(self.path("a.png"))
+        env = self.write("p2.env", "element p2\n")
+        self.run_mesh(bent, "--size", "0.2", "--env", env, "-o", "b.vtu", "-q")
+        done = subprocess.run([PROGRAM, "check", self.path("b.vtu"), "--json"], capture_output=True, text=True, check=True)
+        self.assertGreater(json.loads(done.stdout)["elements"]["triangles6"], 0)
+        self.refused(bent, "-o", "c.bl2d", "--element", "p2", sentence="knows straight triangles (p1) only")
+        self.refused(bent, "-o", "c.mesh", "--element", "p3", sentence="--element")
+
     def test_a_gradation_lets_sizes_grow_gently(self):
         sharp = self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02")
         soft = self.mesh(self.two, "--size", "0.5", "--face-size", "2=0.02", "--gradation", "1.2")

@@ -1,5 +1,9 @@
 #include "plane/optimise/optimise.h"
 
+#include <numeric>
+#include <utility>
+#include <vector>
+
 #include "plane/optimise/bad_triangles.h"
 #include "plane/optimise/degree_pairs.h"
 #include "plane/optimise/degrees.h"
@@ -54,8 +58,9 @@ void optimise(PlaneWork& work) {
 }
 
 void mend_squares(PlaneWork& work) {
-  swap_to_delaunay(work);
-  raise_flat_triangles(work, mend_bad_triangles(work));
+  std::vector<std::int32_t> all(work.mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  raise_flat_triangles(work, std::move(all));
 }
 
 }  // namespace carreau::plane

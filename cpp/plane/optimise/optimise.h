@@ -8,7 +8,8 @@ namespace carreau::plane {
 /// Leaves removed triangles without vertices (-1) and removed vertices without a triangle.
 void optimise(PlaneWork& work);
 
-/// After place_squares(): only triangles that are bad or flat are mended.
+/// After place_squares(): what the other passes look for is equilateral, and halves of squares are not. Flat triangles
+/// are raised.
 void mend_squares(PlaneWork& work);
 
 }  // namespace carreau::plane

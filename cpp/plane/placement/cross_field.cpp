@@ -46,29 +46,42 @@ struct Triple {
   std::int32_t from, to;
   Complex transport;
 };
-void set_links(Level& level, std::vector<Triple>& triples) {
-  std::sort(triples.begin(), triples.end(), [](const Triple& a, const Triple& b) {
-    return a.from != b.from ? a.from < b.from : a.to < b.to;
-  });
-  level.start.assign(level.size() + 1, 0);
-  for (std::size_t k = 0; k < triples.size(); ++k) {
-    if (k > 0 && triples[k].from == triples[k - 1].from && triples[k].to == triples[k - 1].to) {
-      level.links.back().transport += triples[k].transport;
-      continue;
+// Of a few, stable.
+template <typename Iterator, typename Less>
+void insertion_sort(Iterator first, Iterator last, const Less& less) {
+  for (Iterator x = first; x != last; ++x)
+    for (Iterator y = x; y != first && less(*y, *(y - 1)); --y) std::iter_swap(y, y - 1);
+}
+
+void set_links(Level& level, const std::vector<Triple>& triples) {
+  std::vector<std::int32_t> end(level.size() + 1, 0);
+  for (const Triple& t : triples) ++end[t.from + 1];
+  for (std::size_t i = 0; i < level.size(); ++i) end[i + 1] += end[i];
+  std::vector<Level::Link> all(triples.size());
+  for (const Triple& t : triples) all[end[t.from]++] = {t.to, t.transport};  // end[i] is that of row i afterwards
+  level.start.assign(1, 0);
+  for (std::size_t i = 0, first = 0; i < level.size(); ++i) {
+    const auto row = all.begin() + static_cast<std::ptrdiff_t>(first), last = all.begin() + end[i];
+    insertion_sort(row, last, [](const Level::Link& a, const Level::Link& b) { return a.to < b.to; });
+    for (auto link = row; link != last; ++link) {
+      if (link != row && level.links.back().to == link->to)
+        level.links.back().transport += link->transport;
+      else
+        level.links.push_back(*link);
     }
-    level.links.push_back({triples[k].to, triples[k].transport});
-    ++level.start[triples[k].from + 1];
+    level.start.push_back(static_cast<std::int32_t>(level.links.size()));
+    first = static_cast<std::size_t>(end[i]);
   }
-  for (std::size_t i = 0; i < level.size(); ++i) level.start[i + 1] += level.start[i];
 }
 
 // Pairs of free nodes become one, each with the neighbour that it is linked to most.
-void aggregate(Level& fine, Level& coarse) {
+void aggregate(Level& fine, Level& coarse, Monitor& monitor) {
   const auto n = static_cast<std::int32_t>(fine.size());
   fine.aggregate.assign(fine.size(), -1);
   fine.up.assign(fine.size(), Complex(1, 0));
   std::int32_t count = 0;
   for (std::int32_t i = 0; i < n; ++i) {
+    if (i % steps_between_checks == 0) monitor.checkpoint();
     if (fine.aggregate[i] >= 0) continue;
     fine.aggregate[i] = count;
     for (int members = 1; members < 4 && fine.fixed[i] == 0; ++members) {
@@ -91,6 +104,7 @@ void aggregate(Level& fine, Level& coarse) {
   coarse.diagonal.assign(static_cast<std::size_t>(count), 0);
   std::vector<Triple> triples;
   for (std::int32_t i = 0; i < n; ++i) {
+    if (i % steps_between_checks == 0) monitor.checkpoint();
     const std::int32_t I = fine.aggregate[i];
     if (fine.fixed[i] != 0) coarse.fixed[I] = 1, coarse.value[I] = fine.value[i];
     coarse.diagonal[I] += fine.diagonal[i];
@@ -124,7 +138,7 @@ void relax(Level& level, int sweeps, Monitor& monitor) {
 void solve(std::vector<Level>& levels, Monitor& monitor) {
   while (levels.back().size() > coarsest_crosses) {
     Level coarse;
-    aggregate(levels.back(), coarse);
+    aggregate(levels.back(), coarse, monitor);
     if (coarse.size() * 10 > levels.back().size() * 9) break;
     levels.push_back(std::move(coarse));
   }
@@ -162,7 +176,7 @@ void fix_at_imposed_edges(const Triangulation& mesh, const std::vector<MetricFra
 MetricFrame::MetricFrame(Metric2 m) noexcept
     : p(std::sqrt(m.a)), q(m.b / p), r(std::sqrt(std::max(m.c - q * q, 1e-12 * m.c))) {}
 
-CrossField::CrossField(const Triangulation& mesh, const Field&, Monitor& monitor) : mesh_(mesh) {
+CrossField::CrossField(const Triangulation& mesh, Monitor& monitor) : mesh_(mesh) {
   std::vector<MetricFrame> frames;
   frames.reserve(mesh.vertices.size());
   for (const Vertex& v : mesh.vertices) frames.emplace_back(v.metric());
@@ -173,6 +187,7 @@ CrossField::CrossField(const Triangulation& mesh, const Field&, Monitor& monitor
   level.diagonal.assign(frames.size(), 0);
   fix_at_imposed_edges(mesh, frames, level);
   std::vector<Triple> triples;
+  monitor.checkpoint();
   for (const Triangle& T : mesh.triangles) {
     if (T.v[0] < 0) continue;
     for (int i = 0; i < 3; ++i) {
@@ -186,6 +201,7 @@ CrossField::CrossField(const Triangulation& mesh, const Field&, Monitor& monitor
       level.diagonal[a] += 1, level.diagonal[b] += 1;
     }
   }
+  monitor.checkpoint();
   set_links(level, triples);
   solve(levels, monitor);
   cross_ = std::move(levels.front().value);

@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "plane/kernel/frame.h"
+#include "metric/metric2.h"
 #include "plane/kernel/triangulation.h"
 #include "support/monitor.h"
 
@@ -28,8 +28,8 @@ struct MetricFrame {
 class CrossField {
  public:
   /// Of a mesh that has metrics at its vertices. Crosses at imposed edges are tangent to them; inside their squared
-  /// differences along edges have the least sum. Keeps a reference to the mesh and the field.
-  CrossField(const Triangulation& mesh, const Field& field, Monitor& monitor);
+  /// differences along edges have the least sum. Keeps a reference to the mesh.
+  CrossField(const Triangulation& mesh, Monitor& monitor);
   /// One arm of the cross at p, a unit vector of the frame of `at_p`. `triangle`: of the mesh, near p; it becomes the
   /// one that holds p, where that is known.
   [[nodiscard]] std::complex<double> arm(const Vec2& p, const MetricFrame& at_p, int& triangle) const;

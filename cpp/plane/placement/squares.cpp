@@ -28,7 +28,7 @@ class Squares {
       : placement_(placement),
         mesh_(placement.mesh),
         background_(background),
-        crosses_(background, placement.field, placement.monitor) {}
+        crosses_(background, placement.monitor) {}
 
   void run() {
     hint_.reserve(mesh_.vertices.size());

@@ -269,7 +269,9 @@ class Mender {
       if (found < least) least = found, invalid.uv = middle(cells_[c]);
       add_coarse(cells_[c], sides, report.coarse);
       add_finer(cells_[c], report.finer[f_]);
+      if (c < face_.quads) report.quads[f_].push_back(c);
     }
+    std::sort(report.quads[f_].begin(), report.quads[f_].end());
     if (invalid.count > 0) report.invalid.push_back(invalid);
   }
   [[nodiscard]] Vec2 middle(const Cell& cell) const {

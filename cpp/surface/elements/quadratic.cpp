@@ -226,11 +226,23 @@ class FaceNodes {
 
 }  // namespace
 
+void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads) {
+  std::vector<std::array<std::int32_t, 3>> halves;
+  for (auto quad = quads.rbegin(); quad != quads.rend(); ++quad) {
+    const auto first = face.triangles.begin() + 2 * static_cast<std::ptrdiff_t>(*quad);
+    halves.insert(halves.end(), first, first + 2);
+    face.triangles.erase(first, first + 2);
+    --face.quads;
+  }
+  face.triangles.insert(face.triangles.end(), halves.begin(), halves.end());
+  face.mid.clear(), face.mid_uv.clear(), face.mid_vertex.clear();
+}
+
 QuadraticReport make_quadratic(const ElementWork& work) {
   QuadraticReport report;
   SurfaceMesh& mesh = work.result.mesh;
   mesh.mid_vertices.clear();
-  report.finer.resize(mesh.faces.size());
+  report.finer.resize(mesh.faces.size()), report.quads.resize(mesh.faces.size());
   CurveNodes of_curves(work);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].triangles.empty()) continue;

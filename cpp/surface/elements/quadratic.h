@@ -25,6 +25,7 @@ struct QuadraticReport {
   std::size_t crossed = 0;      ///< elements that were invalid with nodes in the middles of straight edges of (u, v)
   std::size_t moved_nodes = 0;  ///< nodes inside faces that mending has moved, of edges and of corners
   std::vector<InvalidElements> invalid;
+  std::vector<std::vector<std::int32_t>> quads;  ///< by face: quadrilaterals among them, ascending
   std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
   /// By face: sides of elements that stay invalid, with half of the longest one as the size wanted there.
   std::vector<std::vector<EdgeSizes::Source>> finer;
@@ -35,6 +36,9 @@ struct QuadraticReport {
 /// positive in (u, v) and in space (Bernstein coefficients of degree 2, or (3, 3)): nodes inside the face move, then
 /// vertices. Meshes that have nodes on edges get new ones.
 QuadraticReport make_quadratic(const ElementWork& work);
+
+/// Makes two triangles of each of these quadrilaterals of a face again, without nodes on edges.
+void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads);
 
 /// The second half of it, for one face: `fixed_mid` and `fixed_vertex` tell by local index what stays in its place.
 void mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,

@@ -30,18 +30,25 @@ class Pass {
         ideal_(ideal),
         monitor_(monitor),
         around_(patch.uv.size(), closed(patch.cells)),
-        touched_(patch.uv.size(), 0) {}
+        degree_(patch.uv.size(), 0),
+        touched_(patch.uv.size(), 0) {
+    for (const MixedCell& cell : patch.cells)
+      for (int k = 0; k < corners_of(cell); ++k) ++degree_[cell[k]];
+  }
 
   /// How many changes were made.
   int run() {
     int changes = 0;
     for (std::int32_t c = 0, n = static_cast<std::int32_t>(patch_.cells.size()); c < n; ++c) {
       if (c % searches_between_checks == 0) monitor_.checkpoint();
-      if (remove_doublet(c) || draw_together(c) || turn_edge(c)) ++changes;
+      if (is_irregular(c) && (remove_doublet(c) || draw_together(c) || turn_edge(c))) ++changes;
     }
     std::erase(patch_.cells, none);
     return changes;
   }
+
+  /// By vertex: those of cells that were changed.
+  [[nodiscard]] std::vector<char> take_touched() { return std::move(touched_); }
 
  private:
   // Triangles name their first corner twice: it is counted once below.
@@ -56,11 +63,14 @@ class Pass {
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     return cells;
   }
-  [[nodiscard]] int degree(std::int32_t v) const {
-    const auto all = around_.of(v);
-    int n = 0;
-    for (std::size_t k = 0; k < all.size(); ++k) n += k == 0 || all[k] != all[k - 1] ? 1 : 0;
-    return n;
+  [[nodiscard]] int degree(std::int32_t v) const { return degree_[v]; }
+  // All changes mend vertices of cells that have some to mend.
+  [[nodiscard]] bool is_irregular(std::int32_t c) const {
+    const MixedCell& cell = patch_.cells[c];
+    if (cell == none) return false;
+    for (int k = 0; k < corners_of(cell); ++k)
+      if (degree_[cell[k]] != ideal_[cell[k]]) return true;
+    return false;
   }
   /// What is wrong with so many cells more or less at a vertex.
   [[nodiscard]] int excess(std::int32_t v, int more = 0) const {
@@ -221,6 +231,7 @@ class Pass {
   const std::vector<std::int8_t>& ideal_;
   Monitor& monitor_;
   Incidence around_;
+  std::vector<int> degree_;
   std::vector<char> touched_;
 };
 
@@ -247,15 +258,27 @@ std::vector<std::int8_t> ideal_degrees(const QuadPatch& patch, const FaceCharts&
   return ideal;
 }
 
+std::vector<char> with_neighbours(const QuadPatch& patch, const std::vector<char>& some) {
+  std::vector<char> all = some;
+  for (const MixedCell& cell : patch.cells) {
+    const int n = corners_of(cell);
+    if (std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return some[v] != 0; })) continue;
+    for (int k = 0; k < n; ++k) all[cell[k]] = 1;
+  }
+  return all;
+}
+
 }  // namespace
 
 void clean_up(QuadPatch& patch, const FaceCharts& charts,
               const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
   const std::vector<std::int8_t> ideal = ideal_degrees(patch, charts);
-  for (int pass = 0; pass < cleanup_passes; ++pass) {
-    const int changes = Pass(patch, charts, is_imposed, ideal, monitor).run();
-    if (changes == 0) break;
-    smooth_quads(patch, charts, {.passes = 2}, monitor);
+  for (int round = 0; round < cleanup_passes; ++round) {
+    Pass pass(patch, charts, is_imposed, ideal, monitor);
+    if (pass.run() == 0) break;
+    std::vector<char> moving;  // all, the first time
+    if (round > 0) moving = with_neighbours(patch, pass.take_touched());
+    smooth_quads(patch, charts, {.passes = passes_after_changes, .moving = moving}, monitor);
   }
 }
 

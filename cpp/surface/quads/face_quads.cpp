@@ -22,7 +22,7 @@ FaceQuads face_quads(const ElementWork& work, std::size_t face) {
   quads.patch.uv = quads.lifted = from.uv;
   quads.patch.fixed.assign(from.uv.size(), 0);
   quads.vertex = from.vertex;
-  quads.size.assign(from.uv.size(), 0);
+  quads.size.assign(from.uv.size(), -1);
   quads.flattened = from.flattened;
   quads.sides = curve_sides(work, face);
   for (const std::int32_t v : from.vertex) quads.xyz.push_back(mesh.vertices[v]);
@@ -39,9 +39,10 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
   std::vector<std::int32_t> local;
   std::vector<Vec2> uv;
   const std::size_t known = quads.lifted.size();
-  quads.xyz.resize(quads.patch.uv.size()), quads.size.resize(quads.patch.uv.size(), 0);
+  quads.xyz.resize(quads.patch.uv.size()), quads.size.resize(quads.patch.uv.size(), -1);
   for (std::size_t v = 0; v < quads.patch.uv.size(); ++v) {
     const bool is_new = v >= known;
+    if (is_new && quads.vertex[v] >= 0) quads.xyz[v] = work.result.mesh.vertices[quads.vertex[v]];
     if (is_new ? quads.vertex[v] >= 0 : quads.lifted[v] == quads.patch.uv[v]) continue;
     local.push_back(static_cast<std::int32_t>(v));
     uv.push_back(quads.patch.uv[v]);
@@ -49,7 +50,7 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
   const auto use = [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
     for (std::size_t k = 0; k < here.size(); ++k) {
       quads.xyz[local[first + k]] = jets[k].s;
-      if (metric != nullptr) quads.size[local[first + k]] = geometric_mean_size(jets[k], metric->at(here[k]));
+      quads.size[local[first + k]] = metric != nullptr ? geometric_mean_size(jets[k], metric->at(here[k])) : 0;
     }
   };
   const int ref = work.result.mesh.faces[quads.face].ref;
@@ -57,13 +58,13 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
   quads.lifted = quads.patch.uv;
 }
 
-std::size_t split_folded(FaceQuads& quads) {
+std::size_t split_poor(FaceQuads& quads, double least) {
   std::size_t count = 0;
   for (std::size_t c = 0, n = quads.patch.cells.size(); c < n; ++c) {
     const MixedCell q = quads.patch.cells[c];
     if (corners_of(q) == 3) continue;
     const auto at = [&](int k) -> const Vec3& { return quads.xyz[q[k]]; };
-    if (scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > 0) continue;
+    if (scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > least) continue;
     const bool other = norm(at(3) - at(1)) < norm(at(2) - at(0));
     quads.patch.cells[c] = other ? MixedCell{q[0], q[1], q[3], -1} : MixedCell{q[0], q[1], q[2], -1};
     quads.patch.cells.push_back(other ? MixedCell{q[1], q[2], q[3], -1} : MixedCell{q[0], q[2], q[3], -1});
@@ -118,6 +119,17 @@ std::vector<std::int32_t> drop(const std::vector<char>& gone, CompositeResult& r
   return now;
 }
 
+// Where no metric is known: as long as the edges there.
+void find_missing_sizes(FaceQuads& quads) {
+  std::vector<double> sum(quads.size.size(), 0), count(quads.size.size(), 0);
+  for (const MixedCell& cell : quads.patch.cells)
+    for (int k = 0, n = corners_of(cell); k < n; ++k)
+      for (const std::int32_t v : {cell[k], cell[(k + 1) % n]})
+        sum[v] += norm(quads.xyz[cell[(k + 1) % n]] - quads.xyz[cell[k]]), ++count[v];
+  for (std::size_t v = 0; v < quads.size.size(); ++v)
+    if (quads.size[v] == 0 && count[v] > 0) quads.size[v] = sum[v] / count[v];
+}
+
 void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeResult& result) {
   SurfaceMesh& mesh = result.mesh;
   FaceMesh& face = mesh.faces[quads.face];
@@ -130,7 +142,7 @@ void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeR
       continue;
     }
     in_mesh = now[in_mesh];
-    if (quads.size[v] > 0) mesh.vertices[in_mesh] = quads.xyz[v], result.vertex_size[in_mesh] = quads.size[v];
+    if (quads.size[v] >= 0) mesh.vertices[in_mesh] = quads.xyz[v], result.vertex_size[in_mesh] = quads.size[v];
   }
   face.uv = std::move(quads.patch.uv);
   face.vertex = std::move(quads.vertex);
@@ -150,7 +162,10 @@ void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeR
 
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result) {
   std::vector<char> gone(result.mesh.vertices.size(), 0);
-  for (FaceQuads& quads : faces) compact(quads, gone);
+  for (FaceQuads& quads : faces) {
+    find_missing_sizes(quads);
+    compact(quads, gone);
+  }
   const std::vector<std::int32_t> now = drop(gone, result);
   for (FaceQuads& quads : faces) put_back(quads, now, result);
 }

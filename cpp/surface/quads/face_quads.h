@@ -15,8 +15,9 @@ struct FaceQuads {
   std::vector<std::int32_t> vertex;  ///< local -> index in SurfaceMesh::vertices; -1: new, and of this face only
   std::vector<Vec3> xyz;             ///< positions; those of new vertices are missing until lift()
   std::vector<Vec2> lifted;          ///< (u, v) that xyz belongs to
-  std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: as it was
-  std::vector<CurveSide> sides;      ///< on curves, ascending
+  std::vector<double> size;          ///< prescribed at each vertex that was lifted here; 0: not known; below: as it was
+  std::vector<CurveSide> sides;      ///< on curves, ascending; of cells before they are cut
+  std::vector<std::int32_t> middles;  ///< of sides: local vertices, once the cells are cut; -1: none
   std::vector<std::array<std::int32_t, 3>> flattened;  ///< FaceMesh::flattened
 
   [[nodiscard]] const CurveSide* side_between(std::int32_t a, std::int32_t b) const noexcept;
@@ -29,8 +30,8 @@ FaceQuads face_quads(const ElementWork& work, std::size_t face);
 /// where it is null. One evaluation a vertex.
 void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads, Monitor& monitor);
 
-/// Cuts quadrilaterals that are turned over in space somewhere into two triangles each. How many.
-std::size_t split_folded(FaceQuads& quads);
+/// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each. How many.
+std::size_t split_poor(FaceQuads& quads, double least);
 
 /// Puts the cells of faces into the mesh, all at once: vertices that no cell has any more are removed, new ones are
 /// appended face by face. Order stays.

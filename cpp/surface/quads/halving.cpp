@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "curve/discrete_curve.h"
 #include "surface/elements/curve_middles.h"
@@ -74,6 +75,7 @@ class Halving {
       : work_(work), middles_(middles), quads_(quads) {}
 
   void run() {
+    quads_.middles.assign(quads_.sides.size(), -1);
     join_flattened();
     std::vector<MixedCell> cut;
     cut.reserve(4 * quads_.patch.cells.size());
@@ -109,7 +111,9 @@ class Halving {
     const bool known = uv.size() == 2 * middles_[side.curve].size() + 1;
     const Vec2 place = known ? uv[2 * side.segment + 1]
                              : Vec2(0.5 * (quads_.patch.uv[side.a] + quads_.patch.uv[side.b]));
-    return add(place, in_mesh, 1);
+    const std::int32_t local = add(place, in_mesh, 1);
+    quads_.middles[static_cast<std::size_t>(&side - quads_.sides.data())] = local;
+    return local;
   }
 
   // The two sides that a flattened triangle has beside its apex are one in space: they share one middle.
@@ -130,17 +134,29 @@ class Halving {
     }
   }
 
+  // Rows of edges by their lower ends, each with those of its edges once.
   void number_edges() {
-    for (const MixedCell& cell : quads_.patch.cells)
-      for (int k = 0, n = corners_of(cell); k < n; ++k) edges_.push_back(key(cell[k], cell[(k + 1) % n]));
-    std::sort(edges_.begin(), edges_.end());
-    edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
-    middle_.assign(edges_.size(), -1);
+    first_.assign(quads_.patch.uv.size() + 1, 0);
+    const auto for_sides = [&](const auto& use) {
+      for (const MixedCell& cell : quads_.patch.cells)
+        for (int k = 0, n = corners_of(cell); k < n; ++k) use(key(cell[k], cell[(k + 1) % n]));
+    };
+    for_sides([&](const Key& edge) { ++first_[edge[0] + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    other_.assign(static_cast<std::size_t>(first_.back()), -1);
+    middle_.assign(other_.size(), -1);
+    for_sides([&](const Key& edge) {
+      auto k = static_cast<std::size_t>(first_[edge[0]]);
+      while (other_[k] >= 0 && other_[k] != edge[1]) ++k;
+      other_[k] = edge[1];
+    });
   }
 
   std::int32_t middle_of(std::int32_t a, std::int32_t b) {
-    const auto rank = std::lower_bound(edges_.begin(), edges_.end(), key(a, b)) - edges_.begin();
-    std::int32_t& middle = middle_[static_cast<std::size_t>(rank)];
+    const Key edge = key(a, b);
+    auto k = static_cast<std::size_t>(first_[edge[0]]);
+    while (other_[k] != edge[1]) ++k;
+    std::int32_t& middle = middle_[k];
     if (middle >= 0) return middle;
     if (const auto joined = joined_.find(key(a, b)); joined != joined_.end())
       middle = joined->second;
@@ -154,8 +170,8 @@ class Halving {
   const ElementWork& work_;
   const Middles& middles_;
   FaceQuads& quads_;
-  std::vector<Key> edges_;
-  std::vector<std::int32_t> middle_;
+  std::vector<std::int32_t> first_;           // by vertex: of its row
+  std::vector<std::int32_t> other_, middle_;  // by edge: its upper end, and the vertex in its middle
   std::map<Key, std::int32_t> joined_;
 };
 

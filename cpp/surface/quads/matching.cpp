@@ -47,12 +47,23 @@ class Matching {
     return chosen_[t] >= 0 && pairs_[chosen_[t]].weight > content * heaviest_;
   }
 
+  // By classes of weights that are all but equal; in a class, as they come.
+  [[nodiscard]] std::vector<std::int32_t> heaviest_first() const {
+    const auto class_of = [&](const WeightedPair& pair) {
+      return static_cast<std::size_t>((1 - pair.weight / heaviest_) * (weight_classes - 1));
+    };
+    std::vector<std::int32_t> start(weight_classes + 1, 0), order(pairs_.size());
+    for (const WeightedPair& pair : pairs_) ++start[class_of(pair) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    for (std::size_t e = 0; e < pairs_.size(); ++e)
+      order[static_cast<std::size_t>(start[class_of(pairs_[e])]++)] = static_cast<std::int32_t>(e);
+    return order;
+  }
+
   void choose_greedily() {
-    std::vector<std::int32_t> order(pairs_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t a, std::int32_t b) { return pairs_[a].weight > pairs_[b].weight; });
-    if (!order.empty()) heaviest_ = pairs_[order.front()].weight;
+    for (const WeightedPair& pair : pairs_) heaviest_ = std::max(heaviest_, pair.weight);
+    const std::vector<std::int32_t> order = heaviest_first();
+    monitor_.checkpoint();
     for (const std::int32_t e : order) {
       const auto [t, u] = pairs_[e].triangles;
       if (chosen_[t] < 0 && chosen_[u] < 0) chosen_[t] = chosen_[u] = e;

@@ -69,7 +69,7 @@ class Pairing {
     if (!is_convex(patch_, quad)) return;
     const std::array<Vec3, 4> p{rules_.position(quad[0]), rules_.position(quad[1]), rules_.position(quad[2]),
                                 rules_.position(quad[3])};
-    if (!(turn(p) <= rules_.most_turn) || !(scaled_jacobian(p) > 0)) return;
+    if (!(turn(p) <= rules_.most_turn) || !(scaled_jacobian(p) > rules_.least_jacobian)) return;
     const double quality = charts_ != nullptr ? cell_quality(patch_, *charts_, quad) : quad_quality(p);
     if (quality < least_pair) return;
     pairs_.push_back({{t, u}, pair_bonus + quality});

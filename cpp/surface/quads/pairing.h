@@ -16,6 +16,7 @@ struct PairRules {
   /// Of the corners of a triangle, in space.
   std::function<Vec3(std::int32_t)> position;
   double most_turn = 0.3;  ///< radians: largest angle between the normals of the two, in space
+  double least_jacobian = 0;  ///< of the quadrilateral in space: only what exceeds it comes into question
 };
 
 /// Joins triangles of the patch, which has no other cells, by a matching of large weight. Quality is that in the metric

@@ -10,6 +10,7 @@ namespace carreau {
 
 namespace {
 
+constexpr double least_turned = 1e-9;                 // below 0, whatever charts say
 constexpr double square = 2 + 2 * std::numbers::sqrt2;  // its sigma
 
 /// Edge lengths and diagonals of a quadrilateral, and twice the signed areas at its corners.
@@ -87,6 +88,16 @@ double cell_quality(const QuadPatch& patch, const Chart& chart, const MixedCell&
   if (n == 4) return quad_quality(y);
   const Vec2 a = y[1] - y[0], b = y[2] - y[0], c = b - a;
   return std::max(0.0, 2 * std::numbers::sqrt3 * cross(a, b) / (dot(a, a) + dot(b, b) + dot(c, c)));
+}
+
+double untangling_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept {
+  if (is_convex(patch, cell)) return cell_quality(patch, chart, cell);
+  std::array<Vec2, 4> y;
+  const int n = corners_of(cell);
+  for (int k = 0; k < 4; ++k) y[k] = chart.at(patch.uv[cell[k % n]]);
+  if (n == 4) return std::min(scaled_jacobian(y), -least_turned);
+  const double sides = norm(y[1] - y[0]) * norm(y[2] - y[0]);
+  return sides > 0 ? std::min(cross(y[1] - y[0], y[2] - y[0]) / sides, -least_turned) : -1;
 }
 
 }  // namespace carreau

@@ -23,4 +23,7 @@ double cell_quality(const QuadPatch& patch, const FaceCharts& charts, const Mixe
 /// The same in a given chart.
 double cell_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
 
+/// The same, and below 0 the scaled Jacobian, for cells that are turned over somewhere: what a search can follow.
+double untangling_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
+
 }  // namespace carreau

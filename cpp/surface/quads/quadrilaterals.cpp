@@ -1,5 +1,7 @@
 #include "surface/quads/quadrilaterals.h"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -9,8 +11,11 @@
 #include "surface/quads/face_quads.h"
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
+#include "surface/quads/quad_shape.h"
 #include "surface/quads/smoothing.h"
+#include "surface/quads/space_search.h"
 #include "surface/quads/thresholds.h"
+#include "surface/quads/walks.h"
 
 namespace carreau {
 
@@ -22,7 +27,7 @@ class Quadrilaterals {
  public:
   explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
 
-  void run() {
+  QuadraticReport run() {
     for (std::size_t f = 0; f < work_.result.mesh.faces.size(); ++f)
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
@@ -34,10 +39,17 @@ class Quadrilaterals {
     for_each(
         [&](FaceQuads& quads, Monitor& monitor) {
           lift(work_, space(quads), quads, monitor);
-          if (!has_quads_only(work_.options.element)) split_folded(quads);
+          if (space(quads) != nullptr) improve_in_space(work_, *space(quads), quads, monitor);
+          if (!has_quads_only(work_.options.element)) split_poor(quads, least_in_space());
         },
         bound);
+    QuadraticReport report;
+    report.finer.resize(work_.result.mesh.faces.size());
+    for (const FaceQuads& quads : faces_) report_turned(quads, report);
+    std::sort(report.coarse.begin(), report.coarse.end());
+    report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
     put_back(faces_, work_.result);
+    return report;
   }
 
  private:
@@ -53,12 +65,16 @@ class Quadrilaterals {
     return space ? &*space : nullptr;
   }
 
+  // Where sizes differ by direction, good quadrilaterals may have any angles in space.
+  [[nodiscard]] double least_in_space() const { return work_.rules.uses_metrics() ? 0 : least_jacobian; }
+
   void pair(FaceQuads& quads, Monitor& monitor) const {
     const double edge = turns_per_edge * work_.options.size.angle_mesh * std::numbers::pi / 180;
     const PairRules rules{
         [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; },
         [&](std::int32_t v) { return quads.xyz[v]; },
-        edge * enlargement_for(work_.options.element)};
+        edge * enlargement_for(work_.options.element),
+        least_in_space()};
     if (space(quads) == nullptr) {
       pair_triangles(quads.patch, nullptr, rules, monitor);
       return;
@@ -70,6 +86,8 @@ class Quadrilaterals {
 
   static void improve(FaceQuads& quads, const FaceCharts& charts, Monitor& monitor) {
     const auto is_imposed = [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; };
+    clean_up(quads.patch, charts, is_imposed, monitor);
+    join_triangles(quads.patch, charts, is_imposed, monitor);
     clean_up(quads.patch, charts, is_imposed, monitor);
     smooth_quads(quads.patch, charts, {}, monitor);
     improve_worst_quads(quads.patch, charts, poor, monitor);
@@ -85,6 +103,29 @@ class Quadrilaterals {
       smooth_quads(quads.patch, charts, {}, monitor);
       improve_worst_quads(quads.patch, charts, poor, monitor);
     });
+  }
+
+  static bool is_turned(const FaceQuads& quads, const MixedCell& c) {
+    if (corners_of(c) == 3) return false;
+    const auto at = [&](int k) -> const Vec3& { return quads.xyz[c[k]]; };
+    return !is_convex(quads.patch, c) || !(scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)}) > 0);
+  }
+
+  // Half of the edges that were cut is what they are now.
+  static void report_turned(const FaceQuads& quads, QuadraticReport& report) {
+    InvalidElements invalid{quads.face, 0, {}};
+    for (const MixedCell& c : quads.patch.cells) {
+      if (!is_turned(quads, c)) continue;
+      if (++invalid.count == 1)
+        invalid.uv = 0.25 * (quads.patch.uv[c[0]] + quads.patch.uv[c[1]] + quads.patch.uv[c[2]] + quads.patch.uv[c[3]]);
+      double longest = 0;
+      for (int k = 0; k < 4; ++k) longest = std::max(longest, norm(quads.xyz[c[(k + 1) % 4]] - quads.xyz[c[k]]));
+      for (int k = 0; k < 4; ++k) report.finer[quads.face].push_back({quads.xyz[c[k]], quads.xyz[c[(k + 1) % 4]], longest});
+      for (std::size_t s = 0; s < quads.middles.size(); ++s)
+        if (std::find(c.begin(), c.end(), quads.middles[s]) != c.end())
+          report.coarse.push_back({quads.sides[s].curve, 2 * quads.sides[s].segment});
+    }
+    if (invalid.count > 0) report.invalid.push_back(invalid);
   }
 
   void halve_sizes() {
@@ -106,6 +147,6 @@ class Quadrilaterals {
 
 }  // namespace
 
-void make_quadrilaterals(const ElementWork& work) { Quadrilaterals(work).run(); }
+QuadraticReport make_quadrilaterals(const ElementWork& work) { return Quadrilaterals(work).run(); }
 
 }  // namespace carreau

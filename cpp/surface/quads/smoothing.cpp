@@ -41,9 +41,13 @@ class Smoothing {
  public:
   Smoothing(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor)
       : patch_(patch), how_(how), monitor_(monitor), sum_(patch.uv.size()), count_(patch.uv.size()) {
-    charts_.reserve(patch.cells.size());
     for (const MixedCell& cell : patch.cells) {
-      if (charts_.size() % cells_between_checks == 0) monitor.checkpoint();
+      const int n = corners_of(cell);
+      if (!how.moving.empty() &&
+          std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return how.moving[v] != 0; }))
+        continue;
+      if (cells_.size() % cells_between_checks == 0) monitor.checkpoint();
+      cells_.push_back(cell);
       charts_.push_back(charts.about(patch, cell));
     }
   }
@@ -54,18 +58,23 @@ class Smoothing {
       propose();
       before_ = patch_.uv;
       for (std::size_t v = 0; v < sum_.size(); ++v)
-        if (patch_.fixed[v] == 0 && count_[v] > 0) patch_.uv[v] += (how_.share / count_[v]) * sum_[v];
+        if (may_move(v)) patch_.uv[v] += (how_.share / count_[v]) * sum_[v];
       while (take_back()) {
       }
     }
   }
 
  private:
+  [[nodiscard]] bool may_move(std::size_t v) const {
+    return patch_.fixed[v] == 0 && count_[v] > 0 && (how_.moving.empty() || how_.moving[v] != 0);
+  }
+
   void propose() {
     std::fill(sum_.begin(), sum_.end(), Vec2{0, 0});
     std::fill(count_.begin(), count_.end(), 0.);
-    for (std::size_t c = 0; c < patch_.cells.size(); ++c) {
-      const MixedCell& cell = patch_.cells[c];
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (c % cells_between_checks == 0) monitor_.checkpoint();
+      const MixedCell& cell = cells_[c];
       const Chart& chart = charts_[c];
       const int n = corners_of(cell);
       std::array<Vec2, 4> y;
@@ -84,7 +93,7 @@ class Smoothing {
   // Vertices of cells that have turned over go back, and then those of others that have because of that.
   bool take_back() {
     bool any = false;
-    for (const MixedCell& cell : patch_.cells) {
+    for (const MixedCell& cell : cells_) {
       if (is_convex(patch_, cell)) continue;
       for (int k = 0; k < corners_of(cell); ++k)
         if (patch_.uv[cell[k]] != before_[cell[k]]) patch_.uv[cell[k]] = before_[cell[k]], any = true;
@@ -95,7 +104,8 @@ class Smoothing {
   QuadPatch& patch_;
   const QuadSmoothing& how_;
   Monitor& monitor_;
-  std::vector<Chart> charts_;  // by cell; they stay while vertices move
+  std::vector<MixedCell> cells_;  // with a vertex that may move
+  std::vector<Chart> charts_;     // of these; they stay while vertices move
   std::vector<Vec2> sum_, before_;
   std::vector<double> count_;
 };
@@ -122,7 +132,7 @@ class Worst {
   std::vector<std::int32_t> corners_of_bad() const {
     std::vector<std::pair<double, std::int32_t>> bad;
     for (std::size_t c = 0; c < patch_.cells.size(); ++c)
-      if (const double q = cell_quality(patch_, charts_, patch_.cells[c]); q < good_)
+      if (const double q = untangling_quality(patch_, charts_.about(patch_, patch_.cells[c]), patch_.cells[c]); q < good_)
         bad.emplace_back(q, static_cast<std::int32_t>(c));
     std::sort(bad.begin(), bad.end());
     std::vector<std::int32_t> corners;
@@ -136,8 +146,7 @@ class Worst {
   double worst_around(double enough) const {
     double worst = good_;
     for (const auto& [c, chart] : star_) {
-      if (!is_convex(patch_, patch_.cells[c])) return -1;
-      worst = std::min(worst, cell_quality(patch_, chart, patch_.cells[c]));
+      worst = std::min(worst, untangling_quality(patch_, chart, patch_.cells[c]));
       if (worst < enough) break;
     }
     return worst;
@@ -146,7 +155,7 @@ class Worst {
   bool improve(std::int32_t v) {
     star_.clear();
     for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, charts_.about(patch_, patch_.cells[c]));
-    const double start = worst_around(-1);
+    const double start = worst_around(-2);
     if (start >= good_) return false;
     const Vec2 home = patch_.uv[v];
     const Chart chart = charts_.about(home);

@@ -1,17 +1,21 @@
 // Vertices of quadrilaterals moved in the parameter plane.
 #pragma once
 
+#include <span>
+
 #include "support/monitor.h"
 #include "surface/quads/quad_patch.h"
 
 namespace carreau {
 
 struct QuadSmoothing {
-  int passes = 5;
-  double share = 1;   ///< of the way to the mean of the places that cells propose
-  double pull = 0.3;  ///< 0: cells keep their size; 1: they propose that of unit edges
+  int passes = 10;
+  double share = 1.4;   ///< of the way to the mean of the places that cells propose
+  double pull = 0.1;  ///< 0: cells keep their size; 1: they propose that of unit edges
   /// Length of edges wanted, in the metric.
   double unit = 1;
+  /// By vertex: which may move; empty: all that are not fixed.
+  std::span<const char> moving = {};
 };
 
 /// Each cell proposes to its corners those of the square (a triangle: of the equilateral triangle) that fits it best in

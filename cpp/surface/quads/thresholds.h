@@ -20,6 +20,8 @@ inline constexpr double turns_per_edge = 2;
 inline constexpr double pair_bonus = 0.7;
 /// Triangles on an alternating path or circle.
 inline constexpr std::size_t longest_path = 10;
+/// Of weights, which are looked at in turn.
+inline constexpr std::size_t weight_classes = 4096;
 /// Share of the heaviest pair's weight. Triangles of such pairs start no search.
 inline constexpr double content = 0.92;
 /// Least gain that counts, more than rounding.
@@ -41,8 +43,25 @@ inline constexpr double first_step = 0.2, last_step = 0.02;
 inline constexpr int worst_passes = 5;
 
 
+// In space (space_search)
+/// Scaled Jacobian: sine of the worst angle. Worse quadrilaterals are moved in space: angles of 37 and 143 degrees.
+inline constexpr double poor_jacobian = 0.6;
+/// The same where sizes differ by direction, and right angles of the metric need not be right in space.
+inline constexpr double poor_jacobian_in_metric = 0.01;
+/// The same below which two triangles are better: angles of 12 and 168 degrees.
+inline constexpr double least_jacobian = 0.2;
+
+// Walks of triangles
+/// Cells from a triangle to another one.
+inline constexpr int longest_walk = 8;
+/// Quality of the cells that it leaves behind, for smoothing to mend.
+inline constexpr double least_on_walk = 0.15;
+inline constexpr int walk_passes = 3;
+
 // Clean-up
 inline constexpr int cleanup_passes = 6;
+/// Of smoothing around changes, before the next pass.
+inline constexpr int passes_after_changes = 3;
 /// Quality. Changes of the topology may leave so poor cells for smoothing to mend.
 inline constexpr double least_after_change = 0.15;
 /// Metric length of edges that a change makes.

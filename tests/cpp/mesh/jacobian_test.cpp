@@ -44,7 +44,7 @@ Vec3 value_at(CellKind kind, const Jacobian& j, double s, double t) {
     return r * r * j.c[0] + s * s * j.c[1] + t * t * j.c[2] + 2 * (r * s * j.c[3] + s * t * j.c[4] + t * r * j.c[5]);
   // Straight quadrilaterals: corners in their order.
   if (kind == CellKind::quad4)
-    return (1 - s) * ((1 - t) * j.c[0] + t * j.c[1]) + s * ((1 - t) * j.c[3] + t * j.c[2]);
+    return (1 - t) * ((1 - s) * j.c[0] + s * j.c[1]) + t * ((1 - s) * j.c[3] + s * j.c[2]);
   Vec3 sum{0, 0, 0};
   for (int a = 0; a <= 3; ++a)
     for (int b = 0; b <= 3; ++b)

@@ -74,7 +74,9 @@ TEST(QuadCleanup, TurnsAnEdgeBack) {
   clean_up(patch, FaceCharts(space), no_edge, monitor);
   const std::vector<int> degree = degrees(patch);
   for (std::size_t v = 0; v < degree.size(); ++v)
-    if (patch.fixed[v] == 0) EXPECT_EQ(degree[v], 4) << v;
+    if (patch.fixed[v] == 0) {
+      EXPECT_EQ(degree[v], 4) << v;
+    }
   EXPECT_NEAR(area(patch), 16, 1e-12);
 }
 

@@ -100,10 +100,13 @@ TEST(Quadrilaterals, OfThePlateAreGood) {
       EXPECT_GE(f.worst, 0.35) << element << " " << h;
       EXPECT_GT(f.jacobian, 0) << element << " " << h;
       EXPECT_LE(f.triangle_area, 0.05 * f.area) << element << " " << h;
-      if (element == "q1.1") EXPECT_EQ(f.triangles, 0U);
+      if (element == "q1.1") {
+        EXPECT_EQ(f.triangles, 0U);
+      }
       EXPECT_EQ(euler(mesh), 1);
       const double exact = 1 - std::numbers::pi / 16;
-      EXPECT_NEAR(f.area, exact, 0.1 * h * h) << element << " " << h;
+      // Chords of length h cut a segment of area h^3 / (12 r) off the arc of length pi r / 2.
+      EXPECT_NEAR(f.area, exact, 1.2 * std::numbers::pi / 24 * h * h) << element << " " << h;
       const auto wanted = exact / (h * h);
       EXPECT_NEAR(static_cast<double>(f.quads) + 0.5 * static_cast<double>(f.triangles), wanted, 0.35 * wanted)
           << element << " " << h;
@@ -130,7 +133,9 @@ TEST(Quadrilaterals, LieOnCurvedSurfaces) {
       EXPECT_GE(f.mean, 0.8) << element;
       EXPECT_LE(f.triangle_area, 0.05 * f.area) << element;
       EXPECT_EQ(euler(mesh), 1) << element;
-      if (element == "q1.1") EXPECT_EQ(f.triangles, 0U);
+      if (element == "q1.1") {
+        EXPECT_EQ(f.triangles, 0U);
+      }
     }
 }
 

@@ -50,7 +50,9 @@ TEST(QuadSmoothing, LeavesAllCellsConvexAndTheBorderWhereItIs) {
     for (const MixedCell& cell : patch.cells) EXPECT_TRUE(is_convex(patch, cell));
   }
   for (std::size_t v = 0; v < patch.uv.size(); ++v)
-    if (patch.fixed[v] != 0) EXPECT_EQ(patch.uv[v], before.uv[v]);
+    if (patch.fixed[v] != 0) {
+      EXPECT_EQ(patch.uv[v], before.uv[v]);
+    }
 }
 
 TEST(QuadSmoothing, RaisesTheWorstCells) {

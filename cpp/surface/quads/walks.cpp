@@ -1,0 +1,157 @@
+#include "surface/quads/walks.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "support/incidence.h"
+#include "surface/quads/quad_shape.h"
+#include "surface/quads/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::quads;
+constexpr MixedCell none{-1, -1, -1, -1};
+
+class Walks {
+ public:
+  Walks(QuadPatch& patch, const FaceCharts& charts, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
+        Monitor& monitor)
+      : patch_(patch),
+        charts_(charts),
+        is_imposed_(is_imposed),
+        monitor_(monitor),
+        around_(patch.uv.size(), closed(patch.cells)),
+        met_(patch.cells.size(), -1),
+        from_(patch.cells.size(), -1),
+        touched_(patch.cells.size(), 0) {}
+
+  /// How many pairs have met.
+  int run() {
+    int pairs = 0;
+    for (std::int32_t c = 0, n = static_cast<std::int32_t>(patch_.cells.size()); c < n; ++c) {
+      if (corners_of(patch_.cells[c]) == 4 || touched_[c] != 0) continue;
+      monitor_.checkpoint();
+      if (walk_to_another(c)) ++pairs;
+    }
+    std::erase(patch_.cells, none);
+    return pairs;
+  }
+
+ private:
+  using Side = std::pair<std::int32_t, std::int32_t>;
+  static std::vector<MixedCell> closed(std::vector<MixedCell> cells) {
+    for (MixedCell& cell : cells)
+      if (cell[3] < 0) cell[3] = cell[0];
+    return cells;
+  }
+
+  // From c to the nearest other triangle, through cells that no walk has met.
+  bool walk_to_another(std::int32_t c) {
+    std::vector<std::int32_t> ring{c};
+    met_[c] = c, from_[c] = -1;
+    for (int length = 0; length < longest_walk && !ring.empty(); ++length) {
+      std::vector<std::int32_t> next;
+      for (const std::int32_t x : ring)
+        for (int k = 0, n = corners_of(patch_.cells[x]); k < n; ++k) {
+          const std::optional<std::int32_t> y = beyond(x, patch_.cells[x][k], patch_.cells[x][(k + 1) % n]);
+          if (!y || met_[*y] == c || touched_[*y] != 0) continue;
+          met_[*y] = c, from_[*y] = x;
+          if (corners_of(patch_.cells[*y]) == 3) return walk(way_to(*y));
+          next.push_back(*y);
+        }
+      ring = std::move(next);
+    }
+    return false;
+  }
+  [[nodiscard]] std::vector<std::int32_t> way_to(std::int32_t last) const {
+    std::vector<std::int32_t> way;
+    for (std::int32_t x = last; x >= 0; x = from_[x]) way.push_back(x);
+    std::reverse(way.begin(), way.end());
+    return way;
+  }
+
+  // The cell beyond the side from a to b of x, unless the edge is imposed.
+  [[nodiscard]] std::optional<std::int32_t> beyond(std::int32_t x, std::int32_t a, std::int32_t b) const {
+    for (const std::int32_t y : around_.of(a))
+      if (y != x && side_of(patch_.cells[y], {b, a}) >= 0) return is_imposed_(a, b) ? std::nullopt : std::optional(y);
+    return {};
+  }
+  static int side_of(const MixedCell& cell, const Side& side) {
+    for (int k = 0, n = corners_of(cell); k < n; ++k)
+      if (cell[k] == side.first && cell[(k + 1) % n] == side.second) return k;
+    return -1;
+  }
+  // The side of `cell` whose other side is one of `other`; -1: they have none in common.
+  static int common_side(const MixedCell& cell, const MixedCell& other) {
+    for (int k = 0, n = corners_of(cell); k < n; ++k)
+      if (side_of(other, {cell[(k + 1) % n], cell[k]}) >= 0) return k;
+    return -1;
+  }
+
+  [[nodiscard]] double quality(const MixedCell& cell) const {
+    return is_convex(patch_, cell) ? cell_quality(patch_, charts_, cell) : 0;
+  }
+
+  bool walk(const std::vector<std::int32_t>& way) {
+    MixedCell triangle = patch_.cells[way.front()];
+    std::vector<MixedCell> now;
+    for (std::size_t k = 1; k + 1 < way.size(); ++k) {
+      const std::optional<MixedCell> quad = pass(patch_.cells[way[k]], patch_.cells[way[k + 1]], triangle);
+      if (!quad) return false;
+      now.push_back(*quad);
+    }
+    const MixedCell& last = patch_.cells[way.back()];
+    const int side = common_side(triangle, last);
+    if (side < 0) return false;
+    const int apex = common_side(last, triangle);
+    const MixedCell joined{triangle[side], last[(apex + 2) % 3], triangle[(side + 1) % 3], triangle[(side + 2) % 3]};
+    if (joined[1] == joined[3] || quality(joined) < least_on_walk) return false;
+    now.push_back(joined);
+    for (const std::int32_t c : way) touched_[c] = 1, patch_.cells[c] = none;
+    for (std::size_t k = 0; k < now.size(); ++k) patch_.cells[way[k]] = now[k];
+    return true;
+  }
+
+  // The triangle passes through `quad` to the side that this has in common with `next`. What stays behind.
+  [[nodiscard]] std::optional<MixedCell> pass(const MixedCell& quad, const MixedCell& next, MixedCell& triangle) const {
+    const int in = common_side(quad, triangle), apex = common_side(triangle, quad);
+    if (in < 0) return {};
+    // Counterclockwise from the end of that side.
+    const std::array<std::int32_t, 5> p{quad[(in + 1) % 4], quad[(in + 2) % 4], quad[(in + 3) % 4], quad[in],
+                                        triangle[(apex + 2) % 3]};
+    if (std::find(p.begin(), p.begin() + 4, p[4]) != p.begin() + 4) return {};
+    std::optional<MixedCell> behind;
+    double best = least_on_walk;
+    for (int out = 0; out < 3; ++out) {
+      if (side_of(next, {p[out + 1], p[out]}) < 0) continue;
+      for (const int s : {out, (out + 4) % 5}) {  // first corner of the triangle: that side is its first or second
+        const MixedCell t{p[s], p[(s + 1) % 5], p[(s + 2) % 5], -1};
+        const MixedCell q{p[s], p[(s + 2) % 5], p[(s + 3) % 5], p[(s + 4) % 5]};
+        const double least = std::min(quality(t), quality(q));
+        if (least > best) best = least, behind = q, triangle = t;
+      }
+    }
+    return behind;
+  }
+
+  QuadPatch& patch_;
+  const FaceCharts& charts_;
+  const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
+  Monitor& monitor_;
+  Incidence around_;
+  std::vector<std::int32_t> met_, from_;  // by cell: of the search from a triangle
+  std::vector<char> touched_;             // by cell
+};
+
+}  // namespace
+
+void join_triangles(QuadPatch& patch, const FaceCharts& charts,
+                    const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
+  for (int pass = 0; pass < walk_passes; ++pass)
+    if (Walks(patch, charts, is_imposed, monitor).run() == 0) break;
+}
+
+}  // namespace carreau
