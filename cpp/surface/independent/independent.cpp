@@ -119,14 +119,19 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
                        CompositeResult& result, Monitor& monitor) {
   Frame frame = frame_of(model, options.sharp_angle, result, monitor);
   const SurfaceTolerances tolerances = tolerances_of(options);
-  const std::int64_t known = crossings(result.mesh, options.threads, monitor).count;
+  // Those of the mesh before, when somebody has to know.
+  auto known = [&, count = result.report.crossings]() mutable {
+    return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;
+  };
   FreedMesh made;
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    monitor.checkpoint();
     made = freed(model, curves, tolerances, result, frame, monitor);
     const Intersections found = crossings(made.mesh, options.threads, monitor);
-    if (found.count <= known) {
+    if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);
+      if (why.empty() && result.report.crossings >= 0) result.report.crossings = found.count;
       break;
     }
     guard(found, made, *frame.charts);
