@@ -129,9 +129,11 @@ class Transfer {
     std::map<int, const FaceMesh*> old_faces;
     for (const FaceMesh& face : from_.faces)
       if (!face.triangles.empty()) old_faces.emplace(face.ref, &face);
+    // Triangles of independent meshes may be none of (u, v): their vertices are looked up in space.
+    const bool by_faces = !from_.independent && !to_.independent;
     for (const FaceMesh& face : to_.faces) {
       const auto old = old_faces.find(face.ref);
-      if (old == old_faces.end()) continue;
+      if (old == old_faces.end() || !by_faces) continue;
       Piece piece = piece_of(*old->second);
       const Neighbourhood space(from_.vertices, piece.carriers);
       for (std::size_t i = 0; i < face.vertex.size(); ++i)

@@ -160,6 +160,7 @@ struct FieldImage::State {
 
   void probe();
   void choose_grid(double length_u, double length_v);
+  std::span<const std::array<std::int32_t, 3>> own_triangles();
   void make_rasters();
   std::shared_ptr<Block> sample(int first, int rows);
   void paint(const Block& block, std::span<ExrPlane> planes) const;
@@ -178,6 +179,7 @@ struct FieldImage::State {
   PixelGrid grid;
   std::optional<DomainRaster> domain;
   std::optional<TriangleRaster> triangles;
+  std::vector<std::array<std::int32_t, 3>> own;  // of a mesh that is independent of its patches
   std::optional<LineRaster> curves;
   double smallest = 0, largest = 0;  // sizes at the ends of the scale of colours
 };
@@ -232,10 +234,19 @@ void FieldImage::State::choose_grid(double length_u, double length_v) {
   grid = grid_of(source.shape, width, height);
 }
 
+// Triangles whose corners are of several charts are points here, and keep their numbers.
+std::span<const std::array<std::int32_t, 3>> FieldImage::State::own_triangles() {
+  if (source.mesh->spread.empty()) return source.mesh->triangles;
+  own = source.mesh->triangles;
+  for (std::size_t t = 0; t < own.size(); ++t)
+    if (source.mesh->is_spread(t)) own[t] = {own[t][0], own[t][0], own[t][0]};
+  return own;
+}
+
 void FieldImage::State::make_rasters() {
   domain.emplace(source.shape.loops, grid);
   if (source.mesh != nullptr && (has(field_triangle) || has(field_deviation) || has(field_preview)))
-    triangles.emplace(source.mesh->uv, source.mesh->triangles, grid);
+    triangles.emplace(source.mesh->uv, own_triangles(), grid);
   if (has(field_preview)) curves.emplace(source.shape.lines, curve_width, grid);
 }
 

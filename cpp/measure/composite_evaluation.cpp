@@ -34,6 +34,7 @@ MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, 
     measure.spaces = result.spaces;
     measure.length_ratio_limit = adjacent_lengths * options.gradation;
   }
+  measure.atlas = {result.atlas.get(), result.feet};
   return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
 }
 

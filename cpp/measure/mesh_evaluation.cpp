@@ -81,6 +81,7 @@ class Measurement {
         options_(options),
         monitor_(monitor),
         gauss_(gauss_rule(options.gauss_points)),
+        cad_(cad),
         sampler_(cad, prescribed, monitor),
         edges_(result_.edges) {}
 
@@ -104,6 +105,7 @@ class Measurement {
       if (!face_->triangles.empty()) measure_face();
       first_ += face_->triangles.size();
     }
+    measure_spread();
     share_deviations();
     compare_lengths();
     return std::move(result_);
@@ -148,11 +150,32 @@ class Measurement {
     const std::vector<Vec2>& uv = face_->uv;
     normal_.assign(uv.size(), std::nullopt);
     at_vertex_.resize(uv.size());
-    sampler_.run(face_index_, face_->ref, want_first, uv,
-                 [&](std::size_t v, const SurfaceJet& jet, const Metric2& metric) {
-                   normal_[v] = unit_normal(jet);
-                   at_vertex_[v] = {jet.su, jet.sv, metric};
-                 });
+    if (face_->uv_face.empty()) {
+      sampler_.run(face_index_, face_->ref, want_first, uv,
+                   [&](std::size_t v, const SurfaceJet& jet, const Metric2& metric) { set_vertex(v, jet, metric); });
+      return;
+    }
+    // Each in the face that it is of.
+    std::vector<std::int32_t> faces = face_->uv_face;
+    std::ranges::sort(faces);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    for (const std::int32_t f : faces) {
+      std::vector<std::size_t> locals;
+      std::vector<Vec2> here;
+      for (std::size_t v = 0; v < uv.size(); ++v)
+        if (face_->uv_face[v] == f) locals.push_back(v), here.push_back(uv[v]);
+      sampler_.run(f, mesh_.faces[f].ref, want_first, here,
+                   [&](std::size_t k, const SurfaceJet& jet, const Metric2& metric) {
+                     set_vertex(locals[k], jet, metric);
+                   });
+    }
+    for (std::size_t v = 0; v < uv.size(); ++v)
+      if (normal_[v] && options_.atlas.is_turned(face_index_, options_.atlas.feet[face_index_][v])) normal_[v] = -*normal_[v];
+  }
+
+  void set_vertex(std::size_t v, const SurfaceJet& jet, const Metric2& metric) {
+    normal_[v] = unit_normal(jet);
+    at_vertex_[v] = {jet.su, jet.sv, metric};
   }
 
   // The size that is prescribed along d at a vertex; NaN at a singular one.
@@ -170,12 +193,12 @@ class Measurement {
   }
 
   // Sizes at the ends of an edge that lies on a curve, when they are known.
-  [[nodiscard]] std::optional<std::array<double, 2>> curve_sizes(std::int32_t edge, std::int32_t a) const {
+  [[nodiscard]] std::optional<std::array<double, 2>> curve_sizes(std::int32_t edge, std::int32_t from) const {
     if (edges_.segment[edge] < 0 || options_.curve_size.empty()) return {};
     const auto [curve, rank] = edges_.segments[edges_.segment[edge]];
     const std::vector<double>& size = options_.curve_size[curve];
     if (size.size() < static_cast<std::size_t>(rank) + 2 || !(size[rank] > 0) || !(size[rank + 1] > 0)) return {};
-    if (mesh_.curves[curve].vertices[rank] == face_->vertex[a]) return std::array{size[rank], size[rank + 1]};
+    if (mesh_.curves[curve].vertices[rank] == from) return std::array{size[rank], size[rank + 1]};
     return std::array{size[rank + 1], size[rank]};
   }
 
@@ -221,9 +244,9 @@ class Measurement {
         const std::int32_t edge = edges_.of_triangle[first_ + t][i];
         const bool measured = edges_.names[first_ + t][i] != 0;
         raise_edge_angle(edge, a, b);
-        note_lengths(a, b);
-        note_lengths(b, a);
-        if (!measured && edges_.segment[edge] < 0) continue;
+        note_lengths(t, a, b);
+        note_lengths(t, b, a);
+        if (face_->is_spread(t) || (!measured && edges_.segment[edge] < 0)) continue;
         const auto [from, to] = ends(a, b);
         own.push_back({first_ + t, edge, a, b, measured, from, to});
       }
@@ -247,7 +270,7 @@ class Measurement {
                      raise_deviation(o.triangle, jet.s);
                    if (!o.measured) return;
                    double speed = length(metric, d);
-                   if (const auto h = curve_sizes(o.edge, o.a))
+                   if (const auto h = curve_sizes(o.edge, face_->vertex[o.a]))
                      speed = norm(d.x() * jet.su + d.y() * jet.sv) /
                              interpolate_size(options_.law, (*h)[0], (*h)[1], gauss_.node[k % n]);
                    of(EvaluationKind::length)[o.edge] += gauss_.weight[k % n] * speed;
@@ -268,10 +291,13 @@ class Measurement {
   }
 
   // What an edge adds to the comparison at its end `a`.
-  void note_lengths(std::int32_t a, std::int32_t b) {
+  void note_lengths(std::size_t t, std::int32_t a, std::int32_t b) {
     double l = norm(position(b) - position(a));
     // At a singular vertex directions of (u, v) are none of space: lengths as they are.
-    const double stretch = normal_[a] ? geometric_mean_size(a) / size_along(a, face_->uv[b] - face_->uv[a]) : 1;
+    const auto along = [&]() -> Vec2 {
+      return face_->is_spread(t) ? offset_along(a, position(b) - position(a)) : Vec2(face_->uv[b] - face_->uv[a]);
+    };
+    const double stretch = normal_[a] ? geometric_mean_size(a) / size_along(a, along()) : 1;
     if (stretch > 0 && std::isfinite(stretch)) l *= stretch;
     const std::int32_t v = face_->vertex[a];
     shortest_[v] = std::min(shortest_[v], l);
@@ -297,7 +323,7 @@ class Measurement {
     const Vec3 chord = position(b) - position(a);
     const Vec2 at_a = offset_along(a, chord), at_b = offset_along(b, chord);
     double p = size_along(a, at_a), q = size_along(b, at_b), l = of(EvaluationKind::length)[edge];
-    if (const auto h = curve_sizes(edge, a)) {
+    if (const auto h = curve_sizes(edge, face_->vertex[a])) {
       p = (*h)[0], q = (*h)[1];
     } else if (const ControlSpace* space = governing_space()) {
       p = size_along(a, at_a, space->at(from)), q = size_along(b, at_b, space->at(to));
@@ -311,14 +337,17 @@ class Measurement {
     static const std::array<Barycentric, 7> rule = triangle_rule();
     std::vector<Vec2> uv;
     uv.reserve(rule.size() * face_->triangles.size());
+    std::vector<std::size_t> plain;  // triangles of (u, v)
     for (std::size_t t = 0; t < face_->triangles.size(); ++t) {
+      if (face_->is_spread(t)) continue;
+      plain.push_back(t);
       const std::array<Vec2, 3> p = places(t);
       for (const Barycentric& w : rule) uv.push_back(w.a * p[0] + w.b * p[1] + w.c * p[2]);
     }
     for (std::size_t t = 0; t < face_->triangles.size(); ++t) start_triangle(t);
     sampler_.run(face_index_, face_->ref, want_position | want_first, uv,
                  [&](std::size_t k, const SurfaceJet& jet, const Metric2& metric) {
-                   const std::size_t t = k / rule.size(), place = first_ + t;
+                   const std::size_t t = plain[k / rule.size()], place = first_ + t;
                    const std::array<Vec3, 3> p = corners(t);
                    raise_deviation(place, jet.s);
                    raise_angle(place, p, unit_normal(jet));
@@ -326,7 +355,75 @@ class Measurement {
                    of(EvaluationKind::metric_quality)[place] +=
                        rule[k % rule.size()].weight * std::sqrt(std::max(determinant(metric), 0.0));
                  });
-    for (std::size_t t = 0; t < face_->triangles.size(); ++t) finish_quality(t);
+    for (const std::size_t t : plain) finish_quality(t);
+  }
+
+  // Triangles whose corners are of several charts: over their places in space.
+  void measure_spread() {
+    if (options_.atlas.charts == nullptr) return;
+    static const std::array<Barycentric, 7> rule = triangle_rule();
+    std::vector<std::array<double, 3>> weights;
+    for (const Barycentric& w : rule) weights.push_back({w.a, w.b, w.c});
+    const std::vector<SpreadSample> samples =
+        spread_samples(mesh_, options_.atlas, cad_, gauss_.node, weights, monitor_);
+    for (std::size_t k = 0, n = 0; k < samples.size(); k += n) {
+      for (n = 1; k + n < samples.size() && samples[k + n].face == samples[k].face;) ++n;
+      const std::span<const SpreadSample> here = std::span(samples).subspan(k, n);
+      if (here.front().face < 0) {
+        for (const SpreadSample& s : here) note_above(s, s.flat);
+        continue;
+      }
+      std::vector<Vec2> uv;
+      for (const SpreadSample& s : here) uv.push_back(s.uv);
+      sampler_.run(here.front().face, mesh_.faces[here.front().face].ref, want_position | want_first, uv,
+                   [&](std::size_t i, const SurfaceJet& jet, const Metric2& metric) { note(here[i], jet, metric); });
+    }
+    std::size_t last = samples.size();
+    for (const SpreadSample& s : samples)
+      if (s.triangle != last) finish_by_lengths(last = s.triangle);
+  }
+
+  void note_above(const SpreadSample& s, const Vec3& p) {
+    if (s.side < 0) return raise_deviation(s.triangle, p);
+    const std::int32_t edge = edges_.of_triangle[s.triangle][s.side];
+    if (edges_.segment[edge] >= 0) return raise_deviation(s.triangle, p);
+    if (edges_.names[s.triangle][s.side] != 0)
+      above_[static_cast<std::size_t>(edge) * gauss_.node.size() + static_cast<std::size_t>(s.rank)] = p;
+  }
+
+  void note(const SpreadSample& s, const SurfaceJet& jet, const Metric2& metric) {
+    note_above(s, jet.s);
+    const auto& c = triangle_[s.triangle];
+    const std::array<Vec3, 3> p{mesh_.vertices[c[0]], mesh_.vertices[c[1]], mesh_.vertices[c[2]]};
+    if (s.side < 0) {
+      auto normal = unit_normal(jet);
+      if (normal && s.turned) normal = -*normal;
+      return raise_angle(s.triangle, p, normal);
+    }
+    if (edges_.names[s.triangle][s.side] == 0) return;
+    const Vec3 chord = p[(s.side + 1) % 3] - p[s.side];
+    const double l = norm(chord);
+    double size = 0;
+    const std::int32_t edge = edges_.of_triangle[s.triangle][s.side];
+    if (const auto h = curve_sizes(edge, c[s.side])) {
+      size = interpolate_size(options_.law, (*h)[0], (*h)[1], gauss_.node[s.rank]);
+    } else {
+      const double e = dot(jet.su, jet.su), f = dot(jet.su, jet.sv), g = dot(jet.sv, jet.sv);
+      const double x = dot(jet.su, chord), y = dot(jet.sv, chord);
+      const Vec2 way{g * x - f * y, e * y - f * x};
+      size = norm(way.x() * jet.su + way.y() * jet.sv) / length(metric, way);
+    }
+    of(EvaluationKind::length)[edge] += gauss_.weight[s.rank] * l / size;
+  }
+
+  // Heron's formula.
+  void finish_by_lengths(std::size_t place) {
+    std::array<double, 3> l{};
+    for (std::size_t i = 0; i < 3; ++i) l[i] = of(EvaluationKind::length)[edges_.of_triangle[place][i]];
+    const double s = (l[0] + l[1] + l[2]) / 2, squares = l[0] * l[0] + l[1] * l[1] + l[2] * l[2];
+    const double area = std::sqrt(std::max(0.0, s * (s - l[0]) * (s - l[1]) * (s - l[2])));
+    of(EvaluationKind::metric_quality)[place] =
+        squares > 0 ? std::min(1.0, 4 * std::numbers::sqrt3 * area / squares) : 0;
   }
 
   // The image of a triangle of (u, v) may reach beyond the triangle in space, by much at a pole: what lies there is
@@ -412,6 +509,7 @@ class Measurement {
   const EvaluationOptions& options_;
   Monitor& monitor_;
   GaussRule gauss_;
+  Cad& cad_;
   Sampler sampler_;
   MeshEvaluation result_;
   MeshEdges& edges_;

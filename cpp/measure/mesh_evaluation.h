@@ -12,6 +12,7 @@
 #include "cad/cad.h"
 #include "control_space/control_space.h"
 #include "measure/mesh_edges.h"
+#include "measure/spread_samples.h"
 #include "mesh/surface_mesh.h"
 #include "metric/metric2.h"
 #include "size/size_law.h"
@@ -91,6 +92,9 @@ struct EvaluationOptions {
   SizeLaw law = SizeLaw::linear;
   /// [face]: the fields that governed the mesh, on which a gradation is to hold; may be empty.
   std::span<const std::optional<ControlSpace>> spaces = {};
+  /// Of a mesh that is independent of its patches. Triangles whose corners are of several charts are sampled over their
+  /// places in space; gradations of their edges are not measured.
+  SpreadAtlas atlas = {};
 };
 
 /// Values counted in classes: class i holds bound[i] <= x < bound[i + 1]; the first bound is -infinity, the last one

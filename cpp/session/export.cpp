@@ -60,9 +60,10 @@ class FaceAppender {
     if (!goes_on) flat_.faces.push_back(whole_of(face.shown_ref()));
     if (of_cells_)
       for (const Cell& cell : local_cells(face)) append_cell(face, cell);
-    for (const auto& t : face.triangles) {
-      append_triangle(face, t);
-      triangle_source_.push_back(static_cast<std::int64_t>(first++));
+    for (std::size_t t = 0; t < face.triangles.size(); ++t, ++first) {
+      if (plane_ && face.is_spread(t)) continue;  // no triangle of (u, v)
+      append_triangle(face, face.triangles[t]);
+      triangle_source_.push_back(static_cast<std::int64_t>(first));
     }
     if (plane_ && !of_cells_)
       for (const auto& t : face.flattened) append_triangle(face, t);

@@ -69,7 +69,10 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   };
   mesh();
   part_crossing_triangles(run, mesh);
-  if (options.independent) free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
+  if (options.independent && run.rules.uses_metrics())
+    run.say(Level::warning, "the mesh stays as its patches made it: sizes may differ by direction");
+  else if (options.independent)
+    free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
   make_elements(run, mesh);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);

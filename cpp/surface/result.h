@@ -13,6 +13,8 @@
 
 namespace carreau {
 
+class Charts;
+
 /// What a run did, besides the mesh.
 struct CompositeReport {
   CallCounts calls;
@@ -41,6 +43,10 @@ struct CompositeResult {
   std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
   /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
   std::vector<std::vector<double>> curve_size;
+  /// Of a mesh that is independent of its patches: the one before, and [face][local vertex] a triangle of it which has
+  /// its (u, v). Null and empty: of another mesh.
+  std::shared_ptr<const Charts> atlas;
+  std::vector<std::vector<std::int32_t>> feet;
   std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
 };

@@ -103,6 +103,14 @@ class Mesh(unittest.TestCase):
         values = figures(self.mesh("sphere.step", "--angle", "1", "--min", "0.2"))
         self.assertAlmostEqual(float(values["edge length"].split()[-1]) / 0.2, 1, delta=0.06)
 
+    def test_an_independent_mesh_crosses_the_seam_of_a_sphere_and_stays_sound(self):
+        values = figures(self.mesh("sphere.step", "--size", "0.2", "--independent"), "--closed")
+        self.assertEqual((values["status"], values["defects"], values["faces"]), (0, "none", "1"))
+        path = self.mesh("cone.step", "--size", "0.2", "--independent", "--sharp-angle", "30")
+        self.assertEqual(figures(path, "--closed")["defects"], "none")
+        self.refused(os.path.join(SHAPES, "cone.step"), "-o", self.out("x.mesh"), "--sharp-angle", "30",
+                     sentence="--independent")
+
     def test_all_formats_appear_together(self):
         names = ["a.mesh", "a.meshb", "a.vtu", "a.stl", "a.msh", "a.msh2"]
         arguments = [word for name in names for word in ("-o", self.out(name))]

@@ -23,9 +23,9 @@ struct SideOf {
 
 }  // namespace
 
-Charts::Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size, Cad& cad,
+Charts::Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
                Monitor& monitor)
-    : xyz_(mesh.vertices), size_(size.begin(), size.end()), cad_(cad) {
+    : xyz_(mesh.vertices), size_(size.begin(), size.end()) {
   collect(mesh);
   guarded_.assign(triangles_.size(), 0);
   monitor.checkpoint();
@@ -143,8 +143,8 @@ SurfacePlace Charts::place(const Foot& f, const SurfaceJet& jet) const {
   return place;
 }
 
-SurfacePlace Charts::evaluate(const Foot& f) {
-  return place(f, surface_at(cad_, ref_[triangles_[f.triangle].face], want_position | want_first, f.uv));
+SurfacePlace Charts::evaluate(Cad& cad, const Foot& f) const {
+  return place(f, surface_at(cad, ref_[triangles_[f.triangle].face], want_position | want_first, f.uv));
 }
 
 // The same point of the edge in the chart on its other side.
@@ -182,7 +182,7 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to) const {
   return {};
 }
 
-std::optional<SurfacePlace> Charts::towards(const SurfacePlace& from, const Vec3& target) {
+std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, const Vec3& target) const {
   SurfacePlace at = from;
   const double first = norm(target - from.xyz);
   for (int step = 0; step < most_newton_steps; ++step) {
@@ -194,7 +194,7 @@ std::optional<SurfacePlace> Charts::towards(const SurfacePlace& from, const Vec3
     if (!is_finite(way)) return {};
     const Walk walked = walk(at.foot, at.foot.uv + way);
     if (walked.end == Walk::End::blocked) return {};
-    at = evaluate(walked.foot);
+    at = evaluate(cad, walked.foot);
     if (walked.end == Walk::End::border) continue;
     const Vec3 left = target - at.xyz, along = left - dot(left, at.normal) * at.normal;
     if (norm(along) <= near_enough * first) break;

@@ -31,8 +31,8 @@ struct SurfacePlace {
   bool regular = false;  ///< there is a normal
 };
 
-/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies the mesh; keeps a
-/// reference to `cad`.
+/// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies what it needs; safe from
+/// several threads.
 class Charts {
  public:
   struct Triangle {
@@ -45,7 +45,7 @@ class Charts {
 
   /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too, and
   /// those where no side is that of all neighbours (a Moebius strip), which become `twisted`.
-  Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size, Cad& cad,
+  Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
          Monitor& monitor);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
@@ -69,12 +69,12 @@ class Charts {
   /// The size there, linear between those of the vertices.
   [[nodiscard]] double size(const Foot& f) const;
   /// One evaluation.
-  [[nodiscard]] SurfacePlace evaluate(const Foot& f);
+  [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// What is known of it is enough: derivatives from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
   /// A place of the surface near `target`, by Gauss-Newton steps from `from`, which is regular. Empty where a barrier
   /// or a singular place is in the way.
-  [[nodiscard]] std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target);
+  [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target) const;
 
  private:
   struct Walk {
@@ -102,7 +102,6 @@ class Charts {
   std::vector<MeshEdge> twisted_;
   std::vector<BarrierSide> barrier_;  // by edge, ascending
   std::vector<char> guarded_;         // by triangle
-  Cad& cad_;
 };
 
 }  // namespace carreau

@@ -14,13 +14,14 @@ using namespace thresholds::independent;
 
 FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
                    std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners,
-                   const SurfaceTolerances& tolerances, Charts& charts)
+                   const SurfaceTolerances& tolerances, const Charts& charts, Cad& cad)
     : xyz_(mesh.vertices),
       size_(size.begin(), size.end()),
       several_(mesh.vertices.size(), -1),
       tolerances_(tolerances),
       cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
-      charts_(charts) {
+      charts_(charts),
+      cad_(cad) {
   std::int32_t kept = 0;
   const auto keep = [&](std::int32_t v) {
     if (several_[v] < 0) several_[v] = kept++;
@@ -131,7 +132,7 @@ std::optional<SurfacePlace> FreeMesh::near(std::int32_t v, const Vec3& normal, c
   if (several_[v] >= 0)
     for (const SurfacePlace& p : kept_places_[several_[v]])
       if (p.regular && (!from->regular || dot(p.normal, normal) > dot(from->normal, normal))) from = &p;
-  return charts_.towards(*from, target);
+  return charts_.towards(cad_, *from, target);
 }
 
 std::int32_t FreeMesh::try_vertex(const SurfacePlace& at) {

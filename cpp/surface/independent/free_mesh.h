@@ -27,7 +27,8 @@ struct TriangleShapes {
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 
-/// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`.
+/// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`
+/// and `cad`.
 class FreeMesh {
  public:
   using Place = EditableMesh::Place;
@@ -35,7 +36,7 @@ class FreeMesh {
 
   FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
            std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
-           Charts& charts);
+           const Charts& charts, Cad& cad);
   FreeMesh(const FreeMesh&) = delete;
   FreeMesh& operator=(const FreeMesh&) = delete;
 
@@ -76,7 +77,8 @@ class FreeMesh {
   /// The same of a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size);
 
-  Charts& charts() noexcept { return charts_; }
+  [[nodiscard]] const Charts& charts() const noexcept { return charts_; }
+  [[nodiscard]] Cad& cad() const noexcept { return cad_; }
 
  private:
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
@@ -92,7 +94,8 @@ class FreeMesh {
   std::vector<std::vector<SurfacePlace>> kept_places_;
   SurfaceTolerances tolerances_;
   double cosine_;  // of the angle that is tolerated
-  Charts& charts_;
+  const Charts& charts_;
+  Cad& cad_;
   std::optional<EditableMesh> mesh_;
 };
 

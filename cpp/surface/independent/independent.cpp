@@ -54,7 +54,7 @@ std::int64_t euler(const SurfaceMesh& mesh) {
 struct Frame {
   VertexJets jets;
   std::vector<MeshEdge> sharp;
-  std::unique_ptr<Charts> charts;
+  std::shared_ptr<Charts> charts;
   std::vector<std::int32_t> corners;
   std::vector<SharpLine> lines;
 };
@@ -64,7 +64,7 @@ Frame frame_of(const CurveModel& model, double angle, const CompositeResult& res
   Frame frame{.jets = evaluate_vertices(mesh, model.cad, monitor), .sharp = {}, .charts = {}, .corners = {}, .lines = {}};
   frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
   const auto link = [&] {
-    frame.charts = std::make_unique<Charts>(mesh, frame.sharp, result.vertex_size, model.cad, monitor);
+    frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, monitor);
   };
   link();
   if (const std::vector<MeshEdge> twisted = frame.charts->twisted(); !twisted.empty()) {
@@ -80,7 +80,8 @@ Frame frame_of(const CurveModel& model, double angle, const CompositeResult& res
 
 FreedMesh freed(const CurveModel& model, std::span<const DiscreteCurve> curves, const SurfaceTolerances& tolerances,
                 const CompositeResult& result, Frame& frame, Monitor& monitor) {
-  FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts);
+  FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts,
+                model.cad);
   std::vector<WorkedLine> worked;
   for (const SharpLine& line : frame.lines)
     worked.emplace_back(line, result.mesh, model, curves, *frame.charts, model.cad);
@@ -118,14 +119,19 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
                        CompositeResult& result, Monitor& monitor) {
   Frame frame = frame_of(model, options.sharp_angle, result, monitor);
   const SurfaceTolerances tolerances = tolerances_of(options);
-  const std::int64_t known = crossings(result.mesh, options.threads, monitor).count;
+  // Those of the mesh before, when somebody has to know.
+  auto known = [&, count = result.report.crossings]() mutable {
+    return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;
+  };
   FreedMesh made;
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    monitor.checkpoint();
     made = freed(model, curves, tolerances, result, frame, monitor);
     const Intersections found = crossings(made.mesh, options.threads, monitor);
-    if (found.count <= known) {
+    if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);
+      if (why.empty() && result.report.crossings >= 0) result.report.crossings = found.count;
       break;
     }
     guard(found, made, *frame.charts);
@@ -140,6 +146,8 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
   result.mesh = std::move(made.mesh);
   result.vertex_size = std::move(made.vertex_size);
   result.curve_size = std::move(made.curve_size);
+  result.atlas = std::move(frame.charts);
+  result.feet = std::move(made.feet);
 }
 
 }  // namespace carreau

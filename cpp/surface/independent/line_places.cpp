@@ -8,7 +8,7 @@
 namespace carreau {
 
 LinePlaces::LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
-                       std::span<const DiscreteCurve> known, Charts& charts, Cad& cad)
+                       std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad)
     : line_(line), mesh_(mesh), model_(model), known_(known), charts_(charts), cad_(cad) {
   arc_.push_back(0);
   for (std::size_t first = 0, last = 0; first < line.curve.size(); first = last) {

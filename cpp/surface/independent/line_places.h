@@ -21,7 +21,7 @@ class LinePlaces {
  public:
   /// `known`: the discrete curves by index in SurfaceMesh::curves.
   LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
-             std::span<const DiscreteCurve> known, Charts& charts, Cad& cad);
+             std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad);
 
   /// The line has curves whose vertices are where the discrete ones have them.
   [[nodiscard]] bool is_known() const noexcept { return arc_.size() == line_.vertices.size(); }
@@ -50,7 +50,7 @@ class LinePlaces {
   const SurfaceMesh& mesh_;
   const CurveModel& model_;
   std::span<const DiscreteCurve> known_;
-  Charts& charts_;
+  const Charts& charts_;
   Cad& cad_;
   std::vector<double> arc_;
   std::vector<Part> parts_;

@@ -141,7 +141,7 @@ class LineRemesher {
 }  // namespace
 
 WorkedLine::WorkedLine(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
-                       std::span<const DiscreteCurve> known, Charts& charts, Cad& cad)
+                       std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad)
     : places(line, mesh, model, known, charts, cad), closed(line.closed()) {
   if (places.is_known())
     for (std::size_t k = 0; k < line.vertices.size(); ++k) left.push_back({line.vertices[k], places.arcs()[k]});

@@ -31,7 +31,7 @@ struct WorkedLine {
 
   /// Arguments as for LinePlaces.
   WorkedLine(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
-             std::span<const DiscreteCurve> known, Charts& charts, Cad& cad);
+             std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad);
 };
 
 /// Collapses edges of lines until there are as many as their length in the prescribed metric wants (RR-2818 sec. 4.5),

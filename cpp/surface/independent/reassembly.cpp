@@ -126,7 +126,7 @@ class TrianglePlacer {
     for (const int i : order) {
       const SurfacePlace& from = mesh_.places(vertex_[i])[k[i]];
       if (!from.regular) continue;
-      if (auto place = mesh_.charts().towards(from, target)) return place;
+      if (auto place = mesh_.charts().towards(mesh_.cad(), from, target)) return place;
     }
     return {};
   }
@@ -176,6 +176,7 @@ class Reassembler {
   FreedMesh run(const std::vector<SharpLine>& lines, const std::vector<std::int32_t>& corners) {
     number_vertices(corners);
     place_triangles();
+    result_.feet.resize(before_.faces.size());
     for (std::size_t f = 0; f < before_.faces.size(); ++f) add_face(f);
     add_curves(lines);
     return std::move(result_);
@@ -225,6 +226,7 @@ class Reassembler {
                  "no triangle is left of the face: its neighbours' cover it within the tolerances";
       return;
     }
+    std::vector<std::int32_t>& feet = result_.feet[f];
     std::vector<Corner> locals;
     for (const PlacedTriangle& t : of_face_[f]) locals.insert(locals.end(), t.corners.begin(), t.corners.end());
     std::ranges::sort(locals);
@@ -234,6 +236,7 @@ class Reassembler {
       face.uv.push_back(p.foot.uv);
       face.vertex.push_back(number_[c.vertex]);
       face.uv_face.push_back(free_.charts().face(p.foot));
+      feet.push_back(p.foot.triangle);
     }
     for (const PlacedTriangle& t : of_face_[f]) {
       std::array<std::int32_t, 3> corners{};

@@ -14,6 +14,7 @@ struct FreedMesh {
   SurfaceMesh mesh;
   std::vector<double> vertex_size;
   std::vector<std::vector<double>> curve_size;  ///< by curve of the mesh
+  std::vector<std::vector<std::int32_t>> feet;  ///< [face][local vertex]: triangle of the atlas
 };
 
 /// A triangle belongs to the face of the foot of its centroid. Faces without a triangle are collapsed; edges of lines

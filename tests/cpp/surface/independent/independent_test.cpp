@@ -121,6 +121,30 @@ TEST(Independent, CornersKnowTheirPlacesOnTheSurface) {
   EXPECT_TRUE(several);
 }
 
+// On the unit sphere the surface is farthest from a triangle over its circumcentre, and the angle at its corners is the
+// largest: both in closed form.
+TEST(Independent, WhatIsDeliveredIsMeasuredAcrossBorders) {
+  Monitor quiet;
+  const auto session = meshed(sphere_of_triangles(1), 0.3, "independent", quiet);
+  const FlatMesh mesh = session->exported();
+  const MeshEvaluation& d = session->delivered();
+  ASSERT_EQ(d[EvaluationKind::deviation].values.size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const Vec3 a = mesh.vertices[i], b = mesh.vertices[j], c = mesh.vertices[k], n = cross(b - a, c - a);
+    const double height = std::abs(dot(a, n)) / norm(n);  // of its plane over the centre
+    EXPECT_NEAR(d[EvaluationKind::angle].values[t], std::acos(height) * 180 / std::numbers::pi, 1e-6);
+    EXPECT_LE(d[EvaluationKind::deviation].values[t], 1 - height + 1e-12);
+    EXPECT_GE(d[EvaluationKind::deviation].values[t], 0.8 * (1 - height));
+  }
+  for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
+    const auto& [i, j] = d.edges.vertices[e];
+    const double chord = norm(mesh.vertices[j] - mesh.vertices[i]), arc = 2 * std::asin(chord / 2);
+    EXPECT_GE(d[EvaluationKind::length].values[e], chord / 0.3 * (1 - 1e-9));
+    EXPECT_LE(d[EvaluationKind::length].values[e], arc / 0.3 * (1 + 1e-2));
+  }
+}
+
 TEST(Independent, MeshDoesNotDependOnThreads) {
   Monitor quiet;
   const AnalyticCad cad = sphere_of_triangles(1);

@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""Meshes files with `carreau mesh`, with and without --independent, and prints both side by side.
+
+    python3 tests/bench/trans_patch.py CARREAU FILE... [--share 2%]... [--repeat N] [--json FILE]
+
+One line a file, a size and a mesh:
+  ideal    triangles over those that are equilateral, of the size, and have the area of the mesh
+  range    share of edges with lengths in [1/sqrt 2, sqrt 2] in the prescribed metric, per cent
+  Q2       mean, first percentile, worst (HDR eq. 1.6)
+  A0, A1   largest distance over the size, largest angle in degrees, both measured on the surface
+  x        time of meshing over that without --independent, one thread, best of N runs
+  tri/s    triangles of the mesh a second of what --independent adds
+  evals    evaluations of surfaces a vertex
+Exit status 1 where a mesh with --independent has a defect, is open and was closed, or has more triangles that cross.
+"""
+import argparse
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+
+ROW = "{:30.30}{:>5} {:5}{:>8}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>6}{:>9}{:>7}"
+HEAD = ("file", "size", "mesh", "tri", "ideal", "range", "mean", "p1", "worst", "A0/h", "A1", "x", "tri/s", "evals")
+
+
+def run(program, path, share, options, out):
+    done = subprocess.run([program, "mesh", path, "--size", share, "--json", "--set", "threads=1", "-o", out, *options],
+                          capture_output=True, text=True, check=False)
+    return json.loads(done.stdout) if done.stdout else None
+
+
+def defects(program, out):
+    done = subprocess.run([program, "check", out], capture_output=True, text=True, check=False)
+    return done.returncode != 0
+
+
+def in_range(lengths):
+    bounds, counts = lengths["histogram"]["bounds"], lengths["histogram"]["counts"]
+    inside = sum(n for low, high, n in zip([-math.inf, *bounds], [*bounds, math.inf], counts)
+                 if low > 0.7071 and high < 1.4143)
+    return 100 * inside / lengths["count"]
+
+
+def figures(program, path, share, options, repeat, folder):
+    out = os.path.join(folder, "x.mesh")
+    seconds = math.inf
+    for _ in range(repeat):
+        plain = run(program, path, share, options, out)
+        if plain is None or "mesh" not in plain:
+            return None
+        seconds = min(seconds, plain["seconds"]["total"])
+    measured = run(program, path, share, [*options, "--set", "measure=1"], out)
+    size = float(share.rstrip("%")) / 100 * plain["diagonal"] if share.endswith("%") else float(share)
+    mesh, kinds = plain["mesh"], measured["delivered"]["measures"]
+    return {"triangles": mesh["triangles"], "ideal": mesh["triangles"] * math.sqrt(3) / 4 * size * size / mesh["area"],
+            "range": in_range(kinds["metric_length"]), "mean": mesh["q2_mean"], "p1": mesh["q2_p1"], "worst": mesh["q2_min"],
+            "a0": kinds["A0"]["max"] / size, "a1": kinds["A1"]["max"], "seconds": seconds,
+            "evaluations": sum(plain["calls"][k] for k in ("surf0", "surf1", "surf2")) / mesh["vertices"],
+            "closed": plain["closed"], "crossings": plain["intersections"]["pairs"], "defects": defects(program, out)}
+
+
+def print_row(name, share, mesh, f, before):
+    added = f["seconds"] - before["seconds"]
+    speed = f"{f['triangles'] / added:.0f}" if f is not before and added > 0 else ""
+    print(ROW.format(name, share, mesh, f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", f"{f['mean']:.4f}",
+                     f"{f['p1']:.3f}", f"{f['worst']:.3f}", f"{f['a0']:.3f}", f"{f['a1']:.1f}",
+                     f"{f['seconds'] / before['seconds']:.2f}", speed, f"{f['evaluations']:.1f}"), flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("files", nargs="+")
+    parser.add_argument("--share", action="append")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--json")
+    options = parser.parse_args()
+    print(ROW.format(*HEAD))
+    worse, results = False, {}
+    with tempfile.TemporaryDirectory() as folder:
+        for path in options.files:
+            for share in options.share or ["5%", "2%", "1%"]:
+                name = os.path.basename(path)
+                before = figures(options.program, path, share, [], options.repeat, folder)
+                after = figures(options.program, path, share, ["--independent"], options.repeat, folder)
+                if before is None or after is None:
+                    print(name, share, "not meshed")
+                    worse = worse or before is not None
+                    continue
+                print_row(name, share, "cut", before, before)
+                print_row(name, share, "free", after, before)
+                results[f"{name} {share}"] = {"cut": before, "free": after}
+                worse = worse or (after["defects"] and not before["defects"]) or (before["closed"] and not after["closed"]) \
+                    or after["crossings"] > before["crossings"]
+    if options.json:
+        with open(options.json, "w", encoding="utf-8") as file:
+            json.dump(results, file, indent=1)
+    return 1 if worse else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
