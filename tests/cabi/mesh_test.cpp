@@ -458,7 +458,7 @@ TEST_F(MeshFileTest, ExportsWhatTheParametersSay) {
 
 TEST_F(MeshFileTest, BadFilesHaveASentenceAndChangeNothing) {
   EXPECT_EQ(carreau_mesh_count(read, nullptr, nullptr, nullptr, nullptr), CARREAU_ERR_SEQUENCE);
-  EXPECT_EQ(read_error(), "the mesh is empty: call carreau_mesh_read first");
+  EXPECT_EQ(read_error(), "the mesh is empty: call carreau_mesh_read or carreau_mesh_from_arrays first");
   const std::string file = path + ".mesh";
   EXPECT_EQ(carreau_mesh_read(read, file.c_str()), CARREAU_ERR_FILE);
   EXPECT_NE(read_error().find(file), std::string::npos) << read_error();

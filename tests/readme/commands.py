@@ -130,7 +130,7 @@ def check_bowl(folder):
 
 def check_step(folder):
     """part.mesh of a program in a folder is closed and has no defect."""
-    run(f"carreau check '{os.path.join(folder, 'part.mesh')}' --closed")
+    run(f"P/bin/carreau check '{os.path.join(folder, 'part.mesh')}' --closed")
     os.remove(os.path.join(folder, "part.mesh"))
 
 
