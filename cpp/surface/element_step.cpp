@@ -34,8 +34,11 @@ QuadraticReport make_once(CompositeRun& run) {
   if (!is_quadratic(run.options.element)) return report;
   report = make_quadratic(work);
   // A few triangles are allowed: two stand for a quadrilateral that cannot be valid.
-  if (run.options.element != Element::q2_0 || !part_invalid_quads(report, run.result.mesh)) return report;
-  return make_quadratic(work);
+  for (int round = 0; round < most_partings && run.options.element == Element::q2_0; ++round) {
+    if (!part_invalid_quads(report, run.result.mesh)) break;
+    report = make_quadratic(work);
+  }
+  return report;
 }
 
 std::size_t count(const QuadraticReport& report) {
@@ -99,7 +102,8 @@ void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   QuadraticReport now = make_once(run), best = now;
   std::optional<CompositeResult> best_result;  // empty: that of the run
   const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
-  for (int round = 0; round < most_divisions && count(now) > 0; ++round) {
+  const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
+  for (int round = 0; round < rounds && count(now) > 0; ++round) {
     divide_curves(run, now.coarse);
     divide_faces(run, now);
     CompositeResult before = std::exchange(run.result, {});

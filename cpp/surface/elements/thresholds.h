@@ -16,6 +16,10 @@ inline constexpr int most_rounds = 8;
 /// Times that the model is meshed again with half the size beside elements that stay invalid: an edge of a whole circle
 /// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int most_divisions = 6;
+/// The same with quadrilaterals, whose shapes smaller sizes mend less often.
+inline constexpr int most_divisions_of_quads = 2;
+/// Times that invalid curved quadrilaterals become two triangles, before which nodes move.
+inline constexpr int most_partings = 4;
 /// Ratio of triangles. A mesh that grows more for it is not what was asked for.
 inline constexpr double most_growth = 4;
 /// Triangles. Meshes of fewer may grow as if they had so many.
