@@ -76,7 +76,7 @@ TEST(Squares, FollowTheCirclesOfARing) {
 }
 
 TEST(Squares, AreSoundMeshesOfAllCases) {
-  for (const PlaneCase& c : {paraboloid(0.3), hemisphere(0.1), swirl(0.05), stretched(0.3), size_field(0.02), holes(0.05),
+  for (const PlaneCase& c : {paraboloid(0.3), hemisphere(0.1), swirl(0.05), stretched(0.3), size_field(0.3), holes(0.05),
                              star(0.05), internal_curves(0.05), polar_disc(0.1), polar_cone(0.1, 0.25),
                              sphere_two_poles(0.15)}) {
     const ControlSpace space = control_space(c);
