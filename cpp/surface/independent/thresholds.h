@@ -24,7 +24,7 @@ inline constexpr int most_line_rounds = 3;
 /// Sweeps that even out the lengths of a line.
 inline constexpr int line_sweeps = 6;
 /// Shape that an edit of a line may leave where shapes were better.
-inline constexpr double least_line_shape = 0.3;
+inline constexpr double least_line_shape = 0.05;
 
 /// Edges out of this range are collapsed and split (HDR sec. 4.5.5, and the range of RR-2818 sec. 4.5).
 inline constexpr double shortest = 0.70710678118654752, longest = 1.41421356237309505;
@@ -42,7 +42,7 @@ inline constexpr int most_rounds = 8;
 /// Passes of swaps and moves after them.
 inline constexpr int most_last_passes = 8;
 /// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
-inline constexpr double least_shape = 0.2;
+inline constexpr double least_shape = 0.15;
 /// Shape. Triangles below are worked at, with two rings around.
 inline constexpr double good_enough = 0.7;
 /// Shape that a swap for the sake of degrees may leave, and rounds that have such swaps.
