@@ -1,4 +1,4 @@
-#include "mesh/elements/jacobian.h"
+#include "mesh/jacobian.h"
 
 #include <algorithm>
 #include <cmath>
