@@ -5,7 +5,7 @@
 #include "carreau.h"
 #include "guard.h"
 #include "io/mesh_files.h"
-#include "mesh/cell_quality.h"
+#include "mesh/elements/cell_quality.h"
 #include "mesh/flat_defects.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"

@@ -8,8 +8,8 @@
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
-#include "mesh/cell_quality.h"
-#include "mesh/jacobian.h"
+#include "mesh/elements/cell_quality.h"
+#include "mesh/elements/jacobian.h"
 
 namespace carreau {
 

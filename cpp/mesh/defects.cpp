@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "mesh/cell_defects.h"
+#include "mesh/elements/cell_defects.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 #include "predicates/predicates.h"

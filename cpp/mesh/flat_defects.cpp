@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "mesh/cell_defects.h"
+#include "mesh/elements/cell_defects.h"
 #include "mesh/quality.h"
 
 namespace carreau {

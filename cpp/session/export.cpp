@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "mesh/cell_quality.h"
+#include "mesh/elements/cell_quality.h"
 #include "mesh/quality.h"
 #include "support/error.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <span>
 
-#include "mesh/jacobian.h"
+#include "mesh/elements/jacobian.h"
 #include "predicates/predicates.h"
 #include "support/error.h"
 #include "support/infinity.h"

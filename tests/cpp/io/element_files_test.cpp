@@ -8,7 +8,7 @@
 #include "io/element_lists.h"
 #include "io/mesh_files.h"
 #include "io_test_support.h"
-#include "mesh/cell_defects.h"
+#include "mesh/elements/cell_defects.h"
 #include "mesh/flat_defects.h"
 
 namespace carreau {

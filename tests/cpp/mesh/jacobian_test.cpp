@@ -1,5 +1,5 @@
 // Jacobians of elements: Bernstein coefficients against derivatives of the element's own map.
-#include "mesh/jacobian.h"
+#include "mesh/elements/jacobian.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "mesh/cell_quality.h"
+#include "mesh/elements/cell_quality.h"
 
 namespace carreau {
 namespace {

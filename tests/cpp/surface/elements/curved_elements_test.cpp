@@ -6,8 +6,8 @@
 #include <memory>
 #include <numbers>
 
-#include "mesh/cell_quality.h"
-#include "mesh/jacobian.h"
+#include "mesh/elements/cell_quality.h"
+#include "mesh/elements/jacobian.h"
 #include "session_of_size.h"
 
 namespace carreau {

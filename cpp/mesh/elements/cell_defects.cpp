@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <map>
 
-#include "mesh/cell_defects.h"
-#include "mesh/cell_quality.h"
-#include "mesh/jacobian.h"
+#include "mesh/elements/cell_defects.h"
+#include "mesh/elements/cell_quality.h"
+#include "mesh/elements/jacobian.h"
 #include "predicates/predicates.h"
 
 namespace carreau {

@@ -1,4 +1,4 @@
-#include "mesh/jacobian.h"
+#include "mesh/elements/jacobian.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "mesh/cell_quality.h"
+#include "mesh/elements/cell_quality.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "mesh/jacobian.h"
+#include "mesh/elements/jacobian.h"
 #include "support/infinity.h"
 
 namespace carreau {
