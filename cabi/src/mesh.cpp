@@ -8,6 +8,7 @@
 #include "mesh/flat_defects.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"
+#include "session/file_adaptation.h"
 
 using carreau::FaceMesh;
 using carreau::FlatMesh;
@@ -178,6 +179,21 @@ carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, d
     session_only(*mesh, "prescribed sizes");
     const std::vector<double>& sizes = mesh->session->session.vertex_sizes();
     std::copy(sizes.begin(), sizes.end(), out_sizes);
+  });
+}
+
+carreau_status carreau_mesh_read_metrics(carreau_mesh* mesh, const char* sol_path, int64_t capacity,
+                                         double* out_metrics) {
+  return guarded(mesh, [&] {
+    required(out_metrics, "out_metrics");
+    const auto n = Counts(*mesh).vertices;
+    check_capacity(capacity, n, "vertices");
+    double* out = out_metrics;
+    for (const carreau::Metric3& m :
+         carreau::read_metrics(required(sol_path, "sol_path"), static_cast<std::size_t>(n))) {
+      const std::array<double, 6> row{m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+      out = std::copy(row.begin(), row.end(), out);
+    }
   });
 }
 

@@ -190,7 +190,11 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
       for (const std::int32_t v : edge)
         if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
   const Projection projection(view, used, x0, y0, width, height);
-  if (mesh.triangles.empty()) return lines_of(mesh, projection);
+  if (mesh.triangles.empty()) {
+    std::vector<ScreenTriangle> lines = lines_of(mesh, projection);
+    if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, lines);
+    return lines;
+  }
   const auto curves = sides_on_curves(mesh);
   const auto colours = options.paint == Paint::reference ? colours_of_references(mesh) : colours_of_faces(mesh);
   const SizeScale sizes(mesh);
@@ -227,6 +231,7 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
       s.lines[k] = line_on(pixels, curves.contains(key_of(t[(k + 1) % 3], t[(k + 2) % 3])), options.edges);
     triangles.push_back(s);
   }
+  if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, triangles);
   return triangles;
 }
 
