@@ -37,7 +37,7 @@ module carreau_geometry_c
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: measured = 0, smoothing_rounds = 0
     real(c_double) :: smoothing_inward = 0, smoothing_outward = 0
-    integer(c_int32_t) :: lengths = 0, reserved = 0
+    integer(c_int32_t) :: lengths = 0, orient = 0
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
   end type c_grid_options
 

@@ -173,7 +173,8 @@ typedef struct carreau_grid_options {
   int32_t smoothing_rounds; /* of Taubin's filter, which does not shrink (HDR sec. 4.7.1); 0: none */
   double smoothing_inward, smoothing_outward; /* its weights, both between 0 and 1; both 0: .06 and .061 */
   int32_t lengths;  /* 1: parameters are cumulated lengths of edges, for abrupt steps of a grid; 0: the integers */
-  int32_t reserved; /* 0 */
+  int32_t orient;   /* 1: blocks are turned over, their columns running backwards, so that normals agree across common
+                       borders: those of the first block count, and point outwards where blocks enclose a volume */
   double join_angle; /* degrees: blocks get one tangent plane along borders where their normals differ by less; 0: none */
   double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
   double step; /* of heights and scans whose file does not tell it; 0: 1 */

@@ -3,6 +3,7 @@
 
 #include "geometry/grid/grid_cad.h"
 #include "geometry/grid/interpolation.h"
+#include "geometry/grid/orientation.h"
 #include "geometry/grid/thresholds.h"
 #include "support/error.h"
 
@@ -111,6 +112,18 @@ void add_faces(const std::vector<Block>& blocks, const Borders& borders, std::ve
   built.cad = std::move(cad);
 }
 
+/// Turns blocks over where normals disagree, and finds their cells and borders again.
+void orient(std::vector<Block>& blocks, std::vector<Cells>& cells, Borders& borders, double tolerance) {
+  const std::vector<char> turned = blocks_to_turn(blocks, cells, borders);
+  if (std::find(turned.begin(), turned.end(), 1) == turned.end()) return;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (turned[b] == 0) continue;
+    turn_over(blocks[b]);
+    cells[b] = find_cells(blocks[b]);
+  }
+  borders = find_borders(blocks, cells, tolerance);
+}
+
 }  // namespace
 
 std::string Block::place(std::size_t block, int i, int j) {
@@ -133,7 +146,8 @@ GridGeometry build_grid_geometry(const Grid& grid, const Options& options, Monit
   if (std::all_of(cells.begin(), cells.end(), [](const Cells& c) { return c.count == 0; }))
     throw InvalidModel(Where{.file = grid.source}, "the grid has no cell with four nodes");
   monitor.checkpoint();
-  const Borders borders = find_borders(blocks, cells, tolerance);
+  Borders borders = find_borders(blocks, cells, tolerance);
+  if (options.orient) orient(blocks, cells, borders, tolerance);
   const std::vector<Knots> knots = find_knots(blocks, borders, options.lengths);
   std::size_t joined = 0;
   std::vector<CoonsSurface> surfaces = interpolate(blocks, borders, knots, closed, options, &joined);

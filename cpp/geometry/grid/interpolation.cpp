@@ -1,10 +1,13 @@
 #include "geometry/grid/interpolation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "geometry/grid/differences.h"
 #include "geometry/grid/shared_derivatives.h"
+#include "geometry/grid/thresholds.h"
 
 namespace carreau::grid {
 
@@ -154,6 +157,7 @@ class Interpolator {
   }
 
   void join_chains() {
+    for (const auto& [ends, uses] : borders_.edges) ++edges_at_[ends.first], ++edges_at_[ends.second];
     for (std::size_t face = 0; face < borders_.chains.size(); ++face)
       for (const Chain& chain : borders_.chains[face]) {
         if (chain.point) continue;
@@ -184,10 +188,21 @@ class Interpolator {
     return place(use, start ? use.edge.inner_start() : use.edge.inner_end());
   }
 
+  /// Whether a line of block b is the continuation of one of block a at an end of their edge: not where five blocks
+  /// meet, nor where the lines turn.
+  [[nodiscard]] bool goes_on(const EdgeUse& a, const EdgeUse& b, const Place& at) const {
+    constexpr int regular = 4;
+    if (const auto found = edges_at_.find(point(at)); found != edges_at_.end() && found->second > regular) return false;
+    const Vec3 in = position(at) - position(behind(b, same_place(at, b))), out = position(behind(a, at)) - position(at);
+    const double most = std::max(thresholds::closed_turn, options_.join_angle);
+    return dot(in, out) > std::cos(most) * norm(in) * norm(out);
+  }
+
   /// The derivatives of a and b across their edge are one.
   void join(const EdgeUse& a, const EdgeUse& b) {
     for (const Place& at : {place(a, a.edge.start()), place(a, a.edge.end())}) {
       const Place other = same_place(at, b);
+      if (!goes_on(a, b, at)) continue;
       const Sample before{-height(b), position(behind(b, other))}, here{0, position(at)},
           after{height(a), position(behind(a, at))};
       const Vec3 d = parabola_derivative(before, here, after, 0);
@@ -228,6 +243,7 @@ class Interpolator {
       const int along = same_way == (a->edge.forward() == b->edge.forward()) ? 1 : -1;
       const int across = -inward(a->edge) * inward(b->edge);
       for (const Place& at : {place(*a, a->edge.start()), place(*a, a->edge.end())}) {
+        if (!goes_on(*a, *b, at)) continue;
         const Rank rank = is_inner(at, a->edge.along_u()) ? Rank::inner : Rank::one_sided;
         shared.unite(slot(at), slot(same_place(at, *b)), along * across);
         shared.offer(slot(at), rank, twists[at.block].along(a->edge, at.node));
@@ -246,6 +262,7 @@ class Interpolator {
   std::vector<CoonsSurface> surfaces_;
   SharedDerivatives shared_;
   std::size_t joined_ = 0;
+  std::unordered_map<int, int> edges_at_;  // how many edges meet at a point
   std::vector<std::pair<const EdgeUse*, const EdgeUse*>> joined_edges_;
 };
 

@@ -13,7 +13,8 @@ inline constexpr double same_node_share_of_edge = 0.1;
 inline constexpr double flat_share = 1e-12;
 /// A corner turns against its cell when its normal leans this share of the area back: rounding does not count. [Cells.*]
 inline constexpr double folded_share = 1e-6;
-/// Mean turn at the joint of a closed grid, radians, from which on it is an edge: eight cells make a circle. [Glue.*]
+/// Turn at the joint of a closed grid (in the mean), or between lines of two blocks, radians, from which on they do not go
+/// on into one another: eight cells make a circle. [Glue.*, Coons.*]
 inline constexpr double closed_turn = std::numbers::pi / 4;
 /// Parameter length of a row of cells without extent, as a share of the mean one: parameters must ascend. [Lengths.*]
 inline constexpr double least_interval = 1e-3;

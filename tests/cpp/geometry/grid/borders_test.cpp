@@ -95,6 +95,26 @@ TEST(Glue, SixBlocksMakeACube) {
   for (const int ref : refs) EXPECT_EQ(refs.count(ref), 2U);
 }
 
+TEST(Glue, NormalsOfAClosedBodyPointOutwardsWhenAsked) {
+  for (unsigned mirrored = 0; mirrored < 64; ++mirrored) {
+    std::vector<Block> blocks;
+    for (unsigned side = 0; side < 6; ++side) {
+      const int axis = static_cast<int>(side) / 2;
+      const bool backwards = ((mirrored >> side) & 1U) != 0;
+      blocks.push_back(block_of(3, 3, [&](int i, int j) -> Vec3 {
+        Vec3 p;
+        p[axis] = side % 2 == 0 ? -1 : 1, p[(axis + 1) % 3] = backwards ? 1 - i : i - 1, p[(axis + 2) % 3] = j - 1;
+        return p;
+      }));
+    }
+    const GridGeometry made = build(blocks, {.orient = true});
+    for (int face = 1; face <= 6; ++face) {
+      const SurfaceJet s = surface_at(*made.built.cad, face, want_position | want_first, {1, 1});
+      EXPECT_GT(dot(s.s, cross(s.su, s.sv)), 0) << mirrored << " " << face;
+    }
+  }
+}
+
 TEST(Glue, ASideIsCutWhereOtherBlocksEnd) {
   const GridGeometry made = build({flat(9, 3), block_of(4, 3, [](int i, int j) -> Vec3 { return {double(i), 2.0 + j, 0}; }),
                                    block_of(6, 3, [](int i, int j) -> Vec3 { return {3.0 + i, 2.0 + j, 0}; })});
