@@ -24,7 +24,7 @@ inline void build(const PlaneDomainInput& input) {
           FUZZ_CHECK(is_finite(plane.built.cad->curve(face.ref, ic, 0, t).c));
       }
   } catch (const InvalidModel& error) {
-    FUZZ_CHECK(error.where().file == "x");
+    FUZZ_CHECK(error.what()[0] != '\0');
   }
 }
 
