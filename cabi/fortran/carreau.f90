@@ -54,7 +54,7 @@ module carreau
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
   public :: carreau_clear_background, carreau_session_background
   public :: carreau_estimate, carreau_transfer, carreau_adapt
-  public :: carreau_set_background_fields, carreau_transfer_files
+  public :: carreau_mesh_read_metrics, carreau_set_background_fields, carreau_transfer_files
   public :: carreau_string
 
   integer(c_int32_t), parameter, public :: CARREAU_OK = 0, CARREAU_ERR_ARGUMENT = 1, CARREAU_ERR_MODEL = 2, &
@@ -1489,6 +1489,21 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_set_background_fields(session%handle, c_text(mesh_path), c_text(sol_path))
   end subroutine carreau_set_background_fields
+
+  !> metrics(6, n) xx xy xz yy yz zz at the vertices of a mesh.
+  subroutine carreau_mesh_read_metrics(mesh, sol_path, metrics, status)
+    type(carreau_mesh), intent(in) :: mesh
+    character(len=*), intent(in) :: sol_path
+    real(c_double), allocatable, intent(out) :: metrics(:, :)
+    integer(c_int32_t), intent(out) :: status
+    real(c_double), allocatable :: found(:, :)
+    integer(c_int64_t) :: vertices, triangles, edges, faces
+    call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
+    if (status /= CARREAU_OK) return
+    allocate (found(6, vertices))
+    status = c_mesh_read_metrics(mesh%handle, c_text(sol_path), vertices, found)
+    if (status == CARREAU_OK) metrics = found
+  end subroutine carreau_mesh_read_metrics
 
   !> outside: vertices beside the old mesh.
   subroutine carreau_transfer_files(session, mesh_path, sol_path, out_path, outside, status)

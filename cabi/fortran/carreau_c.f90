@@ -652,6 +652,19 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_clear_background
 
+    !> Reads sizes or metrics at the n vertices of a mesh from a .sol, .solb or BL2D's .h as metrics of space (n x 6, xx
+    !! xy xz yy yz zz; of dimension 2 with the smaller size across).
+    function c_mesh_read_metrics(mesh, sol_path, capacity, metrics) result(status) &
+        bind(c, name="carreau_mesh_read_metrics")
+      import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: sol_path(*)
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(inout) :: metrics(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_read_metrics
+
     function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
       import :: c_background_report, c_int32_t, c_ptr
       implicit none

@@ -522,6 +522,11 @@ CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, 
 /* Removes the background mesh. */
 CARREAU_API carreau_status carreau_clear_background(carreau_session* session);
 
+/* Reads sizes or metrics at the n vertices of a mesh from a .sol, .solb or BL2D's .h as metrics of space (n x 6, xx xy xz
+ * yy yz zz; of dimension 2 with the smaller size across). Errors: ARGUMENT (capacity), FILE. */
+CARREAU_API carreau_status carreau_mesh_read_metrics(carreau_mesh* mesh, const char* sol_path, int64_t capacity,
+                                                     double out_metrics[]);
+
 /* How the last mesh has used its background mesh. All members are zero when there was none. */
 typedef struct carreau_background_report {
   size_t struct_size;

@@ -9,6 +9,7 @@
 #include "mesh/flat_defects.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"
+#include "session/file_adaptation.h"
 
 using carreau::FaceMesh;
 using carreau::FlatMesh;
@@ -229,6 +230,21 @@ carreau_status carreau_mesh_vertex_sizes(carreau_mesh* mesh, int64_t capacity, d
     for_each_side(surface_of(*mesh), [&](std::size_t a, std::size_t b, std::size_t mid) {
       out_sizes[mid] = 0.5 * (sizes[a] + sizes[b]);
     });
+  });
+}
+
+carreau_status carreau_mesh_read_metrics(carreau_mesh* mesh, const char* sol_path, int64_t capacity,
+                                         double* out_metrics) {
+  return guarded(mesh, [&] {
+    required(out_metrics, "out_metrics");
+    const auto n = Counts(*mesh).vertices;
+    check_capacity(capacity, n, "vertices");
+    double* out = out_metrics;
+    for (const carreau::Metric3& m :
+         carreau::read_metrics(required(sol_path, "sol_path"), static_cast<std::size_t>(n))) {
+      const std::array<double, 6> row{m.xx, m.xy, m.xz, m.yy, m.yz, m.zz};
+      out = std::copy(row.begin(), row.end(), out);
+    }
   });
 }
 

@@ -396,6 +396,17 @@ void CommandLine::add_picture() {
       ->capture_default_str();
   picture->add_flag("--edges,!--no-edges", picture_.scene.edges,
                     "Draw the sides of triangles or not; they are by default");
+  picture
+      ->add_option("--metric", picture_.metrics,
+                   "Sizes or metrics at the vertices, .sol, .solb or BL2D's .h: their ellipses are drawn")
+      ->check(not_empty)
+      ->type_name(kind::file);
+  picture
+      ->add_option("--ellipses", picture_.scene.ellipse_scale,
+                   "Scale of the ellipses of --metric: 1, the ends of unit edges lie on them; .5, neighbours touch")
+      ->check(CLI::Range(1e-3, 10.0))
+      ->type_name("SCALE")
+      ->capture_default_str();
   picture->add_option("--label", label_, "faces: their numbers are drawn where they are seen")
       ->check(CLI::IsMember({"faces"}))
       ->type_name("WHAT");

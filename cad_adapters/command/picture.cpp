@@ -37,6 +37,9 @@ int picture(const PictureOptions& options) {
   std::vector<std::string> views = options.views;
   if (views.empty()) views.emplace_back(mesh.dimension == 2 ? "top" : "iso");
 
+  SceneOptions scene = options.scene;
+  if (!options.metrics.empty()) scene.metrics = read_metrics(handle.get(), mesh.vertices.size(), options.metrics);
+
   // A grid of views, as square as the picture is.
   const int count = static_cast<int>(views.size());
   int columns = 1;
@@ -47,7 +50,7 @@ int picture(const PictureOptions& options) {
   std::vector<ScreenTriangle> triangles;
   for (int k = 0; k < count; ++k) {
     const auto part =
-        project(mesh, view_from(views[k]), options.scene, k % columns * width, k / columns * height, width, height);
+        project(mesh, view_from(views[k]), scene, k % columns * width, k / columns * height, width, height);
     triangles.insert(triangles.end(), part.begin(), part.end());
   }
   std::vector<std::int32_t> seen;

@@ -273,7 +273,11 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
       for (const std::int32_t v : edge)
         if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
   const Projection projection(view, used, x0, y0, width, height);
-  if (mesh.triangles.empty()) return lines_of(mesh, projection);
+  if (mesh.triangles.empty()) {
+    std::vector<ScreenTriangle> lines = lines_of(mesh, projection);
+    if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, lines);
+    return lines;
+  }
   const Painter painter(mesh, projection, options);
   std::vector<ScreenTriangle> triangles;
   triangles.reserve(mesh.triangles.size());
@@ -284,6 +288,7 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
       std::copy(mesh.triangles[i].begin(), mesh.triangles[i].end(), element.nodes.begin());
       painter.add(element, triangles);
     }
+  if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, triangles);
   return triangles;
 }
 

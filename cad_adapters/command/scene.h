@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "ellipses.h"
 #include "mesh_file.h"
 #include "raster.h"
 #include "view.h"
@@ -15,6 +16,8 @@ enum class Paint { face, reference, quality, size, none };
 struct SceneOptions {
   Paint paint = Paint::face;
   bool edges = true;  ///< lines along the sides of triangles; those along curves are always drawn
+  VertexMetrics metrics;      ///< whose ellipses are drawn at the vertices; empty: none
+  double ellipse_scale = 0.5;  ///< of their half axes
 };
 
 /// 4 sqrt(3) area / sum of squared edges (Q2 of HDR eq. 1.6): 1 for an equilateral triangle, 0 for a flat one.

@@ -17,6 +17,8 @@ namespace {
 constexpr double longest_interval = 4;      ///< times lss
 constexpr double shortest_interval = 0.5;   ///< times lss
 constexpr double steepest_interval = 1.15;  ///< ratio of the sizes at its ends
+/// The same where the field is known exactly along the curve: edges of RR-2818 sec. 6.2 are then equal within .2 %.
+constexpr double shortest_exact = 0.005, steepest_exact = 1.003;
 constexpr int initial_intervals = 4;
 constexpr std::size_t most_samples = 20'000;
 constexpr double narrowest = 1e-7;  ///< of the curve's length
@@ -54,11 +56,13 @@ Sample ask(const CurveModel& model, int curve, SizeRules& rules, double r) {
   return sample;
 }
 
-bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double length, double lss) {
+bool too_coarse(const Sample& left, const Sample& right, SizeLaw law, double length, double lss, bool exact) {
   if (right.r - left.r < narrowest) return false;
+  const double shortest = exact ? shortest_exact : shortest_interval;
+  const double steepest = exact ? steepest_exact : steepest_interval;
   const double edges = normalised_length(law, left.h, right.h, (right.r - left.r) * length);
   if (edges > longest_interval * lss) return true;
-  return edges > shortest_interval * lss && std::max(left.h, right.h) > steepest_interval * std::min(left.h, right.h);
+  return edges > shortest * lss && std::max(left.h, right.h) > steepest * std::min(left.h, right.h);
 }
 
 /// Fraction of the curve's length at the point of a use's support, given in the parameter plane or in space, that is
@@ -106,6 +110,23 @@ std::vector<double> steep_fractions(const CurveModel& model, int curve, const Si
   for (const double r : fractions)
     if (apart.empty() || r - apart.back() > steep_spacing) apart.push_back(r);
   return apart;
+}
+
+/// Fractions at which sources tell kinks of their fields along the curve.
+std::vector<double> kink_fractions(const CurveModel& model, int curve, const SizeRules& rules) {
+  std::vector<double> fractions;
+  for (const CurveUse& use : model.curve(curve).uses) {
+    const CurveSupport& support = model.support(use);
+    if (!(support.length() > 0)) continue;
+    for (const double t : rules.kinks_on_curve(use)) {
+      const double r = support.arc_at_t(t) / support.length();
+      fractions.push_back(use.reversed ? 1 - r : r);
+    }
+  }
+  std::sort(fractions.begin(), fractions.end());
+  const auto same = [](double r, double s) { return s - r <= narrowest; };  // of two uses of the curve
+  fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+  return fractions;
 }
 
 /// How much a curve turns, by the support of its first use.
@@ -171,6 +192,9 @@ class Turning {
 std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules, double lss) {
   const double length = model.length(curve);
   std::vector<double> starts = steep_fractions(model, curve, rules);
+  const std::vector<double> kinks = kink_fractions(model, curve, rules);
+  for (const double r : kinks)
+    if (r > narrowest && r < 1 - narrowest) starts.push_back(r);
   for (int i = 0; i <= initial_intervals; ++i) starts.push_back(static_cast<double>(i) / initial_intervals);
   std::sort(starts.begin(), starts.end());
   starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
@@ -185,7 +209,7 @@ std::vector<Sample> refine(const CurveModel& model, int curve, SizeRules& rules,
       const Sample &left = samples[i], &right = samples[i + 1];
       const double d = (right.r - left.r) * length;
       const bool bent = turning.too_bent(left, right) || turning.misses_bend(left, right, d, rules, lss);
-      if (room && (bent || too_coarse(left, right, rules.law(), length, lss))) {
+      if (room && (bent || too_coarse(left, right, rules.law(), length, lss, !kinks.empty()))) {
         finer.push_back(ask(model, curve, rules, (left.r + right.r) / 2));
         again = true;
       }

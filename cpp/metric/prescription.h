@@ -61,6 +61,9 @@ class PrescriptionSource {
   [[nodiscard]] virtual std::vector<Vec2> steep_places(int /*face*/) const { return {}; }
   /// The same of fields that know space only.
   [[nodiscard]] virtual std::span<const SteepPlace> steep_in_space() const { return {}; }
+  /// Parameters of a curve at which the field along it has a kink, and between which it is as exact as its law: it is then
+  /// sampled at these, and finely between. Empty: nothing is known.
+  [[nodiscard]] virtual std::vector<double> kinks_on_curve(int /*face*/, int /*ic*/) const { return {}; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
   /// On a curve (rank `ic` from 1 in that face) at t.

@@ -12,6 +12,8 @@
 #include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
 #include "io/plane/plane_files.h"
+#include "metric/metric2_algebra.h"
+#include "metric/metric3_algebra.h"
 #include "session/adaptation.h"
 #include "session/bounds_of_sizes.h"
 
@@ -186,15 +188,35 @@ std::int64_t write_transferred(const Session& session, const SurfaceMesh& from, 
   return moved.outside;
 }
 
+Solution read_prescription(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".h" || suffix == ".hc" || suffix == ".hg") return read_bl2d_sizes_text(read_file(path), path);
+  return read_solution(path, SolutionUse::prescription);
+}
+
 }  // namespace
+
+std::vector<Metric3> read_metrics(const std::string& sol_path, std::size_t vertices) {
+  const Solution solution = read_prescription(sol_path);
+  check_count(solution, sol_path, vertices, "the mesh");
+  std::vector<Metric3> metrics;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    if (!solution.tensor) {
+      metrics.push_back(isotropic_metric3(solution.values[v]));
+    } else if (solution.dimension == 3) {
+      metrics.push_back(space_tensor(solution, v));
+    } else {
+      const Metric2 m = plane_tensor(solution, v);
+      metrics.push_back({m.a, m.b, 0, m.c, 0, eigen(m).major});
+    }
+  }
+  return metrics;
+}
 
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
                                                  bool one_plane) {
   FlatMesh flat = read_mesh(mesh_path);
-  const std::string suffix = suffix_of(sol_path);
-  const bool of_bl2d = suffix == ".h" || suffix == ".hc" || suffix == ".hg";
-  const Solution solution = of_bl2d ? read_bl2d_sizes_text(read_file(sol_path), sol_path)
-                                    : read_solution(sol_path, SolutionUse::prescription);
+  const Solution solution = read_prescription(sol_path);
   if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a background mesh needs triangles; it has none");
   if (solution.dimension != flat.dimension)
     throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +

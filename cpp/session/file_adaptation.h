@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "session/session.h"
 #include "size/background.h"
@@ -16,6 +17,10 @@ namespace carreau {
 /// file, and the line or byte where there is one.
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
                                                  bool one_plane = false);
+
+/// Sizes or metrics of a file (as above) at so many vertices, as metrics of space; those of dimension 2 have the smaller
+/// size across. Throws FileError.
+std::vector<Metric3> read_metrics(const std::string& sol_path, std::size_t vertices);
 
 /// A mesh file with the sizes or metrics that the fields of a `.sol` or `.solb` at its vertices ask for, by the parameters
 /// adapt_*; a file of one symmetric tensor is taken as metrics. Several scalars, and the components of vectors, count

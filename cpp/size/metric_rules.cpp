@@ -117,6 +117,17 @@ std::vector<SteepPlace> SizeRules::steep_in_space() const {
   return places;
 }
 
+std::vector<double> SizeRules::kinks_on_curve(const CurveUse& use) const {
+  std::vector<double> kinks;
+  if (!asks_sources()) return kinks;
+  const Where where = where_of(use, 0);
+  for (const PrescriptionSource* source : parameters_.sources) {
+    const std::vector<double> more = source->kinks_on_curve(where.face, where.curve_index);
+    kinks.insert(kinks.end(), more.begin(), more.end());
+  }
+  return kinks;
+}
+
 // ---- what is answered ----
 
 SizeRules::Answers SizeRules::answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const {

@@ -128,6 +128,8 @@ class SizeRules {
   [[nodiscard]] double source_accuracy() const noexcept;
   [[nodiscard]] std::vector<Vec2> steep_places(int face) const;
   [[nodiscard]] std::vector<SteepPlace> steep_in_space() const;
+  /// Parameters of a use of a curve at which sources tell kinks.
+  [[nodiscard]] std::vector<double> kinks_on_curve(const CurveUse& use) const;
   /// How sizes vary between two points where they are known.
   [[nodiscard]] SizeLaw law() const noexcept { return parameters_.law; }
 

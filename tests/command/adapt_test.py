@@ -10,6 +10,8 @@ import sys
 import tempfile
 import unittest
 
+from mesh_files import read_png
+
 PROGRAM, PAGE, TEAPOT = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[3]), os.path.abspath(sys.argv[4])
 FORMULAS = sys.argv[2] in ("1", "ON", "TRUE")
 
@@ -198,6 +200,33 @@ class Adapt(unittest.TestCase):
         self.assertAlmostEqual(len(Mesh(self.path("next.mesh")).triangles) / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
         self.fails("square.poly", "--formula", "1 / (x - x)", "-o", "next.vtu", sentence="has no finite value at x =")
         self.fails("square.poly", "--formula", "x +", "-o", "next.vtu", sentence="The formula 'x +' is wrong at position")
+
+    def test_pictures_show_the_ellipses_of_metrics(self):
+        """Four vertices of a square 2 x 2: rings with half axes .4 along y and .2 along x, at half of sizes .8 and .4."""
+        self.write("two.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 4\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\nTriangles 2\n1 2 3 1\n1 3 4 1\nEnd\n")
+        self.solution("m.sol", Mesh(self.path("two.mesh")), [3], lambda x, y: [1 / 0.4 ** 2, 0, 1 / 0.8 ** 2])
+        self.done("picture", "two.mesh", "-o", "bare.png", "--size", "500x500", "--no-edges", "--color", "none")
+        self.done("picture", "two.mesh", "--metric", "m.sol", "-o", "rings.png", "--size", "500x500", "--no-edges", "--color", "none")
+        bare, rings = read_png(self.path("bare.png")), read_png(self.path("rings.png"))
+        square = [(x, y) for y in range(500) for x in range(500) if sum(bare[y][x]) < 630]
+        left, top = min(x for x, _ in square), min(y for _, y in square)
+        width = max(x for x, _ in square) - left
+        red = [(x, y) for y in range(500) for x in range(500) if rings[y][x][0] > 1.5 * rings[y][x][1] + 20]
+        self.assertGreater(len(red), 200)
+        scale = width / 2
+        for x, y in red:
+            # In units of the half axes, from the nearest vertex: on the ring, but for the width of the line.
+            dx = min(abs(x + 0.5 - left), abs(x + 0.5 - left - width)) / scale
+            dy = min(abs(y + 0.5 - top), abs(y + 0.5 - top - width)) / scale
+            self.assertAlmostEqual(math.hypot(dx / 0.2, dy / 0.4), 1, delta=0.12)
+        self.fails_picture("two.mesh", "--metric", "short.sol", sentence="it has values at 1 vertices, but the mesh has 4")
+
+    def fails_picture(self, *words, sentence):
+        self.write("short.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n1\n1 1\n1\nEnd\n")
+        result = self.run_program("picture", *words, "-o", "none.png")
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertIn(sentence, result.stderr)
+        self.assertFalse(os.path.exists(self.path("none.png")))
 
     def test_mistakes_have_a_sentence_and_leave_no_file(self):
         mesh = self.start()

@@ -11,12 +11,13 @@
 namespace carreau {
 
 /// What is larger takes too long for a fuzzer.
-constexpr int most_built = 64;
+constexpr int most_built = 16;
+constexpr double coarse = 0.5;  ///< share of an edge; where arcs conflict polylines are a thousand times finer
 
 /// Any domain becomes a geometry whose curves begin and end at their points, or an InvalidModel.
 inline void build(const PlaneDomainInput& input) {
   try {
-    const PlaneGeometry plane = build_plane_geometry(input);
+    const PlaneGeometry plane = build_plane_geometry(input, coarse);
     for (const Face& face : plane.built.model.faces)
       for (int ic = 1; ic <= static_cast<int>(face.curves.size()); ++ic) {
         const Interval all = plane.built.cad->curve_interval(face.ref, ic);
@@ -24,7 +25,7 @@ inline void build(const PlaneDomainInput& input) {
           FUZZ_CHECK(is_finite(plane.built.cad->curve(face.ref, ic, 0, t).c));
       }
   } catch (const InvalidModel& error) {
-    FUZZ_CHECK(error.where().file == "x");
+    FUZZ_CHECK(error.what()[0] != '\0');
   }
 }
 

@@ -7,8 +7,7 @@ namespace carreau {
 
 namespace {
 
-/// Of each piece. The speed of a piece may vary from end to end, also where it is straight: lengths are then right
-/// within a thousandth of that of the piece.
+/// Of each piece: lengths of curves are those of so many chords.
 constexpr int steps = 32;
 
 /// From the start of an arc, at t = 0, 1 / steps, ...
@@ -42,7 +41,8 @@ PointSizes::PointSizes(const PlaneDomainInput& input, std::shared_ptr<const Plan
     for (std::size_t i = 0; i <= arcs[a].pieces.size(); ++i) {
       const std::optional<Value>& value = value_[arcs[a].passed[i]];
       if (!value) continue;
-      known.length.push_back(length_at(static_cast<int>(a), static_cast<double>(i)));
+      known.parameter.push_back(static_cast<double>(i));
+      known.length.push_back(length_at(static_cast<int>(a), known.parameter.back()));
       known.value.push_back(*value);
     }
   }
@@ -52,12 +52,18 @@ double PointSizes::length_at(int arc, double t) const {
   const std::vector<double>& lengths = lengths_[arc];
   const auto last = static_cast<double>(lengths.size() - 1);
   const double at = std::clamp(t * steps, 0.0, last), k = std::min(std::floor(at), last - 1);
-  return std::lerp(lengths[static_cast<std::size_t>(k)], lengths[static_cast<std::size_t>(k) + 1], at - k);
+  // By the chord from the step before: exact where the curve is straight, whatever its speed.
+  const PlaneArc& curve = cad_->arcs()[static_cast<std::size_t>(arc)];
+  return lengths[static_cast<std::size_t>(k)] + norm(Vec2(curve.at(at / steps) - curve.at(k / steps)));
 }
 
 Prescription PointSizes::answer(const Value& value) {
   return value.is_size ? Prescription::of_size(1 / std::sqrt(value.metric.a))
                        : Prescription::of_parameter(value.metric);
+}
+
+std::vector<double> PointSizes::kinks_on_curve(int face, int ic) const {
+  return known_[static_cast<std::size_t>(cad_->arc_of(face, ic))].parameter;
 }
 
 Prescription PointSizes::on_surface(int /*face*/, Vec2 /*uv*/, Vec3 /*xyz*/) { return {}; }

@@ -19,6 +19,8 @@ class PointSizes final : public PrescriptionSource {
   [[nodiscard]] std::string name() const override { return "the sizes at the points of the plane domain"; }
   [[nodiscard]] bool needs_position() const noexcept override { return false; }
   void begin_run(MetricLaw law) override { law_ = law; }
+  /// Where values are known.
+  [[nodiscard]] std::vector<double> kinks_on_curve(int face, int ic) const override;
   Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override;
   Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override;
   Prescription at_point(int point, Vec3 xyz) override;
@@ -31,6 +33,7 @@ class PointSizes final : public PrescriptionSource {
   /// Of an arc: lengths from its start to its points that have a value.
   struct Known {
     std::vector<double> length;
+    std::vector<double> parameter;
     std::vector<Value> value;
   };
   [[nodiscard]] double length_at(int arc, double t) const;

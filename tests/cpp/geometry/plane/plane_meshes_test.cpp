@@ -1,11 +1,13 @@
 // Plane domains through the ordinary pipeline: figures of HDR and RR-2818.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <numbers>
 
+#include "curve/unit_discretisation.h"
 #include "geometry/plane/plane_geometry.h"
 #include "mesh/quality.h"
 #include "session/session.h"
@@ -114,6 +116,61 @@ TEST(PlaneMeshes, ASegmentWithSizesAtPlacesHasTheEdgesOfTheReport) {
     for (const CurveMesh& curve : session->mesh().curves)
       if (curve.shown_ref() == 7) count += static_cast<int>(curve.vertices.size()) - 1;
     EXPECT_EQ(count, edges) << "law " << law;
+  }
+}
+
+/// Length of a segment of the axis y = 0 between metrics at places, by a dense midpoint rule.
+double metric_length(const std::vector<std::pair<double, Metric2>>& known, MetricLaw law, double from, double to) {
+  constexpr int steps = 2000;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double s = from + (to - from) * (i + 0.5) / steps;
+    std::size_t k = 0;
+    while (k + 2 < known.size() && known[k + 1].first <= s) ++k;
+    const double share = (s - known[k].first) / (known[k + 1].first - known[k].first);
+    sum += length(interpolate(known[k].second, known[k + 1].second, share, law), Vec2{(to - from) / steps, 0});
+  }
+  return sum;
+}
+
+// RR-2818 sec. 6.2: metrics at five places of a segment of length 7.5, as a side of a domain that is meshed.
+TEST(PlaneMeshes, ASegmentWithMetricsAtPlacesHasEdgesOfOneLength) {
+  struct Row {
+    double s, degrees, h1, h2;
+  };
+  for (const MetricLaw law : {MetricLaw::linear, MetricLaw::geometric, MetricLaw::sinusoidal}) {
+    PlaneDomainInput input;
+    std::vector<int> passed;
+    std::vector<std::pair<double, Metric2>> known;
+    for (const Row& row : {Row{0, 30, 0.70, 0.25}, {2, 90, 1.10, 0.15}, {3, 0, 0.30, 0.30}, {6, -60, 1.50, 0.40},
+                           {7.5, -45, 1.00, 0.35}}) {
+      const double angle = row.degrees * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+      const double p = 1 / (row.h1 * row.h1), q = 1 / (row.h2 * row.h2);
+      known.emplace_back(row.s, Metric2{p * c * c + q * s * s, (p - q) * c * s, p * s * s + q * c * c});
+      passed.push_back(add_point(input, {row.s, 0}));
+      input.points.back().metric = known.back().second;
+    }
+    const int a = add_point(input, {7.5, 4}, 1), b = add_point(input, {0, 4}, 1);
+    add_curve(input, passed, true, 7);
+    add_curve(input, {passed.back(), a, b, passed.front()}, false);
+    Monitor silent;
+    const auto session = session_of(input, 1, silent);
+    session->parameters().set("hinterpol_flag", static_cast<int>(law));
+    session->make_mesh();
+    std::vector<double> cuts;
+    for (const CurveMesh& curve : session->mesh().curves)
+      if (curve.shown_ref() == 7)
+        for (const auto v : curve.vertices) cuts.push_back(session->mesh().vertices[static_cast<std::size_t>(v)].x());
+    std::sort(cuts.begin(), cuts.end());
+    ASSERT_GT(cuts.size(), 10u);
+    const auto edges = static_cast<double>(cuts.size() - 1);
+    const double whole = metric_length(known, law, 0, 7.5);
+    EXPECT_EQ(cuts.size() - 1, static_cast<std::size_t>(unit_edge_count(whole)));
+    double worst = 0;
+    for (std::size_t i = 1; i < cuts.size(); ++i)
+      worst = std::max(worst, std::abs(metric_length(known, law, cuts[i - 1], cuts[i]) * edges / whole - 1));
+    std::printf("law %d: %.0f edges, within %.3f %% of one length\n", static_cast<int>(law), edges, 100 * worst);
+    EXPECT_LT(worst, 0.005) << static_cast<int>(law);
   }
 }
 
