@@ -166,20 +166,20 @@ class Inputs(Folder):
                      sentence="face 2")
 
     def test_what_cannot_be_read_is_told(self):
-        cases = (("empty.bpt", "", "empty.bpt', line 1: the file ends"),
+        cases = (("empty.bpt", "", "empty.bpt, line 1: the file ends"),
                  ("none.bpt", "0\n", "no face"), ("cut.bpt", SQUARE[:-4], "line 6: the file ends where a coordinate should be"),
                  ("words.bpt", SQUARE.replace("-1 1 0", "-1 one 0"), "line 4: a coordinate should be where 'one' stands"),
                  ("more.bpt", SQUARE + "7\n", "line 7: there is more than the 1 patches"),
                  ("nan.bpt", SQUARE.replace("-1 1 0", "-1 nan 0"), "line 4"), ("huge.bpt", SQUARE.replace("-1 1 0", "-1 1e300 0"), "line 4"),
                  ("flat.bpt", "1\n1 1\n" + 4 * "2 3 4\n", "extent"),
-                 ("png.bpt", b"\x89PNG\r\n\x1a\n" * 40, "png.bpt', line 1: the number of patches should be where '?PNG' stands"),
+                 ("png.bpt", b"\x89PNG\r\n\x1a\n" * 40, "png.bpt, line 1: the number of patches should be where '?PNG' stands"),
                  ("million.bpt", "1000000000\n1 1\n", "line 3: the file ends"))
         for name, text, sentence in cases:
             with self.subTest(name=name):
                 self.refused(self.write(name, text), "-o", "a.mesh", sentence=sentence)
-        self.refused("missing.bpt", "-o", "a.mesh", sentence="'missing.bpt' cannot be read: No such file")
+        self.refused("missing.bpt", "-o", "a.mesh", sentence="missing.bpt': No such file")
         os.mkdir(self.path("folder.bpt"))
-        self.refused("folder.bpt", "-o", "a.mesh", sentence="not an ordinary file")
+        self.refused("folder.bpt", "-o", "a.mesh", sentence="folder.bpt': it is a folder")
         self.refused(self.write("a.pardom", "1\n"), "-o", "a.mesh", sentence="--host names the shared library")
         self.refused(self.write("a.pardom", "1\n"), "-o", "a.mesh", "--host", HOSTS[0], sentence="a.pardom")
         self.refused(self.write("b.pardom", "1\n" + FACE.format(1)), "-o", "a.mesh", "--host", "no.so", sentence="no.so")
