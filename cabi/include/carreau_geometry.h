@@ -170,6 +170,8 @@ typedef struct carreau_grid_options {
   double join_angle; /* degrees: blocks get one tangent plane along borders where their normals differ by less; 0: none */
   double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
   double step; /* of heights and scans whose file does not tell it; 0: 1 */
+  int32_t fill; /* 1: holes that no side of a block touches are filled, and a message tells it; 0: they stay */
+  int32_t reserved; /* 0 */
 } carreau_grid_options;
 
 /* Makes a surface through the nodes of n structured grids the geometry and the model of a session that has no model.
