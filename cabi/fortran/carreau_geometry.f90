@@ -48,7 +48,7 @@ module carreau_geometry
   type :: carreau_grid_options
     integer(c_int32_t) :: measured = CARREAU_MEASURED_POINTS, smoothing_rounds = 0
     real(c_double) :: smoothing_inward = 0.06_c_double, smoothing_outward = 0.061_c_double
-    logical :: lengths = .false., orient = .false.
+    logical :: lengths = .false., orient = .false., fill = .false.
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
   end type carreau_grid_options
 
@@ -305,6 +305,7 @@ contains
     c%smoothing_outward = options%smoothing_outward
     c%lengths = merge(1, 0, options%lengths)
     c%orient = merge(1, 0, options%orient)
+    c%fill = merge(1, 0, options%fill)
     c%join_angle = options%join_angle
     c%tolerance = options%tolerance
     c%step = options%step

@@ -53,6 +53,7 @@ module carreau_geometry_c
     real(c_double) :: smoothing_inward = 0, smoothing_outward = 0
     integer(c_int32_t) :: lengths = 0, orient = 0
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
+    integer(c_int32_t) :: fill = 0, reserved = 0
   end type c_grid_options
 
   interface

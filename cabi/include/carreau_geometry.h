@@ -261,6 +261,8 @@ typedef struct carreau_grid_options {
   double join_angle; /* degrees: blocks get one tangent plane along borders where their normals differ by less; 0: none */
   double tolerance;  /* nodes of borders are one when they are nearer; 0: a millionth of the diagonal */
   double step; /* of heights and scans whose file does not tell it; 0: 1 */
+  int32_t fill; /* 1: holes that no side of a block touches are filled, and a message tells it; 0: they stay */
+  int32_t reserved; /* 0 */
 } carreau_grid_options;
 
 /* Adds a surface through the nodes of n structured grids to a session. Block b has counts[2 b] columns and counts[2 b + 1] rows, and its nodes (x, y, z) lie behind those of block b - 1,

@@ -23,6 +23,7 @@ carreau::grid::Options options_of(const carreau_grid_options* given) {
   if (known.smoothing_inward != 0 || known.smoothing_outward != 0)
     options.smoothing.inward = known.smoothing_inward, options.smoothing.outward = known.smoothing_outward;
   options.lengths = known.lengths != 0, options.orient = known.orient != 0;
+  options.fill = known.fill != 0;
   constexpr double half_turn = 180;
   if (!(known.join_angle >= 0 && known.join_angle <= half_turn))
     throw InvalidArgument("the join_angle of a grid must lie between 0 and 180 degrees");

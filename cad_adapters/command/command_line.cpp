@@ -340,6 +340,7 @@ void CommandLine::add_grid_options(CLI::App* app, GridChoice& choice) {
                   "Give blocks of a grid one tangent plane where their normals differ by less than this")
       ->check(CLI::Range(0.0, 180.0))
       ->type_name(kind::number);
+  app->add_flag("--fill", choice.fill, "Fill holes of a grid that none of its sides touches");
   app->add_option("--step", choice.step, "Step of heights and scans whose file does not tell it")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);

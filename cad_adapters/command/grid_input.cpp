@@ -32,6 +32,7 @@ carreau_grid_options options_of(const GridChoice& choice) {
   if (!choice.smoothing.empty()) read_smoothing(choice.smoothing, options);
   options.lengths = choice.lengths ? 1 : 0;
   options.orient = 1;
+  options.fill = choice.fill ? 1 : 0;
   options.join_angle = choice.join_angle;
   options.tolerance = choice.tolerance;
   options.step = choice.step;

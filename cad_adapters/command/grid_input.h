@@ -15,6 +15,7 @@ struct GridChoice {
   bool lengths = false;      ///< parameters are cumulated lengths of edges
   double join_angle = 0;     ///< degrees; 0: borders of blocks keep their angles
   double tolerance = 0;      ///< below which nodes of borders are one; 0: a millionth of the diagonal
+  bool fill = false;         ///< holes inside
   double step = 0;           ///< of heights and scans whose file does not tell it; 0: 1
 };
 

@@ -55,7 +55,10 @@ class Finder {
   static constexpr int unseen = -2;
 
   void look_at(int i, int j) {
-    if (!block_.has_cell(i, j)) return;
+    if (!block_.has_cell(i, j)) {
+      ++cells_.missing;
+      return;
+    }
     const Shape shape = shape_of(block_, i, j);
     if (shape == Shape::flat) {
       if (cells_.flat++ == 0) cells_.flat_i = i, cells_.flat_j = j;

@@ -37,6 +37,7 @@ struct Cells {
   std::vector<Region> regions;  ///< by their first cell
   std::vector<char> there;      ///< [node at the lower left of a cell]
   std::size_t count = 0;        ///< of cells
+  std::size_t missing = 0;      ///< cells without all four nodes
   std::size_t flat = 0;         ///< cells without area, which are left out
   std::size_t folded = 0;       ///< cells whose corners do not turn the same way
   int folded_i = 0, folded_j = 0, flat_i = 0, flat_j = 0;  ///< the first of each, from 0

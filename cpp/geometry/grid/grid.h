@@ -58,6 +58,8 @@ struct Options {
   double join_angle = 0;
   /// Nodes on borders are one when they are nearer than this (model length); 0: a millionth of the diagonal.
   double tolerance = 0;
+  /// Holes that no side of a block touches are filled before anything else, and a message tells how many nodes were.
+  bool fill = false;
   /// Blocks are turned over, by running their columns backwards, so that normals agree across common borders: those
   /// of the first block count, and point outwards where blocks enclose a volume. Messages tell nothing of it.
   bool orient = false;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "geometry/grid/grid_cad.h"
+#include "geometry/grid/holes.h"
 #include "geometry/grid/interpolation.h"
 #include "geometry/grid/orientation.h"
 #include "geometry/grid/thresholds.h"
@@ -75,6 +76,10 @@ void warn(const std::vector<Cells>& cells, GridGeometry& made) {
       made.warnings.push_back(std::to_string(c.flat) +
                               (c.flat == 1 ? " cell is a line and left out: " : " cells are lines and left out, the first is ") +
                               Block::place(b, c.flat_i, c.flat_j));
+    if (c.missing > 0)
+      made.warnings.push_back(std::to_string(c.missing) + (c.missing == 1 ? " cell of " : " cells of ") + block_name(b) +
+                              (c.missing == 1 ? " lacks" : " lack") + " a node and " + (c.missing == 1 ? "is" : "are") +
+                              " left out");
     if (c.regions.empty()) made.warnings.push_back(block_name(b) + " has no cell with four nodes and is left out");
     if (c.regions.size() > 1)
       made.warnings.push_back("holes cut " + block_name(b) + " into " + std::to_string(c.regions.size()) +
@@ -112,6 +117,12 @@ void add_faces(const std::vector<Block>& blocks, const Borders& borders, std::ve
   built.cad = std::move(cad);
 }
 
+void fill(Block& block, const Closed& closed, std::size_t b, Monitor& monitor, GridGeometry& made) {
+  if (const std::size_t filled = fill_holes(block, closed, monitor); filled > 0)
+    made.warnings.push_back(std::to_string(filled) + (filled == 1 ? " missing node of " : " missing nodes of ") +
+                            block_name(b) + (filled == 1 ? " was filled" : " were filled"));
+}
+
 /// Turns blocks over where normals disagree, and finds their cells and borders again.
 void orient(std::vector<Block>& blocks, std::vector<Cells>& cells, Borders& borders, double tolerance) {
   const std::vector<char> turned = blocks_to_turn(blocks, cells, borders);
@@ -134,14 +145,15 @@ GridGeometry build_grid_geometry(const Grid& grid, const Options& options, Monit
   check(grid), check(options);
   std::vector<Block> blocks = grid.blocks;
   const double tolerance = options.tolerance > 0 ? options.tolerance : usual_tolerance(blocks);
+  GridGeometry made;
   std::vector<Closed> closed;
   for (Block& block : blocks) {
     closed.push_back(closed_directions(block, tolerance));
+    if (options.fill) fill(block, closed.back(), closed.size() - 1, monitor, made);
     smooth_block(block, closed.back(), options.smoothing, monitor);
   }
   std::vector<Cells> cells;
   for (const Block& block : blocks) cells.push_back(find_cells(block));
-  GridGeometry made;
   warn(cells, made);
   if (std::all_of(cells.begin(), cells.end(), [](const Cells& c) { return c.count == 0; }))
     throw InvalidModel(Where{.file = grid.source}, "the grid has no cell with four nodes");

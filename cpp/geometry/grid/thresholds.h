@@ -16,6 +16,10 @@ inline constexpr double folded_share = 1e-6;
 /// Turn at the joint of a closed grid (in the mean), or between lines of two blocks, radians, from which on they do not go
 /// on into one another: eight cells make a circle. [Glue.*, Coons.*]
 inline constexpr double closed_turn = std::numbers::pi / 4;
+/// Holes are filled when no node moves by more than this share of the first sweep's largest move. [Holes.*]
+inline constexpr double still_share = 1e-9;
+/// ... or after so many sweeps: of a hole of 50 x 50 nodes 1e-3 is left. [Holes.*]
+inline constexpr int most_sweeps = 2000;
 /// Parameter length of a row of cells without extent, as a share of the mean one: parameters must ascend. [Lengths.*]
 inline constexpr double least_interval = 1e-3;
 

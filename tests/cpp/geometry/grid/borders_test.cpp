@@ -135,13 +135,27 @@ TEST(Cells, AHoleIsALoopAndAStripOfHolesCutsTheBlockInTwo) {
   const GridGeometry holed = build({block});
   ASSERT_EQ(holed.built.model.faces.size(), 1U);
   EXPECT_EQ(holed.built.model.faces[0].curves.size(), 8U);
-  EXPECT_TRUE(holed.warnings.empty());
+  EXPECT_EQ(holed.warnings, std::vector<std::string>{"4 cells of block 1 lack a node and are left out"});
   for (int j = 0; j < 8; ++j) block.nodes[block.index(3, j)].z() = missing;
   const GridGeometry cut = build({block});
   ASSERT_EQ(cut.built.model.faces.size(), 2U);
   EXPECT_EQ(cut.built.model.faces[0].ref, 1);
   EXPECT_EQ(cut.built.model.faces[1].part_of, 1);
-  EXPECT_EQ(cut.warnings, std::vector<std::string>{"holes cut block 1 into 2 parts; each is a face of its own"});
+  EXPECT_EQ(cut.warnings.back(), "holes cut block 1 into 2 parts; each is a face of its own");
+}
+
+TEST(Holes, AreFilledByAMembraneThatIsExactForLinearGrids) {
+  Block block = flat(20, 16);
+  for (Vec3& p : block.nodes) p.z() = 0.5 * p.x() - 2 * p.y();
+  const Block before = block;
+  for (const auto& [i, j] : {std::pair{3, 3}, {4, 3}, {4, 4}, {9, 9}, {10, 12}}) block.nodes[block.index(i, j)].y() = missing;
+  block.nodes[block.index(19, 5)].x() = missing;  // on a side: stays
+  const GridGeometry made = build({block}, {.fill = true});
+  EXPECT_EQ(made.warnings.front(), "5 missing nodes of block 1 were filled");
+  ASSERT_EQ(made.built.model.faces.size(), 1U);
+  EXPECT_EQ(made.warnings.back(), "2 cells of block 1 lack a node and are left out");
+  for (const auto& [i, j] : {std::pair{3, 3}, {4, 4}, {9, 9}})
+    EXPECT_LE(norm(surface_at(*made.built.cad, 1, want_position, {double(i), double(j)}).s - before.node(i, j)), 1e-7);
 }
 
 TEST(Cells, CellsThatTouchByACornerKeepTheirLoops) {

@@ -1,0 +1,16 @@
+// Missing nodes that have others all around them.
+#pragma once
+
+#include <cstddef>
+
+#include "geometry/grid/grid.h"
+#include "geometry/grid/smoothing.h"
+
+namespace carreau::grid {
+
+/// Places the missing nodes of holes that no side of the block touches on a membrane over their rims: each is the mean
+/// of its four neighbours (thresholds::still_share). The number of nodes that were filled. Asks the monitor between
+/// sweeps.
+std::size_t fill_holes(Block& block, const Closed& closed, Monitor& monitor);
+
+}  // namespace carreau::grid
