@@ -1,7 +1,6 @@
 #include "surface/quads/face_quads.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "cad/batches.h"
 #include "surface/quads/quad_shape.h"
@@ -76,9 +75,6 @@ std::size_t split_poor(FaceQuads& quads, double least) {
 
 namespace {
 
-// Of the fourth corner of a triangle.
-constexpr std::int32_t no_corner = std::numeric_limits<std::int32_t>::min();
-
 /// Drops local vertices that nothing needs; marks theirs of the mesh.
 void compact(FaceQuads& quads, std::vector<char>& gone) {
   const std::size_t n = quads.patch.uv.size();
@@ -132,30 +128,6 @@ void find_missing_sizes(FaceQuads& quads) {
         sum[v] += norm(quads.xyz[cell[(k + 1) % n]] - quads.xyz[cell[k]]), ++count[v];
   for (std::size_t v = 0; v < quads.size.size(); ++v)
     if (quads.size[v] == 0 && count[v] > 0) quads.size[v] = sum[v] / count[v];
-}
-
-bool is_sound_in_space(const FaceQuads& quads) {
-  // Vertices of this face only have numbers of their own, below 0.
-  const auto number = [&](std::int32_t local) {
-    return local < 0 ? no_corner : quads.vertex[local] >= 0 ? quads.vertex[local] : -1 - local;
-  };
-  std::vector<std::array<std::int32_t, 4>> cells;
-  std::vector<std::array<std::int32_t, 2>> edges;
-  for (const MixedCell& c : quads.patch.cells) {
-    std::array<std::int32_t, 4>& corners = cells.emplace_back();
-    for (int k = 0; k < 4; ++k) corners[k] = number(c[k]);
-    for (int k = 0; k < corners_of(c); ++k) {
-      const std::int32_t a = corners[k], b = corners[(k + 1) % corners_of(c)];
-      if (a != b) edges.push_back({std::min(a, b), std::max(a, b)});
-    }
-    std::sort(corners.begin(), corners.end());
-  }
-  std::sort(cells.begin(), cells.end());
-  if (std::adjacent_find(cells.begin(), cells.end()) != cells.end()) return false;
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t k = 2; k < edges.size(); ++k)
-    if (edges[k] == edges[k - 2]) return false;
-  return true;
 }
 
 void put_back(FaceQuads& quads, const std::vector<std::int32_t>& now, CompositeResult& result) {

@@ -33,10 +33,6 @@ void lift(const ElementWork& work, const ControlSpace* metric, FaceQuads& quads,
 /// Cuts quadrilaterals whose scaled Jacobian in space is not above `least` into two triangles each. How many.
 std::size_t split_poor(FaceQuads& quads, double least);
 
-/// Whether no two cells have the same corners in space, and no edge more than two cells. Around a seam or an apex cells
-/// that are apart in (u, v) may become one in space.
-bool is_sound_in_space(const FaceQuads& quads);
-
 /// Puts the cells of faces into the mesh, all at once: vertices that no cell has any more are removed, new ones are
 /// appended face by face. Order stays.
 void put_back(std::vector<FaceQuads>& faces, CompositeResult& result);

@@ -82,9 +82,6 @@ class Quadrilaterals {
     const FaceCharts charts(*space(quads));
     pair_triangles(quads.patch, &charts, rules, monitor);
     improve(quads, charts, monitor);
-    if (is_sound_in_space(quads)) return;
-    quads = face_quads(work_, quads.face);  // the triangles were
-    pair_triangles(quads.patch, &charts, rules, monitor);
   }
 
   static void improve(FaceQuads& quads, const FaceCharts& charts, Monitor& monitor) {
