@@ -188,10 +188,21 @@ void say_what_is_new(CompositeRun& run) {
     if (face.status == FaceStatus::failed) run.say(Level::error, face.why);
 }
 
+// The faces of a plane domain lie beside one another, and the triangles of each are turned the same way.
+bool covers_a_plane_once(const CompositeRun& run) {
+  const std::vector<FaceMesh>& faces = run.result.mesh.faces;
+  return run.model.plane && std::all_of(faces.begin(), faces.end(),
+                                        [](const FaceMesh& face) { return face.status == FaceStatus::meshed; });
+}
+
 }  // namespace
 
 void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.crossing_rounds == 0) return;
+  if (covers_a_plane_once(run)) {
+    run.result.report.crossings = 0;
+    return;
+  }
   Crossings now(run);
   Score best = score_of(now);
   std::optional<CompositeResult> best_result;  // empty: that of the run
