@@ -3,13 +3,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <set>
 #include <utility>
 
 #include "cad/fundamental_forms.h"
 #include "mesh/intersections.h"
-#include "support/error.h"
+#include "surface/attempts.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -102,24 +101,11 @@ struct Crossings {
   explicit Crossings(const CompositeRun& run)
       : all(whole(run.result.mesh)),
         found(find_intersections(run.result.mesh.vertices, all.triangles,
-                                 {.limit = most_pairs, .threads = run.options.threads}, run.monitor)),
-        failed(std::count_if(run.result.mesh.faces.begin(), run.result.mesh.faces.end(),
-                             [](const FaceMesh& face) { return face.status == FaceStatus::failed; })) {}
+                                 {.limit = most_pairs, .threads = run.options.threads}, run.monitor)) {}
 
   WholeMesh all;
   Intersections found;
-  std::ptrdiff_t failed;  // faces
 };
-
-/// What a mesh is compared by.
-struct Score {
-  std::int64_t pairs;
-  std::ptrdiff_t failed;
-
-  [[nodiscard]] bool better_than(const Score& other) const { return failed <= other.failed && pairs < other.pairs; }
-};
-
-Score score_of(const Crossings& crossings) { return {crossings.found.count, crossings.failed}; }
 
 FinerPlaces places_to_refine(const CompositeRun& run, const Crossings& crossings) {
   const WholeMesh& all = crossings.all;
@@ -168,26 +154,6 @@ bool surfaces_cross(const FinerPlaces& before, const FinerPlaces& now) {
   return now.gap < most_fall_of_gap * before.gap;
 }
 
-// The run goes on with the mesh that it has where smaller triangles ask for too many, or for what the host has no
-// answer to.
-bool could_mesh_again(const std::function<void()>& mesh_again) {
-  try {
-    mesh_again();
-    return true;
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-// What the mesh that stays has to tell, if an earlier one has not told it.
-void say_what_is_new(CompositeRun& run) {
-  run.trying = false;
-  for (const FaceMesh& face : run.result.mesh.faces)
-    if (face.status == FaceStatus::failed) run.say(Level::error, face.why);
-}
-
 // The faces of a plane domain lie beside one another, and the triangles of each are turned the same way.
 bool covers_a_plane_once(const CompositeRun& run) {
   const std::vector<FaceMesh>& faces = run.result.mesh.faces;
@@ -204,33 +170,22 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     return;
   }
   Crossings now(run);
-  Score best = score_of(now);
-  std::optional<CompositeResult> best_result;  // empty: that of the run
-  std::vector<DiscreteCurve> curves, cut_curves;  // of best_result
+  std::int64_t fewest = now.found.count;
   const std::size_t first = now.all.triangles.size();
+  Attempts attempts(run, mesh_again);
   FinerPlaces places = places_to_refine(run, now);
   for (int round = 0; round < run.options.crossing_rounds && !places.edges.empty(); ++round) {
-    if (!best_result) curves = run.curves, cut_curves = run.cut_curves;
-    make_finer(run, places);
-    CompositeResult before = std::exchange(run.result, {});
-    run.result.graded = before.graded, run.result.report = before.report;
-    if (!best_result) best_result = std::move(before);
-    run.trying = true;
-    run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
-    if (!could_mesh_again(mesh_again)) break;
+    if (!attempts.again([&] { make_finer(run, places); })) break;
     now = Crossings(run);
-    if (score_of(now).better_than(best)) best = score_of(now), best_result.reset();
+    const bool best = attempts.keep_if(now.found.count < fewest);
+    if (best) fewest = now.found.count;
     if (now.all.triangles.size() > most_growth * first) break;
     FinerPlaces next = places_to_refine(run, now);
-    if (best_result && surfaces_cross(places, next)) break;
+    if (!best && surfaces_cross(places, next)) break;
     places = std::move(next);
   }
-  if (best_result) {
-    run.result = std::move(*best_result);
-    run.curves = std::move(curves), run.cut_curves = std::move(cut_curves);
-  }
-  run.result.report.crossings = best.pairs;
-  say_what_is_new(run);
+  attempts.finish();
+  run.result.report.crossings = fewest;
 }
 
 }  // namespace carreau

@@ -1,15 +1,13 @@
 // Elements other than straight triangles, made of the whole mesh.
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "support/error.h"
 #include "support/format.h"
+#include "surface/attempts.h"
 #include "surface/elements/quadratic.h"
 #include "surface/elements/thresholds.h"
 #include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
-#include "surface/thresholds.h"
 
 namespace carreau {
 
@@ -70,18 +68,6 @@ void divide_curves(CompositeRun& run, const std::vector<CurveEdge>& coarse) {
   if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, run.curves);
 }
 
-// The run goes on with what it has where smaller triangles ask for too many, or for what the host cannot answer.
-bool could_mesh_again(const std::function<void()>& mesh_again) {
-  try {
-    mesh_again();
-    return true;
-  } catch (const Cancelled&) {
-    throw;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 void tell(CompositeRun& run, const QuadraticReport& report) {
   for (const InvalidElements& invalid : report.invalid) {
     FaceMesh& face = run.result.mesh.faces[invalid.face];
@@ -100,22 +86,17 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
 void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.element == Element::p1) return;
   QuadraticReport now = make_once(run), best = now;
-  std::optional<CompositeResult> best_result;  // empty: that of the run
+  Attempts attempts(run, mesh_again);
   const double first = std::max(few_triangles, static_cast<double>(run.result.mesh.triangle_count()));
   const int rounds = has_quads(run.options.element) ? most_divisions_of_quads : most_divisions;
   for (int round = 0; round < rounds && count(now) > 0; ++round) {
-    divide_curves(run, now.coarse);
-    divide_faces(run, now);
-    CompositeResult before = std::exchange(run.result, {});
-    run.result.graded = before.graded, run.result.report = before.report;
-    if (!best_result) best_result = std::move(before);
-    run.begin += (1 - run.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
-    if (!could_mesh_again(mesh_again)) break;
+    if (!attempts.again([&] { divide_curves(run, now.coarse), divide_faces(run, now); })) break;
     now = make_once(run);
-    if (count(now) < count(best)) best = now, best_result.reset();
+    if (attempts.keep_if(count(now) < count(best))) best = now;
     if (static_cast<double>(run.result.mesh.triangle_count()) > most_growth * first) break;
   }
-  if (best_result) run.result = std::move(*best_result);
+  attempts.finish();
+  run.result.report.crossings = -1;  // those of straight triangles say nothing of these
   tell(run, best);
 }
 

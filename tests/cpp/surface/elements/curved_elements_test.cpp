@@ -97,6 +97,21 @@ TEST(CurvedElements, AQuadraticFieldIsExactOnAPlaneMesh) {
   EXPECT_GT(interpolation_error(Curved(square(), 0.1, "p1"), field), 1e-3);
 }
 
+TEST(CurvedElements, NobodyHasLookedForTheirCrossings) {
+  // Those of the straight triangles before are known where crossing_rounds is positive.
+  const auto crossings = [](const char* element) {
+    Monitor monitor;
+    const AnalyticCad cad = square();
+    const std::unique_ptr<Session> session = testing::session_of_size(cad, 0.25, monitor);
+    session->parameters().set("element", element);
+    session->parameters().set("crossing_rounds", 2);
+    session->make_mesh();
+    return session->report().crossings;
+  };
+  EXPECT_EQ(crossings("p1"), 0);
+  for (const char* element : {"p2", "q1.0", "q1.1", "q2.0"}) EXPECT_EQ(crossings(element), -1) << element;
+}
+
 TEST(CurvedElements, TheAreaOfTheQuarterPlateIsOfOrderFour) {
   const double exact = 1 - pi / 16;
   const auto error = [&](double h, const char* element) {
