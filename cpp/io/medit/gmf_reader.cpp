@@ -1,7 +1,6 @@
-#include "io/element_lists.h"
+#include "io/medit/element_sections.h"
 #include "io/medit/gmf_sections.h"
 #include "io/mesh_files.h"
-#include "support/error.h"
 
 namespace carreau {
 
@@ -16,27 +15,14 @@ class GmfReader {
  private:
   void section(std::int32_t code);
   void vertices();
-  /// A list and where its first record is; 0: no section yet.
   template <std::size_t N>
-  struct Section {
-    ElementList<N> list;
-    std::size_t start = 0;
-  };
-  template <std::size_t N>
-  void entities(const char* what, Section<N>& section);
-  template <std::size_t N>
-  void check_indices(const char* what, const Section<N>& section) const;
-  void check_all_indices() const;
-  void take_elements();
+  void entities(const char* what, ElementSections<std::size_t>::Section<N>& section);
+  void check_indices() const;
 
   GmfSections in_;
   FlatMesh mesh_;
   bool has_dimension_ = false, has_vertices_ = false;
-  Section<2> edges_;
-  Section<3> edges3_, triangles_;
-  Section<4> quads_;
-  Section<6> triangles6_;
-  Section<9> quads9_;
+  ElementSections<std::size_t> elements_;
 };
 
 void GmfReader::vertices() {
@@ -57,31 +43,12 @@ void GmfReader::vertices() {
 }
 
 template <std::size_t N>
-void GmfReader::entities(const char* what, Section<N>& section) {
+void GmfReader::entities(const char* what, ElementSections<std::size_t>::Section<N>& section) {
   if (section.start != 0) in_.fail(in_.position(), std::string(what) + " are given twice");
   const std::size_t n = in_.count(what, (N + 1) * in_.sizes().index);
   section.start = in_.position();
-  section.list.nodes.resize(n);
-  section.list.refs.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::int32_t& vertex : section.list.nodes[i]) {
-      const std::int32_t from_one = in_.reference();
-      // The smallest integer has no predecessor; any value below 0 is refused when all vertices are known.
-      vertex = from_one > 0 ? from_one - 1 : -1;
-    }
-    section.list.refs[i] = in_.reference();
-  }
-}
-
-template <std::size_t N>
-void GmfReader::check_indices(const char* what, const Section<N>& section) const {
-  const auto& list = section.list.nodes;
-  for (std::size_t i = 0; i < list.size(); ++i)
-    for (const std::int32_t vertex : list[i])
-      if (vertex < 0 || static_cast<std::size_t>(vertex) >= mesh_.vertices.size())
-        in_.fail(section.start + i * (N + 1) * in_.sizes().index, std::string(what) + " " + std::to_string(i + 1) +
-                                                                      " names a vertex that does not exist (there are " +
-                                                                      std::to_string(mesh_.vertices.size()) + ")");
+  const auto reference = [this] { return in_.reference(); };
+  elements_.read(section, n, reference, reference);
 }
 
 void GmfReader::section(std::int32_t code) {
@@ -94,55 +61,39 @@ void GmfReader::section(std::int32_t code) {
     case GmfCode::vertices:
       return vertices();
     case GmfCode::edges:
-      return entities("edges", edges_);
+      return entities("edges", elements_.edges);
     case GmfCode::edges_of_order_2:
-      return entities("edges of order 2", edges3_);
+      return entities("edges of order 2", elements_.edges3);
     case GmfCode::triangles:
-      return entities("triangles", triangles_);
+      return entities("triangles", elements_.triangles);
     case GmfCode::quadrilaterals:
-      return entities("quadrilaterals", quads_);
+      return entities("quadrilaterals", elements_.quads);
     case GmfCode::triangles_of_order_2:
-      return entities("triangles of order 2", triangles6_);
+      return entities("triangles of order 2", elements_.triangles6);
     case GmfCode::quadrilaterals_of_order_2:
-      return entities("quadrilaterals of order 2", quads9_);
+      return entities("quadrilaterals of order 2", elements_.quads9);
     default:
       break;  // other sections are skipped whole
   }
 }
 
-void GmfReader::check_all_indices() const {
-  check_indices("edge", edges_);
-  check_indices("edge of order 2", edges3_);
-  check_indices("triangle", triangles_);
-  check_indices("quadrilateral", quads_);
-  check_indices("triangle of order 2", triangles6_);
-  check_indices("quadrilateral of order 2", quads9_);
-}
-
-void GmfReader::take_elements() {
-  ElementLists lists{.triangles = std::move(triangles_.list),
-                     .triangles6 = std::move(triangles6_.list),
-                     .quads = std::move(quads_.list),
-                     .quads8 = {},
-                     .edges = std::move(edges_.list),
-                     .edges3 = std::move(edges3_.list)};
-  std::size_t bad = 0;
-  if (!take_quads9(quads9_.list.nodes, quads9_.list.refs, lists, mesh_, bad))
-    in_.fail(quads9_.start, "quadrilateral of order 2 " + std::to_string(bad + 1) +
-                                " has a ninth node that is not where its eight others put the centre");
-  try {
-    set_elements(lists, mesh_);
-  } catch (const InvalidArgument& error) {
-    in_.fail(in_.position(), error.what());
-  }
+void GmfReader::check_indices() const {
+  const auto refuse = [this]<std::size_t N>(const char* what, const ElementSections<std::size_t>::Section<N>& section,
+                                            std::size_t i, std::size_t) {
+    in_.fail(section.start + i * (N + 1) * in_.sizes().index, std::string(what) + " " + std::to_string(i + 1) +
+                                                                  " names a vertex that does not exist (there are " +
+                                                                  std::to_string(mesh_.vertices.size()) + ")");
+  };
+  elements_.check_indices(mesh_.vertices.size(), refuse);
 }
 
 FlatMesh GmfReader::read() {
   in_.header();
   for (std::int32_t code; (code = in_.next()) != static_cast<std::int32_t>(GmfCode::end);) section(code);
   if (!has_vertices_) in_.fail(in_.position(), "the file has no vertices");
-  check_all_indices();
-  take_elements();
+  check_indices();
+  elements_.give_to(mesh_, in_.position(),
+                    [this](std::size_t at, const std::string& sentence) { in_.fail(at, sentence); });
   return std::move(mesh_);
 }
 

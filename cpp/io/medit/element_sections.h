@@ -1,0 +1,85 @@
+// The elements of a Medit file, text or binary: a section a kind, each at most once.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "io/element_lists.h"
+#include "support/error.h"
+
+namespace carreau {
+
+/// `Place` points into the file; `Place{}`: the section has not come yet.
+template <class Place>
+struct ElementSections {
+  template <std::size_t N>
+  struct Section {
+    ElementList<N> list;
+    Place start{};  ///< of the first record
+  };
+
+  Section<2> edges;
+  Section<3> edges3, triangles;
+  Section<4> quads;
+  Section<6> triangles6;
+  Section<9> quads9;
+
+  /// Reads `count` records of N vertices from one and a reference, by `vertex()` and `reference()`. Vertices below one
+  /// become -1, for check_indices to refuse.
+  template <std::size_t N, class Vertex, class Reference>
+  static void read(Section<N>& section, std::size_t count, Vertex&& vertex, Reference&& reference) {
+    section.list.nodes.resize(count);
+    section.list.refs.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::int32_t& node : section.list.nodes[i]) {
+        const std::int32_t from_one = vertex();
+        node = from_one > 0 ? from_one - 1 : -1;  // the smallest integer has no predecessor
+      }
+      section.list.refs[i] = reference();
+    }
+  }
+
+  /// Calls `refuse(what, section, i, k)` for node k of element i, the first one of a section that is no vertex.
+  template <class Refuse>
+  void check_indices(std::size_t vertices, Refuse&& refuse) const {
+    check("edge", edges, vertices, refuse);
+    check("edge of order 2", edges3, vertices, refuse);
+    check("triangle", triangles, vertices, refuse);
+    check("quadrilateral", quads, vertices, refuse);
+    check("triangle of order 2", triangles6, vertices, refuse);
+    check("quadrilateral of order 2", quads9, vertices, refuse);
+  }
+
+  /// Moves all elements into the mesh. `fail(place, sentence)` throws; `end`: the place of what is about no one section.
+  template <class Fail>
+  void give_to(FlatMesh& mesh, Place end, Fail&& fail) {
+    ElementLists lists{.triangles = std::move(triangles.list),
+                       .triangles6 = std::move(triangles6.list),
+                       .quads = std::move(quads.list),
+                       .quads8 = {},
+                       .edges = std::move(edges.list),
+                       .edges3 = std::move(edges3.list)};
+    std::size_t bad = 0;
+    if (!take_quads9(quads9.list.nodes, quads9.list.refs, lists, mesh, bad))
+      fail(quads9.start, "quadrilateral of order 2 " + std::to_string(bad + 1) +
+                             " has a ninth node that is not where its eight others put the centre");
+    try {
+      set_elements(lists, mesh);
+    } catch (const InvalidArgument& error) {
+      fail(end, error.what());
+    }
+  }
+
+ private:
+  template <std::size_t N, class Refuse>
+  static void check(const char* what, const Section<N>& section, std::size_t vertices, Refuse& refuse) {
+    for (std::size_t i = 0; i < section.list.nodes.size(); ++i)
+      for (std::size_t k = 0; k < N; ++k) {
+        const std::int32_t v = section.list.nodes[i][k];
+        if (v < 0 || static_cast<std::size_t>(v) >= vertices) refuse(what, section, i, k);
+      }
+  }
+};
+
+}  // namespace carreau
