@@ -22,7 +22,7 @@ import subprocess
 import sys
 import time
 
-from gmsh_runs import FRONTAL_DELAUNAY, ROOT, gmsh, np, quality, quality_row, session, triangles
+from gmsh_runs import FRONTAL_DELAUNAY, ROOT, gmsh, np, quality, quality_row, session, teapot, triangles
 
 # Case of bench_surface, size, number of triangles it is near, and the ratio of speeds to reach.
 CASES = [
@@ -69,21 +69,6 @@ def torus(occ):
     arc = occ.addCircle(2, 0, 0, 0.7, angle1=0, angle2=math.pi)
     occ.rotate([(1, arc)], 2, 0, 0, 1, 0, 0, math.pi / 2)
     occ.revolve([(1, arc)], 0, 0, 0, 0, 0, 1, math.pi / 2)
-
-
-def teapot(occ):
-    """32 bicubic Bezier patches, sides that are equal made one."""
-    with open(os.path.join(ROOT, "fortran_examples", "teapot", "teapot.bpt")) as file:
-        words = file.read().split()
-    at = 1
-    for _ in range(int(words[0])):
-        at += 2  # 3 3
-        points = []
-        for k in range(16):
-            points.append(occ.addPoint(*map(float, words[at + 3 * k:at + 3 * k + 3])))
-        occ.addBezierSurface(points, 4)
-        at += 48
-    occ.removeAllDuplicates()
 
 
 GEOMETRY = {"paraboloid": paraboloid, "hemisphere": hemisphere, "torus": torus, "teapot": teapot}

@@ -11,49 +11,22 @@ Times are those of the processor, one thread: Gmsh's generate(1) and generate(2)
 Quality is (2 + 2 sqrt 2) rho / h (HDR sec. 1.1.1), in space. Exit status 1 when a figure is missed: ten times the speed in
 quadrilaterals a second, mean quality and worst scaled Jacobian above those of every way that ends.
 """
-import argparse
 import json
 import math
 import os
-import re
 import subprocess
 import sys
 import tempfile
 import time
 
-from gmsh_runs import ROOT, gmsh, np, run_process, session
+from gmsh_runs import build, element_options, file_of, finish, gmsh, np, run_process, session
 
 WAYS = {"front-quads blossom": (8, 1), "front-quads full": (8, 3), "packing blossom": (9, 1), "packing full": (9, 3), "front blossom": (6, 1)}
 FULL = ("front-quads full", "packing full")
 WANTED = 10
 
 
-def plate(occ):
-    occ.cut([(2, occ.addRectangle(0, 0, 0, 1, 1))], [(2, occ.addDisk(1, 1, 0, 0.5, 0.5))])
-
-
-def teapot(occ):
-    with open(os.path.join(ROOT, "fortran_examples", "teapot", "teapot.bpt")) as file:
-        words = file.read().split()
-    at = 1
-    for _ in range(int(words[0])):
-        at += 2  # 3 3
-        occ.addBezierSurface([occ.addPoint(*map(float, words[at + 3 * k:at + 3 * k + 3])) for k in range(16)], 4)
-        at += 48
-    occ.removeAllDuplicates()
-
-
-SHAPES = {"plate": plate, "sphere": lambda occ: occ.addSphere(0, 0, 0, 1), "torus": lambda occ: occ.addTorus(0, 0, 0, 2, 0.7), "teapot": teapot}
 CASES = [("plate", 0.05), ("plate", 0.01), ("sphere", 0.1), ("sphere", 0.03), ("torus", 0.1), ("teapot", 0.1)]
-
-
-def build(name):
-    if name in SHAPES:
-        SHAPES[name](gmsh.model.occ)
-    else:
-        gmsh.option.setString("Geometry.OCCTargetUnit", "")
-        gmsh.model.occ.importShapes(name)
-    gmsh.model.occ.synchronize()
 
 
 def shapes(points, quads):
@@ -140,26 +113,6 @@ def by_carreau(program, path, size, element, repeat, folder):
     return best
 
 
-def file_of(name, folder):
-    """What `carreau mesh` reads."""
-    if name == "teapot":
-        return os.path.join(ROOT, "fortran_examples", "teapot", "teapot.bpt")
-    if name not in SHAPES:
-        return name
-    path = os.path.join(folder, name + ".step")
-    with session(6, 0, 1):
-        build(name)
-        gmsh.write(path)
-    return path
-
-
-def diagonal(path):
-    with session(6, 0, 1):
-        build(path)
-        box = gmsh.model.getBoundingBox(-1, -1)
-    return math.dist(box[:3], box[3:])
-
-
 def show(who, row):
     if row is None:
         print(f"  {who:22} ends in a crash or without a mesh", flush=True)
@@ -178,16 +131,7 @@ def main():
     if len(sys.argv) == 6 and sys.argv[1] == "--child":
         child(sys.argv[2], float(sys.argv[3]), int(sys.argv[4]), int(sys.argv[5]))
         return 0
-    parser = argparse.ArgumentParser(description="Quadrilaterals of Carreau and Gmsh on the same shapes")
-    parser.add_argument("carreau", help="the program carreau")
-    parser.add_argument("files", nargs="*", help="CAD files")
-    parser.add_argument("--share", type=float, default=60, help="sizes of files: diagonal / share")
-    parser.add_argument("--repeat", type=int, default=1, help="runs, of which the fastest counts")
-    parser.add_argument("--cases", default="", help="those whose `name size` matches this regular expression")
-    parser.add_argument("--json", help="file for all figures")
-    options = parser.parse_args()
-    cases = [case for case in CASES + [(path, diagonal(path) / options.share) for path in options.files]
-             if re.search(options.cases, f"{case[0]} {case[1]}")]
+    options, cases = element_options("Quadrilaterals of Carreau and Gmsh on the same shapes", CASES)
     print(f"  {'':22}{'quads':>8}{'triangles':>10}{'speed':>14}{'mean':>8}{'worst':>8}{'Jacobian':>9}")
     rows, missed = [], 0
     with tempfile.TemporaryDirectory() as folder:
@@ -208,11 +152,7 @@ def main():
                 if less:
                     print(f"    {element} misses: {', '.join(less)}", flush=True)
                 rows.append({"case": name, "size": size, "way": way, "element": element, "gmsh": theirs, "carreau": ours[element]})
-    print(f"{len(rows)} comparisons, {missed} figures below those wanted")
-    if options.json:
-        with open(options.json, "w") as file:
-            json.dump(rows, file, indent=1)
-    return 1 if missed else 0
+    return finish(rows, missed, options.json)
 
 
 sys.exit(main())
