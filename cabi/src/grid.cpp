@@ -15,10 +15,19 @@ using namespace carreau::abi;
 
 namespace {
 
-carreau::grid::Options options_of(const carreau_grid_options* given) {
+/// What the caller knows of carreau_grid_options; without them, the values of carreau_grid_options_init.
+struct Asked {
   carreau::grid::Options options;
-  if (given == nullptr) return options;
+  std::int32_t measured = CARREAU_MEASURED_POINTS;
+  double step = 0;
+};
+
+Asked asked_of(const carreau_grid_options* given) {
+  Asked asked;
+  if (given == nullptr) return asked;
   const carreau_grid_options known = read_struct(given, "carreau_grid_options");
+  asked.measured = known.measured, asked.step = known.step;
+  carreau::grid::Options& options = asked.options;
   options.smoothing.rounds = known.smoothing_rounds;
   if (known.smoothing_inward != 0 || known.smoothing_outward != 0)
     options.smoothing.inward = known.smoothing_inward, options.smoothing.outward = known.smoothing_outward;
@@ -29,7 +38,7 @@ carreau::grid::Options options_of(const carreau_grid_options* given) {
     throw InvalidArgument("the join_angle of a grid must lie between 0 and 180 degrees");
   options.join_angle = known.join_angle * std::numbers::pi / half_turn;
   options.tolerance = known.tolerance;
-  return options;
+  return asked;
 }
 
 void add(carreau_session& session, const carreau::grid::Grid& grid, const carreau::grid::Options& options) {
@@ -75,17 +84,16 @@ GridFormat format_of(std::int32_t given) {
 carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_options* options, int64_t n,
                                 const int32_t counts[], const double nodes[]) {
   return guarded(session, [&] {
-    const carreau::grid::Options known = options_of(options);
+    const Asked asked = asked_of(options);
     session->refuse_begun();
     if (n < 1) throw InvalidArgument("there is no block: n is " + std::to_string(n));
     required(counts, "counts"), required(nodes, "nodes");
-    const std::int32_t measured = options != nullptr ? read_struct(options, "carreau_grid_options").measured : 0;
     carreau::grid::Grid grid;
     const double* next = nodes;
     for (std::int64_t b = 0; b < n; ++b) {
       carreau::grid::Block block;
       block.columns = counts[2 * b], block.rows = counts[2 * b + 1];
-      block.measured = measured_of(measured);
+      block.measured = measured_of(asked.measured);
       if (block.columns < 1 || block.rows < 1 || block.columns > std::numeric_limits<std::int32_t>::max() / block.rows)
         throw InvalidArgument("block " + std::to_string(b + 1) + " has " + std::to_string(block.columns) + " x " +
                               std::to_string(block.rows) + " nodes");
@@ -93,17 +101,17 @@ carreau_status carreau_add_grid(carreau_session* session, const carreau_grid_opt
       for (std::size_t k = 0; k < count; ++k, next += 3) block.nodes.emplace_back(next[0], next[1], next[2]);
       grid.blocks.push_back(std::move(block));
     }
-    add(*session, grid, known);
+    add(*session, grid, asked.options);
   });
 }
 
 carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options, const char* path,
                                  int32_t format) {
   return guarded(session, [&] {
-    const carreau::grid::Options known = options_of(options);
+    const Asked asked = asked_of(options);
     session->refuse_begun();
-    const double step = options != nullptr ? read_struct(options, "carreau_grid_options").step : 0;
+    const double step = asked.step;
     if (!(step >= 0) || !std::isfinite(step)) throw InvalidArgument("the step of a grid must be finite and not negative");
-    add(*session, carreau::read_grid(required(path, "path"), format_of(format), step > 0 ? step : 1), known);
+    add(*session, carreau::read_grid(required(path, "path"), format_of(format), step > 0 ? step : 1), asked.options);
   });
 }

@@ -5,10 +5,10 @@
 #include "carreau.h"
 #include "guard.h"
 #include "io/mesh_files.h"
-#include "mesh/elements/cell_quality.h"
 #include "mesh/flat_defects.h"
 #include "mesh/intersections.h"
 #include "mesh/quality.h"
+#include "mesh_content.h"
 #include "session/file_adaptation.h"
 
 using carreau::FaceMesh;
@@ -17,10 +17,6 @@ using carreau::InvalidArgument;
 using carreau::SurfaceMesh;
 using namespace carreau::abi;
 
-static_assert(int(carreau::CellKind::triangle3) == CARREAU_CELL_TRIANGLE3);
-static_assert(int(carreau::CellKind::triangle6) == CARREAU_CELL_TRIANGLE6);
-static_assert(int(carreau::CellKind::quad4) == CARREAU_CELL_QUAD4);
-static_assert(int(carreau::CellKind::quad8) == CARREAU_CELL_QUAD8);
 static_assert(int(carreau::FaceStatus::not_meshed) == CARREAU_FACE_NOT_MESHED);
 static_assert(int(carreau::FaceStatus::meshed) == CARREAU_FACE_MESHED);
 static_assert(int(carreau::FaceStatus::mended) == CARREAU_FACE_MENDED);
@@ -28,39 +24,6 @@ static_assert(int(carreau::FaceStatus::failed) == CARREAU_FACE_FAILED);
 static_assert(int(carreau::FaceStatus::collapsed) == CARREAU_FACE_COLLAPSED);
 
 namespace {
-
-/// Throws when the mesh has no content.
-void require_content(const carreau_mesh& mesh) {
-  const bool filled = mesh.session != nullptr ? mesh.session->session.has_mesh() : mesh.filled;
-  if (!filled)
-    throw StatusError(CARREAU_ERR_SEQUENCE, mesh.session != nullptr
-                                                ? "there is no mesh yet"
-                                                : "the mesh is empty: call carreau_mesh_read or carreau_mesh_from_arrays first");
-}
-
-const SurfaceMesh& surface_of(const carreau_mesh& mesh) { return mesh.session->session.mesh(); }
-
-const SurfaceMesh& session_only(const carreau_mesh& mesh, const char* what) {
-  if (mesh.session == nullptr)
-    throw StatusError(CARREAU_ERR_SEQUENCE, std::string("a mesh that was read from a file has no ") + what);
-  return surface_of(mesh);
-}
-
-/// Numbers of rows of either kind of mesh.
-struct Counts {
-  explicit Counts(const carreau_mesh& mesh) {
-    require_content(mesh);
-    if (mesh.session != nullptr) {
-      const SurfaceMesh& surface = surface_of(mesh);
-      vertices = surface.vertices.size() + surface.mid_vertices.size(), triangles = surface.triangle_count();
-      edges = surface.edge_count(), faces = carreau::whole_faces(surface).size();
-    } else {
-      vertices = mesh.flat.vertices.size(), triangles = mesh.flat.triangles.size();
-      edges = mesh.flat.edges.size(), faces = mesh.flat_faces.size();
-    }
-  }
-  std::size_t vertices = 0, triangles = 0, edges = 0, faces = 0;
-};
 
 /// body(v0, v1, v2, face, local corners) for each triangle of a session's mesh, in order.
 template <typename Body>
@@ -81,41 +44,38 @@ void for_each_side(const SurfaceMesh& surface, Body&& body) {
                corners + std::size_t(face.mid_vertex[mid]));
 }
 
-/// body(cell, reference of its face) for each element of the kind; nodes are vertices of the mesh.
-template <typename Body>
-void for_each_cell(const carreau_mesh& mesh, carreau::CellKind kind, Body&& body) {
-  if (mesh.session != nullptr) {
-    for (const FaceMesh& face : surface_of(mesh).faces)
-      for (const carreau::Cell& cell : carreau::cells_of(surface_of(mesh), face))
-        if (cell.kind == kind) body(cell, face.shown_ref());
-    return;
-  }
-  const FlatMesh& flat = mesh.flat;
-  carreau::for_cells(flat, [&](std::size_t, const carreau::Cell& cell, const auto&, std::size_t triangle) {
-    if (cell.kind == kind) body(cell, triangle < flat.triangle_refs.size() ? flat.triangle_refs[triangle] : 0);
-  });
-}
-
-carreau::CellKind kind_of(std::int32_t kind) {
-  if (kind < CARREAU_CELL_TRIANGLE3 || kind > CARREAU_CELL_QUAD8)
-    throw InvalidArgument("there is no kind of elements " + std::to_string(kind));
-  return carreau::CellKind(kind);
-}
-
-std::size_t count_cells(const carreau_mesh& mesh, carreau::CellKind kind) {
-  std::size_t count = 0;
-  for_each_cell(mesh, kind, [&](const carreau::Cell&, std::int32_t) { ++count; });
-  return count;
-}
-
 void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_t* out) {
   // A mesh may come without references: all are 0.
   for (std::size_t i = 0; i < n; ++i) out[i] = i < refs.size() ? refs[i] : 0;
 }
 
-FlatMesh flat_of(const carreau_mesh& mesh) { return carreau::flatten(surface_of(mesh), false); }
-
 }  // namespace
+
+void carreau::abi::require_content(const carreau_mesh& mesh) {
+  const bool filled = mesh.session != nullptr ? mesh.session->session.has_mesh() : mesh.filled;
+  if (!filled)
+    throw StatusError(CARREAU_ERR_SEQUENCE, mesh.session != nullptr
+                                                ? "there is no mesh yet"
+                                                : "the mesh is empty: call carreau_mesh_read or carreau_mesh_from_arrays first");
+}
+
+const SurfaceMesh& carreau::abi::session_only(const carreau_mesh& mesh, const char* what) {
+  if (mesh.session == nullptr)
+    throw StatusError(CARREAU_ERR_SEQUENCE, std::string("a mesh that was read from a file has no ") + what);
+  return surface_of(mesh);
+}
+
+carreau::abi::Counts::Counts(const carreau_mesh& mesh) {
+  require_content(mesh);
+  if (mesh.session != nullptr) {
+    const SurfaceMesh& surface = surface_of(mesh);
+    vertices = surface.vertices.size() + surface.mid_vertices.size(), triangles = surface.triangle_count();
+    edges = surface.edge_count(), faces = carreau::whole_faces(surface).size();
+  } else {
+    vertices = mesh.flat.vertices.size(), triangles = mesh.flat.triangles.size();
+    edges = mesh.flat.edges.size(), faces = mesh.flat_faces.size();
+  }
+}
 
 std::vector<carreau_mesh::FaceOfFile> carreau::abi::faces_of(const FlatMesh& flat) {
   std::map<std::int32_t, carreau_mesh::FaceOfFile> by_ref;
@@ -331,87 +291,6 @@ carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int3
         for (std::size_t i = 1; i < curve.vertices.size(); ++i) *out++ = curve.shown_ref();
     else
       copy_refs(mesh->flat.edge_refs, k, out_refs);
-  });
-}
-
-carreau_status carreau_mesh_cell_count(carreau_mesh* mesh, int32_t kind, int64_t* out_count) {
-  return guarded(mesh, [&] {
-    required(out_count, "out_count");
-    require_content(*mesh);
-    *out_count = std::int64_t(count_cells(*mesh, kind_of(kind)));
-  });
-}
-
-carreau_status carreau_mesh_cells(carreau_mesh* mesh, int32_t kind, int64_t capacity, int32_t* out_nodes,
-                                  int32_t* out_refs) {
-  return guarded(mesh, [&] {
-    required(out_nodes, "out_nodes");
-    require_content(*mesh);
-    const carreau::CellKind wanted = kind_of(kind);
-    check_capacity(capacity, count_cells(*mesh, wanted), "elements");
-    std::int32_t *node = out_nodes, *ref = out_refs;
-    for_each_cell(*mesh, wanted, [&](const carreau::Cell& cell, std::int32_t of_face) {
-      node = std::copy_n(cell.nodes.begin(), carreau::node_count(wanted), node);
-      if (ref != nullptr) *ref++ = of_face;
-    });
-  });
-}
-
-carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t capacity, double* out_uv) {
-  return guarded(mesh, [&] {
-    required(out_uv, "out_uv");
-    require_content(*mesh);
-    const carreau::CellKind wanted = kind_of(kind);
-    check_capacity(capacity, count_cells(*mesh, wanted), "elements");
-    double* out = out_uv;
-    for (const FaceMesh& face : session_only(*mesh, "(u, v)").faces) {
-      const auto corners = std::int32_t(face.uv.size());
-      for (const carreau::Cell& cell : carreau::local_cells(face))
-        for (int i = 0; cell.kind == wanted && i < carreau::node_count(wanted); ++i) {
-          const std::int32_t node = cell.nodes[std::size_t(i)];
-          const carreau::Vec2& uv = node < corners ? face.uv[node] : face.mid_uv[node - corners];
-          *out++ = uv.x(), *out++ = uv.y();
-        }
-    }
-  });
-}
-
-carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices) {
-  return guarded(mesh, [&] {
-    required(out_vertices, "out_vertices");
-    const std::size_t k = Counts(*mesh).edges;
-    check_capacity(capacity, k, "edges");
-    std::fill_n(out_vertices, k, -1);
-    std::int32_t* out = out_vertices;
-    if (mesh->session == nullptr) {
-      std::copy(mesh->flat.edge_mids.begin(), mesh->flat.edge_mids.end(), out);
-      return;
-    }
-    const SurfaceMesh& surface = surface_of(*mesh);
-    for (const carreau::CurveMesh& curve : surface.curves) {
-      for (std::size_t i = 0; i < curve.mid.size(); ++i) out[i] = std::int32_t(surface.vertices.size()) + curve.mid[i];
-      if (!curve.vertices.empty()) out += curve.vertices.size() - 1;
-    }
-  });
-}
-
-carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_quality* out_quality) {
-  return guarded(mesh, [&] {
-    require_content(*mesh);
-    const carreau::CellSummary summary =
-        carreau::summarise_cells(mesh->session != nullptr ? flat_of(*mesh) : mesh->flat);
-    carreau_cell_quality result{};
-    result.triangles3 = std::int64_t(summary.triangles3), result.triangles6 = std::int64_t(summary.triangles6);
-    result.quads4 = std::int64_t(summary.quads4), result.quads8 = std::int64_t(summary.quads8);
-    result.shape_mean = summary.shape.mean, result.shape_min = summary.shape.min;
-    result.scaled_jacobian_mean = summary.scaled_jacobian.mean;
-    result.scaled_jacobian_min = summary.scaled_jacobian.min;
-    result.least_jacobian_mean = summary.least_jacobian.mean;
-    result.least_jacobian_min = summary.least_jacobian.min;
-    result.angle_min = summary.angle_min_deg, result.angle_max = summary.angle_max_deg;
-    result.area = summary.area, result.triangle_share = summary.triangle_share;
-    result.invalid = std::int64_t(summary.invalid);
-    write_struct(result, out_quality, "out_quality");
   });
 }
 
