@@ -10,7 +10,8 @@
 #include "failure.h"
 #include "json_output.h"
 #include "lengths.h"
-#include "suggestions.h"
+#include "option_groups.h"
+#include "parse_errors.h"
 
 namespace command {
 namespace {
@@ -23,15 +24,6 @@ constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .m
 constexpr int most_listed = 1'000'000;
 constexpr int unusable = 2;  // exit code
 
-std::string is_gradation(const std::string& value) {
-  double ratio = -1;
-  const bool known = CLI::detail::lexical_cast(value, ratio) && (ratio == 0 || (ratio >= 1.0001 && ratio <= 1e9));
-  return known ? "" : "'" + value + "' is neither a ratio from 1.0001 to 1e9 nor 0";
-}
-std::vector<std::string> molecule_surface_names() {
-  return {std::begin(molecule_surfaces), std::end(molecule_surfaces)};
-}
-std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
 
 void parse_picture_size(const std::string& text, PictureOptions& options) {
   const auto size = parse_pixels(text);
@@ -51,67 +43,10 @@ void parse_field_size(const std::string& text, FieldsOptions& options) {
   options.longest = *longest;
 }
 
-/// `--set`, and options like it, take one value each time they are given.
-CLI::Option* repeated(CLI::Option* option) { return option->allow_extra_args(false); }
-
-CLI::Option* threads(CLI::App* app, int& value) {
-  return app->add_option("--threads", value, "Threads at work, 0: all cores; results do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->type_name(kind::number)
-      ->capture_default_str();
-}
-
-std::vector<std::string> commands_of(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
-  return names;
-}
-
 const CLI::App* find_command(const std::string& name, const CLI::App& app) {
   for (const CLI::App* sub : app.get_subcommands({}))
     if (sub->get_name() == name) return sub;
   return nullptr;
-}
-
-std::string command_names(const CLI::App& app) {
-  std::string names;
-  for (const std::string& name : commands_of(app)) names += (names.empty() ? "" : ", ") + name;
-  return names;
-}
-
-std::string unknown_command(const std::string& word, const CLI::App& app) {
-  return "There is no command '" + word + "'" + did_you_mean(word, commands_of(app)) + " There are " +
-         command_names(app) + ".";
-}
-
-/// The words in "{a,b,c}" of an option's kind of value.
-std::vector<std::string> choices_of(const std::string& type) {
-  const std::size_t open = type.find('{'), close = type.find('}');
-  std::vector<std::string> words;
-  if (open == std::string::npos || close == std::string::npos) return words;
-  for (std::size_t from = open + 1; from < close;) {
-    const std::size_t to = std::min(type.find(',', from), close);
-    words.push_back(type.substr(from, to - from));
-    from = to + 1;
-  }
-  return words;
-}
-
-/// Why a word is no value of an option: it is no number, or not in its range, or none of its choices. "": it may be.
-std::string choice_sentence(const std::string& name, const std::string& word, const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  if (const std::vector<std::string> choices = choices_of(type); !choices.empty()) {
-    if (std::find(choices.begin(), choices.end(), word) != choices.end()) return "";
-    std::string all;
-    for (const std::string& each : choices) all += (all.empty() ? "" : ", ") + each;
-    return name + " '" + word + "' is none of: " + all + did_you_mean(word, choices);
-  }
-  const std::size_t range = type.find(" in [");
-  double number = 0;
-  if (range == std::string::npos || CLI::detail::lexical_cast(word, number)) return "";
-  std::string bounds = type.substr(range + 5, type.find(']', range) - range - 5);
-  if (const std::size_t between = bounds.find(" - "); between != std::string::npos) bounds.replace(between, 3, " to ");
-  return name + " '" + word + "' is not a number from " + bounds;
 }
 
 }  // namespace
@@ -221,85 +156,13 @@ void CommandLine::add_adapt() {
                              "fields on it as .sol or .solb (beside the mesh when not named); may be repeated"))
       ->required()
       ->type_name(kind::file);
-  add_estimator_options(adapt);
+  add_estimator_options(adapt, adapt_.adapt.names);
   adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Of a plane domain: see carreau plane")
       ->check(CLI::Range(0.1, 180.0));
   add_molecule_options(adapt, adapt_.molecule);
   add_mesh_options(adapt, adapt_);
   adapt->add_flag("--json", adapt_.json, "Print a summary as JSON on the standard output");
   adapt->add_flag("-q,--quiet", adapt_.quiet, "Tell errors only");
-}
-
-void CommandLine::add_estimator_options(CLI::App* app) {
-  const auto parameter = [&](const char* option, const char* name, const char* help) {
-    return app->add_option_function<std::string>(
-        option, [this, name](const std::string& value) { adapt_.adapt.names.push_back(std::string(name) + "=" + value); },
-        help);
-  };
-  parameter("--tolerance", "adapt_tolerance", "Error of a field on the next mesh, in its unit; degrees with curvature")
-      ->check(CLI::PositiveNumber)
-      ->type_name("ERROR");
-  parameter("--source", "adapt_source", "What the error is estimated from")
-      ->check(CLI::IsMember({"hessian", "curvature", "deformation"}));
-  parameter("--shape", "adapt_shape", "Sizes, circles in the tangent planes of the graph, or metrics")
-      ->check(CLI::IsMember({"isotropic", "graph", "anisotropic"}));
-  parameter("--recovery", "adapt_recovery", "How derivatives are found from values")
-      ->check(CLI::IsMember({"fit", "projection"}));
-  app->add_flag_callback("--relative", [this] { adapt_.adapt.names.emplace_back("adapt_relative=1"); },
-                         "The tolerance is a share of the field's absolute value");
-  parameter("--floor", "adapt_floor", "With --relative: a field counts as this share of its largest value at least")
-      ->check(CLI::PositiveNumber)
-      ->type_name("SHARE");
-  parameter("--ratio", "adapt_ratio", "Largest ratio of the two sizes of a metric")
-      ->check(CLI::Range(1.0, 1e9))
-      ->type_name("RATIO");
-}
-
-void CommandLine::add_mesh_options(CLI::App* app, MeshOptions& options) {
-  app->add_option("--size", options.size,
-                  "Length of edges, or a share of the model's diagonal such as 1%; 2% when nothing else says a size")
-      ->check(not_empty)
-      ->type_name(kind::length);
-  app->add_option("--size-map", options.size_map,
-                  "Sizes by a formula in x, y, z, u, v, or by a background mesh: file .mesh(b) with a .sol(b) beside")
-      ->check(not_empty)
-      ->type_name(kind::file);
-  app->add_option("--angle", options.angle, "Degrees between the mesh and its surfaces: sizes follow the curvature")
-      ->check(CLI::Range(0.01, 89.0))
-      ->type_name(kind::number);
-  app->add_option("--chord", options.chord, "Distance between the mesh and its surfaces: sizes follow the curvature")
-      ->check(not_empty)
-      ->type_name(kind::length);
-  app->add_option("--gradation", options.gradation,
-                  "Sizes grow by at most this ratio from one edge to the next; 0: by any. 1.3 with --anisotropic")
-      ->check(is_gradation)
-      ->type_name("RATIO");
-  app->add_flag("--anisotropic{1000}", options.anisotropy,
-                "Sizes that follow the curvature differ by direction; --anisotropic=RATIO bounds them; implies "
-                "--gradation 1.3")
-      ->check(CLI::Range(1.0, 1e9));
-  app->add_option("--element", options.element,
-                  "Elements: p1, p2 (curved), q1.0, q1.1 (quadrilaterals, .1 without triangles), q2.0, q2.1 (curved)")
-      ->check(CLI::IsMember({"p1", "p2", "q1.0", "q1.1", "q2.0", "q2.1"}))
-      ->type_name("ELEMENT");
-  CLI::Option* independent = app->add_flag("--independent", options.independent,
-                                           "Borders between faces that are not sharp mean nothing: triangles cross them");
-  app->add_option("--sharp-angle", options.sharp_angle,
-                  "With --independent: degrees between faces beyond which their border is sharp; 1 when not given")
-      ->check(CLI::Range(0.0, 180.0))
-      ->needs(independent)
-      ->type_name("DEGREES");
-  app->add_option("--min", options.minimum, "Smallest size")->check(not_empty)->type_name(kind::length);
-  app->add_option("--max", options.maximum, "Largest size")->check(not_empty)->type_name(kind::length);
-  repeated(app->add_option("--face-size", options.face_sizes,
-                           "Size on a face given by number, or on all faces of a name; may be repeated"))
-      ->type_name("FACE=LENGTH");
-  app->add_option("--env", options.env, "Parameters from a blsurf.env, up to its first action; options win")
-      ->check(not_empty)
-      ->type_name(kind::file);
-  repeated(app->add_option("--set", options.settings, "Any parameter that `carreau params` lists; may be repeated"))
-      ->type_name(kind::setting);
-  threads(app, options.threads);
 }
 
 void CommandLine::add_info() {
@@ -314,39 +177,6 @@ void CommandLine::add_info() {
   info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
   add_grid_options(info, info_.grid);
   info->add_flag("--json", info_.json, "Print JSON");
-}
-
-void CommandLine::add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
-  app->add_option("--surface", choice.surface,
-                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent")
-      ->check(CLI::IsMember(molecule_surface_names()))
-      ->capture_default_str();
-  app->add_option("--probe", choice.probe, "Radius of the probe that stands for the solvent")
-      ->check(CLI::Range(0.0, 1e9))
-      ->type_name(kind::length)
-      ->capture_default_str();
-  app->add_flag("--drop-cavities", choice.drop_cavities, "Leave out inner shells of a molecule");
-}
-
-void CommandLine::add_grid_options(CLI::App* app, GridChoice& choice) {
-  app->add_option("--grid", choice.format, "Read a structured grid in this format, whatever the suffix")
-      ->check(CLI::IsMember(std::vector<std::string>(std::begin(grid_formats), std::end(grid_formats))));
-  app->add_option("--smooth", choice.smoothing,
-                  "Smooth a grid without shrinking: rounds, or rounds,w1,w2 (Taubin's weights, .06 and .061)")
-      ->check(smoothing_defect)
-      ->type_name(kind::rounds);
-  app->add_flag("--lengths", choice.lengths, "Make lengths of edges the parameters of a grid: for abrupt steps");
-  app->add_option("--join", choice.join_angle,
-                  "Give blocks of a grid one tangent plane where their normals differ by less than this")
-      ->check(CLI::Range(0.0, 180.0))
-      ->type_name(kind::number);
-  app->add_flag("--fill", choice.fill, "Fill holes of a grid that none of its sides touches");
-  app->add_option("--step", choice.step, "Step of heights and scans whose file does not tell it")
-      ->check(CLI::Range(0.0, 1e9))
-      ->type_name(kind::length);
-  app->add_option("--join-nodes", choice.tolerance, "Nodes on borders of grids are one when they are nearer than this")
-      ->check(CLI::Range(0.0, 1e9))
-      ->type_name(kind::length);
 }
 
 void CommandLine::add_areas() {
@@ -466,27 +296,6 @@ int CommandLine::help(const std::string& command) {
   if (const CLI::App* const sub = find_command(command, app_))
     return std::fputs(sub->help("carreau").c_str(), stdout), 0;
   throw Failure(unknown_command(command, app_));
-}
-
-std::string CommandLine::sentence_of(const CLI::ParseError& error, const CLI::App& sub,
-                                     const std::vector<std::string>& words) const {
-  std::vector<std::string> known;
-  for (const CLI::Option* option : sub.get_options())
-    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  for (const std::string& word : words) {
-    const std::string name = word.substr(0, word.find('='));
-    if (!name.starts_with("--") || name.size() < 3 || std::find(known.begin(), known.end(), name) != known.end())
-      continue;
-    return "carreau " + sub.get_name() + " has no option '" + name + "'" + did_you_mean(name, known);
-  }
-  for (const CLI::Option* option : sub.get_options()) {
-    const std::string name = option->get_lnames().empty() ? option->get_name() : "--" + option->get_lnames().front();
-    const auto is_value = [&](const std::string& word) { return !choice_sentence(name, word, *option).empty(); };
-    if (const auto wrong = std::find_if(option->results().begin(), option->results().end(), is_value);
-        wrong != option->results().end())
-      return choice_sentence(name, *wrong, *option);
-  }
-  return error.what();
 }
 
 int CommandLine::run(int argc, char** argv) {

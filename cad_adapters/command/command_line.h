@@ -9,17 +9,6 @@
 
 namespace command {
 
-/// Kinds of values, as help shows them; completion of shells knows the first four.
-namespace kind {
-inline constexpr const char* file = "FILE";
-inline constexpr const char* parameter = "NAME";
-inline constexpr const char* setting = "NAME=VALUE";
-inline constexpr const char* view = "VIEW";
-inline constexpr const char* length = "LENGTH";
-inline constexpr const char* number = "N";
-inline constexpr const char* rounds = "ROUNDS";
-}  // namespace kind
-
 /// The parser and what it fills.
 class CommandLine {
  public:
@@ -37,12 +26,6 @@ class CommandLine {
   void add_mesh();
   void add_plane();
   void add_adapt();
-  /// How fields become sizes: the parameters adapt_* by options.
-  void add_estimator_options(CLI::App* app);
-  /// What governs a mesh: of `mesh` and `fields`.
-  static void add_mesh_options(CLI::App* app, MeshOptions& options);
-  static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
-  static void add_grid_options(CLI::App* app, GridChoice& choice);
   void add_info();
   void add_areas();
   void add_picture();
@@ -53,9 +36,6 @@ class CommandLine {
   int run_command();
   /// `carreau help [COMMAND]`.
   int help(const std::string& command);
-  /// A sentence for a command line that cannot be parsed, with what may have been meant.
-  [[nodiscard]] std::string sentence_of(const CLI::ParseError& error, const CLI::App& sub,
-                                        const std::vector<std::string>& words) const;
 
   CLI::App app_;
   MeshOptions mesh_, plane_, adapt_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "command_line.h"
+#include "option_groups.h"
 #include "suggestions.h"
 
 namespace command {

@@ -3,7 +3,10 @@
 #include <carreau_geometry.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <fstream>
+#include <sstream>
 
 #include "built_input.h"
 #include "failure.h"
@@ -39,12 +42,41 @@ carreau_grid_options options_of(const GridChoice& choice) {
   return options;
 }
 
+/// Whether a line holds integers alone, and how many.
+int integers_in(const std::string& line) {
+  std::istringstream words(line);
+  int count = 0;
+  for (std::string word; words >> word; ++count)
+    if (word.find_first_not_of("0123456789") != std::string::npos) return 0;
+  return count;
+}
+
+/// Files .xyz are molecules or grids of PLOT3D. Those of grids are binary, or begin with counts of nodes: two numbers or
+/// three, which may stand below the number of blocks. A molecule begins with the number of its atoms and a title.
+bool is_plot3d(const std::string& path) {
+  if (suffix_of(path) != ".xyz") return false;
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(256, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(file.gcount()));
+  if (begin.find('\0') != std::string::npos) return true;
+  std::istringstream lines(begin);
+  std::string first, second, third;
+  std::getline(lines, first), std::getline(lines, second), std::getline(lines, third);
+  if (integers_in(first) != 1) return integers_in(first) > 1;
+  const std::size_t word = third.find_first_not_of(" \t");
+  const bool symbol = word != std::string::npos && std::isalpha(static_cast<unsigned char>(third[word])) != 0;
+  return integers_in(second) > 1 && !symbol;
+}
+
 carreau_status load(carreau_session* session, const std::string& path, const GridChoice& choice) {
   const auto* const format = std::find(std::begin(grid_formats), std::end(grid_formats), choice.format);
   const auto rank = static_cast<std::int32_t>(format - std::begin(grid_formats));
   const carreau_grid_options options = options_of(choice);
   return carreau_load_grid(session, &options, path.c_str(),
-                           choice.format.empty() ? CARREAU_GRID_BY_SUFFIX : CARREAU_GRID_PLOT3D + rank);
+                           !choice.format.empty() ? CARREAU_GRID_PLOT3D + rank
+                           : is_plot3d(path)      ? CARREAU_GRID_PLOT3D
+                                                  : CARREAU_GRID_BY_SUFFIX);
 }
 
 class GridInput final : public BuiltInput {
@@ -68,7 +100,7 @@ class GridInput final : public BuiltInput {
 
 bool is_grid(const std::string& path, const GridChoice& choice) {
   const std::string suffix = suffix_of(path);
-  return !choice.format.empty() || std::any_of(std::begin(grid_suffixes), std::end(grid_suffixes),
+  return !choice.format.empty() || is_plot3d(path) || std::any_of(std::begin(grid_suffixes), std::end(grid_suffixes),
                                                [&](const char* known) { return suffix == known; });
 }
 

@@ -4,6 +4,7 @@ import json
 import math
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -66,6 +67,20 @@ class Grids(unittest.TestCase):
     def test_info_knows_grids(self):
         figures = json.loads(self.run_command("info", self.write("wing.fmt", wing()), "--json").stdout)
         self.assertEqual(figures["faces"], 1)
+
+    def test_files_xyz_are_grids_or_molecules(self):
+        nodes = "0 1 2 0 1 2 0 1 2\n0 0 0 1 1 1 2 2 2\n0 0 0 0 0 0 0 0 0\n"
+        binary = os.path.join(self.folder, "binary.xyz")
+        with open(binary, "wb") as file:
+            file.write(struct.pack("=3i", 3, 3, 1) + struct.pack("=27d", *map(float, nodes.split())))
+        for name, text, faces in (("one", "3 3 1\n" + nodes, 1), ("block", "1\n3 3 1\n" + nodes, 1),
+                                  ("atoms", "2\n3 3 1\nC 0 0 0\nO 1 0 0\n", 2), ("numbers", "2\ntitle\n6 0 0 0\n8 1 0 0\n", None),
+                                  ("binary", None, 1)):
+            path = binary if text is None else self.write(name + ".xyz", text)
+            if faces is not None:
+                self.assertEqual(json.loads(self.run_command("info", path, "--json").stdout)["faces"], faces, name)
+            else:
+                self.assertIn("van der Waals", self.run_command("info", path, code=2).stderr)
 
     def test_another_suffix_needs_the_format(self):
         path = self.write("heights.dat", "1 2 1\n2 3 2\n1 2 1\n")

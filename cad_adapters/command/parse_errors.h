@@ -1,0 +1,17 @@
+// Sentences for command lines that cannot be parsed.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace command {
+
+/// "mesh, plane, ...".
+std::string command_names(const CLI::App& app);
+/// There is no such command; with what may have been meant.
+std::string unknown_command(const std::string& word, const CLI::App& app);
+/// Why `words` are no command line of `sub`, with what may have been meant.
+std::string sentence_of(const CLI::ParseError& error, const CLI::App& sub, const std::vector<std::string>& words);
+
+}  // namespace command
