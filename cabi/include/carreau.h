@@ -919,8 +919,12 @@ CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const c
  *   CARREAU_MEASURE_METRIC_QUALITY  triangles  Q2 in the metric
  *   CARREAU_MEASURE_A0              triangles  distance of the surface above it, at sample points; model length
  *   CARREAU_MEASURE_A1              triangles  largest angle between its normal and the surface's, degrees, 0 to 180
+ *   CARREAU_MEASURE_CURVE_A0        edges      of edges of curves: distance of the curve's arc to it, model length
+ *   CARREAU_MEASURE_CURVE_A1        edges      of edges of curves: largest angle with tangents of its arc, degrees
+ *   CARREAU_MEASURE_VERTEX_ANGLE    triangles  largest angle between its normal and those of the surface at its vertices,
+ *                                              degrees: what angle_mesh limits (RT-0232 sec. 3.3)
  *
- * A value is NaN where it has no meaning (sizes at a singular point). */
+ * A value is NaN where it has no meaning (sizes at a singular point, curves of edges inside faces). */
 enum {
   CARREAU_MEASURE_LENGTH = 1,
   CARREAU_MEASURE_EDGE_ANGLE = 2,
@@ -930,7 +934,10 @@ enum {
   CARREAU_MEASURE_Q2 = 6,
   CARREAU_MEASURE_METRIC_QUALITY = 7,
   CARREAU_MEASURE_A0 = 8,
-  CARREAU_MEASURE_A1 = 9
+  CARREAU_MEASURE_A1 = 9,
+  CARREAU_MEASURE_CURVE_A0 = 10,
+  CARREAU_MEASURE_CURVE_A1 = 11,
+  CARREAU_MEASURE_VERTEX_ANGLE = 12
 };
 enum { CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3 };
 
@@ -961,7 +968,8 @@ typedef struct carreau_measure {
   double mean, min, p1, p99, max; /* p1, p99: percentiles */
   double limit;                   /* what was asked: no value above this; infinity if nothing was */
   int64_t beyond;                 /* values above it (gradation: by more than 2 %) */
-  int64_t forced; /* of those: angles of edges as short as hgeomin lets them be (sqrt(2) times as long at most),
+  int64_t forced; /* of those: angles of edges as short as hgeomin lets them be (sqrt(2) times as long at most) and
+                     of triangles with such edges alone,
                      gradations of edges that cross a face from a vertex of a curve to another one */
 } carreau_measure;
 

@@ -25,6 +25,7 @@ MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, 
   EvaluationOptions measure;
   measure.curve_size = result.curve_size;
   measure.law = rules.law();
+  measure.curve_parameters = result.curve_parameters;
   const GeometricLimits geometric = geometric_limits(options.size);
   measure.edge_angle_limit = geometric.edge_angle_deg;
   measure.shortest_for_angle = geometric.shortest_divided;

@@ -144,6 +144,7 @@ class ElementEvaluation {
   void start(const Placed& p) {
     set(p, EvaluationKind::deviation, 0);
     set(p, EvaluationKind::angle, 0);
+    set(p, EvaluationKind::vertex_angle, nan);
     if (corner_count(p.cell.kind) == 3) return;
     const CellQuality q = cell_quality(p.cell.kind, map_of(p, p.xyz).x);
     set(p, EvaluationKind::q1, q.shape);

@@ -8,6 +8,7 @@
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
+#include "measure/curve_evaluation.h"
 #include "measure/degenerate_sides.h"
 #include "measure/element_evaluation.h"
 #include "measure/gauss.h"
@@ -92,7 +93,7 @@ class Measurement {
     of(EvaluationKind::edge_angle).assign(n, nan);
     of(EvaluationKind::gradation).assign(n, nan);
     for (const EvaluationKind kind : {EvaluationKind::q1, EvaluationKind::q2, EvaluationKind::metric_quality,
-                                      EvaluationKind::deviation, EvaluationKind::angle})
+                                      EvaluationKind::deviation, EvaluationKind::angle, EvaluationKind::vertex_angle})
       of(kind).assign(m, 0);
     find_neighbours();
     above_.resize(n * gauss_.node.size());
@@ -450,9 +451,7 @@ class Measurement {
   }
 
   void raise_angle(std::size_t place, const std::array<Vec3, 3>& p, const std::optional<Vec3>& normal) {
-    if (!normal) return;
-    const Vec3 own = cross(p[1] - p[0], p[2] - p[0]);
-    raise(EvaluationKind::angle, place, degrees(angle_between(own, *normal)));
+    if (normal) raise(EvaluationKind::angle, place, degrees(angle_between(cross(p[1] - p[0], p[2] - p[0]), *normal)));
   }
 
   void start_triangle(std::size_t t) {
@@ -460,6 +459,7 @@ class Measurement {
     of(EvaluationKind::q1)[first_ + t] = quality_q1(p[0], p[1], p[2]);
     of(EvaluationKind::q2)[first_ + t] = quality_q2(p[0], p[1], p[2]);
     for (const std::int32_t v : face_->triangles[t]) raise_angle(first_ + t, p, normal_[v]);
+    of(EvaluationKind::vertex_angle)[first_ + t] = of(EvaluationKind::angle)[first_ + t];
   }
 
   void finish_quality(std::size_t t) {
@@ -531,19 +531,28 @@ CallCounts difference(const CallCounts& p, const CallCounts& q) {
           p.curv1 - q.curv1, p.curv2 - q.curv2, p.sizes - q.sizes};
 }
 
-// Of the edges beyond a limit: those that are as short as the smallest size lets them be, and those inside faces that
+// Of what is beyond a limit: edges that are as short as the smallest size lets them be, and those inside faces that
 // curves hold at both ends.
 void count_forced(const SurfaceMesh& mesh, const EvaluationOptions& options, MeshEvaluation& d) {
   std::vector<char> on_curve(mesh.vertices.size(), 0);
   for (const CurveMesh& curve : mesh.curves)
     for (const std::int32_t v : curve.vertices) on_curve[v] = 1;
-  Delivery &angle = d[EvaluationKind::edge_angle], &gradation = d[EvaluationKind::gradation];
-  angle.shortest = options.shortest_for_angle;
+  Delivery &angle = d[EvaluationKind::edge_angle], &on_curves = d[EvaluationKind::curve_angle],
+           &triangles = d[EvaluationKind::vertex_angle], &gradation = d[EvaluationKind::gradation];
+  angle.shortest = on_curves.shortest = triangles.shortest = options.shortest_for_angle;
+  std::vector<char> shortest(d.edges.vertices.size(), 0);
   for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
     const auto [a, b] = d.edges.vertices[e];
-    if (angle.exceeds(angle.values[e]) && norm(mesh.vertices[b] - mesh.vertices[a]) <= angle.shortest) ++angle.forced;
+    shortest[e] = static_cast<char>(norm(mesh.vertices[b] - mesh.vertices[a]) <= angle.shortest);
+    if (shortest[e] != 0 && angle.exceeds(angle.values[e])) ++angle.forced;
+    if (shortest[e] != 0 && on_curves.exceeds(on_curves.values[e])) ++on_curves.forced;
     if (gradation.exceeds(gradation.values[e]) && d.edges.segment[e] < 0 && on_curve[a] != 0 && on_curve[b] != 0)
       ++gradation.forced;
+  }
+  for (std::size_t t = 0; t < d.edges.of_triangle.size(); ++t) {
+    const auto [i, j, k] = d.edges.of_triangle[t];
+    if (shortest[i] != 0 && shortest[j] != 0 && shortest[k] != 0 && triangles.exceeds(triangles.values[t]))
+      ++triangles.forced;
   }
 }
 
@@ -555,7 +564,10 @@ MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const Prescribed
   const CallCounts before = cad.counts();
   MeshEvaluation d = Measurement(mesh, cad, prescribed, options, monitor).run();
   evaluate_elements(mesh, cad, prescribed, monitor, d);
-  d[EvaluationKind::edge_angle].limit = options.edge_angle_limit;
+  evaluate_curves(mesh, cad, options.curve_parameters, monitor, d);
+  for (const EvaluationKind kind : {EvaluationKind::edge_angle, EvaluationKind::curve_angle, EvaluationKind::vertex_angle})
+    d[kind].limit = options.edge_angle_limit;
+  d[EvaluationKind::curve_deviation].limit = options.deviation_limit;
   d[EvaluationKind::gradation].limit = options.gradation_limit;
   d[EvaluationKind::length_ratio].limit = options.length_ratio_limit;
   d[EvaluationKind::deviation].limit = options.deviation_limit;

@@ -11,6 +11,7 @@
 
 #include "cad/cad.h"
 #include "control_space/control_space.h"
+#include "curve/edge_accuracy.h"
 #include "measure/mesh_edges.h"
 #include "measure/spread_samples.h"
 #include "mesh/surface_mesh.h"
@@ -58,8 +59,15 @@ enum class EvaluationKind : int {
   /// Of a triangle: A1 (HDR sec. 4.3.4), largest angle between its normal and that of the surface at sample points and
   /// at its vertices; degrees, 0 to 180.
   angle = 9,
+  /// Of an edge of a curve: its A0, largest distance of its arc to it (HDR eq. 2.26), model length; and its A1, largest
+  /// angle with the tangents of its arc (HDR eq. 2.28), degrees. NaN inside faces.
+  curve_deviation = 10,
+  curve_angle = 11,
+  /// Of a straight triangle: largest angle between its normal and the normals of the surface at its vertices (what
+  /// RT-0232 sec. 3.3 limits by angle_mesh); degrees, 0 to 180. NaN of other elements.
+  vertex_angle = 12,
 };
-inline constexpr std::size_t evaluation_kinds = 9;
+inline constexpr std::size_t evaluation_kinds = 12;
 
 /// Of what one value is measured. Values are part of the C ABI.
 enum class EvaluationEntity : int { edge = 1, vertex = 2, triangle = 3 };
@@ -78,10 +86,10 @@ struct EvaluationOptions {
   /// Points on each edge at which its length is integrated: exact up to degree 2 n - 1 in the speed.
   int gauss_points = 3;
   /// Prescriptions to be checked; infinity: none.
-  double edge_angle_limit = infinity;    ///< degrees
+  double edge_angle_limit = infinity;    ///< degrees; of edges, edges of curves and triangles at their vertices
   double gradation_limit = infinity;     ///< ratio
   double length_ratio_limit = infinity;  ///< ratio
-  double deviation_limit = infinity;     ///< model length
+  double deviation_limit = infinity;     ///< model length; of triangles and edges of curves
   /// Edges of this length in space and shorter ones are as short as the smallest size lets them be, whatever angle they
   /// exceed: at an apex, where there is no tangent plane, all do.
   double shortest_for_angle = 0;
@@ -90,6 +98,8 @@ struct EvaluationOptions {
   /// there are none: what the first face with the edge prescribes.
   std::span<const std::vector<double>> curve_size = {};
   SizeLaw law = SizeLaw::linear;
+  /// [curve of SurfaceMesh::curves]: where its vertices are; edges without are not compared with their curve.
+  std::span<const CurveParameters> curve_parameters = {};
   /// [face]: the fields that governed the mesh, on which a gradation is to hold; may be empty.
   std::span<const std::optional<ControlSpace>> spaces = {};
   /// Of a mesh that is independent of its patches. Triangles whose corners are of several charts are sampled over their
@@ -122,7 +132,7 @@ struct Delivery {
   /// Values above the limit: by more than 2 % for the gradation, by more than rounding for the others.
   std::int64_t beyond = 0;
   double tolerance = 0;  ///< share of the limit that may be exceeded
-  /// Of those: angles of edges no longer than `shortest`, gradations of inner edges between vertices of curves.
+  /// Of those: angles of edges no longer than `shortest` and of triangles with such edges alone, gradations of inner edges between vertices of curves.
   std::int64_t forced = 0;
   double shortest = 0;  ///< edges so long are as short as the smallest size lets them be; model length
 
@@ -149,7 +159,7 @@ struct MeshEvaluation {
 void summarise(MeshEvaluation& delivered);
 
 /// Measures a mesh on the surface that `cad` gives. About 24 evaluations a vertex: 1 of surf1 there, 9 of surf0 and
-/// surf1 on edges, 14 inside triangles. Throws what callbacks throw, and Cancelled.
+/// surf1 on edges, 14 inside triangles; and 9 an edge of a curve. Throws what callbacks throw, and Cancelled.
 MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
                              const EvaluationOptions& options, Monitor& monitor);
 

@@ -113,6 +113,9 @@ std::span<const EvaluatedMeasure> delivered_measures() {
       {Kind::metric_quality, Entity::triangle, "metric_quality", "shape Q2 in the metric"},
       {Kind::deviation, Entity::triangle, "A0", "deviation A0, model length"},
       {Kind::angle, Entity::triangle, "A1", "deviation A1, degrees"},
+      {Kind::curve_deviation, Entity::edge, "curve_A0", "deviation A0 of edges from their curves, model length"},
+      {Kind::curve_angle, Entity::edge, "curve_A1", "deviation A1 of edges from their curves, degrees"},
+      {Kind::vertex_angle, Entity::triangle, "vertex_angle", "angle of triangles with tangent planes at their vertices, degrees"},
   }};
   return table;
 }
@@ -132,6 +135,8 @@ void summarise(MeshEvaluation& d) {
         break;
       case EvaluationKind::edge_angle:
       case EvaluationKind::angle:
+      case EvaluationKind::curve_angle:
+      case EvaluationKind::vertex_angle:
         bounds = angles;
         break;
       case EvaluationKind::gradation:
@@ -139,6 +144,7 @@ void summarise(MeshEvaluation& d) {
         bounds = ratios;
         break;
       case EvaluationKind::deviation:
+      case EvaluationKind::curve_deviation:
         powers = decades(one.values);
         bounds = powers;
         break;
@@ -174,20 +180,23 @@ DeliveredText describe(const MeshEvaluation& d) {
   const auto check = [&](EvaluationKind kind, const char* entities, const char* rule) {
     const Delivery& one = d[kind];
     if (one.beyond == 0) return;
-    std::string said = part_of(one.beyond, static_cast<std::int64_t>(one.values.size()), entities) + " " + rule +
+    std::string said = part_of(one.beyond, one.spread.count, entities) + " " + rule +
                        " more than the " + short_number(one.limit) + " asked; the worst has " +
                        short_number(one.spread.max);
     if (one.forced > 0)
       said += "; " + std::to_string(one.forced) +
-              (kind == EvaluationKind::edge_angle
-                   ? " of them are as short as hgeomin lets edges be (" + short_number(one.shortest) + ")"
-                   : std::string(" of them cross a face from curve to curve"));
+              (kind == EvaluationKind::gradation
+                   ? std::string(" of them cross a face from curve to curve")
+                   : " of them are as short as hgeomin lets edges be (" + short_number(one.shortest) + ")");
     text.not_met.push_back(std::move(said));
   };
   check(EvaluationKind::edge_angle, "edges", "an angle with a tangent plane at their ends of");
   check(EvaluationKind::gradation, "edges", "a gradation of sizes of");
   check(EvaluationKind::length_ratio, "vertices", "a ratio of the lengths of their edges of");
   check(EvaluationKind::deviation, "triangles", "a distance from the surface of");
+  check(EvaluationKind::curve_angle, "edges of curves", "an angle with a tangent of their curve of");
+  check(EvaluationKind::curve_deviation, "edges of curves", "a distance from their curve of");
+  check(EvaluationKind::vertex_angle, "triangles", "an angle with a tangent plane at their vertices of");
   if (d.folded_triangles > 0)
     text.not_met.push_back(
         part_of(d.folded_triangles, static_cast<std::int64_t>(d.edges.of_triangle.size()), "triangles") +

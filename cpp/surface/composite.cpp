@@ -1,5 +1,6 @@
 #include "surface/composite.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -49,6 +50,22 @@ void even_out(CompositeRun& run) {
     even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
 }
 
+// Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.
+void place_on_curves(CompositeRun& run) {
+  const SurfaceMesh& mesh = run.result.mesh;
+  if (mesh.independent) return;  // known already
+  run.result.curve_parameters.assign(mesh.curves.size(), {});
+  for (std::size_t c = 0; c < run.curves.size(); ++c) {
+    const DiscreteCurve& curve = run.curves[c];
+    const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
+    if (chain.size() < 2 || chain.size() != curve.xyz.size()) continue;
+    const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) { return mesh.vertices[v] == xyz; };
+    if (!std::equal(chain.begin(), chain.end(), curve.xyz.begin(), stays)) continue;
+    const CurveUse& use = run.topology.curves[c].uses.front();
+    run.result.curve_parameters[c] = {run.curve_model.face_ref(use), use.curve + 1, curve.t_of_use.front()};
+  }
+}
+
 }  // namespace
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
@@ -74,6 +91,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   else if (options.independent)
     free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
   make_elements(run, mesh);
+  place_on_curves(run);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

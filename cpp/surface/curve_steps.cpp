@@ -1,7 +1,10 @@
 // The steps before the patches: gradation, curves, narrow faces, boundaries.
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 
+#include "curve/edge_accuracy.h"
 #include "support/stepped_tasks.h"
 #include "surface/narrow/thin_bodies.h"
 #include "surface/run.h"
@@ -21,6 +24,31 @@ void cut_curve(CompositeRun& run, std::size_t c) {
   const SizeSamples* known = run.graded.curves.empty() ? nullptr : &run.graded.curves[c];
   run.curves[c] =
       discretise_curve(run.curve_model, static_cast<int>(c), run.rules, {.lss = run.options.lss, .known = known});
+}
+
+// Edges that are farther from their curve than the guarantee lets them be, or turned more, are halved. At a kink, where
+// no edge keeps an angle, halvings end.
+void keep_to_curves(CompositeRun& run) {
+  if (!run.options.size.geo_guarantee) return;
+  const GeometricLimits limits = geometric_limits(run.options.size);
+  if (!std::isfinite(limits.edge_angle_deg) && !std::isfinite(limits.deviation)) return;
+  for (DiscreteCurve& curve : run.curves) {
+    if (curve.indivisible) continue;
+    run.monitor.checkpoint();
+    const CurveUse& use = run.curve_model.curve(curve.curve).uses.front();
+    const auto is_off = [&](int k) {
+      const std::array<Vec3, 2> ends{curve.xyz[k], curve.xyz[k + 1]};
+      if (norm(ends[1] - ends[0]) <= limits.shortest_divided) return false;
+      const std::vector<double>& t = curve.t_of_use.front();
+      const EdgeAccuracy found = edge_accuracy(run.cad, run.curve_model.face_ref(use), use.curve + 1, t[k], t[k + 1], ends);
+      return found.angle_deg > limits.edge_angle_deg || found.deviation > limits.deviation;
+    };
+    for (int round = 0; round < most_curve_halvings; ++round) {
+      bool any = false;
+      for (int k = curve.segments() - 1; k >= 0; --k) any = (is_off(k) && split_segment(curve, k, run.curve_model)) || any;
+      if (!any) break;
+    }
+  }
 }
 
 }  // namespace
@@ -59,6 +87,7 @@ void discretise_curves(CompositeRun& run) {
       if (edges > most) refuse_triangles(Where{.curve = run.topology.curves[c].ref}, static_cast<double>(edges), most);
     }
   }
+  keep_to_curves(run);
   separate_coincident_curves(run.curve_model, run.curves);
   run.result.report.seconds_curves = seconds_since(start);
 }

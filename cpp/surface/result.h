@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control_space/control_space.h"
+#include "curve/edge_accuracy.h"
 #include "gradation/graded_field.h"
 #include "mesh/surface_mesh.h"
 #include "surface/patch.h"
@@ -43,6 +44,7 @@ struct CompositeResult {
   std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
   /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
   std::vector<std::vector<double>> curve_size;
+  std::vector<CurveParameters> curve_parameters;  ///< by curve of mesh.curves
   /// Of a mesh that is independent of its patches: the one before, and [face][local vertex] a triangle of it which has
   /// its (u, v). Null and empty: of another mesh.
   std::shared_ptr<const Charts> atlas;

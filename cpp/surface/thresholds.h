@@ -44,6 +44,10 @@ inline constexpr double jump_noise = 1e-10;
 /// or several are at least 0.7 and 0.8 of it. [ShortEdges.WithoutThemNothingChanges]
 inline constexpr double short_share = 0.7;
 
+// Guarantees (curve_steps)
+/// Halvings of an edge that leaves its curve: to a sixteenth of a unit edge. [CurveAccuracy.*]
+inline constexpr int most_curve_halvings = 4;
+
 // Progress (curve_steps, run)
 /// Curves that are cut between two reports where several threads cut them. [time only]
 inline constexpr std::size_t curves_at_once = 64;

@@ -96,7 +96,7 @@ FreedMesh freed(const CurveModel& model, std::span<const DiscreteCurve> curves, 
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
                                      " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
                                      std::to_string(report.rounds) + " rounds");
-  return reassemble(result.mesh, free, frame.lines, frame.corners, monitor);
+  return reassemble(result.mesh, free, frame.lines, worked, frame.corners, monitor);
 }
 
 // Around triangles that cross.
@@ -146,6 +146,7 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
   result.mesh = std::move(made.mesh);
   result.vertex_size = std::move(made.vertex_size);
   result.curve_size = std::move(made.curve_size);
+  result.curve_parameters = std::move(made.curve_parameters);
   result.atlas = std::move(frame.charts);
   result.feet = std::move(made.feet);
 }

@@ -58,6 +58,17 @@ double LinePlaces::curve_arc(const Part& part, double arc) const {
   return part.curve_from + share * (part.curve_to - part.curve_from);
 }
 
+std::vector<OnCurve> LinePlaces::on_curves(double arc) const {
+  std::vector<OnCurve> found;
+  for (const Part& part : parts_) {
+    if (!(part.from <= arc && arc <= part.to)) continue;
+    const CurveUse& use = model_.curve(part.curve).uses.front();
+    const double r = curve_arc(part, arc) / model_.length(part.curve);
+    found.push_back({part.curve, model_.face_ref(use), use.curve + 1, parameter_at(model_, use, r)});
+  }
+  return found;
+}
+
 Vec3 LinePlaces::near(double arc) const {
   const Part& part = part_at(arc);
   return model_.support(model_.curve(part.curve).uses.front()).point_at_arc(curve_arc(part, arc));

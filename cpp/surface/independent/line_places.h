@@ -16,6 +16,13 @@ namespace carreau {
 /// Places of one vertex of a line, one for each use of its curve; the first one has the position.
 using KeptPlaces = std::vector<SurfacePlace>;
 
+/// A place on a curve in its first use.
+struct OnCurve {
+  std::int32_t curve = 0;  ///< index in SurfaceMesh::curves
+  int face = 0, ic = 0;    ///< as in the cad_m routines
+  double t = 0;
+};
+
 /// One line by its length in space, as the supports of its curves measure it. Keeps references to all that it is given.
 class LinePlaces {
  public:
@@ -27,6 +34,8 @@ class LinePlaces {
   [[nodiscard]] bool is_known() const noexcept { return arc_.size() == line_.vertices.size(); }
   /// Of the vertices of the line, from 0, ascending.
   [[nodiscard]] const std::vector<double>& arcs() const noexcept { return arc_; }
+  /// Of a place of the line: two where one curve ends and the next one begins.
+  [[nodiscard]] std::vector<OnCurve> on_curves(double arc) const;
   /// Off the curve by no more than its support; no evaluation.
   [[nodiscard]] Vec3 near(double arc) const;
   /// On the curves, evaluated: about four times a use.

@@ -1,6 +1,8 @@
 #include "surface/independent/reassembly.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -173,12 +175,14 @@ class Reassembler {
     result_.mesh.independent = true;
   }
 
-  FreedMesh run(const std::vector<SharpLine>& lines, const std::vector<std::int32_t>& corners) {
+  FreedMesh run(const std::vector<SharpLine>& lines, std::span<const WorkedLine> worked,
+                const std::vector<std::int32_t>& corners) {
     number_vertices(corners);
     place_triangles();
     result_.feet.resize(before_.faces.size());
     for (std::size_t f = 0; f < before_.faces.size(); ++f) add_face(f);
     add_curves(lines);
+    place_on_curves(worked);
     return std::move(result_);
   }
 
@@ -260,6 +264,7 @@ class Reassembler {
     SurfaceMesh& mesh = result_.mesh;
     for (const CurveMesh& old : before_.curves)
       mesh.curves.push_back({.ref = old.ref, .vertices = {}, .uses = old.uses, .part_of = old.part_of});
+    for (std::size_t c = 0; c < mesh.curves.size(); ++c) old_curve_.push_back(static_cast<std::int32_t>(c));
     for (Run& run : runs) {
       CurveMesh curve = mesh.curves[run.curve];
       curve.uses = uses_of(run);
@@ -268,12 +273,36 @@ class Reassembler {
       if (mesh.curves[run.curve].vertices.empty())
         mesh.curves[run.curve] = std::move(curve);
       else
-        more_.push_back(std::move(curve));
+        more_.push_back(std::move(curve)), old_curve_.push_back(run.curve);
     }
     for (CurveMesh& curve : more_) mesh.curves.push_back(std::move(curve));
     for (const CurveMesh& curve : mesh.curves) {
       auto& size = result_.curve_size.emplace_back();
       for (const std::int32_t v : curve.vertices) size.push_back(result_.vertex_size[v]);
+    }
+  }
+
+  // A vertex where a closed curve begins is at both of its ends.
+  void place_on_curves(std::span<const WorkedLine> worked) {
+    std::multimap<std::pair<std::int32_t, std::int32_t>, OnCurve> known;  // by curve of before and vertex
+    for (const WorkedLine& line : worked)
+      for (const LineNode& node : line.left)
+        for (const OnCurve& place : line.places.on_curves(node.arc))
+          if (number_[node.vertex] >= 0) known.emplace(std::pair{place.curve, number_[node.vertex]}, place);
+    for (std::size_t c = 0; c < result_.mesh.curves.size(); ++c) {
+      CurveParameters& on = result_.curve_parameters.emplace_back();
+      const std::vector<std::int32_t>& chain = result_.mesh.curves[c].vertices;
+      if (chain.size() < 2) continue;
+      on.t.assign(chain.size(), std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t k = 0; k < chain.size(); ++k)
+        if (const auto place = known.find({old_curve_[c], chain[k]}); place != known.end())
+          on.face = place->second.face, on.ic = place->second.ic, on.t[k] = place->second.t;
+      for (const auto& [end, beside] : {std::pair{std::size_t{0}, std::size_t{1}}, {chain.size() - 1, chain.size() - 2}}) {
+        const auto [first, last] = known.equal_range({old_curve_[c], chain[end]});
+        for (auto each = first; each != last; ++each)
+          if (const double t = each->second.t; std::abs(t - on.t[beside]) < std::abs(on.t[end] - on.t[beside]))
+            on.t[end] = t;
+      }
     }
   }
 
@@ -321,13 +350,15 @@ class Reassembler {
   std::vector<std::vector<PlacedTriangle>> of_face_;
   std::map<MeshEdge, std::vector<std::int32_t>> beside_;  // faces of the triangles on edges between kept vertices
   std::vector<CurveMesh> more_;
+  std::vector<std::int32_t> old_curve_;  // by curve: that of before
 };
 
 }  // namespace
 
 FreedMesh reassemble(const SurfaceMesh& before, FreeMesh& free, const std::vector<SharpLine>& lines,
+                     std::span<const WorkedLine> worked,
                      const std::vector<std::int32_t>& corners, Monitor& monitor) {
-  return Reassembler(before, free, monitor).run(lines, corners);
+  return Reassembler(before, free, monitor).run(lines, worked, corners);
 }
 
 }  // namespace carreau

@@ -72,16 +72,16 @@ class SessionDelivered : public ::testing::Test {
 TEST_F(SessionDelivered, IsMeasuredOnceWhenAsked) {
   session.make_mesh();
   const CallCounts run = session.report().calls, before = cad->calls;
-  EXPECT_EQ(monitor.count(Level::summary, "deviation A0"), 0);
+  EXPECT_EQ(monitor.count(Level::summary, "deviation A0, "), 0);
   const MeshEvaluation& d = session.delivered();
-  EXPECT_EQ(monitor.count(Level::summary, "deviation A0"), 1);
+  EXPECT_EQ(monitor.count(Level::summary, "deviation A0, "), 1);
   EXPECT_EQ(d.calls.surf0, cad->calls.surf0 - before.surf0);
   EXPECT_GT(d.calls.surf0, 0);
   EXPECT_EQ(session.report().calls, run);
   const CallCounts after = cad->calls;
   EXPECT_EQ(&session.delivered(), &d);
   EXPECT_EQ(cad->calls, after);
-  EXPECT_EQ(monitor.count(Level::summary, "deviation A0"), 1);
+  EXPECT_EQ(monitor.count(Level::summary, "deviation A0, "), 1);
   EXPECT_EQ(d[Kind::length].values.size(), d.edges.vertices.size());
   EXPECT_EQ(d[Kind::q2].values.size(), session.mesh().triangle_count());
   EXPECT_EQ(d[Kind::length_ratio].values.size(), session.mesh().vertices.size());
@@ -141,7 +141,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
     EXPECT_TRUE(value["limit"].is_null()) << key;  // nothing but sizes was asked
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2",
-                                            "metric_quality", "A0", "A1"}));
+                                            "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle"}));
   const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(json["measures"]["metric_length"]["mean"].get<double>(), d[Kind::length].spread.mean);
   EXPECT_EQ(json["measures"]["A0"]["max"].get<double>(), d[Kind::deviation].spread.max);
@@ -271,7 +271,7 @@ TEST_F(SessionDelivered, VtuHoldsTheValuesWhenMeasured) {
   session.write(path("full.vtu"));
   const std::string full = read("full.vtu");
   for (const char* name :
-       {"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2", "metric_quality", "A0", "A1"})
+       {"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2", "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle"})
     EXPECT_NE(full.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
   // Formats without fields stay as they are.
   session.write(path("full.mesh"));

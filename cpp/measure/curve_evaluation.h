@@ -1,0 +1,13 @@
+// Edges of curves against their curves.
+#pragma once
+
+#include "measure/mesh_evaluation.h"
+
+namespace carreau {
+
+/// Fills curve_deviation and curve_angle: NaN inside faces, and where EvaluationOptions::curve_parameters does not know
+/// the place of an end. Throws what callbacks throw, and Cancelled.
+void evaluate_curves(const SurfaceMesh& mesh, Cad& cad, std::span<const CurveParameters> parameters, Monitor& monitor,
+                     MeshEvaluation& delivered);
+
+}  // namespace carreau
