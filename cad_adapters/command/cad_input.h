@@ -82,12 +82,13 @@ bool needs_host(const std::string& path);
 void check_geometry_name(const std::string& path);
 
 /// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; a
-/// molecule; a grid; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
+/// molecule; a grid; a formula over
+/// `domain`; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
 /// the share that is done, where it is known.
 using ReadingProgress = std::function<void(double fraction)>;
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
                                      const ReadingProgress& progress = {}, const MoleculeChoice& molecule = {},
-                                     const GridChoice& grid = {});
+                                     const GridChoice& grid = {}, const std::string& domain = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);

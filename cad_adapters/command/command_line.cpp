@@ -19,7 +19,8 @@ namespace {
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2 or .bl2d";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
-    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk";
+    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or a surface: "
+    "'z = ...' in x and y, or 'x = ...; y = ...; z = ...' in u and v";
 constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
 constexpr int most_listed = 1'000'000;
 constexpr int unusable = 2;  // exit code
@@ -87,6 +88,7 @@ void CommandLine::add_mesh() {
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);
   add_grid_options(mesh, mesh_.grid);
+  add_domain_option(mesh, mesh_.domain);
   add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
                    "Folder for each face that fails: its parameter domain (.mesh of dimension 2), its fields (.exr)")
@@ -160,6 +162,7 @@ void CommandLine::add_adapt() {
   adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Of a plane domain: see carreau plane")
       ->check(CLI::Range(0.1, 180.0));
   add_molecule_options(adapt, adapt_.molecule);
+  add_domain_option(adapt, adapt_.domain);
   add_mesh_options(adapt, adapt_);
   adapt->add_flag("--json", adapt_.json, "Print a summary as JSON on the standard output");
   adapt->add_flag("-q,--quiet", adapt_.quiet, "Tell errors only");
@@ -176,6 +179,7 @@ void CommandLine::add_info() {
       ->capture_default_str();
   info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
   add_grid_options(info, info_.grid);
+  add_domain_option(info, info_.domain);
   info->add_flag("--json", info_.json, "Print JSON");
 }
 
@@ -276,6 +280,7 @@ void CommandLine::add_fields() {
   fields->add_flag("--raw", fields_.raw, "What the geometry answers, without a mesh");
   add_molecule_options(fields, fields_.mesh.molecule);
   add_grid_options(fields, fields_.mesh.grid);
+  add_domain_option(fields, fields_.mesh.domain);
   add_mesh_options(fields, fields_.mesh);
   fields->add_flag("--json", fields_.mesh.json, "Print the files as JSON");
 }

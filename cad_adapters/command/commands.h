@@ -32,6 +32,7 @@ struct MeshOptions {
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
   GridChoice grid;          ///< of a structured grid
+  std::string domain;       ///< of a surface by formulas; empty: usual_domain
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -57,6 +58,7 @@ struct InfoOptions {
   std::string input;
   std::string host;    ///< shared library, of a .pardom
   GridChoice grid;     ///< of a structured grid
+  std::string domain;  ///< of a surface by formulas; empty: usual_domain
   int limit = 10;      ///< sentences of each kind
   bool faces = false;  ///< a line for each
   bool json = false;

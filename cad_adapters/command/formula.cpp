@@ -3,6 +3,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
@@ -43,10 +44,10 @@ struct Evaluator {
   Place at;
   mu::Parser parser;
 
-  explicit Evaluator(const std::string& text) {
+  Evaluator(const std::string& text, const std::string& names) {
     for (const auto& [name, variable] : {std::pair{"x", &at.x}, std::pair{"y", &at.y}, std::pair{"z", &at.z},
                                          std::pair{"u", &at.u}, std::pair{"v", &at.v}})
-      parser.DefineVar(name, variable);
+      if (names.find(name) != std::string::npos) parser.DefineVar(name, variable);
     parser.DefineConst("pi", 3.14159265358979323846);
     parser.SetExpr(text);
   }
@@ -60,10 +61,11 @@ struct Formula::State {
   std::uint64_t serial = next_serial.fetch_add(1);
 };
 
-Formula::Formula(const std::string& text) : text_(text), state_(std::make_unique<State>()) {
+Formula::Formula(const std::string& text, const std::string& names)
+    : text_(text), names_(names), state_(std::make_unique<State>()) {
   check_characters(text);
   try {
-    Evaluator evaluator(text);
+    Evaluator evaluator(text, names);
     evaluator.parser.Eval();
     if (evaluator.parser.GetNumResults() != 1) throw Failure("The formula '" + text + "' has more than one value.");
   } catch (const mu::Parser::exception_type& error) {
@@ -79,15 +81,17 @@ Formula::Formula(const std::string& text) : text_(text), state_(std::make_unique
 Formula::~Formula() = default;
 
 double Formula::operator()(const Place& place) const noexcept try {
-  // A parser holds the values of its variables: one for each thread, and one formula at a time is in use.
-  static thread_local std::uint64_t serial = 0;
-  static thread_local std::unique_ptr<Evaluator> evaluator;
-  if (serial != state_->serial) {
-    evaluator = std::make_unique<Evaluator>(text_);
-    serial = state_->serial;
-  }
-  evaluator->at = place;
-  return evaluator->parser.Eval();
+  // A parser holds the values of its variables: one for each thread, and a few formulas at a time are in use: a size,
+  // and the coordinates of a surface.
+  struct Known {
+    std::uint64_t serial = 0;
+    std::unique_ptr<Evaluator> evaluator;
+  };
+  static thread_local std::array<Known, 8> all;
+  Known& known = all[state_->serial % all.size()];
+  if (known.serial != state_->serial) known = {state_->serial, std::make_unique<Evaluator>(text_, names_)};
+  known.evaluator->at = place;
+  return known.evaluator->parser.Eval();
 } catch (...) {  // muParser's own errors at run time, and no memory
   return std::numeric_limits<double>::quiet_NaN();
 }

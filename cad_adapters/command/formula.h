@@ -13,7 +13,8 @@ namespace command {
 class Formula {
  public:
   /// Throws Failure with the position (from 1) of what is wrong, and where this program was built without muParser.
-  explicit Formula(const std::string& text);
+  /// `names`: the variables that it may use.
+  explicit Formula(const std::string& text, const std::string& names = "xyzuv");
   ~Formula();
   Formula(const Formula&) = delete;
   Formula& operator=(const Formula&) = delete;
@@ -26,7 +27,7 @@ class Formula {
   static bool available() noexcept;
 
  private:
-  std::string text_;
+  std::string text_, names_;
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -8,7 +8,7 @@ namespace command {
 
 struct Formula::State {};
 
-Formula::Formula(const std::string& text) : text_(text) {
+Formula::Formula(const std::string& text, const std::string&) : text_(text) {
   throw Failure("The formula '" + text +
                 "' cannot be used: this program was built without muParser (Debian package libmuparser-dev). A "
                 "background mesh can.");

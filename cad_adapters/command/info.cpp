@@ -4,6 +4,7 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "formula_input.h"
 #include "json_output.h"
 #include "model_input.h"
 #include "text_file.h"
@@ -28,12 +29,12 @@ std::string sentence(const ModelDanger& danger) {
 int info(const InfoOptions& options) {
   check_geometry_name(options.input);
   const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" ||
-                         is_molecule(options.input) || is_grid(options.input, options.grid);
+                         is_molecule(options.input) || is_grid(options.input, options.grid) || is_formula(options.input);
   if (!in_memory) {
     if (!options.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + options.input + "'.");
     return print_cad_info(options);
   }
-  const auto input = open_input(options.input, options.host, {}, {}, options.grid);
+  const auto input = open_input(options.input, options.host, {}, {}, options.grid, options.domain);
   const ModelFigures figures = static_cast<const ModelInput&>(*input).look_at();
   if (options.json) {
     Json dangers = Json::array();

@@ -1,5 +1,6 @@
 #include "cad_input.h"
 #include "failure.h"
+#include "formula_input.h"
 #include "model_input.h"
 #include "text_file.h"
 
@@ -16,7 +17,9 @@ void check_geometry_name(const std::string& path) {
 
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
                                      const ReadingProgress& progress, const MoleculeChoice& molecule,
-                                     const GridChoice& grid) {
+                                     const GridChoice& grid, const std::string& domain) {
+  if (is_formula(path)) return open_formula(path, domain);
+  if (!domain.empty()) throw Failure("--domain goes with a surface by formulas, not with '" + path + "'.");
   check_geometry_name(path);
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");

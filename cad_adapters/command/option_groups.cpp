@@ -3,6 +3,8 @@
 
 #include <iterator>
 
+#include "formula_input.h"
+
 namespace command {
 
 namespace {
@@ -107,6 +109,14 @@ void add_grid_options(CLI::App* app, GridChoice& choice) {
   app->add_option("--join-nodes", choice.tolerance, "Nodes on borders of grids are one when they are nearer than this")
       ->check(CLI::Range(0.0, 1e9))
       ->type_name(kind::length);
+}
+
+void add_domain_option(CLI::App* app, std::string& domain) {
+  app->add_option("--domain", domain,
+                  "Of a surface by formulas: box:x0,y0,x1,y1, disc:x,y,radius or ring:x,y,inner,outer; box:-1,-1,1,1 when "
+                  "not given")
+      ->check(domain_defect)
+      ->type_name("DOMAIN");
 }
 
 void add_estimator_options(CLI::App* app, std::vector<std::string>& settings) {

@@ -1,5 +1,6 @@
 """Independent readers of what `carreau mesh` writes: vertices, triangles with the name or reference of their face."""
 import base64
+import math
 import struct
 import xml.etree.ElementTree as ElementTree
 import zlib
@@ -42,6 +43,17 @@ def read_mesh(path, dimension=3):
                 i, j, ref = (int(next(words)) for _ in range(3))
                 mesh.edges.append((i - 1, j - 1, ref))
     return mesh
+
+
+def area(mesh):
+    """Of the triangles of a mesh in space."""
+    total = 0.0
+    for triangle in mesh.triangles:
+        a, b, c = (mesh.vertices[v] for v in triangle[:3])
+        p, q = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+        normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+        total += math.sqrt(sum(x * x for x in normal)) / 2
+    return total
 
 
 def read_meshb(path):

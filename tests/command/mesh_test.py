@@ -187,6 +187,46 @@ class Inputs(Folder):
         self.refused(TEAPOT, "-o", "a.mesh", "--host", HOSTS[0], sentence="--host goes with a .pardom file")
 
 
+@unittest.skipUnless(FORMULAS, "built without muParser")
+class Formulas(Folder):
+    def test_a_paraboloid_has_its_area(self):
+        mesh = self.mesh("z = (x^2 + y^2) / 2", "--domain", "disc:0,0,2", "--size", "0.05")
+        self.assertAlmostEqual(mesh_files.area(mesh), 2 * math.pi / 3 * (5**1.5 - 1), delta=3e-3)
+        for x, y, z in mesh.vertices:
+            self.assertAlmostEqual(z, (x * x + y * y) / 2, delta=1e-12)
+
+    def test_a_torus_is_closed(self):
+        box = "box:0,0,6.283185307179586,6.283185307179586"
+        formulas = "x = cos(u) * (2 + cos(v)); y = sin(u) * (2 + cos(v)); z = sin(v)"
+        mesh = self.mesh(formulas, "--domain", box, "--size", "0.1")
+        self.assertAlmostEqual(mesh_files.area(mesh), 8 * math.pi**2, delta=0.1)
+        done = subprocess.run([PROGRAM, "check", self.path("out.mesh"), "--closed"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def test_a_ring_has_a_hole(self):
+        mesh = self.mesh("z = 0", "--domain", "ring:1,0,0.5,1", "--size", "0.02")
+        self.assertAlmostEqual(mesh_files.area(mesh), math.pi * 0.75, delta=1e-3)
+
+    def test_info_and_fields_know_them(self):
+        done = subprocess.run([PROGRAM, "info", "z = x * y", "--json"], capture_output=True, text=True)
+        self.assertEqual(json.loads(done.stdout)["faces"], 1, done.stderr)
+
+    def test_the_front_of_hdr_4_8_2_needs_few_triangles_by_direction(self):
+        # HDR fig. 4.35 and 4.36: 8 736 by the largest curvature, 2 110 by both.
+        front = ("z = tanh((sin(x) - y) / 0.03)", "--domain", "disc:0,0,3", "--angle", "8")
+        isotropic, by_direction = self.mesh(*front), self.mesh(*front, "--anisotropic", "--gradation", "2")
+        self.assertLess(abs(len(by_direction.triangles) / 2110 - 1), 0.15)
+        self.assertGreater(len(isotropic.triangles), 2.5 * len(by_direction.triangles))
+
+    def test_what_is_no_surface_is_told(self):
+        for given, sentence in ((("z = x + z",), "position"), (("x = u; y = v",), "A surface is"), (("z = x; z = y",), "two equations of z"),
+                                (("z = x", "--domain", "disc:0,0,0"), "is no domain"), (("z = x", "--domain", "box:0,0,1"), "is no domain"),
+                                (("z = x", "--domain", "box:1,0,0,1"), "is no domain"), (("z = 1 / x",), "the formula has no value there"),
+                                (("z = x; w = 2",), "is no equation"), (("z = 0 * u; x = 0; y = 0",), "no extent")):
+            self.refused(*given, "-o", "out.mesh", sentence=sentence)
+        self.refused(TEAPOT, "--domain", "disc:0,0,1", "-o", "out.mesh", sentence="--domain goes with a surface by formulas")
+
+
 class Sizes(Folder):
     def setUp(self):
         super().setUp()
