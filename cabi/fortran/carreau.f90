@@ -50,6 +50,8 @@ module carreau
   public :: carreau_session_delivered, carreau_delivered_measure, carreau_delivered_histogram
   public :: carreau_delivered_values, carreau_delivered_edges, carreau_delivered_triangle_edges, carreau_delivered_write
   public :: carreau_curve_split
+  public :: carreau_metric_sizes, carreau_metric_of_sizes, carreau_metric_interpolate, carreau_metric_intersect
+  public :: carreau_metric_reduce, carreau_metric_lengths
   public :: carreau_background_report, carreau_estimator, carreau_adaptation_report, carreau_field_fn
   public :: carreau_set_background_mesh, carreau_set_background, carreau_set_vertex_sizes, carreau_set_vertex_metrics
   public :: carreau_clear_background, carreau_session_background
@@ -76,6 +78,7 @@ module carreau
     CARREAU_MEASURE_GRADATION = 3, CARREAU_MEASURE_LENGTH_RATIO = 4, CARREAU_MEASURE_Q1 = 5, CARREAU_MEASURE_Q2 = 6, &
     CARREAU_MEASURE_METRIC_QUALITY = 7, CARREAU_MEASURE_A0 = 8, CARREAU_MEASURE_A1 = 9, &
     CARREAU_MEASURE_CURVE_A0 = 10, CARREAU_MEASURE_CURVE_A1 = 11, CARREAU_MEASURE_VERTEX_ANGLE = 12
+  integer(c_int32_t), parameter, public :: CARREAU_INTERSECT_IN_TURN = 0, CARREAU_INTERSECT_LARGEST = 1
   integer(c_int32_t), parameter, public :: CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3
   integer(c_int32_t), parameter, public :: CARREAU_CELL_TRIANGLE3 = 1, CARREAU_CELL_TRIANGLE6 = 2, &
     CARREAU_CELL_QUAD4 = 3, CARREAU_CELL_QUAD8 = 4
@@ -1473,6 +1476,99 @@ contains
     status = c_curve_split(session%handle, c, edges + 1, found, edges, length)
     if (status == CARREAU_OK) cuts = found
   end subroutine carreau_curve_split
+
+  ! ---- Algebra of metrics ----
+  ! metrics(3, n), xx xy yy, of the plane, or (6, n), xx xy xz yy yz zz, of space. Arrays that do not fit are
+  ! CARREAU_ERR_ARGUMENT.
+
+  !> sizes(d, n) along the axes, the smallest first; axes(:, k, n) is unit axis k.
+  subroutine carreau_metric_sizes(session, metrics, sizes, axes, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: metrics(:, :)
+    real(c_double), allocatable, intent(out) :: sizes(:, :), axes(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: d
+    d = dimension_of(metrics)
+    allocate (sizes(d, size(metrics, 2)), axes(d, d, size(metrics, 2)))
+    status = c_metric_sizes(session%handle, d, size(metrics, 2, kind=c_int64_t), metrics, sizes, axes)
+  end subroutine carreau_metric_sizes
+
+  !> The reverse: axes need not be unit or orthogonal.
+  subroutine carreau_metric_of_sizes(session, sizes, axes, metrics, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: sizes(:, :), axes(:, :, :)
+    real(c_double), allocatable, intent(out) :: metrics(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: d
+    d = size(sizes, 1)
+    status = CARREAU_ERR_ARGUMENT
+    if (any(shape(axes) /= [size(sizes, 1), size(sizes, 1), size(sizes, 2)])) return
+    allocate (metrics(merge(3, 6, d == 2), size(sizes, 2)))
+    status = c_metric_of_sizes(session%handle, d, size(sizes, 2, kind=c_int64_t), sizes, axes, metrics)
+  end subroutine carreau_metric_of_sizes
+
+  !> metrics(:, i) at share(i) from p(:, i) to q(:, i); law 0 linear, 1 geometric, 2 sinusoidal.
+  subroutine carreau_metric_interpolate(session, law, p, q, share, metrics, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: law
+    real(c_double), intent(in) :: p(:, :), q(:, :), share(:)
+    real(c_double), allocatable, intent(out) :: metrics(:, :)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (any(shape(p) /= shape(q)) .or. size(share) /= size(p, 2)) return
+    allocate (metrics(size(p, 1), size(p, 2)))
+    status = c_metric_interpolate(session%handle, dimension_of(p), law, size(p, 2, kind=c_int64_t), p, q, share, metrics)
+  end subroutine carreau_metric_interpolate
+
+  !> found(:, i): the intersection of metrics(:, 1, i), metrics(:, 2, i), ...; how: CARREAU_INTERSECT_...
+  subroutine carreau_metric_intersect(session, how, metrics, found, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: how
+    real(c_double), intent(in) :: metrics(:, :, :)
+    real(c_double), allocatable, intent(out) :: found(:, :)
+    integer(c_int32_t), intent(out) :: status
+    allocate (found(size(metrics, 1), size(metrics, 3)))
+    status = CARREAU_OK
+    if (size(metrics, 3) == 0) return
+    status = c_metric_intersect(session%handle, dimension_of(metrics(:, :, 1)), how, size(metrics, 3, kind=c_int64_t), &
+      size(metrics, 2, kind=c_int64_t), metrics, found)
+  end subroutine carreau_metric_intersect
+
+  !> directions(:, k, i), unit, are orthogonal in both metrics; p_sizes(k, i), q_sizes(k, i): sizes along them.
+  subroutine carreau_metric_reduce(session, p, q, p_sizes, q_sizes, directions, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: p(:, :), q(:, :)
+    real(c_double), allocatable, intent(out) :: p_sizes(:, :), q_sizes(:, :), directions(:, :, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t) :: d
+    status = CARREAU_ERR_ARGUMENT
+    if (any(shape(p) /= shape(q))) return
+    d = dimension_of(p)
+    allocate (p_sizes(d, size(p, 2)), q_sizes(d, size(p, 2)), directions(d, d, size(p, 2)))
+    status = c_metric_reduce(session%handle, d, size(p, 2, kind=c_int64_t), p, q, p_sizes, q_sizes, directions)
+  end subroutine carreau_metric_reduce
+
+  !> edges(2 or 3, 2, n), metrics(3 or 6, 2, n) at their ends; lengths(n), with the law between them.
+  subroutine carreau_metric_lengths(session, law, edges, metrics, lengths, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: law
+    real(c_double), intent(in) :: edges(:, :, :), metrics(:, :, :)
+    real(c_double), allocatable, intent(out) :: lengths(:)
+    integer(c_int32_t), intent(out) :: status
+    status = CARREAU_ERR_ARGUMENT
+    if (any(shape(metrics) /= [merge(3, 6, size(edges, 1) == 2), 2, size(edges, 3)]) .or. size(edges, 2) /= 2) return
+    allocate (lengths(size(edges, 3)))
+    status = c_metric_lengths(session%handle, int(size(edges, 1), c_int32_t), law, size(edges, 3, kind=c_int64_t), edges, &
+      metrics, lengths)
+  end subroutine carreau_metric_lengths
+
+  !> 2 or 3; 0: neither, which the library refuses.
+  pure integer(c_int32_t) function dimension_of(metrics) result(d)
+    real(c_double), intent(in) :: metrics(:, :)
+    d = 0
+    if (size(metrics, 1) == 3) d = 2
+    if (size(metrics, 1) == 6) d = 3
+  end function dimension_of
 
   ! ---- Background meshes ----
 

@@ -1012,6 +1012,89 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_curve_split
 
+    !> Gives sizes along the axes of each metric, the smallest first, n x dimension; and unit axes, n x dimension x
+    !! dimension, one after another, or nothing when out_axes is NULL.
+    function c_metric_sizes(session, dimension, n, metrics, sizes, axes) result(status) &
+        bind(c, name="carreau_metric_sizes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: metrics(*)
+      real(c_double), intent(inout) :: sizes(*), axes(*)
+      integer(c_int32_t) :: status
+    end function c_metric_sizes
+
+    !> Does the reverse: metrics of sizes > 0 along axes of any length but zero, which are made orthogonal from the
+    !! first.
+    function c_metric_of_sizes(session, dimension, n, sizes, axes, metrics) result(status) &
+        bind(c, name="carreau_metric_of_sizes")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: sizes(*), axes(*)
+      real(c_double), intent(inout) :: metrics(*)
+      integer(c_int32_t) :: status
+    end function c_metric_of_sizes
+
+    !> Gives the metric at share[i] in [0, 1] from p to q: sizes along the axes of their simultaneous reduction follow
+    !! the law, 0 linear, 1 geometric, 2 sinusoidal (RR-2818 sec. 4.3.2).
+    function c_metric_interpolate(session, dimension, law, n, p, q, share, metrics) result(status) &
+        bind(c, name="carreau_metric_interpolate")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, law
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: p(*), q(*), share(*)
+      real(c_double), intent(inout) :: metrics(*)
+      integer(c_int32_t) :: status
+    end function c_metric_interpolate
+
+    !> Intersects `count` > 0 metrics at each of n places: metrics is n x count rows.
+    function c_metric_intersect(session, dimension, how, n, count, metrics, out_metrics) result(status) &
+        bind(c, name="carreau_metric_intersect")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, how
+      integer(c_int64_t), value :: n, count
+      real(c_double), intent(in) :: metrics(*)
+      real(c_double), intent(inout) :: out_metrics(*)
+      integer(c_int32_t) :: status
+    end function c_metric_intersect
+
+    !> Gives the simultaneous reduction of p and q: directions that are orthogonal in both, unit vectors, n x dimension
+    !! x dimension, and the sizes of p and of q along them, n x dimension each.
+    function c_metric_reduce(session, dimension, n, p, q, p_sizes, q_sizes, directions) result(status) &
+        bind(c, name="carreau_metric_reduce")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: p(*), q(*)
+      real(c_double), intent(inout) :: p_sizes(*), q_sizes(*), directions(*)
+      integer(c_int32_t) :: status
+    end function c_metric_reduce
+
+    !> Gives lengths of straight edges, n x 2 x dimension coordinates, with metrics at their ends, n x 2 rows, which are
+    !! interpolated between by the law, to one part in ten thousand (RR-2818 sec. 4.4).
+    function c_metric_lengths(session, dimension, law, n, edges, metrics, lengths) result(status) &
+        bind(c, name="carreau_metric_lengths")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: dimension, law
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: edges(*), metrics(*)
+      real(c_double), intent(inout) :: lengths(*)
+      integer(c_int32_t) :: status
+    end function c_metric_lengths
+
     function c_session_delivered(session, delivered) result(status) bind(c, name="carreau_session_delivered")
       import :: c_delivered, c_int32_t, c_ptr
       implicit none

@@ -900,6 +900,41 @@ typedef struct carreau_curve {
 CARREAU_API carreau_status carreau_curve_split(carreau_session* session, const carreau_curve* curve, int64_t capacity,
                                                double out_abscissae[], int64_t* out_edges, double* out_length);
 
+/* ---- Algebra of metrics ---- */
+
+/* For n metrics of one dimension, 2 or 3, at once: rows of 3 numbers (xx xy yy) or of 6 (xx xy xz yy yz zz), in 1 / model
+ * length^2, positive definite. A vector d has the length sqrt(d^T M d), and a size h along it is d / length for |d| = 1.
+ * The session only keeps the sentence of an error; its geometry and mesh are not touched. Errors: ARGUMENT (also a metric that is not positive definite, with its rank from 0). */
+
+/* Gives sizes along the axes of each metric, the smallest first, n x dimension; and unit axes, n x dimension x dimension,
+ * one after another, or nothing when out_axes is NULL. */
+CARREAU_API carreau_status carreau_metric_sizes(carreau_session* session, int32_t dimension, int64_t n,
+                                                const double metrics[], double out_sizes[], double out_axes[]);
+/* Does the reverse: metrics of sizes > 0 along axes of any length but zero, which are made orthogonal from the first. */
+CARREAU_API carreau_status carreau_metric_of_sizes(carreau_session* session, int32_t dimension, int64_t n,
+                                                   const double sizes[], const double axes[], double out_metrics[]);
+/* Gives the metric at share[i] in [0, 1] from p to q: sizes along the axes of their simultaneous reduction follow the
+ * law, 0 linear, 1 geometric, 2 sinusoidal (RR-2818 sec. 4.3.2). */
+CARREAU_API carreau_status carreau_metric_interpolate(carreau_session* session, int32_t dimension, int32_t law,
+                                                      int64_t n, const double p[], const double q[],
+                                                      const double share[], double out_metrics[]);
+/* IN_TURN: two by two, the smallest unit ball first (HDR eq. 2.22): the largest ellipsoid inside two, not inside more.
+ * LARGEST: the largest ellipsoid inside all unit balls (HDR sec. 2.5.4); a tenth of a millisecond each. Neither depends
+ * on the order. */
+enum { CARREAU_INTERSECT_IN_TURN = 0, CARREAU_INTERSECT_LARGEST = 1 };
+/* Intersects `count` > 0 metrics at each of n places: metrics is n x count rows. */
+CARREAU_API carreau_status carreau_metric_intersect(carreau_session* session, int32_t dimension, int32_t how, int64_t n,
+                                                    int64_t count, const double metrics[], double out_metrics[]);
+/* Gives the simultaneous reduction of p and q: directions that are orthogonal in both, unit vectors, n x dimension x
+ * dimension, and the sizes of p and of q along them, n x dimension each. */
+CARREAU_API carreau_status carreau_metric_reduce(carreau_session* session, int32_t dimension, int64_t n,
+                                                 const double p[], const double q[], double out_p_sizes[],
+                                                 double out_q_sizes[], double out_directions[]);
+/* Gives lengths of straight edges, n x 2 x dimension coordinates, with metrics at their ends, n x 2 rows, which are
+ * interpolated between by the law, to one part in ten thousand (RR-2818 sec. 4.4). */
+CARREAU_API carreau_status carreau_metric_lengths(carreau_session* session, int32_t dimension, int32_t law, int64_t n,
+                                                  const double edges[], const double metrics[], double out_lengths[]);
+
 /* ---- What was delivered ---- */
 
 /* These functions measure the latest mesh of a session on the surface that the callbacks describe, against the sizes

@@ -5,6 +5,7 @@
 #include "curve/metric_curve.h"
 #include "curve/unit_discretisation.h"
 #include "guard.h"
+#include "metric_rows.h"
 
 using carreau::InvalidArgument;
 using carreau::Metric2;
@@ -15,11 +16,6 @@ using carreau::Vec3;
 using namespace carreau::abi;
 
 namespace {
-
-void read(const double* p, Vec2& out) { out = {p[0], p[1]}; }
-void read(const double* p, Vec3& out) { out = {p[0], p[1], p[2]}; }
-void read(const double* p, Metric2& out) { out = {p[0], p[1], p[2]}; }
-void read(const double* p, Metric3& out) { out = {p[0], p[1], p[2], p[3], p[4], p[5]}; }
 
 /// n rows of `width` numbers.
 template <typename T>

@@ -463,10 +463,48 @@ contains
       call expect(size(cuts) == edges(law) + 1, 'the curve has the edges of RR-2818')
       call expect(abs(cuts(size(cuts)) - 10) < 1d-12 .and. nint(length) == edges(law), 'the split ends where the curve does')
     end do
+    call test_metric_algebra(session)
     call carreau_curve_split(session, points, s, metrics(:2, :), 0, 0d0, cuts, length, status)
     call expect(status == CARREAU_ERR_ARGUMENT, 'metrics of two rows are refused')
     call carreau_session_free(session)
   end subroutine test_curve
+
+  !> What tests/cabi/metric_algebra_test.cpp finds in C.
+  subroutine test_metric_algebra(session)
+    type(carreau_session), intent(in) :: session
+    real(c_double), allocatable :: m(:, :), found(:, :), h(:, :), k(:, :), axes(:, :, :), l(:)
+    real(c_double) :: three(3, 3, 1), a, edges(2, 2, 1), ends(3, 2, 1)
+    integer(c_int32_t) :: status
+    integer :: i
+    do i = 1, 3
+      a = (i - 1) * acos(-1d0) / 3
+      call carreau_metric_of_sizes(session, reshape([.2d0, 1d0], [2, 1]), &
+        reshape([cos(a), sin(a), -sin(a), cos(a)], [2, 2, 1]), m, status)
+      call expect_ok(status, session, 'metric_of_sizes')
+      three(:, i, 1) = m(:, 1)
+    end do
+    call carreau_metric_intersect(session, CARREAU_INTERSECT_LARGEST, three, found, status)
+    call expect_ok(status, session, 'metric_intersect')
+    call expect(all(abs(found(:, 1) - [25d0, 0d0, 25d0]) < 1d-7), 'the largest ellipse inside three is a circle')
+    call carreau_metric_sizes(session, three(:, :, 1), h, axes, status)
+    call expect_ok(status, session, 'metric_sizes')
+    call expect(all(abs(h(1, :) - .2d0) < 1d-12) .and. all(abs(h(2, :) - 1) < 1d-12), 'sizes come back')
+    call carreau_metric_interpolate(session, 1_c_int32_t, reshape([1d0, 0d0, 1d0], [3, 1]), &
+      reshape([.0625d0, 0d0, 1d0], [3, 1]), [.5d0], m, status)
+    call expect_ok(status, session, 'metric_interpolate')
+    call expect(abs(1 / sqrt(m(1, 1)) - 2) < 1d-12, 'a geometric mean of sizes')
+    call carreau_metric_reduce(session, three(:, 1:1, 1), three(:, 2:2, 1), h, k, axes, status)
+    call expect_ok(status, session, 'metric_reduce')
+    call expect(abs(three(1, 1, 1) * axes(1, 1, 1) * axes(1, 2, 1) + three(2, 1, 1) * (axes(1, 1, 1) * axes(2, 2, 1) &
+      + axes(2, 1, 1) * axes(1, 2, 1)) + three(3, 1, 1) * axes(2, 1, 1) * axes(2, 2, 1)) < 1d-12, 'directions are conjugate')
+    edges(:, :, 1) = reshape([0d0, 0d0, 2d0, 0d0], [2, 2])
+    ends(:, :, 1) = reshape([1d0, 0d0, 1d0, exp(-2d0), 0d0, 1d0], [3, 2])
+    call carreau_metric_lengths(session, 1_c_int32_t, edges, ends, l, status)
+    call expect_ok(status, session, 'metric_lengths')
+    call expect(abs(l(1) - 2 * (1 - exp(-1d0))) < 2d-4, 'length of an edge')
+    call carreau_metric_sizes(session, ends(:2, :, 1), h, axes, status)
+    call expect(status == CARREAU_ERR_ARGUMENT, 'metrics of two rows are no metrics')
+  end subroutine test_metric_algebra
 
   subroutine test_adaptation
     type(carreau_session) :: session
