@@ -5,18 +5,17 @@
 !>       call blsurf_s
 !>     end program blsurf
 !>
-!> cad_m is compiled first, then this file; both are linked with carreau_fortran and carreau. All routines of the manual's
-!> figure 10 must be in cad_m; those that the variables of blsurf.env do not ask for are not called.
+!> cad_m is compiled first, then this file; both are linked with carreau_fortran and carreau. cad_m holds the routines of
+!> the manual's figure 10; cad_init and those of sizes (cad_hphys, cad_hphyc, cad_hphyp, cad_rads, cad_radc) may be left out:
+!> nothing is initialised, no size is answered. Routines that the variables of blsurf.env do not ask for are not called.
 module blsurf_m
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use carreau
   ! Other names here: a module cad_m may hold anything else besides its routines.
-  use cad_m, only: user_init => cad_init, user_surf0 => surf0, user_surf1 => surf1, user_surf2 => surf2, &
-    user_curv_int => curv_int, user_curv0 => curv0, user_curv1 => curv1, user_curv2 => curv2, &
-    user_hphys => cad_hphys, user_hphyc => cad_hphyc, user_hphyp => cad_hphyp, user_rads => cad_rads, &
-    user_radc => cad_radc
+  use cad_m, only: user_surf0 => surf0, user_surf1 => surf1, user_surf2 => surf2, &
+    user_curv_int => curv_int, user_curv0 => curv0, user_curv1 => curv1, user_curv2 => curv2
   implicit none
   private
   public :: blsurf_s
@@ -220,4 +219,85 @@ contains
     call user_radc(r, i, w, x)
     h = x
   end subroutine radc
+
+  ! Routines that cad_m may leave out. In a procedure that uses cad_m its names hide those of this module: the empty
+  ! routines below are called where it has none. There, names of ours must not be names of cad_m.
+
+  subroutine user_init
+    use cad_m
+    call cad_init
+  end subroutine user_init
+
+  subroutine user_hphys(blsurf_m_refs, blsurf_m_uv, blsurf_m_h)
+    use cad_m
+    integer :: blsurf_m_refs
+    double precision :: blsurf_m_uv(2), blsurf_m_h
+    call cad_hphys(blsurf_m_refs, blsurf_m_uv, blsurf_m_h)
+  end subroutine user_hphys
+
+  subroutine user_hphyc(blsurf_m_refs, blsurf_m_ic, blsurf_m_t, blsurf_m_h)
+    use cad_m
+    integer :: blsurf_m_refs, blsurf_m_ic
+    double precision :: blsurf_m_t, blsurf_m_h
+    call cad_hphyc(blsurf_m_refs, blsurf_m_ic, blsurf_m_t, blsurf_m_h)
+  end subroutine user_hphyc
+
+  subroutine user_hphyp(blsurf_m_refp, blsurf_m_h)
+    use cad_m
+    integer :: blsurf_m_refp
+    double precision :: blsurf_m_h
+    call cad_hphyp(blsurf_m_refp, blsurf_m_h)
+  end subroutine user_hphyp
+
+  subroutine user_rads(blsurf_m_refs, blsurf_m_uv, blsurf_m_rho)
+    use cad_m
+    integer :: blsurf_m_refs
+    double precision :: blsurf_m_uv(2), blsurf_m_rho
+    call cad_rads(blsurf_m_refs, blsurf_m_uv, blsurf_m_rho)
+  end subroutine user_rads
+
+  subroutine user_radc(blsurf_m_refs, blsurf_m_ic, blsurf_m_t, blsurf_m_rho)
+    use cad_m
+    integer :: blsurf_m_refs, blsurf_m_ic
+    double precision :: blsurf_m_t, blsurf_m_rho
+    call cad_radc(blsurf_m_refs, blsurf_m_ic, blsurf_m_t, blsurf_m_rho)
+  end subroutine user_radc
+
+  subroutine cad_init
+  end subroutine cad_init
+
+  subroutine cad_hphys(refs, uv, h)
+    integer :: refs
+    double precision :: uv(2), h
+    associate (not_needed => refs, neither => uv, nor => h)
+    end associate
+  end subroutine cad_hphys
+
+  subroutine cad_hphyc(refs, ic, t, h)
+    integer :: refs, ic
+    double precision :: t, h
+    associate (not_needed => refs, neither => ic, nor => t, nor_this => h)
+    end associate
+  end subroutine cad_hphyc
+
+  subroutine cad_hphyp(refp, h)
+    integer :: refp
+    double precision :: h
+    associate (not_needed => refp, neither => h)
+    end associate
+  end subroutine cad_hphyp
+
+  subroutine cad_rads(refs, uv, rho)
+    integer :: refs
+    double precision :: uv(2), rho
+    associate (not_needed => refs, neither => uv, nor => rho)
+    end associate
+  end subroutine cad_rads
+
+  subroutine cad_radc(refs, ic, t, rho)
+    integer :: refs, ic
+    double precision :: t, rho
+    associate (not_needed => refs, neither => ic, nor => t, nor_this => rho)
+    end associate
+  end subroutine cad_radc
 end module blsurf_m

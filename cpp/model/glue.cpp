@@ -336,6 +336,15 @@ bool needs_gluing(const Model& model) {
   return first != nullptr && first->ref == 0;
 }
 
+std::size_t references_to_forget(const Model& model) {
+  if (!needs_gluing(model)) return 0;
+  std::size_t count = 0;
+  for (const Face& face : model.faces)
+    count += static_cast<std::size_t>(std::ranges::count_if(
+        face.curves, [](const FaceCurve& c) { return c.ref != 0 || c.end1 != 0 || c.end2 != 0; }));
+  return count;
+}
+
 std::vector<std::vector<char>> curves_to_glue(const Model& model) {
   const bool known = !needs_gluing(model);
   std::map<int, int> uses;

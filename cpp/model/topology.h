@@ -42,7 +42,7 @@ struct Topology {
 };
 
 /// Checks every rule of RT-0232 sec. 3.2 that needs no geometry. One sentence a violation, with file and line when the
-/// model was read from a file; empty when the model is sound. Before gluing (needs_gluing) all references must be zero;
+/// model was read from a file; empty when the model is sound. Before gluing (needs_gluing) references of curves and ends are whatever they are;
 /// else all are positive, ends agree between the curves of one reference and every boundary closes by its references.
 /// Seams (a boundary reference twice in one face) and curves that return to their starting point (closed, degenerate)
 /// are legal, although the manual forbade them. Of faces that are left out only the references are looked at.
@@ -62,6 +62,8 @@ using CurveTraces = std::vector<std::vector<std::vector<Vec3>>>;
 const FaceCurve* first_curve(const Model& model);
 /// True when references are to be found by gluing: the very first curve has reference 0.
 bool needs_gluing(const Model& model);
+/// The curves that have references all the same, which gluing finds anew.
+std::size_t references_to_forget(const Model& model);
 
 /// [face][curve]: whether gluing compares the curve with others: all curves, or, when the model has references already,
 /// the boundary curves that one face has, once.

@@ -32,7 +32,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text. Ours: max_triangles, measure, crossing_rounds, edge_gradation, shape_trials,
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, measure, crossing_rounds, edge_gradation, shape_trials,
 // stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
 // metric_combination).
 constexpr std::array kTable = {
@@ -132,6 +132,7 @@ static_assert(std::is_sorted(kTable.begin(), kTable.end(), [](const ParameterInf
 }));
 
 int index_of(std::string_view name) {
+  if (name == "hphymmin") name = "hphymin";
   const auto row =
       std::lower_bound(kTable.begin(), kTable.end(), name,
                        [](const ParameterInfo& info, std::string_view n) { return std::string_view(info.name) < n; });

@@ -12,6 +12,7 @@
 #include "io/pardom.h"
 #include "measure/composite_evaluation.h"
 #include "model/geometries.h"
+#include "model/places.h"
 #include "session/derivatives.h"
 #include "session/export.h"
 #include "session/field_attributes.h"
@@ -102,6 +103,10 @@ struct Session::State {
     GlueReport found;
     bool any = is_mixed(known) && !geometries_to_glue(known).empty();
     if (any) find_references_of_geometries(known, supports, whole_cad, options, remarks, found, monitor);
+    if (const std::size_t forgotten = references_to_forget(known); forgotten > 0)
+      monitor.message(Level::warning, "the first curve of the model has the reference 0" + of_line(first_curve(known)->line) +
+                                          ": all references are found, and those that " + std::to_string(forgotten) +
+                                          (forgotten == 1 ? " other curve has" : " other curves have") + " mean nothing");
     if (const bool all = needs_gluing(known); all || parameters.integer("glue_open") != 0) {
       GlueReport among_all;
       known = find_references(known, supports, whole_cad, options, remarks, among_all, monitor);

@@ -7,6 +7,7 @@
 --by-hand compiles the program as README tells people without CMake to, with the flags of theirs.
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -79,12 +80,42 @@ class Blsurf(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
 
+class WithoutOptionalRoutines(unittest.TestCase):
+    """RT-0232 sec. 3.1: other routines than those of surfaces and curves are "facultatives"."""
+
+    @unittest.skipUnless("--by-hand" in sys.argv, "needs a compiler")
+    def test_a_module_without_them_links_and_runs(self):
+        with open(os.path.join(DATA, "cad_m.f90")) as file:
+            text = file.read()
+        corners = re.search(r"corner = (reshape.*)", text).group(1)
+        text = re.sub(r"  subroutine (cad_\w+).*?end subroutine \1\n", "", text, flags=re.DOTALL)
+        self.assertNotIn("subroutine cad_", text)
+        # Names that a wrapper might have, too.
+        text = text.replace("corner(2, 5)", f"corner(2, 5) = &\n    {corners}\n  double precision :: refs, uv, h, ic, t, rho, x, r, p")
+        folder = tempfile.mkdtemp(prefix="carreau by hand ")
+        self.addCleanup(shutil.rmtree, folder)
+        shutil.copy(os.path.join(DATA, "x.pardom"), folder)
+        with open(os.path.join(folder, "cad_m.f90"), "w") as file:
+            file.write(text)
+        compile_in(folder, folder, *sys.argv[2:5], *sys.argv[6:])
+        for sizes in ("", "hphy_flag 2\nhgeo_flag 0\n"):  # asked, they do not answer: the size is hphydef
+            with open(os.path.join(folder, "blsurf.env"), "w") as env:
+                env.write(sizes + "call inimesh\nflag 1\ncall export\ncall exit\n")
+            done = subprocess.run([os.path.join(folder, "blsurf")], cwd=folder, capture_output=True, text=True, timeout=120)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(read_mesh(os.path.join(folder, "x.mesh"))["Edges"], 216)  # RT-0232 sec. 6.1
+
+
 def build_by_hand(gfortran, sources, library, data, *flags):
     folder = tempfile.mkdtemp(prefix="carreau by hand ")
+    compile_in(folder, data, gfortran, sources, library, *flags)
+    return folder
+
+
+def compile_in(folder, data, gfortran, sources, library, *flags):
     names = ["carreau_c.f90", "carreau.f90", "blsurf_m.f90", "blsurf.f90"]
     subprocess.run([gfortran, *flags, os.path.join(data, "cad_m.f90"), *[os.path.join(sources, name) for name in names],
                     "-L" + library, "-lcarreau", "-Wl,-rpath," + library, "-o", "blsurf"], cwd=folder, check=True)
-    return folder
 
 
 if __name__ == "__main__":

@@ -95,7 +95,7 @@ TEST(FindModelDefects, WantsKnownTypes) {
       "is 3");
 }
 
-TEST(FindModelDefects, WantsAllReferencesZeroOrNone) {
+TEST(FindModelDefects, WantsAllReferencesUnlessTheFirstIsZero) {
   EXPECT_EQ(
       defects_after([](Model& m) { m.faces[1].curves[0].ref = 0; }),
       Sentences{"x.pardom, line 10, face 2, curve 1: zero references are mixed with others (refc 0, refp1 2, refp2 "
@@ -105,10 +105,8 @@ TEST(FindModelDefects, WantsAllReferencesZeroOrNone) {
   model.faces[0].curves[0].line = 5;
   model.faces[0].curves[2].line = 7;
   model.faces[0].curves[2].end2 = 3;
-  EXPECT_EQ(
-      find_model_defects(model),
-      Sentences{"x.pardom, line 7, face 1, curve 3: references (refc 0, refp1 0, refp2 3) are mixed with zero ones: "
-                "the first curve of the model has the reference 0 (line 5), so that all have to be found"});
+  EXPECT_EQ(find_model_defects(model), Sentences{});
+  EXPECT_EQ(references_to_forget(model), 1U);
 }
 
 TEST(FindModelDefects, WantsPositiveReferences) {

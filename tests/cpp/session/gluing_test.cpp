@@ -239,6 +239,25 @@ TEST(Gluing, CutsNoArcWhereOnlyItsChordsAreNear) {
   EXPECT_TRUE(run.monitor.says("4 curves are open"));
 }
 
+TEST(Gluing, TheReferenceOfTheFirstCurveDecides) {
+  // RT-0232 sec. 3.2: it alone is 0, and all are found.
+  const auto mesh_of = [](int others, bool& said) {
+    Patches run(three_patches(0), 0.2, 0.01);
+    Model model = testing::unglued(three_patches(0));
+    for (Face& face : model.faces)
+      for (FaceCurve& curve : face.curves) curve.ref = others, curve.end1 = others, curve.end2 = -others;
+    model.faces[0].curves[0].ref = 0;
+    run.session.set_model(model);
+    run.session.make_mesh();
+    said = run.monitor.says("the first curve of the model has the reference 0: all references are found");
+    return run.session.mesh().vertices;
+  };
+  bool said_of_zeros = true, said_of_others = false;
+  EXPECT_EQ(mesh_of(0, said_of_zeros), mesh_of(7, said_of_others));
+  EXPECT_FALSE(said_of_zeros);
+  EXPECT_TRUE(said_of_others);
+}
+
 TEST(Gluing, SaysThatTheManualsFileCannotHoldParts) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "carreau gluing";
   std::filesystem::create_directories(folder);

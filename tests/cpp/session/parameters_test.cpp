@@ -47,7 +47,6 @@ TEST(ParameterTable, HasEveryVariableOfFigure13WithItsDefault) {
       {"element", "p1"}, {"format", "mesh"}, {"option", ""}, {"pref", "x"}};
   for (const auto& [name, value] : texts) EXPECT_EQ(defaults.text(name), value) << name;
   EXPECT_EQ(find_parameter("call"), nullptr);
-  EXPECT_EQ(find_parameter("hphymmin"), nullptr);
 }
 
 TEST(ParameterTable, IsSortedAndEveryDefaultIsAllowed) {
@@ -87,6 +86,13 @@ TEST(Parameters, KeepWhatIsSetUntilTheyAreReset) {
   EXPECT_TRUE(parameters.is_set("flag"));
   parameters.reset_all();
   for (const ParameterInfo& info : parameter_table()) EXPECT_FALSE(parameters.is_set(info.name)) << info.name;
+}
+
+TEST(Parameters, TheManualsTwoWordsForOneSizeAreOne) {
+  Parameters parameters;
+  parameters.set("hphymmin", 0.25);  // RT-0232 fig. 13
+  EXPECT_EQ(parameters.real("hphymin", 1), 0.25);
+  EXPECT_EQ(find_parameter("hphymmin"), find_parameter("hphymin"));
 }
 
 TEST(Parameters, UnknownNamesGetTheNearestOne) {
