@@ -75,6 +75,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.lss = parameters.real("LSS");
   options.gradation = parameters.real("gradation");
   options.edge_gradation = parameters.real("edge_gradation");
+  options.cracks = parameters.integer("cracks") != 0;
   options.stagger_strips = parameters.integer("stagger_strips") != 0;
   options.shape_trials = parameters.integer("shape_trials") != 0;
   options.proximity = parameters.integer("proximity");

@@ -32,7 +32,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, measure, crossing_rounds, edge_gradation, shape_trials,
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, measure, cracks, crossing_rounds, edge_gradation, shape_trials,
 // stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
 // metric_combination).
 constexpr std::array kTable = {
@@ -64,6 +64,7 @@ constexpr std::array kTable = {
              "largest ratio of the geometric sizes in two directions (geo_metric 1)"),
     text_row("background_mesh", "", nullptr, "mesh file of the background mesh, with background_sol (\"\": none)"),
     text_row("background_sol", "", nullptr, "file of the sizes or metrics at the vertices of background_mesh"),
+    integer_row("cracks", 0, 1, 0, "1: internal curves are cracks: their vertices are doubled, one for each side"),
     integer_row("crossing_rounds", 0, 20, 0,
                 "rounds in which triangles that cross, but need not, become smaller (0: none is looked for)"),
     integer_row("curve_groups", 0, 1, 1, "1: .msh files have the curves and corners too, as groups; 0: faces only"),

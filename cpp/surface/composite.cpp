@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
 #include "surface/independent/independent.h"
@@ -92,6 +93,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
     free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
   make_elements(run, mesh);
   place_on_curves(run);
+  if (options.cracks) open_cracks(run.result);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);
   return std::move(run.result);

@@ -34,6 +34,7 @@ struct CompositeOptions {
   /// Vertices of one side of a strip of one layer go where they face the middles of the other side's edges
   /// (staggering.h).
   bool stagger_strips = false;
+  bool cracks = false;  ///< vertices of internal curves are doubled
   /// At the worst triangles of each patch changes of the mesh are tried, and the best is kept.
   bool shape_trials = false;
   /// Least number of layers of triangles between boundaries of a face that are near each other, and sizes of the gap

@@ -98,7 +98,7 @@ TEST(Parameters, TheManualsTwoWordsForOneSizeAreOne) {
 TEST(Parameters, UnknownNamesGetTheNearestOne) {
   Parameters parameters;
   const auto sentence = [&](const char* name) { return sentence_of([&] { parameters.set(name, 1); }); };
-  EXPECT_EQ(sentence("hphymminn"), "there is no parameter 'hphymmin'; did you mean 'hphymin'?");
+  EXPECT_EQ(sentence("hphymminn"), "there is no parameter 'hphymminn'; did you mean 'hphymin'?");
   EXPECT_EQ(sentence("Hphydef"), "there is no parameter 'Hphydef'; did you mean 'hphydef'?");
   EXPECT_EQ(sentence("checkcloseedge"), "there is no parameter 'checkcloseedge'; did you mean 'CheckCloseEdges'?");
   EXPECT_EQ(sentence("temperature"), "there is no parameter 'temperature'");
