@@ -143,7 +143,8 @@ class Cutting final : public Kinematics {
     const Vec2 along{-std::cos(shear), std::sin(shear)};  // the shear plane, from the edge up and forwards
     const double behind = cross(along, p - edge) < 0 ? norm_across(p, edge, along) : -norm_across(p, edge, along);
     const double chip_speed = std::sin(shear) / std::cos(shear - rake);
-    const Vec2 chip = Vec2{-1, 0} + chip_speed * Vec2{std::sin(rake), std::cos(rake)};
+    // It comes nearer to the rake all the time.
+    const Vec2 chip = Vec2{-0.96, 0} + chip_speed * Vec2{std::sin(rake), std::cos(rake)};
     const double above = step_of((p.y() - edge.y()) / 0.15);
     // What has passed under the edge rests.
     const Vec2 face{std::sin(rake), std::cos(rake)};
