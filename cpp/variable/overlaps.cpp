@@ -47,15 +47,22 @@ Polygon cut(const Polygon& polygon, const Vec2& a, const Vec2& b) noexcept {
 
 }  // namespace
 
-double common_area(const Corners& p, const Corners& q) noexcept {
-  if (is_apart(p, q) || is_apart(q, p)) return 0;
+Overlaps::Entry common_part(const Corners& p, const Corners& q) noexcept {
+  Overlaps::Entry part;
+  if (is_apart(p, q) || is_apart(q, p)) return part;
   Polygon polygon;
   for (const Vec2& corner : p) polygon.add(corner);
   for (std::size_t k = 0; k < 3; ++k) polygon = cut(polygon, q[k], q[(k + 1) % 3]);
-  double area = 0;
-  for (std::size_t i = 2; i < polygon.size; ++i)
-    area += cross(polygon.corner[i - 1] - polygon.corner[0], polygon.corner[i] - polygon.corner[0]);
-  return std::max(area / 2, 0.0);
+  Vec2 moment{0, 0};  // about the first corner
+  for (std::size_t i = 2; i < polygon.size; ++i) {
+    const Vec2 d = polygon.corner[i - 1] - polygon.corner[0], e = polygon.corner[i] - polygon.corner[0];
+    const double area = cross(d, e) / 2;
+    part.area += area;
+    moment += area / 3 * (d + e);
+  }
+  part.area = std::max(part.area, 0.0);
+  if (part.area > 0) part.centre = polygon.corner[0] + moment / part.area;
+  return part;
 }
 
 Overlaps overlaps_of(const Piece& old, const TriangleSearch& search, const Piece& piece) {
@@ -70,8 +77,9 @@ Overlaps overlaps_of(const Piece& old, const TriangleSearch& search, const Piece
     search.beside_box({low.x(), low.y(), 0}, {high.x(), high.y(), 0}, near);
     std::sort(near.begin(), near.end());
     for (const std::int32_t o : near) {
-      const double area = common_area(corners, corners_of(old, static_cast<std::size_t>(o)));
-      if (area > 0) overlaps.entries.push_back({o, area});
+      Overlaps::Entry part = common_part(corners, corners_of(old, static_cast<std::size_t>(o)));
+      part.old = o;
+      if (part.area > 0) overlaps.entries.push_back(part);
     }
   }
   overlaps.start.push_back(overlaps.entries.size());

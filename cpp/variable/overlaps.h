@@ -14,6 +14,7 @@ struct Overlaps {
   struct Entry {
     std::int32_t old = 0;
     double area = 0;
+    Vec2 centre;  ///< of the part in common
   };
   std::vector<std::size_t> start;  ///< of rows, and the end
   std::vector<Entry> entries;
@@ -22,7 +23,7 @@ struct Overlaps {
 /// `search` holds the triangles of `old`. Triangles are counterclockwise.
 Overlaps overlaps_of(const Piece& old, const TriangleSearch& search, const Piece& piece);
 
-/// Area that two counterclockwise triangles have in common.
-double common_area(const std::array<Vec2, 3>& p, const std::array<Vec2, 3>& q) noexcept;
+/// What two counterclockwise triangles have in common: its area, and where its centre is (`old` is 0).
+Overlaps::Entry common_part(const std::array<Vec2, 3>& p, const std::array<Vec2, 3>& q) noexcept;
 
 }  // namespace carreau::variable

@@ -1,15 +1,10 @@
 #include "variable/piece_transfer.h"
 
+#include "variable/slopes.h"
+
 namespace carreau::variable {
 
 namespace {
-
-Vec2 centre_of(const Piece& piece, std::size_t t) noexcept {
-  const auto& v = piece.triangles[t];
-  return (piece.vertices[static_cast<std::size_t>(v[0])] + piece.vertices[static_cast<std::size_t>(v[1])] +
-          piece.vertices[static_cast<std::size_t>(v[2])]) /
-         3;
-}
 
 Vec3 in_space(const Vec2& p) noexcept { return {p.x(), p.y(), 0}; }
 
@@ -58,16 +53,19 @@ std::vector<double> PieceTransfer::means(std::span<const double> values, int com
   const auto n = static_cast<std::size_t>(components);
   const Overlaps& shared = overlaps();
   std::vector<double> result(n * piece_->triangles.size(), 0);
-  for (std::size_t t = 0; t < piece_->triangles.size(); ++t) {
-    double area = 0;
-    for (std::size_t i = shared.start[t]; i < shared.start[t + 1]; ++i) area += shared.entries[i].area;
-    const bool alone = !(area > 0);
-    const auto add = [&](std::int32_t old, double share) {
-      for (std::size_t c = 0; c < n; ++c) result[n * t + c] += share * values[n * static_cast<std::size_t>(old) + c];
-    };
-    if (alone) add(search_->nearest(in_space(centre_of(*piece_, t))).triangle, 1);
-    for (std::size_t i = shared.start[t]; !alone && i < shared.start[t + 1]; ++i)
-      add(shared.entries[i].old, shared.entries[i].area / area);
+  for (std::size_t c = 0; c < n; ++c) {
+    const std::vector<Vec2> slopes = limited_slopes(*old_, *adjacency_, values, n, c);
+    for (std::size_t t = 0; t < piece_->triangles.size(); ++t) {
+      double area = 0, sum = 0;
+      for (std::size_t i = shared.start[t]; i < shared.start[t + 1]; ++i) {
+        const Overlaps::Entry& part = shared.entries[i];
+        const auto old = static_cast<std::size_t>(part.old);
+        area += part.area;
+        sum += part.area * (values[n * old + c] + dot(slopes[old], part.centre - centre_of(*old_, old)));
+      }
+      const auto nearest = [&] { return search_->nearest(in_space(centre_of(*piece_, t))).triangle; };
+      result[n * t + c] = area > 0 ? sum / area : values[n * static_cast<std::size_t>(nearest()) + c];
+    }
   }
   return result;
 }
@@ -76,23 +74,37 @@ std::vector<double> PieceTransfer::conserved(std::span<const double> values, int
   const auto n = static_cast<std::size_t>(components);
   const Overlaps& shared = overlaps();
   std::vector<double> covered(old_->triangles.size(), 0), result(n * piece_->triangles.size(), 0);
-  for (const Overlaps::Entry& entry : shared.entries) covered[static_cast<std::size_t>(entry.old)] += entry.area;
-  const auto give = [&](std::size_t old, std::size_t t, double share) {
-    for (std::size_t c = 0; c < n; ++c)
-      result[n * t + c] += share * old_->double_area(old) / piece_->double_area(t) * values[n * old + c];
-  };
-  for (std::size_t t = 0; t < piece_->triangles.size(); ++t)
-    for (std::size_t i = shared.start[t]; i < shared.start[t + 1]; ++i) {
-      const auto old = static_cast<std::size_t>(shared.entries[i].old);
-      give(old, t, shared.entries[i].area / covered[old]);
-    }
+  std::vector<Vec2> moment(old_->triangles.size());  // of what is covered: slopes are taken about its centre
+  for (const Overlaps::Entry& part : shared.entries) {
+    const auto old = static_cast<std::size_t>(part.old);
+    covered[old] += part.area, moment[old] += part.area * part.centre;
+  }
+  for (std::size_t c = 0; c < n; ++c) {
+    const std::vector<Vec2> slopes = limited_slopes(*old_, *adjacency_, values, n, c);
+    for (std::size_t t = 0; t < piece_->triangles.size(); ++t)
+      for (std::size_t i = shared.start[t]; i < shared.start[t + 1]; ++i) {
+        const Overlaps::Entry& part = shared.entries[i];
+        const auto old = static_cast<std::size_t>(part.old);
+        const double content = values[n * old + c] * old_->double_area(old) / 2 / covered[old] +
+                               dot(slopes[old], part.centre - moment[old] / covered[old]);
+        result[n * t + c] += part.area * content / (piece_->double_area(t) / 2);
+      }
+  }
+  give_uncovered(values, n, covered, result);
+  return result;
+}
+
+/// The content of old triangles that no new one meets goes to the nearest one.
+void PieceTransfer::give_uncovered(std::span<const double> values, std::size_t components,
+                                   std::span<const double> covered, std::vector<double>& result) const {
   TriangleSearch search;
   for (std::size_t old = 0; old < covered.size(); ++old) {
     if (covered[old] > 0) continue;
     if (search.empty()) search = TriangleSearch(variable::in_space(piece_->vertices), piece_->triangles);
-    give(old, static_cast<std::size_t>(search.nearest(in_space(centre_of(*old_, old))).triangle), 1);
+    const auto t = static_cast<std::size_t>(search.nearest(in_space(centre_of(*old_, old))).triangle);
+    for (std::size_t c = 0; c < components; ++c)
+      result[components * t + c] += old_->double_area(old) / piece_->double_area(t) * values[components * old + c];
   }
-  return result;
 }
 
 }  // namespace carreau::variable

@@ -214,7 +214,7 @@ class Remeshing {
   }
 
   void transfer() {
-    PieceTransfer carry(eroded_.piece, search_, result_.piece);
+    PieceTransfer carry(eroded_.piece, eroded_.adjacency, search_, result_.piece);
     if (!in_.damage.empty()) result_.damage = carry.means(kept(in_.damage, eroded_.triangle_of, 1), 1);
     for (double& d : result_.damage) d = std::clamp(d, 0.0, 1.0);  // sums of shares round
     for (const RemeshField& field : in_.fields) {
