@@ -23,13 +23,15 @@ module carreau_remesh_c
       error_source = 0, error_component = 0
     real(c_double) :: error_tolerance = 0
     integer(c_int64_t) :: max_triangles = 0
+    integer(c_int32_t) :: remove_overlaps = 0, reserved = 0
   end type c_remesh_input
 
   !> What happened.
   type, bind(c) :: c_remesh_summary
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, boundary_edges = 0, bound_vertices = 0, free_vertices = 0, &
-      imposed_vertices = 0, removed_damaged = 0, removed_multiple = 0, removed_dangling = 0, removed_parts = 0
+      imposed_vertices = 0, removed_damaged = 0, removed_multiple = 0, removed_dangling = 0, removed_parts = 0, &
+      removed_overlapping = 0
     integer(c_int32_t) :: parts_found = 0, parts_kept = 0, boundary = 0, reserved = 0
     real(c_double) :: area_given = 0, area_removed = 0, area_bound = 0, area_geometry = 0, area = 0
   end type c_remesh_summary

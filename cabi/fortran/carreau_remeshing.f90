@@ -39,7 +39,7 @@ module carreau_remeshing
     real(c_double) :: h_min = 0, h_max = 0, step = 0
     real(c_double) :: damage_limit = 0, gradation = 0, corner_angle = 0, curvature_angle = 0
     integer(c_int32_t) :: curves = CARREAU_SPLINE_TANGENT, imposed_smoothing = 0
-    logical :: keep_all_parts = .false., damage_sizes = .true.
+    logical :: keep_all_parts = .false., remove_overlaps = .false., damage_sizes = .true.
     integer(c_int32_t) :: error_source = CARREAU_ERROR_NONE, error_component = 1
     real(c_double) :: error_tolerance = 0
     integer(c_int64_t) :: max_triangles = 0
@@ -48,7 +48,8 @@ module carreau_remeshing
   type :: carreau_remesh_summary
     integer(c_int64_t) :: vertices = 0, triangles = 0, boundary_edges = 0
     integer(c_int64_t) :: bound_vertices = 0, free_vertices = 0, imposed_vertices = 0
-    integer(c_int64_t) :: removed_damaged = 0, removed_multiple = 0, removed_dangling = 0, removed_parts = 0
+    integer(c_int64_t) :: removed_damaged = 0, removed_multiple = 0, removed_dangling = 0, removed_parts = 0, &
+      removed_overlapping = 0
     integer(c_int32_t) :: parts_found = 0, parts_kept = 0, boundary = 0
     real(c_double) :: area_given = 0, area_removed = 0, area_bound = 0, area_geometry = 0, area = 0
   end type carreau_remesh_summary
@@ -100,8 +101,8 @@ contains
     status = c_remesh(mesh%handle, c, told)
     if (present(summary)) summary = carreau_remesh_summary(told%vertices, told%triangles, told%boundary_edges, &
       told%bound_vertices, told%free_vertices, told%imposed_vertices, told%removed_damaged, told%removed_multiple, &
-      told%removed_dangling, told%removed_parts, told%parts_found, told%parts_kept, told%boundary, told%area_given, &
-      told%area_removed, told%area_bound, told%area_geometry, told%area)
+      told%removed_dangling, told%removed_parts, told%removed_overlapping, told%parts_found, told%parts_kept, &
+      told%boundary, told%area_given, told%area_removed, told%area_bound, told%area_geometry, told%area)
   end subroutine carreau_remesh
 
   subroutine set_options(options, c)
@@ -117,6 +118,7 @@ contains
     c%curves = options%curves
     c%imposed_smoothing = options%imposed_smoothing
     c%keep_all_parts = merge(1_c_int32_t, 0_c_int32_t, options%keep_all_parts)
+    c%remove_overlaps = merge(1_c_int32_t, 0_c_int32_t, options%remove_overlaps)
     c%no_damage_sizes = merge(0_c_int32_t, 1_c_int32_t, options%damage_sizes)
     c%error_source = options%error_source
     c%error_component = options%error_component - 1

@@ -82,6 +82,8 @@ typedef struct carreau_remesh_input {
   int32_t error_component;     /* of nodal_values, whose error is estimated */
   double error_tolerance;      /* largest error, or angle in degrees for CARREAU_ERROR_CURVATURE; 0: 0.01 */
   int64_t max_triangles;       /* 0: 500 million */
+  int32_t remove_overlaps;     /* 1: elements whose boundary edges cross each other's are removed; 0: DOMAIN */
+  int32_t reserved;            /* 0 */
 } carreau_remesh_input;
 
 /* What happened. */
@@ -90,8 +92,9 @@ typedef struct carreau_remesh_summary {
   int64_t vertices, triangles, boundary_edges;
   int64_t bound_vertices, free_vertices, imposed_vertices;
   /* Triangles removed: totally damaged; at vertices where more than two boundary edges met; left at one side only by
-   * the removal; with smaller parts. */
+   * the removal; with smaller parts; where the piece overlapped itself. */
   int64_t removed_damaged, removed_multiple, removed_dangling, removed_parts;
+  int64_t removed_overlapping;     /* with remove_overlaps */
   int32_t parts_found, parts_kept; /* more than one: the piece has broken */
   int32_t boundary;                /* CARREAU_BOUNDARY_... */
   int32_t reserved;

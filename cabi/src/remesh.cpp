@@ -126,6 +126,7 @@ void add_options(const carreau_remesh_input& given, variable::RemeshInput& input
                                                         : variable::Smoothness::polygon;
   input.imposed_smoothing = choice(given.imposed_smoothing, 1000, "imposed_smoothing");
   input.keep_all_parts = choice(given.keep_all_parts, 1, "keep_all_parts") != 0;
+  input.remove_overlaps = choice(given.remove_overlaps, 1, "remove_overlaps") != 0;
   input.sizes_by_damage = choice(given.no_damage_sizes, 1, "no_damage_sizes") == 0;
   if (given.max_triangles < 0) throw InvalidArgument("input->max_triangles is negative");
   if (given.max_triangles > 0) input.max_triangles = given.max_triangles;
@@ -176,6 +177,7 @@ carreau_remesh_summary summary_of(const variable::RemeshResult& result) {
   s.imposed_vertices = told.imposed_vertices;
   s.removed_damaged = told.damaged, s.removed_multiple = told.at_multiple_vertices;
   s.removed_dangling = told.dangling, s.removed_parts = told.in_parts;
+  s.removed_overlapping = told.overlapping;
   s.parts_found = told.parts_found, s.parts_kept = told.parts_kept;
   s.boundary = int(told.boundary);
   s.area_given = told.area_given, s.area_removed = told.area_removed, s.area_bound = told.area_bound;

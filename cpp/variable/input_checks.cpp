@@ -14,7 +14,9 @@ std::string text(double x) { return short_number(x); }
 
 [[noreturn]] void refuse(const std::string& sentence) { throw InvalidArgument(sentence); }
 
-void check_mesh(const Piece& piece) {
+/// Elements that are removed may be turned over.
+void check_mesh(const RemeshInput& in) {
+  const Piece& piece = in.piece;
   const std::size_t n = piece.vertices.size();
   if (piece.triangles.empty()) refuse("the piece has no triangle");
   if (n > std::numeric_limits<std::int32_t>::max() / 8) refuse("the piece has too many vertices");
@@ -26,7 +28,8 @@ void check_mesh(const Piece& piece) {
       if (v < 0 || static_cast<std::size_t>(v) >= n)
         refuse("triangle " + std::to_string(t) + " has vertex " + std::to_string(v) + "; there are " +
                std::to_string(n) + ", from 0");
-    if (!(piece.double_area(t) > 0))
+    const bool goes = !in.damage.empty() && in.damage[t] >= in.damage_limit;
+    if (!goes && !(piece.double_area(t) > 0))
       refuse("triangle " + std::to_string(t) + " of vertices " + std::to_string(corners[0]) + ", " +
              std::to_string(corners[1]) + " and " + std::to_string(corners[2]) +
              " is turned over or flat: the increment is too large, or triangles do not run counterclockwise");
@@ -98,8 +101,8 @@ void check_fields(const RemeshInput& in) {
 void check_input(const RemeshInput& input) {
   check_bounds(input);
   check_displacement(input);
-  check_mesh(input.piece);
   check_damage(input);
+  check_mesh(input);
   check_fields(input);
 }
 

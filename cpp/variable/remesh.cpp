@@ -9,6 +9,7 @@
 #include "variable/boundary_cut.h"
 #include "variable/erosion.h"
 #include "variable/piece_transfer.h"
+#include "variable/self_overlap.h"
 #include "variable/thresholds.h"
 
 namespace carreau::variable {
@@ -41,7 +42,9 @@ class Remeshing {
 
   RemeshResult run() {
     tools_ = Tools(in_.tools);
-    eroded_ = erode(in_.piece, in_.damage, in_.damage_limit, in_.keep_all_parts);
+    damage_ = in_.damage;
+    erode_piece();
+    if (in_.remove_overlaps) remove_overlaps();
     search_ = TriangleSearch(in_space(eroded_.piece.vertices), eroded_.piece.triangles, &monitor_);
     tell_erosion();
     mesh_at_the_most_faithful_boundary();
@@ -50,9 +53,24 @@ class Remeshing {
   }
 
  private:
+  void erode_piece() { eroded_ = erode(in_.piece, damage_, in_.damage_limit, in_.keep_all_parts); }
+
+  /// Elements that have met go as damaged ones do; what they have laid bare may meet, too.
+  void remove_overlaps() {
+    for (int round = 0; round < thresholds::variable::most_overlap_rounds; ++round) {
+      const std::vector<std::int32_t> found = crossing_triangles(eroded_);
+      if (found.empty()) return;
+      damage_.resize(in_.piece.triangles.size(), 0);
+      for (const std::int32_t t : found)
+        damage_[static_cast<std::size_t>(eroded_.triangle_of[static_cast<std::size_t>(t)])] = 1;
+      result_.summary.overlapping += static_cast<std::int64_t>(found.size());
+      erode_piece();
+    }
+  }
+
   void tell_erosion() {
     RemeshSummary& told = result_.summary;
-    told.damaged = eroded_.damaged, told.at_multiple_vertices = eroded_.at_multiple_vertices;
+    told.damaged = eroded_.damaged - told.overlapping, told.at_multiple_vertices = eroded_.at_multiple_vertices;
     told.dangling = eroded_.dangling, told.in_parts = eroded_.in_parts;
     told.parts_found = eroded_.parts_found, told.parts_kept = eroded_.parts_kept;
     told.area_given = in_.piece.area(), told.area_removed = eroded_.removed_area;
@@ -234,6 +252,7 @@ class Remeshing {
   Monitor& monitor_;
   double slope_;
   Tools tools_;
+  std::vector<double> damage_;  // 1 where elements overlap
   Eroded eroded_;
   TriangleSearch search_;
   std::vector<double> physical_;

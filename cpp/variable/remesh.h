@@ -43,6 +43,7 @@ struct RemeshInput {
   double curvature_angle = 8;  ///< between edges and tangents of the boundary, degrees
   bool sizes_by_damage = true;
   bool keep_all_parts = false;
+  bool remove_overlaps = false;  ///< elements whose boundary edges cross each other's are removed; else refused
   Smoothness smoothness = Smoothness::tangent;
   int imposed_smoothing = 0;  ///< rounds
   int error_field = -1;       ///< index of a nodal field of one component, whose interpolation error asks for sizes
@@ -60,7 +61,7 @@ enum class Faithfulness : int {
 
 /// What happened.
 struct RemeshSummary {
-  std::int64_t damaged = 0, at_multiple_vertices = 0, dangling = 0, in_parts = 0;  ///< triangles removed, by cause
+  std::int64_t damaged = 0, at_multiple_vertices = 0, dangling = 0, in_parts = 0, overlapping = 0;  ///< triangles removed, by cause
   std::int32_t parts_found = 0, parts_kept = 0;                      ///< after the removal
   std::int64_t bound_vertices = 0, free_vertices = 0, imposed_vertices = 0;
   double area_given = 0, area_removed = 0;

@@ -37,6 +37,8 @@ inline constexpr double sharpest_tip = 15;
 /// that turns by 45 degrees leaves its chord by 0.1. [RunCurve.WildSplinesArePolygons]
 inline constexpr double largest_bulge = 0.25;
 
+/// Times that elements are removed because their boundary edges cross others. [SelfOverlap.ElementsThatHaveMetGo]
+inline constexpr int most_overlap_rounds = 10;
 /// Times that runs where new edges have crossed each other get their old nodes back, before all do.
 /// [Remesh.RunsThatCrossKeepTheirNodes]
 inline constexpr std::size_t most_rough_places = 12;

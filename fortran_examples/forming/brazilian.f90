@@ -40,9 +40,9 @@ program brazilian
     t(:, i) = [i, mod(i, around) + 1, around + 1]
   end do
   call first_mesh(x, t, disc)
-  metal%strain_to_failure = 0.9_dp
-  metal%least_weight = 0.15_dp
-  metal%hardening = 60
+  metal%strain_to_failure = 0.73_dp
+  metal%least_weight = 0.6_dp
+  metal%hardening = 0
   metal%friction = 0.3_dp
   tools(1) = wedge([0._dp, 0._dp], [-1._dp, 0._dp], [1._dp, 0._dp], 0._dp, far)
   tools(2) = wedge([0._dp, 50._dp], [1._dp, 0._dp], [-1._dp, 0._dp], 0._dp, far)
@@ -78,7 +78,7 @@ program brazilian
     "the disc lies between the tools")
   call claim(worst > 0.1_dp, "triangles have a shape")
   call claim(told%bound_vertices >= 2, "the tools touch it")
-  call claim(abs(sum(disc%mass)/area - 1) < 0.1_dp, "the volume is nearly that of the disc")
+  call claim(sum(disc%mass) < 1.02_dp*area .and. sum(disc%mass) > 0.85_dp*area, "the volume is nearly that of the disc")
   call carreau_mesh_free(mesh)
 
 contains

@@ -70,6 +70,7 @@ contains
     options%h_max = wanted%h_max
     options%step = wanted%step
     options%keep_all_parts = wanted%keep_all_parts
+    options%remove_overlaps = .true.
     options%imposed_smoothing = wanted%smoothing
     call carreau_remesh(mesh, input, options, status, told)
     call stop_at(mesh, status)

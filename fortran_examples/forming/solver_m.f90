@@ -17,8 +17,8 @@ module solver_m
     real(dp) :: yield = 150, hardening = 100
     real(dp) :: strain_to_failure = 1       !< plastic strain at which damage is 1 in pure shear
     real(dp) :: least_weight = 0.3_dp       !< of plastic strain under high pressure
+    integer :: spread = 1                   !< rounds that spread the growth of damage over neighbours
     real(dp) :: friction = 0.2_dp
-    real(dp) :: damping = 0.02_dp           !< share of velocities lost while sound passes the least altitude
   end type material
 
   type :: body
@@ -106,9 +106,23 @@ contains
         tools(k)%edge = tools(k)%edge + dt*tools(k)%velocity
       end do
       left = left - dt
+      call drop_turned(b)
     end do
     left = 0
   end subroutine run_increment
+
+  !> Elements that have been turned over have no strength left.
+  subroutine drop_turned(b)
+    type(body), intent(inout) :: b
+    real(dp) :: p(2), q(2), r(2)
+    integer :: e
+    do e = 1, size(b%t, 2)
+      p = b%x(:, b%t(1, e))
+      q = b%x(:, b%t(2, e)) - p
+      r = b%x(:, b%t(3, e)) - p
+      if (q(1)*r(2) - q(2)*r(1) <= 0) b%damage(e) = 1
+    end do
+  end subroutine drop_turned
 
   subroutine advance(b, of, tools, dt)
     type(body), intent(inout) :: b
@@ -128,7 +142,7 @@ contains
         b%v(:, i) = 0
         cycle
       end if
-      b%v(:, i) = (1 - of%damping)*b%v(:, i) + dt*force(:, i)/b%mass(i)
+      b%v(:, i) = b%v(:, i) + dt*force(:, i)/b%mass(i)
       b%x(:, i) = b%x(:, i) + dt*b%v(:, i)
     end do
   end subroutine advance
@@ -158,7 +172,8 @@ contains
     type(material), intent(in) :: of
     real(dp), intent(in) :: dt
     real(dp), intent(inout) :: force(:, :)
-    real(dp) :: rate(size(b%t, 2)), area(size(b%t, 2)), grad(2, 3, size(b%t, 2)), mean(size(b%t, 2)), l(2, 2), s(4)
+    real(dp) :: rate(size(b%t, 2)), area(size(b%t, 2)), grad(2, 3, size(b%t, 2))
+    real(dp) :: mean(size(b%t, 2)), l(2, 2), s(4), growth(size(b%t, 2))
     integer :: e, k
     do e = 1, size(b%t, 2)
       call gradients(b, e, grad(:, :, e), area(e))
@@ -167,9 +182,14 @@ contains
     call average(b, area, rate)
     do e = 1, size(b%t, 2)
       l = matmul(b%v(:, b%t(:, e)), transpose(grad(:, :, e)))
-      call update(of, l*dt, rate(e)*dt, b%stress(:, e), b%plastic(e), b%damage(e))
+      call update(of, l*dt, rate(e)*dt, b%stress(:, e), b%plastic(e), b%damage(e), growth(e))
       mean(e) = sum(b%stress(1:3, e))/3
     end do
+    do k = 1, of%spread
+      call average(b, area, growth)
+    end do
+    where (b%damage < 1) b%damage = b%damage + growth
+    where (b%damage >= 0.98_dp) b%damage = 1
     rate = mean
     call average(b, area, rate)
     do e = 1, size(b%t, 2)
@@ -182,12 +202,15 @@ contains
     end do
   end subroutine stresses
 
-  !> Stress, plastic strain and damage after a small displacement of gradient l and a change of volume.
-  subroutine update(of, l, volume, s, plastic, damage)
+  !> Stress, plastic strain and growth of damage after a small displacement of gradient l and a change of volume.
+  subroutine update(of, l, volume, s, plastic, damage, growth)
     type(material), intent(in) :: of
     real(dp), intent(in) :: l(2, 2), volume
-    real(dp), intent(inout) :: s(4), plastic, damage
+    real(dp), intent(inout) :: s(4), plastic
+    real(dp), intent(in) :: damage
+    real(dp), intent(out) :: growth  !< of damage
     real(dp) :: g, k, spin, mean, dev(4), strain(4), q, limit, more, weight
+    growth = 0
     if (damage >= 1) then
       s = 0
       return
@@ -212,8 +235,7 @@ contains
       weight = 1
       if (mean > 0) weight = 1 + 3*(1 - 2*of%poisson)/(2*(1 + of%poisson)/3)*min(mean/max(q, 1._dp), 2._dp)**2
       if (mean < 0) weight = max(of%least_weight, 1 + mean/max(limit, 1._dp))
-      damage = damage + weight*more/of%strain_to_failure
-      if (damage >= 0.98_dp) damage = 1
+      growth = weight*more/of%strain_to_failure
     end if
     if (mean > 0) mean = min(mean, 3*limit)
     s = dev
