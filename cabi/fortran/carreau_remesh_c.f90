@@ -23,7 +23,8 @@ module carreau_remesh_c
       error_source = 0, error_component = 0
     real(c_double) :: error_tolerance = 0
     integer(c_int64_t) :: max_triangles = 0
-    integer(c_int32_t) :: remove_overlaps = 0, reserved = 0
+    integer(c_int32_t) :: remove_overlaps = 0, has_reach = 0
+    real(c_double) :: reach = 0
   end type c_remesh_input
 
   !> What happened.

@@ -37,6 +37,7 @@ module carreau_remeshing
 
   type :: carreau_remesh_options
     real(c_double) :: h_min = 0, h_max = 0, step = 0
+    real(c_double) :: reach = -1 !< negative: the step
     real(c_double) :: damage_limit = 0, gradation = 0, corner_angle = 0, curvature_angle = 0
     integer(c_int32_t) :: curves = CARREAU_SPLINE_TANGENT, imposed_smoothing = 0
     logical :: keep_all_parts = .false., remove_overlaps = .false., damage_sizes = .true.
@@ -111,6 +112,8 @@ contains
     c%h_min = options%h_min
     c%h_max = options%h_max
     c%step = options%step
+    c%has_reach = merge(1_c_int32_t, 0_c_int32_t, options%reach >= 0)
+    c%reach = max(options%reach, 0._c_double)
     c%damage_limit = options%damage_limit
     c%gradation = options%gradation
     c%corner_angle = options%corner_angle

@@ -83,7 +83,9 @@ typedef struct carreau_remesh_input {
   double error_tolerance;      /* largest error, or angle in degrees for CARREAU_ERROR_CURVATURE; 0: 0.01 */
   int64_t max_triangles;       /* 0: 500 million */
   int32_t remove_overlaps;     /* 1: elements whose boundary edges cross each other's are removed; 0: DOMAIN */
-  int32_t reserved;            /* 0 */
+  int32_t has_reach;           /* 1: `reach` holds; 0: it is the step */
+  double reach;                /* nodes outside of a tool are bound within this, at most the step: a surface that leaves a
+                                  tool by less in an increment never comes off */
 } carreau_remesh_input;
 
 /* What happened. */

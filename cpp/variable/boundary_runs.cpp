@@ -82,7 +82,7 @@ void cut_tips(BoundaryLoop& loop, const Tools& tools, double h_min) {
     const Vec2 p = loop.nodes[loop.before(i)].point - loop.nodes[i].point,
                q = loop.nodes[loop.after(i)].point - loop.nodes[i].point;
     const double sine = cross(q, p);  // the piece lies between q and p, counterclockwise
-    return sine >= 0 && std::atan2(sine, dot(p, q)) < limit;
+    return sine >= 0 && std::atan2(std::abs(sine), dot(p, q)) < limit;  // not of -0
   };
   bool any = false;
   for (std::size_t i = 0; i < loop.size() && loop.size() > 3;) {

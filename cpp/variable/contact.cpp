@@ -65,16 +65,16 @@ namespace {
 
 std::string at(const Vec2& p) { return "(" + short_number(p.x()) + ", " + short_number(p.y()) + ")"; }
 
-void bind_nodes(std::vector<BoundaryLoop>& loops, const Tools& tools, double step) {
+void bind_nodes(std::vector<BoundaryLoop>& loops, const Tools& tools, const ContactDistances& distances) {
   for (BoundaryLoop& loop : loops)
     for (BoundaryNode& node : loop.nodes) {
       const ToolPlace place = tools.nearest(node.point);
-      if (place.distance <= step) {
+      if (place.distance <= (place.in_solid ? distances.step : distances.reach)) {
         node.place = place, node.point = place.point;
       } else if (place.in_solid) {
         throw InvalidArgument("a vertex of the piece at " + at(node.point) + " lies " +
                               short_number(place.distance) + " deep in tool " + std::to_string(place.tool) +
-                              " (from 0), more than a step of " + short_number(step));
+                              " (from 0), more than a step of " + short_number(distances.step));
       }
     }
 }
@@ -141,7 +141,9 @@ struct Insertion {
 };
 
 /// Nodes of tools that lie in a region of an edge.
-std::vector<Insertion> nodes_to_insert(const std::vector<BoundaryLoop>& loops, const Tools& tools, double step) {
+std::vector<Insertion> nodes_to_insert(const std::vector<BoundaryLoop>& loops, const Tools& tools,
+                                       const ContactDistances& distances) {
+  const double step = distances.step;
   const EdgeTree tree(loops);
   const PolygonLocator locator = tree.locator();
   std::vector<Insertion> insertions;
@@ -152,10 +154,12 @@ std::vector<Insertion> nodes_to_insert(const std::vector<BoundaryLoop>& loops, c
     const BoundaryLoop& loop = loops[found.edge->loop];
     const BoundaryNode &a = loop.nodes[found.edge->edge], &b = loop.nodes[loop.after(found.edge->edge)];
     if (a.place.tool == node.tool && b.place.tool == node.tool) continue;  // the edge will follow the tool
-    if (found.squared <= step * step)
+    const bool is_deep = locator.contains(p);
+    const double most = is_deep ? step : distances.reach;
+    if (found.squared <= most * most)
       insertions.push_back({found.edge->loop, found.edge->edge,
                             fraction_on_segment(p, found.edge->a, found.edge->b), node});
-    else if (locator.contains(p))
+    else if (is_deep)
       throw InvalidArgument("tool " + std::to_string(node.tool) + " (from 0) reaches " +
                             short_number(std::sqrt(found.squared)) + " deep into the piece at " + at(p) +
                             ", more than a step of " + short_number(step));
@@ -234,10 +238,11 @@ void follow_tools(BoundaryLoop& loop, const Tools& tools, double h_min) {
   }
 }
 
-void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, double step, double h_min) {
+void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances,
+                   double h_min) {
   if (tools.empty()) return;
-  bind_nodes(loops, tools, step);
-  insert_all(loops, nodes_to_insert(loops, tools, step), h_min);
+  bind_nodes(loops, tools, distances);
+  insert_all(loops, nodes_to_insert(loops, tools, distances), h_min);
   for (BoundaryLoop& loop : loops) follow_tools(loop, tools, h_min);
 }
 

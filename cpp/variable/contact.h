@@ -43,12 +43,20 @@ struct BoundaryLoop {
 /// Each loop from its lowest vertex, in the order of these. The piece has no multiple vertices.
 std::vector<BoundaryLoop> boundary_of(const Eroded& eroded);
 
+/// How near a tool is too near.
+struct ContactDistances {
+  double step = 0;   ///< delta of HDR eq. 3.1: how deep a node may lie in a tool, or a tool's node in the piece
+  double reach = 0;  ///< how far outside a node is still bound, at most the step. HDR has the step; a surface that leaves
+                     ///< a tool more slowly would then never come off
+};
+
 /// Binds nodes in regions of radius `step` about the tools' edges (HDR eq. 3.1): they move to the nearest place of the
 /// tool. Nodes of tools in regions of the piece's edges become bound nodes of the boundary, where no edge follows the
 /// tool there. Edges between bound nodes of one tool follow it, unless they bridge a notch. n log n in nodes and edges.
 /// Throws InvalidArgument where a vertex lies deeper than `step` in a tool, or a tool's node deeper than that in the
 /// piece.
-void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, double step, double h_min);
+void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances,
+                   double h_min);
 
 /// Lets edges follow the tools between bound nodes, after nodes have been removed.
 void follow_tools(BoundaryLoop& loop, const Tools& tools, double h_min);

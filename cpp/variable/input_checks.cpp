@@ -43,6 +43,7 @@ void check_bounds(const RemeshInput& in) {
   if (in.step > in.h_min)
     refuse("the step of the tools, " + text(in.step) + ", is larger than the smallest size, " + text(in.h_min) +
            ": use smaller increments");
+  if (!(in.reach <= in.step)) refuse("the reach of the tools, " + text(in.reach) + ", is larger than their step");
   if (!(in.damage_limit > 0 && in.damage_limit <= 1))
     refuse("the damage of elements to be removed is " + text(in.damage_limit) + "; it must lie in ]0, 1]");
   if (!(in.gradation > 1) || !std::isfinite(in.gradation)) refuse("the gradation must be larger than 1");

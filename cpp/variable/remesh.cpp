@@ -112,7 +112,7 @@ class Remeshing {
   std::vector<BoundaryShape> shapes_of(Faithfulness how) {
     std::vector<BoundaryLoop> loops = boundary_of(eroded_);
     const double before = area_of(loops);
-    if (how != Faithfulness::as_given) bind_to_tools(loops, tools_, in_.step, in_.h_min);
+    if (how != Faithfulness::as_given) bind_to_tools(loops, tools_, {in_.step, in_.reach < 0 ? in_.step : in_.reach}, in_.h_min);
     std::vector<BoundaryShape> shapes(loops.size());
     for (std::size_t l = 0; l < loops.size(); ++l) {
       if (how < Faithfulness::kept) {

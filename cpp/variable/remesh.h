@@ -37,6 +37,7 @@ struct RemeshInput {
 
   double h_min = 0, h_max = 0;
   double step = 0;  ///< of the tools in an increment: delta of HDR eq. 3.1; at most h_min
+  double reach = -1;  ///< what lies outside of a tool is bound within this; negative: the step
   double damage_limit = 1;
   double gradation = 1.3;      ///< largest ratio of neighbouring sizes one edge apart
   double corner_angle = 45;    ///< degrees

@@ -12,6 +12,7 @@ module remeshing_m
 
   type :: sizes
     real(dp) :: h_min, h_max, step
+    real(dp) :: reach = -1
     logical :: keep_all_parts = .false.
     integer :: smoothing = 2
   end type sizes
@@ -69,6 +70,7 @@ contains
     options%h_min = wanted%h_min
     options%h_max = wanted%h_max
     options%step = wanted%step
+    options%reach = wanted%reach
     options%keep_all_parts = wanted%keep_all_parts
     options%remove_overlaps = .true.
     options%imposed_smoothing = wanted%smoothing

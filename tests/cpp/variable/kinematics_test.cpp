@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <fstream>
+#include <algorithm>
+#include <cmath>
 
 #include "pieces.h"
 
@@ -14,53 +13,76 @@ namespace {
 
 using namespace variable;
 
-void write_mesh(const std::string& path, const RemeshResult& r) {
-  std::ofstream f(path);
-  f.precision(12);
-  f << "MeshVersionFormatted 2\nDimension 2\nVertices\n" << r.piece.vertices.size() << "\n";
-  for (std::size_t v = 0; v < r.piece.vertices.size(); ++v)
-    f << r.piece.vertices[v].x() << " " << r.piece.vertices[v].y() << " " << r.vertex_kinds[v] << "\n";
-  f << "Triangles\n" << r.piece.triangles.size() << "\n";
-  for (std::size_t t = 0; t < r.piece.triangles.size(); ++t)
-    f << r.piece.triangles[t][0] + 1 << " " << r.piece.triangles[t][1] + 1 << " " << r.piece.triangles[t][2] + 1 << " "
-      << r.parts[t] + 1 << "\n";
-  f << "Edges\n" << r.edges.size() << "\n";
-  for (std::size_t t = 0; t < r.edges.size(); ++t)
-    f << r.edges[t][0] + 1 << " " << r.edges[t][1] + 1 << " " << r.edge_kinds[t] << "\n";
-  f << "End\n";
+/// Of all increments of a run.
+struct Course {
+  double q2_mean = 1, q2_worst = 1;
+  double area_change = 0;  ///< largest, of increments that removed nothing and bound nothing new; relative
+  std::int64_t most_bound = 0, removed = 0;
+  int parts = 1;
+  double breaks_at = 0, first_crack = 0;  ///< mm
+  double mass_error = 0;                  ///< largest, of an increment
+  double place_error = 0;                 ///< of the linear field, largest
+};
+
+double mass_of(const Piece& piece, const std::vector<double>& density) {
+  double sum = 0;
+  for (std::size_t t = 0; t < density.size(); ++t) sum += density[t] * piece.double_area(t) / 2;
+  return sum;
 }
 
-void run(Kinematics& kinematics, const std::string& name, int increments) {
+void see_summary(const RemeshSummary& s, double moved, Course& course) {
+  const std::int64_t removed = s.damaged + s.at_multiple_vertices + s.dangling;
+  course.removed += removed;
+  if (removed > 0 && course.first_crack == 0) course.first_crack = moved;
+  if (s.parts_found > 1 && course.breaks_at == 0) course.breaks_at = moved;
+  course.parts = std::max(course.parts, s.parts_found);
+  course.most_bound = std::max(course.most_bound, s.bound_vertices);
+}
+
+Course run(Kinematics& kinematics, int increments) {
   Monitor monitor;
-  double worst_mean = 1, worst = 1, time = 0;
+  Course course;
   for (int i = 1; i <= increments; ++i) {
     const RemeshInput& input = kinematics.advance();
-    const auto start = std::chrono::steady_clock::now();
-    RemeshResult result;
-    try {
-      result = remesh(input, monitor);
-    } catch (const Error& e) {
-      FAIL() << i << ": " << e.what();
-    }
-    time += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    RemeshResult result = remesh(input, monitor);
     const auto defects = find_defects(input, result);
     EXPECT_TRUE(defects.empty()) << i << ": " << defects.front();
     const PieceQuality q = quality_of(result.piece, [&](Vec2) { return 1.; });
-    worst_mean = std::min(worst_mean, q.q2_mean), worst = std::min(worst, q.q2_worst);
+    course.q2_mean = std::min(course.q2_mean, q.q2_mean), course.q2_worst = std::min(course.q2_worst, q.q2_worst);
     const RemeshSummary& s = result.summary;
-    if (i % 10 == 0 || s.boundary != Faithfulness::smooth || q.q2_worst < 0.3)
-      std::printf("%d: %zu triangles, Q2 %.3f %.3f, area %.3f geometry %.3f given %.3f bound %.2e removed %.3f (%d %d), parts %d, bound %d imposed %d, boundary %d\n", i,
-                  result.piece.triangles.size(), q.q2_mean, q.q2_worst, s.area, s.area_geometry, s.area_given, s.area_bound, s.area_removed,
-                  int(s.damaged), int(s.at_multiple_vertices), s.parts_found, int(s.bound_vertices), int(s.imposed_vertices), int(s.boundary));
-    if (const char* folder = std::getenv("PICTURES"))
-      if (i % 10 == 0 || i==2 || q.q2_worst<.3) write_mesh(std::string(folder) + "/" + name + std::to_string(i) + ".mesh", result);
+    see_summary(s, kinematics.moved(), course);
+    if (s.area_removed == 0 && s.area_bound == 0)
+      course.area_change = std::max(course.area_change, std::abs(s.area / s.area_given - 1));
+    for (std::size_t f = 0; f < result.fields.size(); ++f)
+      if (result.fields[f].kind == FieldKind::element_conserved && s.area_removed == 0)
+        course.mass_error = std::max(course.mass_error, std::abs(mass_of(result.piece, result.fields[f].values) /
+                                                                     mass_of(input.piece, input.fields[f].values) - 1));
     kinematics.accept(std::move(result));
   }
-  std::printf("%s: Q2 %.4f %.4f, %.2f ms a remeshing\n", name.c_str(), worst_mean, worst, time / increments);
+  return course;
 }
 
-TEST(Kinematics, BrazilianTest) { run(*brazilian_test(), "brazilian", 230); }
-TEST(Kinematics, OrthogonalCutting) { run(*orthogonal_cutting(), "cutting", 610); }
+TEST(Kinematics, BrazilianTest) {
+  const Course course = run(*brazilian_test(), 230);
+  EXPECT_GE(course.q2_mean, 0.93);
+  EXPECT_GE(course.q2_worst, 0.3);
+  EXPECT_LT(course.mass_error, 1e-10);
+  EXPECT_NEAR(course.first_crack, 20, 0.11);
+  EXPECT_EQ(course.parts, 2);
+  EXPECT_GT(course.breaks_at, 20);
+  EXPECT_LT(course.breaks_at, 23);
+  EXPECT_GT(course.most_bound, 20);
+  EXPECT_GT(course.removed, 10);
+}
+
+TEST(Kinematics, OrthogonalCutting) {
+  const Course course = run(*orthogonal_cutting(), 610);
+  EXPECT_GE(course.q2_mean, 0.93);
+  EXPECT_GE(course.q2_worst, 0.3);
+  EXPECT_EQ(course.parts, 2);
+  EXPECT_NEAR(course.breaks_at, 29.7, 0.06);
+  EXPECT_GT(course.most_bound, 5);
+}
 
 }  // namespace
 }  // namespace carreau::testing
