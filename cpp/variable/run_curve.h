@@ -19,7 +19,7 @@ enum class Smoothness {
 /// Refers to the loop and the tools.
 class RunCurve {
  public:
-  /// A spline that leaves one of its chords by more than a quarter of it becomes a polygon.
+  /// A spline that leaves one of its chords by more than .15 of it becomes a polygon.
   /// `keep_nodes`: it is straight between its nodes, and cutting leaves these as they are; curvatures are a spline's.
   RunCurve(const BoundaryLoop& loop, const BoundaryRun& run, const Tools& tools, Smoothness smoothness, bool keep_nodes);
 

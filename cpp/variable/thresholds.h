@@ -35,7 +35,7 @@ inline constexpr double closest_ends = 0.4;
 inline constexpr double sharpest_tip = 15;
 /// Share of the chord. A spline that leaves its chord by more was misled by its nodes: the run stays a polygon. An arc
 /// that turns by 45 degrees leaves its chord by 0.1. [RunCurve.WildSplinesArePolygons]
-inline constexpr double largest_bulge = 0.25;
+inline constexpr double largest_bulge = 0.15;
 
 /// Times that elements are removed because their boundary edges cross others. [SelfOverlap.ElementsThatHaveMetGo]
 inline constexpr int most_overlap_rounds = 10;

@@ -219,7 +219,7 @@ TEST(RunCurve, WildSplinesArePolygons) {
     return RunCurve(loop, runs.front(), Tools(), Smoothness::tangent, false).is_spline();
   };
   EXPECT_TRUE(is_spline(circle({0, 0}, 1, 8)));
-  EXPECT_FALSE(is_spline(circle({0, 0}, 1, 3)));  // a circle leaves its chords by .29 of them
+  EXPECT_FALSE(is_spline(circle({0, 0}, 1, 3)));  // turns of 120 degrees
 }
 
 TEST(BoundaryCut, HasUnitEdges) {
