@@ -1,6 +1,7 @@
 #include "variable/remesh.h"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 
 #include "gradation/gradation.h"
@@ -178,6 +179,21 @@ class Remeshing {
     PlaneMesh plane = mesh_domain(boundary.domain, sizes);
     result_.piece = {std::move(plane.vertices), std::move(plane.triangles)};
     take_boundary(boundary);
+    if (in_.measure) result_.summary.in_range = share_in_range(sizes);
+  }
+
+  /// Of all edges, those inside twice.
+  [[nodiscard]] double share_in_range(const SizeMap& sizes) const {
+    std::size_t fitting = 0, all = 0;
+    std::int32_t guess = 0;
+    for (const auto& t : result_.piece.triangles)
+      for (std::size_t k = 0; k < 3; ++k, ++all) {
+        const Vec2 a = result_.piece.vertices[static_cast<std::size_t>(t[k])],
+                   b = result_.piece.vertices[static_cast<std::size_t>(t[(k + 1) % 3])];
+        const double length = norm(b - a) / sizes.at((a + b) / 2, guess);
+        if (length >= std::numbers::sqrt2 / 2 && length <= std::numbers::sqrt2) ++fitting;
+      }
+    return static_cast<double>(fitting) / static_cast<double>(all);
   }
 
   void add_short_edges(const CutBoundary& boundary, std::vector<EdgeSizes::Source>& sources) const {

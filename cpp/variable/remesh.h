@@ -50,6 +50,7 @@ struct RemeshInput {
   int error_field = -1;       ///< index of a nodal field of one component, whose interpolation error asks for sizes
   EstimatorOptions estimator;  ///< its bounds of sizes are those above
   std::int64_t max_triangles = INT64_C(500'000'000);
+  bool measure = false;  ///< `in_range` is told
 };
 
 /// How close the new boundary came to what was asked.
@@ -69,6 +70,7 @@ struct RemeshSummary {
   double area_bound = 0;  ///< gained by nodes that moved to tools, were smoothed or removed
   double area_geometry = 0;  ///< inside the new geometry of the boundary, of which the mesh has the chords
   double area = 0;           ///< of the new mesh
+  double in_range = 0;       ///< share of edges whose length in the size wanted lies in [1/sqrt 2, sqrt 2]
   Faithfulness boundary = Faithfulness::smooth;
 };
 

@@ -20,6 +20,7 @@ class Kinematics {
     input_.damage = std::move(result.damage);
     input_.fields = std::move(result.fields);
   }
+  void measure() noexcept { input_.measure = true; }
   [[nodiscard]] double moved() const noexcept { return moved_; }  ///< mm, of the tool
 
  protected:

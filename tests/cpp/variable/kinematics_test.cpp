@@ -16,7 +16,10 @@ using namespace variable;
 /// Of all increments of a run.
 struct Course {
   double q2_mean = 1, q2_worst = 1;
-  double area_change = 0;  ///< largest, of increments that removed nothing and bound nothing new; relative
+  double in_range = 0;        ///< share of edges, mean of the increments
+  double least_in_range = 1;  ///< of one increment
+  double area_change = 0;  ///< of the new boundary's geometry to that of the boundary before, largest; relative
+  double change_beside_removed = 0;  ///< the same of increments that removed elements
   std::int64_t most_bound = 0, removed = 0;
   int parts = 1;
   double breaks_at = 0, first_crack = 0;  ///< mm
@@ -39,9 +42,18 @@ void see_summary(const RemeshSummary& s, double moved, Course& course) {
   course.most_bound = std::max(course.most_bound, s.bound_vertices);
 }
 
+/// The new mesh has other nodes on the boundary: what is enclosed by splines through these, over what was before.
+double change_by_geometry(const RemeshInput& input, const RemeshResult& result, Monitor& monitor) {
+  RemeshInput again = input;
+  again.piece = result.piece;
+  again.damage.clear(), again.displacement.clear(), again.fields.clear();
+  return std::abs(remesh(again, monitor).summary.area_geometry / result.summary.area_geometry - 1);
+}
+
 Course run(Kinematics& kinematics, int increments) {
   Monitor monitor;
   Course course;
+  kinematics.measure();
   for (int i = 1; i <= increments; ++i) {
     const RemeshInput& input = kinematics.advance();
     RemeshResult result = remesh(input, monitor);
@@ -51,14 +63,22 @@ Course run(Kinematics& kinematics, int increments) {
     course.q2_mean = std::min(course.q2_mean, q.q2_mean), course.q2_worst = std::min(course.q2_worst, q.q2_worst);
     const RemeshSummary& s = result.summary;
     see_summary(s, kinematics.moved(), course);
-    if (s.area_removed == 0 && s.area_bound == 0)
-      course.area_change = std::max(course.area_change, std::abs(s.area / s.area_given - 1));
+    course.in_range += s.in_range / increments;
+    course.least_in_range = std::min(course.least_in_range, s.in_range);
+    if (i % 5 == 0) {
+      double& change = s.area_removed > 0 ? course.change_beside_removed : course.area_change;
+      change = std::max(change, change_by_geometry(input, result, monitor));
+    }
     for (std::size_t f = 0; f < result.fields.size(); ++f)
       if (result.fields[f].kind == FieldKind::element_conserved && s.area_removed == 0)
         course.mass_error = std::max(course.mass_error, std::abs(mass_of(result.piece, result.fields[f].values) /
                                                                      mass_of(input.piece, input.fields[f].values) - 1));
     kinematics.accept(std::move(result));
   }
+  for (const auto& [name, value] : {std::pair{"q2_mean", course.q2_mean}, {"q2_worst", course.q2_worst},
+                                    {"in_range", course.in_range}, {"least_in_range", course.least_in_range},
+                                    {"area_change", course.area_change}, {"mass_error", course.mass_error}})
+    ::testing::Test::RecordProperty(name, std::to_string(value));
   return course;
 }
 
@@ -66,6 +86,8 @@ TEST(Kinematics, BrazilianTest) {
   const Course course = run(*brazilian_test(), 230);
   EXPECT_GE(course.q2_mean, 0.93);
   EXPECT_GE(course.q2_worst, 0.3);
+  EXPECT_GE(course.in_range, 0.97);
+  EXPECT_LT(course.area_change, 1e-4);
   EXPECT_LT(course.mass_error, 1e-10);
   EXPECT_NEAR(course.first_crack, 20, 0.11);
   EXPECT_EQ(course.parts, 2);
@@ -79,6 +101,8 @@ TEST(Kinematics, OrthogonalCutting) {
   const Course course = run(*orthogonal_cutting(), 610);
   EXPECT_GE(course.q2_mean, 0.93);
   EXPECT_GE(course.q2_worst, 0.3);
+  EXPECT_GE(course.in_range, 0.97);
+  EXPECT_LT(course.area_change, 1e-4);
   EXPECT_EQ(course.parts, 2);
   EXPECT_NEAR(course.breaks_at, 29.7, 0.06);
   EXPECT_GT(course.most_bound, 5);
