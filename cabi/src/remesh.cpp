@@ -1,10 +1,9 @@
 // Pieces that are meshed anew, increment by increment.
-#include "carreau_remesh.h"
-
 #include <cmath>
 #include <limits>
 
 #include "arguments.h"
+#include "carreau_remesh.h"
 #include "guard.h"
 
 using carreau::FlatMesh;
@@ -35,8 +34,8 @@ std::size_t count_of(std::int64_t n, const char* name) {
 
 std::int32_t choice(std::int32_t value, std::int32_t last, const char* name) {
   if (value >= 0 && value <= last) return value;
-  throw InvalidArgument("input->" + std::string(name) + " is " + std::to_string(value) + "; it must lie between 0 and " +
-                        std::to_string(last));
+  throw InvalidArgument("input->" + std::string(name) + " is " + std::to_string(value) +
+                        "; it must lie between 0 and " + std::to_string(last));
 }
 
 std::vector<Vec2> points_of(const double* xy, std::size_t n) {
@@ -47,7 +46,8 @@ std::vector<Vec2> points_of(const double* xy, std::size_t n) {
 }
 
 void add_piece(const carreau_remesh_input& given, variable::RemeshInput& input) {
-  const std::size_t n = count_of(given.vertex_count, "vertex_count"), m = count_of(given.triangle_count, "triangle_count");
+  const std::size_t n = count_of(given.vertex_count, "vertex_count"),
+                    m = count_of(given.triangle_count, "triangle_count");
   if (n > 0) required(given.vertices, "input->vertices");
   if (m > 0) required(given.triangles, "input->triangles");
   input.piece.vertices = points_of(given.vertices, n);
@@ -81,18 +81,20 @@ void add_fields(const carreau_remesh_input& given, variable::RemeshInput& input)
   const std::size_t n = input.piece.vertices.size(), m = input.piece.triangles.size();
   if (nodal > 0) {
     required(given.nodal_values, "input->nodal_values");
-    input.fields.push_back({"nodal_values", variable::FieldKind::nodal, given.nodal_components,
+    input.fields.push_back({"nodal_values",
+                            variable::FieldKind::nodal,
+                            given.nodal_components,
                             {given.nodal_values, given.nodal_values + nodal * n}});
   }
   if (elements > 0) required(given.element_values, "input->element_values");
   for (std::size_t c = 0; c < elements; ++c) {
     const std::int32_t kind =
         given.element_kinds != nullptr ? choice(given.element_kinds[c], 1, "element_kinds") : CARREAU_ELEMENT_MEAN;
-    variable::RemeshField field{"element_values",
-                                kind == CARREAU_ELEMENT_CONSERVED ? variable::FieldKind::element_conserved
-                                                                  : variable::FieldKind::element_mean,
-                                1,
-                                {}};
+    variable::RemeshField field{
+        "element_values",
+        kind == CARREAU_ELEMENT_CONSERVED ? variable::FieldKind::element_conserved : variable::FieldKind::element_mean,
+        1,
+        {}};
     for (std::size_t t = 0; t < m; ++t) field.values.push_back(given.element_values[elements * t + c]);
     input.fields.push_back(std::move(field));
   }
@@ -194,7 +196,8 @@ const RemeshedFields& remeshed(const carreau_mesh& mesh) {
   throw StatusError(CARREAU_ERR_SEQUENCE, "the mesh is not a result of carreau_remesh");
 }
 
-void copy_rows(const std::vector<double>& values, std::size_t rows, std::int64_t capacity, const char* what, double* out) {
+void copy_rows(const std::vector<double>& values, std::size_t rows, std::int64_t capacity, const char* what,
+               double* out) {
   check_capacity(capacity, rows, what);
   if (!values.empty()) std::copy(values.begin(), values.end(), required(out, "out_values"));
 }

@@ -61,7 +61,8 @@ Adjacency adjacency_among(const Adjacency& adjacency, const Flags& kept, const s
   among.reserve(triangle_of.size());
   for (const std::int32_t t : triangle_of) {
     std::array<std::int32_t, 3> row = adjacency[static_cast<std::size_t>(t)];
-    for (std::int32_t& n : row) n = n >= 0 && kept[static_cast<std::size_t>(n)] ? number[static_cast<std::size_t>(n)] : -1;
+    for (std::int32_t& n : row)
+      n = n >= 0 && kept[static_cast<std::size_t>(n)] ? number[static_cast<std::size_t>(n)] : -1;
     among.push_back(row);
   }
   return among;

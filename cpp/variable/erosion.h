@@ -12,15 +12,15 @@ namespace carreau::variable {
 
 /// What is left of a piece.
 struct Eroded {
-  Piece piece;                               ///< vertices that no triangle has are gone
-  std::vector<std::int32_t> vertex_of;       ///< of each vertex: its index before
-  std::vector<std::int32_t> triangle_of;     ///< of each triangle: its index before
+  Piece piece;                            ///< vertices that no triangle has are gone
+  std::vector<std::int32_t> vertex_of;    ///< of each vertex: its index before
+  std::vector<std::int32_t> triangle_of;  ///< of each triangle: its index before
   Adjacency adjacency;
-  std::vector<std::array<bool, 3>> bared;    ///< sides of triangles that elements were removed from
-  std::int64_t damaged = 0;                  ///< triangles removed because of their damage
-  std::int64_t at_multiple_vertices = 0;     ///< removed because more than two boundary edges met at a vertex
-  std::int64_t dangling = 0;                 ///< removed because one side only still held them
-  std::int64_t in_parts = 0;                 ///< removed with smaller parts
+  std::vector<std::array<bool, 3>> bared;  ///< sides of triangles that elements were removed from
+  std::int64_t damaged = 0;                ///< triangles removed because of their damage
+  std::int64_t at_multiple_vertices = 0;   ///< removed because more than two boundary edges met at a vertex
+  std::int64_t dangling = 0;               ///< removed because one side only still held them
+  std::int64_t in_parts = 0;               ///< removed with smaller parts
   double removed_area = 0;
   std::int32_t parts_found = 0, parts_kept = 0;
 };

@@ -41,7 +41,8 @@ std::vector<Side> sorted_sides(const Piece& piece) {
     for (int k = 0; k < 3; ++k) {
       const std::int32_t a = piece.triangles[t][static_cast<std::size_t>(k)],
                          b = piece.triangles[t][static_cast<std::size_t>((k + 1) % 3)];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::int8_t>(k), a < b});
+      sides.push_back(
+          {std::min(a, b), std::max(a, b), static_cast<std::int32_t>(t), static_cast<std::int8_t>(k), a < b});
     }
   std::sort(sides.begin(), sides.end());
   return sides;

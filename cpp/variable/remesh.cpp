@@ -7,11 +7,11 @@
 #include "gradation/gradation.h"
 #include "plane/plane_mesher.h"
 #include "support/segment.h"
-#include "variable/boundary_cut.h"
+#include "variable/boundary/boundary_cut.h"
 #include "variable/erosion.h"
-#include "variable/piece_transfer.h"
 #include "variable/self_overlap.h"
 #include "variable/thresholds.h"
+#include "variable/transfer/piece_transfer.h"
 
 namespace carreau::variable {
 
@@ -88,8 +88,8 @@ class Remeshing {
       } catch (const DomainError& error) {
         if (how == Faithfulness::as_given) throw;
         how = error.where().uv && add_rough_place(*error.where().uv) ? Faithfulness::partly
-              : how < Faithfulness::kept                              ? Faithfulness::kept
-                                                                      : Faithfulness::as_given;
+              : how < Faithfulness::kept                             ? Faithfulness::kept
+                                                                     : Faithfulness::as_given;
       }
     }
   }
@@ -113,7 +113,8 @@ class Remeshing {
   std::vector<BoundaryShape> shapes_of(Faithfulness how) {
     std::vector<BoundaryLoop> loops = boundary_of(eroded_);
     const double before = area_of(loops);
-    if (how != Faithfulness::as_given) bind_to_tools(loops, tools_, {in_.step, in_.reach < 0 ? in_.step : in_.reach}, in_.h_min);
+    if (how != Faithfulness::as_given)
+      bind_to_tools(loops, tools_, {in_.step, in_.reach < 0 ? in_.step : in_.reach}, in_.h_min);
     std::vector<BoundaryShape> shapes(loops.size());
     for (std::size_t l = 0; l < loops.size(); ++l) {
       if (how < Faithfulness::kept) {
@@ -143,8 +144,7 @@ class Remeshing {
         kept(in_.fields[static_cast<std::size_t>(in_.error_field)].values, eroded_.vertex_of, 1);
     EstimatorOptions options = in_.estimator;
     options.shape = ErrorShape::isotropic, options.hmin = in_.h_min, options.hmax = in_.h_max;
-    const VertexPrescriptions found =
-        estimate(ScalarField{vertices, eroded_.piece.triangles, values}, options);
+    const VertexPrescriptions found = estimate(ScalarField{vertices, eroded_.piece.triangles, values}, options);
     for (std::size_t v = 0; v < physical_.size(); ++v) physical_[v] = std::min(physical_[v], found.sizes[v]);
     return physical_;
   }
@@ -227,8 +227,9 @@ class Remeshing {
     RemeshSummary& told = result_.summary;
     told.bound_vertices = told.free_vertices = told.imposed_vertices = 0;
     for (const std::int32_t kind : result_.vertex_kinds)
-      ++(kind >= Kind::bound ? told.bound_vertices
-                             : kind == Kind::imposed ? told.imposed_vertices : told.free_vertices);
+      ++(kind >= Kind::bound     ? told.bound_vertices
+         : kind == Kind::imposed ? told.imposed_vertices
+                                 : told.free_vertices);
     result_.vertex_kinds.resize(result_.piece.vertices.size(), Kind::inside);
     result_.edges.clear();
     for (const PlaneEdge& edge : boundary.domain.edges) result_.edges.push_back({edge.a, edge.b});
@@ -258,9 +259,9 @@ class Remeshing {
       const bool nodal = field.kind == FieldKind::nodal;
       const std::vector<double> values =
           kept(field.values, nodal ? eroded_.vertex_of : eroded_.triangle_of, field.components);
-      there.values = nodal                                          ? carry.nodal(values, field.components)
+      there.values = nodal                                        ? carry.nodal(values, field.components)
                      : field.kind == FieldKind::element_conserved ? carry.conserved(values, field.components)
-                                                                    : carry.means(values, field.components);
+                                                                  : carry.means(values, field.components);
     }
   }
 

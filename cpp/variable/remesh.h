@@ -7,9 +7,9 @@
 
 #include "adapt/estimators.h"
 #include "support/monitor.h"
+#include "variable/boundary/run_curve.h"
+#include "variable/boundary/tools.h"
 #include "variable/piece.h"
-#include "variable/run_curve.h"
-#include "variable/tools.h"
 
 namespace carreau::variable {
 
@@ -36,7 +36,7 @@ struct RemeshInput {
   std::vector<RemeshField> fields;
 
   double h_min = 0, h_max = 0;
-  double step = 0;  ///< of the tools in an increment: delta of HDR eq. 3.1; at most h_min
+  double step = 0;    ///< of the tools in an increment: delta of HDR eq. 3.1; at most h_min
   double reach = -1;  ///< what lies outside of a tool is bound within this; negative: the step
   double damage_limit = 1;
   double gradation = 1.3;      ///< largest ratio of neighbouring sizes one edge apart
@@ -46,8 +46,8 @@ struct RemeshInput {
   bool keep_all_parts = false;
   bool remove_overlaps = false;  ///< elements whose boundary edges cross each other's are removed; else refused
   Smoothness smoothness = Smoothness::tangent;
-  int imposed_smoothing = 0;  ///< rounds
-  int error_field = -1;       ///< index of a nodal field of one component, whose interpolation error asks for sizes
+  int imposed_smoothing = 0;   ///< rounds
+  int error_field = -1;        ///< index of a nodal field of one component, whose interpolation error asks for sizes
   EstimatorOptions estimator;  ///< its bounds of sizes are those above
   std::int64_t max_triangles = INT64_C(500'000'000);
   bool measure = false;  ///< `in_range` is told
@@ -63,11 +63,12 @@ enum class Faithfulness : int {
 
 /// What happened.
 struct RemeshSummary {
-  std::int64_t damaged = 0, at_multiple_vertices = 0, dangling = 0, in_parts = 0, overlapping = 0;  ///< triangles removed, by cause
-  std::int32_t parts_found = 0, parts_kept = 0;                      ///< after the removal
+  std::int64_t damaged = 0, at_multiple_vertices = 0, dangling = 0, in_parts = 0,
+               overlapping = 0;                  ///< triangles removed, by cause
+  std::int32_t parts_found = 0, parts_kept = 0;  ///< after the removal
   std::int64_t bound_vertices = 0, free_vertices = 0, imposed_vertices = 0;
   double area_given = 0, area_removed = 0;
-  double area_bound = 0;  ///< gained by nodes that moved to tools, were smoothed or removed
+  double area_bound = 0;     ///< gained by nodes that moved to tools, were smoothed or removed
   double area_geometry = 0;  ///< inside the new geometry of the boundary, of which the mesh has the chords
   double area = 0;           ///< of the new mesh
   double in_range = 0;       ///< share of edges whose length in the size wanted lies in [1/sqrt 2, sqrt 2]
@@ -77,7 +78,7 @@ struct RemeshSummary {
 /// State out.
 struct RemeshResult {
   Piece piece;
-  std::vector<std::int32_t> vertex_kinds;  ///< enum Kind
+  std::vector<std::int32_t> vertex_kinds;          ///< enum Kind
   std::vector<std::array<std::int32_t, 2>> edges;  ///< of the boundary, the piece on their left
   std::vector<std::int32_t> edge_kinds;
   std::vector<std::int32_t> parts;  ///< of triangles, from 0

@@ -19,8 +19,8 @@ std::vector<OpenSide> open_sides(const Eroded& eroded) {
   for (std::size_t t = 0; t < eroded.piece.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       if (eroded.adjacency[t][k] >= 0) continue;
-      OpenSide side{eroded.piece.triangles[t][k], eroded.piece.triangles[t][(k + 1) % 3], static_cast<std::int32_t>(t),
-                    {}};
+      OpenSide side{
+          eroded.piece.triangles[t][k], eroded.piece.triangles[t][(k + 1) % 3], static_cast<std::int32_t>(t), {}};
       for (const std::int32_t v : {side.a, side.b}) {
         const Vec2& p = eroded.piece.vertices[static_cast<std::size_t>(v)];
         side.box.add(Vec3{p.x(), p.y(), 0});

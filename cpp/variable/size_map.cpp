@@ -55,9 +55,8 @@ double SizeMap::at(const Vec2& p, std::int32_t& guess) const {
 }
 
 double SizeMap::between(std::array<std::int32_t, 2> vertices, double t, const Vec2& p) const {
-  return bounded((1 - t) * sizes_[static_cast<std::size_t>(vertices[0])] +
-                     t * sizes_[static_cast<std::size_t>(vertices[1])],
-                 p);
+  return bounded(
+      (1 - t) * sizes_[static_cast<std::size_t>(vertices[0])] + t * sizes_[static_cast<std::size_t>(vertices[1])], p);
 }
 
 }  // namespace carreau::variable

@@ -17,7 +17,8 @@ std::vector<double> damage_sizes(const Piece& piece, std::span<const double> dam
 /// Lowers the sizes of vertices until none is larger than that of a neighbour plus slope times the distance.
 void grade_sizes(const Piece& piece, double slope, std::vector<double>& sizes);
 
-/// Linear between the vertices of the piece, and no larger than what grows from edges of space. Refers to its arguments.
+/// Linear between the vertices of the piece, and no larger than what grows from edges of space. Refers to its
+/// arguments.
 class SizeMap {
  public:
   struct Bounds {

@@ -1,15 +1,14 @@
 // carreau_remesh as a host sees it.
-#include "carreau_remesh.h"
-
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "carreau_remesh.h"
 
 namespace {
 
@@ -86,7 +85,9 @@ TEST_F(Remesh, GivesMeshKindsAndFields) {
   for (std::size_t v = 0; v < n; ++v) {
     EXPECT_NEAR(there[2 * v], 2 * xyz[3 * v], 1e-12);
     EXPECT_NEAR(there[2 * v + 1], 1 - xyz[3 * v + 1], 1e-12);
-    if (refs[v] >= CARREAU_NODE_BOUND) { EXPECT_NEAR(xyz[3 * v + 1], -0.01, 1e-12); }
+    if (refs[v] >= CARREAU_NODE_BOUND) {
+      EXPECT_NEAR(xyz[3 * v + 1], -0.01, 1e-12);
+    }
   }
   double sum = 0, before = 0;
   for (std::size_t k = 0; k < m; ++k) {

@@ -160,7 +160,7 @@ class Cutting final : public Kinematics {
       const bool above = p.y() > edge.y() - 0.3;
       double damage = above ? 0.97 * std::exp(-std::pow(across / 0.6, 2)) : 0;
       const Vec2 d = p - edge;
-      if (d.x() > -0.35 && d.x() < 0.2 && std::abs(d.y()) < 0.15) damage = 1;  // before the edge
+      if (d.x() > -0.35 && d.x() < 0.2 && std::abs(d.y()) < 0.15) damage = 1;             // before the edge
       if (moved_ > 29.65 && above && d.x() < 0.2 && std::abs(across) < 0.15) damage = 1;  // the chip's base
       input_.damage[t] = damage;
     }

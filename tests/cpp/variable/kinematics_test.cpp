@@ -18,7 +18,7 @@ struct Course {
   double q2_mean = 1, q2_worst = 1;
   double in_range = 0;        ///< share of edges, mean of the increments
   double least_in_range = 1;  ///< of one increment
-  double area_change = 0;  ///< of the new boundary's geometry to that of the boundary before, largest; relative
+  double area_change = 0;     ///< of the new boundary's geometry to that of the boundary before, largest; relative
   double change_beside_removed = 0;  ///< the same of increments that removed elements
   std::int64_t most_bound = 0, removed = 0;
   int parts = 1;
@@ -72,12 +72,16 @@ Course run(Kinematics& kinematics, int increments) {
     for (std::size_t f = 0; f < result.fields.size(); ++f)
       if (result.fields[f].kind == FieldKind::element_conserved && s.area_removed == 0)
         course.mass_error = std::max(course.mass_error, std::abs(mass_of(result.piece, result.fields[f].values) /
-                                                                     mass_of(input.piece, input.fields[f].values) - 1));
+                                                                     mass_of(input.piece, input.fields[f].values) -
+                                                                 1));
     kinematics.accept(std::move(result));
   }
-  for (const auto& [name, value] : {std::pair{"q2_mean", course.q2_mean}, {"q2_worst", course.q2_worst},
-                                    {"in_range", course.in_range}, {"least_in_range", course.least_in_range},
-                                    {"area_change", course.area_change}, {"mass_error", course.mass_error}})
+  for (const auto& [name, value] : {std::pair{"q2_mean", course.q2_mean},
+                                    {"q2_worst", course.q2_worst},
+                                    {"in_range", course.in_range},
+                                    {"least_in_range", course.least_in_range},
+                                    {"area_change", course.area_change},
+                                    {"mass_error", course.mass_error}})
     ::testing::Test::RecordProperty(name, std::to_string(value));
   return course;
 }

@@ -6,8 +6,8 @@
 
 #include "pieces.h"
 #include "support/error.h"
-#include "variable/boundary_cut.h"
-#include "variable/cubic_spline.h"
+#include "variable/boundary/boundary_cut.h"
+#include "variable/boundary/cubic_spline.h"
 #include "variable/self_overlap.h"
 
 namespace carreau::testing {
@@ -121,7 +121,8 @@ TEST(Erosion, UndoesMultipleVertices) {
 TEST(Erosion, KeepsTheLargestPartOrAll) {
   const Piece piece = square();
   std::vector<double> damage(piece.triangles.size(), 0);
-  for (int j = 0; j < 4; ++j) damage[static_cast<std::size_t>(2 * (4 * j + 2))] = damage[static_cast<std::size_t>(2 * (4 * j + 2) + 1)] = 1;
+  for (int j = 0; j < 4; ++j)
+    damage[static_cast<std::size_t>(2 * (4 * j + 2))] = damage[static_cast<std::size_t>(2 * (4 * j + 2) + 1)] = 1;
   const Eroded all = erode(piece, damage, 1, true), largest = erode(piece, damage, 1, false);
   EXPECT_EQ(all.parts_found, 2);
   EXPECT_EQ(all.parts_kept, 2);
@@ -148,7 +149,9 @@ TEST(Contact, EdgesFollowTheTool) {
   int bound = 0, follow = 0;
   for (std::size_t i = 0; i < loops[0].size(); ++i) {
     bound += loops[0].nodes[i].is_bound() ? 1 : 0, follow += loops[0].edges[i].follows_tool ? 1 : 0;
-    if (loops[0].nodes[i].is_bound()) { EXPECT_NEAR(loops[0].nodes[i].point.y(), -0.05, 1e-14); }
+    if (loops[0].nodes[i].is_bound()) {
+      EXPECT_NEAR(loops[0].nodes[i].point.y(), -0.05, 1e-14);
+    }
   }
   EXPECT_EQ(bound, 5);
   EXPECT_EQ(follow, 4);
@@ -237,7 +240,8 @@ TEST(BoundaryCut, HasUnitEdges) {
   const CutBoundary cut = cut_boundary(shapes, none, SizeMap(eroded.piece, search, sizes, {0.1, 10}));
   double sum = 0;
   for (const PlaneEdge& e : cut.domain.edges) {
-    const Vec2 a = cut.domain.vertices[static_cast<std::size_t>(e.a)], b = cut.domain.vertices[static_cast<std::size_t>(e.b)];
+    const Vec2 a = cut.domain.vertices[static_cast<std::size_t>(e.a)],
+               b = cut.domain.vertices[static_cast<std::size_t>(e.b)];
     EXPECT_NEAR(norm(b - a) / h((a + b) / 2), 1, 0.03);
     EXPECT_NEAR(norm(a), 5, 1e-4);
     sum += norm(b - a) / h((a + b) / 2);

@@ -106,7 +106,8 @@ std::vector<std::string> find_defects(const RemeshInput& input, const RemeshResu
     if (depth > 1e-9 * input.h_min)
       defects.push_back("vertex " + std::to_string(v) + " is " + std::to_string(depth) + " deep in a tool");
     if (result.vertex_kinds[v] >= Kind::bound && place.distance > 1e-3 * input.h_min)
-      defects.push_back("bound vertex " + std::to_string(v) + " is " + std::to_string(place.distance) + " from its tool");
+      defects.push_back("bound vertex " + std::to_string(v) + " is " + std::to_string(place.distance) +
+                        " from its tool");
   }
   if (parts_of(adjacency_of(result.piece)).first != result.parts) defects.emplace_back("parts are wrong");
   return defects;
@@ -121,8 +122,7 @@ PieceQuality quality_of(const Piece& piece, const std::function<double(Vec2)>& s
                                 p[static_cast<std::size_t>(t[2])]);
     quality.q2_mean += q / static_cast<double>(piece.triangles.size());
     quality.q2_worst = std::min(quality.q2_worst, q);
-    for (std::size_t k = 0; k < 3; ++k)
-      edges.insert({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
+    for (std::size_t k = 0; k < 3; ++k) edges.insert({std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])});
   }
   std::size_t fitting = 0;
   for (const auto& [a, b] : edges) {

@@ -7,7 +7,7 @@
 
 #include "pieces.h"
 #include "support/error.h"
-#include "variable/overlaps.h"
+#include "variable/transfer/overlaps.h"
 
 namespace carreau::testing {
 namespace {
@@ -108,7 +108,8 @@ TEST(Remesh, SizesFollowDamageAndCurvature) {
     input.piece = std::move(result.piece), input.damage = std::move(result.damage);
   }
   EXPECT_GT(input.piece.triangles.size(), without + without / 2);
-  const PieceQuality q = quality_of(input.piece, [&](Vec2 p) { return 2 - 1.5 * 0.99 * std::exp(-norm(p) * norm(p) / 8); });
+  const PieceQuality q =
+      quality_of(input.piece, [&](Vec2 p) { return 2 - 1.5 * 0.99 * std::exp(-norm(p) * norm(p) / 8); });
   EXPECT_GT(q.q2_mean, 0.93);
   // 2 sin 8 degrees times the radius
   RemeshInput curved = input_of(disc({0, 0}, 5, 1), 0.1, 100);
@@ -167,6 +168,41 @@ TEST(Remesh, RunsThatCrossKeepTheirNodes) {
   EXPECT_TRUE(find_defects(input, result).empty());
 }
 
+/// Integrals of a nodal field of two components: of its linear interpolation.
+Vec2 momentum(const Piece& piece, const std::vector<double>& v) {
+  Vec2 sum{0, 0};
+  for (std::size_t t = 0; t < piece.triangles.size(); ++t)
+    for (const std::int32_t k : piece.triangles[t])
+      sum +=
+          piece.double_area(t) / 6 * Vec2{v[2 * static_cast<std::size_t>(k)], v[2 * static_cast<std::size_t>(k) + 1]};
+  return sum;
+}
+
+TEST(Remesh, ChangesMomentumAndVolumeLittle) {
+  RemeshInput input = disc_input();
+  RemeshField velocity{"velocity", FieldKind::nodal, 2, {}};
+  for (const Vec2& p : input.piece.vertices)
+    velocity.values.insert(velocity.values.end(), {1 + std::sin(0.2 * p.x()), std::cos(0.3 * p.y())});
+  input.fields = {velocity};
+  Monitor monitor;
+  const Vec2 before = momentum(input.piece, velocity.values);
+  double geometry = 0, volume = 0, largest = 0;
+  for (int i = 0; i < 50; ++i) {
+    input.h_max = 1.2 + 0.8 * std::fmod(0.618 * i, 1);
+    RemeshResult result = remesh(input, monitor);
+    if (i > 0) volume = std::max(volume, std::abs(result.summary.area_geometry / geometry - 1));
+    geometry = result.summary.area_geometry;
+    const Vec2 p = momentum(input.piece, input.fields[0].values), q = momentum(result.piece, result.fields[0].values);
+    largest = std::max(largest, norm(q - p) / norm(p));
+    input.piece = std::move(result.piece), input.fields = std::move(result.fields);
+  }
+  RecordProperty("momentum_of_one", std::to_string(largest));
+  RecordProperty("momentum_of_fifty",
+                 std::to_string(norm(momentum(input.piece, input.fields[0].values) - before) / norm(before)));
+  EXPECT_LT(volume, 1e-4);
+  EXPECT_LT(largest, 0.02);  // chords of other lengths enclose another area
+}
+
 TEST(Remesh, IsTheSameEachTime) {
   const RemeshInput input = disc_input();
   Monitor monitor;
@@ -212,7 +248,11 @@ TEST(Remesh, RefusesBadInputWithASentence) {
   says([](auto& in) { in.gradation = 1; }, "gradation");
   says([](auto& in) { in.error_field = 2; }, "number 2");
   says([](auto& in) { in.step = 0.1, in.tools = {{{{-20, 0}, {20, 0}}, {}, false}}; }, "deep in tool 0");
-  says([](auto& in) { in.step = 0.1, in.tools = {{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {}, true}}; }, "deep into the piece");
+  says(
+      [](auto& in) {
+        in.step = 0.1, in.tools = {{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {}, true}};
+      },
+      "deep into the piece");
 }
 
 }  // namespace

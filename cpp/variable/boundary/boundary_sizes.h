@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gradation/edge_sizes.h"
-#include "variable/run_curve.h"
+#include "variable/boundary/run_curve.h"
 
 namespace carreau::variable {
 

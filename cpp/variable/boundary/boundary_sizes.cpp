@@ -1,4 +1,4 @@
-#include "variable/boundary_sizes.h"
+#include "variable/boundary/boundary_sizes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "variable/piece_transfer.h"
+#include "variable/transfer/piece_transfer.h"
 
-#include "variable/slopes.h"
+#include "variable/transfer/slopes.h"
 
 namespace carreau::variable {
 

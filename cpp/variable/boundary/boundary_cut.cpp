@@ -1,4 +1,4 @@
-#include "variable/boundary_cut.h"
+#include "variable/boundary/boundary_cut.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@ namespace {
 
 /// Places along a run, with the sizes wanted there.
 struct Samples {
-  std::vector<double> s, h;            // length from the start, size
-  std::vector<double> place;           // edge + fraction
+  std::vector<double> s, h;   // length from the start, size
+  std::vector<double> place;  // edge + fraction
 };
 
 /// The place, edge + fraction, at length s.

@@ -23,9 +23,9 @@ struct ToolPart {
   std::int32_t tool = 0;
   Vec2 a, b;
   Vec2 centre;
-  double radius = 0;             ///< 0: a segment
-  double start = 0, sweep = 0;   ///< of an arc: angle of a, and from there to b (negative: clockwise), radians
-  double s = 0, length = 0;      ///< abscissa of a, length
+  double radius = 0;                      ///< 0: a segment
+  double start = 0, sweep = 0;            ///< of an arc: angle of a, and from there to b (negative: clockwise), radians
+  double s = 0, length = 0;               ///< abscissa of a, length
   std::int32_t previous = -1, next = -1;  ///< parts; -1: an open end
 
   [[nodiscard]] Vec2 point(double along) const noexcept;

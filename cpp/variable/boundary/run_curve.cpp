@@ -1,4 +1,4 @@
-#include "variable/run_curve.h"
+#include "variable/boundary/run_curve.h"
 
 #include "support/segment.h"
 #include "variable/thresholds.h"
@@ -14,7 +14,7 @@ RunCurve::RunCurve(const BoundaryLoop& loop, const BoundaryRun& run, const Tools
 void RunCurve::fit(Smoothness smoothness) {
   std::vector<Vec2> points;
   for (std::size_t k = 0; k < run_->count + (run_->closed ? 0 : 1); ++k) points.push_back(loop_->nodes[node(k)].point);
-  spline_.emplace(points, run_->closed                         ? SplineEnds::periodic
+  spline_.emplace(points, run_->closed                        ? SplineEnds::periodic
                           : smoothness == Smoothness::natural ? SplineEnds::natural
                                                               : SplineEnds::tangent);
   if (bulges()) spline_.reset();

@@ -1,4 +1,4 @@
-#include "variable/boundary_runs.h"
+#include "variable/boundary/boundary_runs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "variable/boundary/tools.h"
 #include "variable/erosion.h"
-#include "variable/tools.h"
 
 namespace carreau::variable {
 
 struct BoundaryNode {
   Vec2 point;
-  std::int32_t vertex = -1;  ///< of the piece; -1: a node of a tool that lies on the edge `on`
+  std::int32_t vertex = -1;                ///< of the piece; -1: a node of a tool that lies on the edge `on`
   std::array<std::int32_t, 2> on{-1, -1};  ///< vertices of the piece beside it
   ToolPlace place;                         ///< of a bound node; tool -1: it is not
 
@@ -46,8 +46,8 @@ std::vector<BoundaryLoop> boundary_of(const Eroded& eroded);
 /// How near a tool is too near.
 struct ContactDistances {
   double step = 0;   ///< delta of HDR eq. 3.1: how deep a node may lie in a tool, or a tool's node in the piece
-  double reach = 0;  ///< how far outside a node is still bound, at most the step. HDR has the step; a surface that leaves
-                     ///< a tool more slowly would then never come off
+  double reach = 0;  ///< how far outside a node is still bound, at most the step. HDR has the step; a surface that
+                     ///< leaves a tool more slowly would then never come off
 };
 
 /// Binds nodes in regions of radius `step` about the tools' edges (HDR eq. 3.1): they move to the nearest place of the
@@ -55,8 +55,7 @@ struct ContactDistances {
 /// tool there. Edges between bound nodes of one tool follow it, unless they bridge a notch. n log n in nodes and edges.
 /// Throws InvalidArgument where a vertex lies deeper than `step` in a tool, or a tool's node deeper than that in the
 /// piece.
-void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances,
-                   double h_min);
+void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances, double h_min);
 
 /// Lets edges follow the tools between bound nodes, after nodes have been removed.
 void follow_tools(BoundaryLoop& loop, const Tools& tools, double h_min);

@@ -1,4 +1,4 @@
-#include "variable/cubic_spline.h"
+#include "variable/boundary/cubic_spline.h"
 
 #include <algorithm>
 #include <cmath>

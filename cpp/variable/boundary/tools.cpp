@@ -1,4 +1,4 @@
-#include "variable/tools.h"
+#include "variable/boundary/tools.h"
 
 #include <algorithm>
 #include <cmath>

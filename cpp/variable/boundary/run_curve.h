@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "variable/boundary_runs.h"
-#include "variable/cubic_spline.h"
+#include "variable/boundary/boundary_runs.h"
+#include "variable/boundary/cubic_spline.h"
 
 namespace carreau::variable {
 
@@ -21,7 +21,8 @@ class RunCurve {
  public:
   /// A spline that leaves one of its chords by more than .15 of it becomes a polygon.
   /// `keep_nodes`: it is straight between its nodes, and cutting leaves these as they are; curvatures are a spline's.
-  RunCurve(const BoundaryLoop& loop, const BoundaryRun& run, const Tools& tools, Smoothness smoothness, bool keep_nodes);
+  RunCurve(const BoundaryLoop& loop, const BoundaryRun& run, const Tools& tools, Smoothness smoothness,
+           bool keep_nodes);
 
   [[nodiscard]] std::size_t edges() const noexcept { return run_->count; }
   /// At fraction t in [0, 1] of an edge of the run.

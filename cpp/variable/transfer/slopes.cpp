@@ -1,4 +1,4 @@
-#include "variable/slopes.h"
+#include "variable/transfer/slopes.h"
 
 #include <algorithm>
 #include <cmath>

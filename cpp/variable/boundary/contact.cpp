@@ -1,4 +1,4 @@
-#include "variable/contact.h"
+#include "variable/boundary/contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,9 +72,9 @@ void bind_nodes(std::vector<BoundaryLoop>& loops, const Tools& tools, const Cont
       if (place.distance <= (place.in_solid ? distances.step : distances.reach)) {
         node.place = place, node.point = place.point;
       } else if (place.in_solid) {
-        throw InvalidArgument("a vertex of the piece at " + at(node.point) + " lies " +
-                              short_number(place.distance) + " deep in tool " + std::to_string(place.tool) +
-                              " (from 0), more than a step of " + short_number(distances.step));
+        throw InvalidArgument("a vertex of the piece at " + at(node.point) + " lies " + short_number(place.distance) +
+                              " deep in tool " + std::to_string(place.tool) + " (from 0), more than a step of " +
+                              short_number(distances.step));
       }
     }
 }
@@ -157,8 +157,8 @@ std::vector<Insertion> nodes_to_insert(const std::vector<BoundaryLoop>& loops, c
     const bool is_deep = locator.contains(p);
     const double most = is_deep ? step : distances.reach;
     if (found.squared <= most * most)
-      insertions.push_back({found.edge->loop, found.edge->edge,
-                            fraction_on_segment(p, found.edge->a, found.edge->b), node});
+      insertions.push_back(
+          {found.edge->loop, found.edge->edge, fraction_on_segment(p, found.edge->a, found.edge->b), node});
     else if (is_deep)
       throw InvalidArgument("tool " + std::to_string(node.tool) + " (from 0) reaches " +
                             short_number(std::sqrt(found.squared)) + " deep into the piece at " + at(p) +
@@ -238,8 +238,7 @@ void follow_tools(BoundaryLoop& loop, const Tools& tools, double h_min) {
   }
 }
 
-void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances,
-                   double h_min) {
+void bind_to_tools(std::vector<BoundaryLoop>& loops, const Tools& tools, ContactDistances distances, double h_min) {
   if (tools.empty()) return;
   bind_nodes(loops, tools, distances);
   insert_all(loops, nodes_to_insert(loops, tools, distances), h_min);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesh/triangle_search.h"
-#include "variable/overlaps.h"
+#include "variable/transfer/overlaps.h"
 
 namespace carreau::variable {
 

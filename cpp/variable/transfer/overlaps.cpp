@@ -1,4 +1,4 @@
-#include "variable/overlaps.h"
+#include "variable/transfer/overlaps.h"
 
 #include <algorithm>
 

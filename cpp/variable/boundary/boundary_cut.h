@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "mesh/plane_mesh.h"
-#include "variable/boundary_sizes.h"
+#include "variable/boundary/boundary_sizes.h"
 #include "variable/size_map.h"
 
 namespace carreau::variable {

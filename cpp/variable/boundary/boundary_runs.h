@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "variable/contact.h"
+#include "variable/boundary/contact.h"
 
 namespace carreau::variable {
 
