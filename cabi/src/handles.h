@@ -16,6 +16,7 @@
 #include "model/model.h"
 #include "session/session.h"
 #include "support/monitor.h"
+#include "variable/remesh.h"
 
 namespace carreau::abi {
 
@@ -71,6 +72,12 @@ class HostMonitor final : public Monitor {
   double reached_ = 0;
 };
 
+/// Fields of a mesh that carreau_remesh has made, row by row.
+struct RemeshedFields {
+  std::vector<double> nodal, elements, damage;
+  std::int32_t nodal_components = 0, element_components = 0;
+};
+
 }  // namespace carreau::abi
 
 struct carreau_mesh {
@@ -87,6 +94,7 @@ struct carreau_mesh {
   std::vector<FaceOfFile> flat_faces;  // ascending references: of triangles of `flat`, and of faces that it tells of
   bool filled = false;                 // of `flat`
   std::vector<double> corner_uv;       // of `flat`, 6 a triangle, or empty
+  std::optional<carreau::abi::RemeshedFields> remeshed = {};  // of `flat`
   std::string text;                    // returned to the caller, who may look at it until the next call
   carreau::abi::ErrorSlot error;
   std::atomic<bool> busy{false};

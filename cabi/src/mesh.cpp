@@ -120,6 +120,7 @@ carreau_status carreau_mesh_read(carreau_mesh* mesh, const char* path) {
     mesh->flat = std::move(flat);
     mesh->filled = true;
     mesh->corner_uv.clear();
+    mesh->remeshed.reset();
   });
 }
 

@@ -85,5 +85,6 @@ carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const carreau_mesh_a
     mesh->flat = std::move(flat);
     mesh->corner_uv = std::move(uv);
     mesh->filled = true;
+    mesh->remeshed.reset();
   });
 }

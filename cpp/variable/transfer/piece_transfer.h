@@ -1,0 +1,47 @@
+// Fields on the old mesh of a piece become fields on the new one.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/triangle_search.h"
+#include "variable/transfer/overlaps.h"
+
+namespace carreau::variable {
+
+/// Refers to its arguments. Overlaps are found when they are first needed.
+class PieceTransfer {
+ public:
+  /// `search` holds the triangles of `old`, `adjacency` is theirs.
+  PieceTransfer(const Piece& old, const Adjacency& adjacency, const TriangleSearch& search, const Piece& piece)
+      : old_(&old), adjacency_(&adjacency), search_(&search), piece_(&piece) {}
+
+  /// Linear in the triangle that holds a vertex, or continued from the nearest one: exact for linear fields.
+  [[nodiscard]] std::vector<double> nodal(std::span<const double> values, int components);
+  /// Values in old triangles become linear functions with limited slopes: a field that is carried from mesh to mesh a
+  /// hundred times spreads by much less than with constants. Mean over what a triangle shares with old ones; value of
+  /// the nearest one where it shares nothing. Between the smallest and the largest value around.
+  [[nodiscard]] std::vector<double> means(std::span<const double> values, int components);
+  /// The integral over each old triangle goes to the new ones in proportion to what they share with it, or to the
+  /// nearest one: the integral over all stays, but for rounding.
+  [[nodiscard]] std::vector<double> conserved(std::span<const double> values, int components);
+
+ private:
+  struct Place {
+    std::int32_t triangle = 0;
+    std::array<double, 3> weight{};
+  };
+  const std::vector<Place>& places();
+  const Overlaps& overlaps();
+  void give_uncovered(std::span<const double> values, std::size_t components, std::span<const double> covered,
+                      std::vector<double>& result) const;
+
+  const Piece* old_;
+  const Adjacency* adjacency_;
+  const TriangleSearch* search_;
+  const Piece* piece_;
+  std::vector<Place> places_;
+  Overlaps overlaps_;
+};
+
+}  // namespace carreau::variable

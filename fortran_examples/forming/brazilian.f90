@@ -1,0 +1,93 @@
+!> The Brazilian test of HDR sec. 3.4.6: a disc of 50 mm is pressed between two planes, the upper one moving .1 mm an
+!! increment, sizes from 1 to 6 mm. Usage: forming_brazilian [displacement of the tool in mm [name of the files]]
+program brazilian
+  use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t
+  use, intrinsic :: iso_fortran_env, only: error_unit
+  use carreau
+  use carreau_remeshing
+  use tools_m
+  use solver_m
+  use remeshing_m
+  implicit none
+
+  integer, parameter :: around = 26
+  real(dp), parameter :: pi = 3.141592653589793_dp, increment = 0.1_dp, far = 200
+  real(dp) :: last, x(2, around + 1), least_height
+  integer(c_int32_t) :: t(3, around), status
+  integer :: i
+  character(len=200) :: argument, name
+  type(body) :: disc
+  type(material) :: metal
+  type(wedge) :: tools(2)
+  type(sizes) :: wanted
+  type(carreau_mesh) :: mesh
+  type(carreau_remesh_summary) :: told
+  type(series) :: files
+  type(carreau_quality) :: quality
+  real(dp) :: worst, area, left
+  logical :: broken
+
+  last = 22
+  name = "brazilian"
+  if (command_argument_count() > 0) call get_command_argument(1, argument)
+  if (command_argument_count() > 0) read (argument, *) last
+  if (command_argument_count() > 1) call get_command_argument(2, name)
+
+  ! A fan about the centre: the first remeshing makes a mesh of it.
+  x(:, around + 1) = [0._dp, 25._dp]
+  do i = 1, around
+    x(:, i) = x(:, around + 1) + 25*[cos(2*pi*i/around), sin(2*pi*i/around)]
+    t(:, i) = [i, mod(i, around) + 1, around + 1]
+  end do
+  call first_mesh(x, t, disc)
+  metal%strain_to_failure = 0.73_dp
+  metal%least_weight = 0.6_dp
+  metal%hardening = 0
+  metal%friction = 0.3_dp
+  tools(1) = wedge([0._dp, 0._dp], [-1._dp, 0._dp], [1._dp, 0._dp], 0._dp, far)
+  tools(2) = wedge([0._dp, 50._dp], [1._dp, 0._dp], [-1._dp, 0._dp], 0._dp, far)
+  tools(2)%velocity = [0._dp, -0.004_dp*speed_of_sound(metal)]
+  wanted = sizes(h_min=1._dp, h_max=6._dp, step=increment, keep_all_parts=.true.)
+  call carreau_mesh_create(mesh, status)
+  call remesh(mesh, disc, tools, wanted, told)
+  call open_series(files, trim(name))
+  call add_to_series(files, mesh, disc, 0._dp)
+  area = told%area
+  worst = 1
+  broken = .false.
+  do i = 1, nint(last/increment)
+    left = increment/abs(tools(2)%velocity(2))
+    do while (left > 0)
+      call run_increment(disc, metal, tools, left, 0.2_dp*wanted%h_min)
+      call remesh(mesh, disc, tools, wanted, told)
+      if (told%imposed_vertices > 0) disc%self_contact = .true.
+      if (told%parts_found > 1 .and. .not. broken) print '(a, f6.2, a)', "broken at ", i*increment, " mm"
+      broken = broken .or. told%parts_found > 1
+      call carreau_mesh_quality(mesh, quality, status)
+      worst = min(worst, quality%q2_min)
+    end do
+    if (mod(i, 10) /= 0) cycle
+    call add_to_series(files, mesh, disc, i*increment)
+    print '(f6.2, a, i0, a, f6.3, a, f6.3, a, f5.3, a, i0, a, i0, a, f9.2, a, f5.3)', i*increment, " mm: ", told%triangles, &
+      " triangles, damage ", maxval(disc%damage), ", strain ", maxval(disc%plastic), ", Q2 ", quality%q2_mean, &
+      ", parts ", told%parts_found, ", bound ", told%bound_vertices, ", area ", told%area, ", worst Q2 ", quality%q2_min
+  end do
+  call close_series(files)
+  least_height = 50 - last
+  call claim(maxval(disc%x(2, :)) <= least_height + 0.1_dp .and. minval(disc%x(2, :)) >= -0.1_dp, &
+    "the disc lies between the tools")
+  call claim(worst > 0.1_dp, "triangles have a shape")
+  call claim(told%bound_vertices >= 2, "the tools touch it")
+  call claim(sum(disc%mass) < 1.02_dp*area .and. sum(disc%mass) > 0.85_dp*area, "the volume is nearly that of the disc")
+  call carreau_mesh_free(mesh)
+
+contains
+
+  subroutine claim(holds, sentence)
+    logical, intent(in) :: holds
+    character(len=*), intent(in) :: sentence
+    if (holds) return
+    write (error_unit, '(2a)') "this does not hold: ", sentence
+    error stop 1
+  end subroutine claim
+end program brazilian
