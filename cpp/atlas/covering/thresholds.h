@@ -1,0 +1,19 @@
+// Numbers that decide something about coverings.
+#pragma once
+
+namespace carreau::atlas::thresholds {
+
+/// Smallest cosine between the normal of a triangle and that of its cluster's plane. At .2, 78 degrees, lengths in the plane are a fifth of
+/// those on the surface: as much as a height field can bear.
+inline constexpr double steepest_cosine = 0.2;
+
+/// How bad defects of clusters are for their repair: one that is no disc is worse than one that folds, that than a steep one.
+inline constexpr double no_disc = 3, folded = 2, steep = 1;
+
+/// Passes over the clusters with defects; of the surfaces tried, none needed more than five.
+inline constexpr int repair_passes = 20;
+
+/// How often triangles are divided in four where clusters stay without a plane: 64 triangles in place of one.
+inline constexpr int subdivisions = 3;
+
+}  // namespace carreau::atlas::thresholds
