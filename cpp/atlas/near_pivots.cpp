@@ -15,6 +15,13 @@ struct Beside {
 
 Vec2 unit(const Vec2& v) { return v / norm(v); }
 
+/// Unit vector that halves the angle below pi at a vertex. Of the two formulas the one without cancellation.
+Vec2 bisector(const Vec2& before, const Vec2& at, const Vec2& after, int side) {
+  const Vec2 in = unit(at - before), out = unit(after - at);
+  const Vec2 along = in + out, across = out - in;
+  return norm(along) > norm(across) ? Vec2(side * unit(Vec2(-along.y(), along.x()))) : unit(across);
+}
+
 }  // namespace
 
 Pivots near_pivots(const Polygon& loop, const std::vector<double>& height, std::vector<std::size_t>& owner) {
@@ -24,7 +31,7 @@ Pivots near_pivots(const Polygon& loop, const std::vector<double>& height, std::
     const Vec2 &before = loop[previous_of(v, m)], &after = loop[next_of(v, m)];
     const int side = orientation(before, loop[v], after);
     if (side != 0)
-      beside.push_back({loop[v] + height[v] * unit(unit(after - loop[v]) + unit(before - loop[v])), side, v});
+      beside.push_back({loop[v] + height[v] * bisector(before, loop[v], after, side), side, v});
   }
   // The chain begins inside.
   const auto first = std::find_if(beside.begin(), beside.end(), [](const Beside& b) { return b.side > 0; });

@@ -1,11 +1,20 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "atlas/pivots.h"
+#include "atlas/thresholds.h"
 #include "predicates/predicates.h"
 
 namespace carreau::atlas {
 namespace {
+
+/// Is the edge from a to b, relative to the pivot, seen under an angle, and not along itself?
+bool well_seen(const Vec2& a, const Vec2& b, const Vec2& edge) {
+  const double twice_area = std::abs(cross(a, edge));
+  return std::abs(std::atan2(cross(a, b), dot(a, b))) > thresholds::least_angle &&
+         twice_area > thresholds::least_slope * norm(edge) * std::max(norm(a), norm(b));
+}
 
 class Conditions {
  public:
@@ -51,7 +60,10 @@ class Conditions {
       if (orientation(place(k), vertex(e), vertex(e + 1)) != side) wrong_[k] = 1;
       const Vec2 a = e == from ? Vec2(place(k + n_ - 1) - place(k)) : Vec2(vertex(e) - place(k));
       const Vec2 b = e == from + edges ? Vec2(place(k + 1) - place(k)) : Vec2(vertex(e + 1) - place(k));
-      angle += std::abs(std::atan2(cross(a, b), dot(a, b)));
+      if (!well_seen(vertex(e) - place(k), vertex(e + 1) - place(k), vertex(e + 1) - vertex(e))) wrong_[k] = 1;
+      const double seen = std::abs(std::atan2(cross(a, b), dot(a, b)));
+      if (!(seen > thresholds::least_angle)) wrong_[k] = 1;
+      angle += seen;
     }
     if (!(angle < 2 * std::numbers::pi)) wrong_[k] = 1;
     return edges;
@@ -77,8 +89,11 @@ std::vector<char> wrong_pivots(const Polygon& loop, Pivots& pivots) {
   if (pivots.size() > 2) return Conditions(loop, pivots).check();
   std::vector<char> wrong(pivots.size(), pivots.size() == 2);
   pivots.crossed.assign(pivots.size(), 0);
-  for (std::size_t v = 0; v < loop.size() && pivots.size() == 1; ++v)
-    if (orientation(pivots.place[0], loop[v], loop[next_of(v, loop.size())]) != 1) wrong[0] = 1;
+  for (std::size_t v = 0; v < loop.size() && pivots.size() == 1; ++v) {
+    const Vec2 a = loop[v] - pivots.place[0], b = loop[next_of(v, loop.size())] - pivots.place[0];
+    const bool seen = orientation(pivots.place[0], loop[v], loop[next_of(v, loop.size())]) == 1;
+    if (!seen || !well_seen(a, b, b - a)) wrong[0] = 1;
+  }
   return wrong;
 }
 

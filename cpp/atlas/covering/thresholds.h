@@ -16,4 +16,10 @@ inline constexpr int repair_passes = 20;
 /// How often triangles are divided in four where clusters stay without a plane: 64 triangles in place of one.
 inline constexpr int subdivisions = 3;
 
+/// Share of clusters without a defect from which moves of single vertices can mend the others; below, triangles are divided first.
+inline constexpr double repairable = 0.8;
+
+/// Share of a region's width by which a place may be beyond it and still be in it, for rounding.
+inline constexpr double beyond_zone = 1e-9;
+
 }  // namespace carreau::atlas::thresholds
