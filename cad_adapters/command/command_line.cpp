@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "atlas_input.h"
 #include "completion.h"
 #include "failure.h"
 #include "json_output.h"
@@ -28,8 +29,10 @@ std::string is_gradation(const std::string& value) {
   const bool known = CLI::detail::lexical_cast(value, ratio) && (ratio == 0 || (ratio >= 1.0001 && ratio <= 1e9));
   return known ? "" : "'" + value + "' is neither a ratio from 1.0001 to 1e9 nor 0";
 }
-std::vector<std::string> molecule_surface_names() {
-  return {std::begin(molecule_surfaces), std::end(molecule_surfaces)};
+std::vector<std::string> surface_names() {
+  std::vector<std::string> names(std::begin(molecule_surfaces), std::end(molecule_surfaces));
+  names.emplace_back(atlas_surface);
+  return names;
 }
 std::string not_empty(const std::string& value) { return value.empty() ? "nothing is given" : ""; }
 
@@ -318,8 +321,9 @@ void CommandLine::add_info() {
 
 void CommandLine::add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
   app->add_option("--surface", choice.surface,
-                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent")
-      ->check(CLI::IsMember(molecule_surface_names()))
+                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent; ses, excluding it. Of "
+                  "closed triangles: atlas, a smooth surface over them")
+      ->check(CLI::IsMember(surface_names()))
       ->capture_default_str();
   app->add_option("--probe", choice.probe, "Radius of the probe that stands for the solvent")
       ->check(CLI::Range(0.0, 1e9))

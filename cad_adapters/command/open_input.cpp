@@ -1,3 +1,4 @@
+#include "atlas_input.h"
 #include "cad_input.h"
 #include "failure.h"
 #include "model_input.h"
@@ -17,6 +18,7 @@ void check_geometry_name(const std::string& path) {
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
                                      const ReadingProgress& progress, const MoleculeChoice& molecule,
                                      const GridChoice& grid) {
+  if (molecule.surface == atlas_surface) return open_atlas(path);
   check_geometry_name(path);
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
