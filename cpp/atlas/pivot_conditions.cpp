@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "atlas/pivots.h"
@@ -98,19 +99,31 @@ std::vector<char> wrong_pivots(const Polygon& loop, Pivots& pivots) {
 }
 
 StarCentre star_centre(const Polygon& loop) {
-  Vec2 mean(0, 0), centroid(0, 0);
-  double area = 0;
+  Vec2 centroid(0, 0);
+  double area = 0, reach = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
-    mean += loop[i] / static_cast<double>(loop.size());
     const Vec2 a = loop[i] - loop[0], b = loop[next_of(i, loop.size())] - loop[0];
-    area += cross(a, b) / 2;
-    centroid += (a + b) * (cross(a, b) / 6);
+    area += cross(a, b) / 2, centroid += (a + b) * (cross(a, b) / 6), reach = std::max(reach, norm(a));
   }
-  for (const Vec2& place : {Vec2(loop[0] + centroid / area), mean}) {
-    Pivots single{{place}};
-    if (wrong_pivots(loop, single)[0] == 0) return {true, place};
+  // The point that is furthest from the lines of all edges: steps away from the nearest line, ever smaller.
+  StarCentre best;
+  double furthest = 0, step = reach / 4;
+  Vec2 place = loop[0] + centroid / area;
+  constexpr int steps = 60;
+  for (int k = 0; k < steps; ++k, step *= .9) {
+    double nearest = std::numeric_limits<double>::infinity();
+    Vec2 away(0, 0);
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vec2 edge = (loop[next_of(i, loop.size())] - loop[i]) / norm(loop[next_of(i, loop.size())] - loop[i]);
+      const double distance = cross(edge, place - loop[i]);
+      if (distance < nearest) nearest = distance, away = Vec2(-edge.y(), edge.x());
+    }
+    if (nearest > furthest) furthest = nearest, best = {true, place, nearest / reach};
+    place += step * away;
   }
-  return {};
+  Pivots single{{best.place}};
+  if (!best.found || wrong_pivots(loop, single)[0] != 0) return {};
+  return best;
 }
 
 }  // namespace carreau::atlas

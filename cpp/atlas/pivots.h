@@ -30,10 +30,12 @@ enum class PivotChoice {
 /// loop between two crossings is star-shaped about its pivot; the chain does not meet itself (Atlas sec. 5.2.2.1).
 std::vector<char> wrong_pivots(const Polygon& loop, Pivots& pivots);
 
-/// A point from which the whole loop is seen, at some distance of it; `found` is false when the few places tried are none.
+/// A point from which the whole loop is seen, about as far from the lines of its edges as can be; `room` is the least of those distances by the
+/// extent of the loop. Not found: the loop is not star-shaped, or hardly.
 struct StarCentre {
   bool found = false;
   Vec2 place{0, 0};
+  double room = 0;
 };
 StarCentre star_centre(const Polygon& loop);
 

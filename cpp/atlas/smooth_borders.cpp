@@ -41,6 +41,8 @@ class PartBorders {
   void round_vertices() {
     part_.rounding.assign(part_.angle.size(), {});
     for (std::size_t k = 1; k + 1 < part_.angle.size(); ++k) {
+      constexpr double straight_on = 1e-9;
+      if (norm(part_.line[k] - part_.line[k - 1]) < straight_on * norm(part_.line[k])) continue;
       constexpr int halvings = 40;
       double share = thresholds::rounded_share;
       for (int i = 0; i < halvings; ++i, share /= 2) {

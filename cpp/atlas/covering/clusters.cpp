@@ -6,7 +6,7 @@
 
 #include "atlas/covering/ring.h"
 #include "atlas/covering/thresholds.h"
-#include "atlas/polygon.h"
+#include "atlas/pivots.h"
 #include "support/error.h"
 #include "support/short_number.h"
 
@@ -167,10 +167,12 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
   try {
     const Polygon inner = projected(ring.inner_border), outer = projected(ring.outer_border);
     require_simple(inner, "the pure zone"), require_simple(outer, "the region"), require_annulus(inner, outer);
+    // No defect, but a shape that distorts its chart: no sentence.
+    const StarCentre star = star_centre(inner);
+    return {thresholds::no_star * std::max(0.0, 1 - star.room / thresholds::star_room), ""};
   } catch (const DomainError& error) {
     return {thresholds::folded, cluster + " does not project to its plane: " + error.what()};
   }
-  return {};
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hop
 std::vector<std::string> defects(const Triangulation& surface, const Fans& fans, const Partition& partition);
 /// Of one cluster.
 std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition, const std::vector<std::int32_t>& members);
-/// 0 for a cluster without a defect; the larger, the further from it.
+/// 0 for a cluster without a defect whose pure zone is well star-shaped; the larger, the further from it; from 1 on, a defect.
 double cluster_badness(const Triangulation& surface, const Fans& fans, const Partition& partition, const std::vector<std::int32_t>& members);
 
 /// Moves vertices between clusters while that makes defects fewer or smaller. Deterministic.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "atlas/covering/ring_chart.h"
 #include "atlas/covering/ring_phi.h"
 #include "atlas/covering/thresholds.h"
 #include "support/error.h"
@@ -15,12 +16,6 @@ std::array<std::int32_t, 3> key_of(std::int32_t a, std::int32_t b, std::int32_t 
   std::array<std::int32_t, 3> key{a, b, c};
   std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
   return key;
-}
-
-Polygon projected(const Triangulation& surface, const Frame& frame, const std::vector<std::int32_t>& border) {
-  Polygon p;
-  for (const std::int32_t v : border) p.push_back(frame.project(surface.vertices[static_cast<std::size_t>(v)]));
-  return p;
 }
 
 std::string first_of(const std::vector<std::string>& list) {
@@ -75,9 +70,9 @@ void Covering::build(const Partition& partition, const CoveringOptions& options)
       corners.push_back({at->second, corner});
     }
     set_phi(surface_, ring);
-    AnnulusOptions annulus{.border = options.border, .star = true, .phi = phi_of_border(ring), .period = sixth_turn * static_cast<double>(corners.size())};
-    charts_.push_back({frame, Annulus(projected(surface_, frame, ring.inner_border), projected(surface_, frame, ring.outer_border), std::move(annulus)),
-                       std::move(corners), members[i], ring.outer_border});
+    RingChart chart = chart_of_ring(surface_, frame, ring);
+    AnnulusOptions annulus{.border = options.border, .star = true, .phi = std::move(chart.phi), .period = sixth_turn * static_cast<double>(corners.size())};
+    charts_.push_back({frame, Annulus(std::move(chart.inner), std::move(chart.outer), std::move(annulus)), std::move(corners), members[i], ring.outer_border});
   }
 }
 

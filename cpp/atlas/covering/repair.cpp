@@ -62,6 +62,7 @@ class Repair {
     for (const std::int32_t v : near)
       for (const std::int32_t to : touched(v))
         if (to != of(v) && try_moves({v}, to)) return true;
+    if (bad_[c] < thresholds::steep) return false;
     for (const std::int32_t v : near)
       for (const std::int32_t to : touched(v))
         for (const std::int32_t w : fans_.around(v))
