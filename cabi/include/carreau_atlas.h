@@ -42,7 +42,7 @@ CARREAU_API carreau_status carreau_loop_points(carreau_loop* loop, int64_t n, co
 /* phi, from 0 to 2 pi, of n points of the loop. Errors: ARGUMENT (one is further from the loop than `tolerance`), SEQUENCE. */
 CARREAU_API carreau_status carreau_loop_invert(carreau_loop* loop, int64_t n, const double xy[], double tolerance, double out_phi[]);
 
-/* The pivots (x y), inside and outside by turns, and their number. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The pivots (x y), inside and outside by turns, and their number; capacity 0 asks for the number alone. Errors: ARGUMENT (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_loop_pivots(carreau_loop* loop, int64_t capacity, double out_xy[], int64_t* out_count);
 
 /* ---- Annuli ---- */
@@ -86,10 +86,10 @@ CARREAU_API carreau_status carreau_annulus_invert(carreau_annulus* annulus, int6
 /* As carreau_loop_pivots. */
 CARREAU_API carreau_status carreau_annulus_pivots(carreau_annulus* annulus, int64_t capacity, double out_xy[], int64_t* out_count);
 
-/* The polygon (x y) that was described as outer border, and the number of its vertices. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The polygon (x y) that was described as outer border, and the number of its vertices; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_outer_border(carreau_annulus* annulus, int64_t capacity, double out_xy[], int64_t* out_count);
 
-/* The edges (x y x y) of the pseudo-skeleton of the inner border, and their number. Errors: ARGUMENT (capacity), SEQUENCE. */
+/* The edges (x y x y) of the pseudo-skeleton of the inner border, and their number; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capacity, double out_edges[], int64_t* out_count);
 
 /* ---- Atlases of closed triangulated surfaces ---- */
@@ -125,7 +125,7 @@ CARREAU_API void carreau_atlas_free(carreau_atlas* atlas); /* NULL is allowed */
 CARREAU_API const char* carreau_atlas_last_error(const carreau_atlas* atlas);
 
 /* Covers a closed surface of n vertices (n x 3) and m triangles (m x 3, indices from 0, counterclockwise from outside). clusters: the
- * cluster of each vertex, from 0 without gaps, each a disc; NULL: the library makes them, and divides triangles in four where they
+ * cluster of each vertex, from 0 without gaps, each a disc; NULL, or -1 at vertex 0: the library makes them, and divides triangles in four where they
  * are too coarse. On an error the atlas is as before. Errors: ARGUMENT (the triangulation has a border, or is turned differently in
  * places), DOMAIN (a cluster that is no disc, or far from a plane). */
 CARREAU_API carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_options* options, int64_t n, const double xyz[], int64_t m,

@@ -67,7 +67,7 @@ void put(const Vec2& p, double* out, std::size_t row) { out[2 * row] = p.x(), ou
 
 void put_all(const Polygon& points, std::int64_t capacity, double* out, std::int64_t* out_count) {
   *required(out_count, "out_count") = static_cast<std::int64_t>(points.size());
-  if (out == nullptr) return;
+  if (out == nullptr || capacity == 0) return;
   check_capacity(capacity, points.size(), "points");
   for (std::size_t k = 0; k < points.size(); ++k) put(points[k], out, k);
 }
@@ -196,7 +196,7 @@ carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capaci
   return guarded(annulus, [&] {
     const auto skeleton = carreau::atlas::pseudo_skeleton(annulus->get().inner());
     *required(out_count, "out_count") = static_cast<std::int64_t>(skeleton.edges.size());
-    if (out_edges == nullptr) return;
+    if (out_edges == nullptr || capacity == 0) return;
     check_capacity(capacity, skeleton.edges.size(), "edges");
     for (std::size_t k = 0; k < skeleton.edges.size(); ++k)
       put(skeleton.edges[k].first, out_edges, 2 * k), put(skeleton.edges[k].second, out_edges, 2 * k + 1);
@@ -218,7 +218,7 @@ carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_opt
       if (given.reach != 0) known.hops = given.reach;
     }
     const auto surface = triangulation_of(n, xyz, m, triangles);
-    if (clusters == nullptr) {
+    if (clusters == nullptr || (n > 0 && clusters[0] == -1)) {
       atlas->content = std::make_shared<carreau::atlas::BlendedSurface>(carreau::atlas::Covering(surface, known));
       return;
     }

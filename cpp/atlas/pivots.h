@@ -39,6 +39,9 @@ struct StarCentre {
 };
 StarCentre star_centre(const Polygon& loop);
 
+/// The least distance of a place from the lines of the edges, by the extent of the loop; 0 where it is outside of one.
+double room_around(const Polygon& loop, const Vec2& place);
+
 /// Pivots by the pseudo-skeleton: inner ones at ears and where the loop's turns change, outer ones between them, beyond the outer border.
 /// Without one (nullptr), beyond the loop. They may be wrong.
 Pivots skeleton_pivots(const Polygon& loop, const Polygon* outer);

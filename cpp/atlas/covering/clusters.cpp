@@ -169,7 +169,8 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
     require_simple(inner, "the pure zone"), require_simple(outer, "the region"), require_annulus(inner, outer);
     // No defect, but a shape that distorts its chart: no sentence.
     const StarCentre star = star_centre(inner);
-    return {thresholds::no_star * std::max(0.0, 1 - star.room / thresholds::star_room), ""};
+    const double room = star.found ? std::min(star.room, room_around(outer, star.place)) : 0;
+    return {thresholds::no_star * std::max(0.0, 1 - room / thresholds::star_room), ""};
   } catch (const DomainError& error) {
     return {thresholds::folded, cluster + " does not project to its plane: " + error.what()};
   }

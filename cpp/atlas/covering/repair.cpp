@@ -19,7 +19,7 @@ class Repair {
     for (int pass = 0; pass < thresholds::repair_passes; ++pass) {
       bool any = false;
       for (std::size_t c = 0; c < members_.size(); ++c)
-        if (bad_[c] > 0) any = better(c) || any;
+        if (bad_[c] >= thresholds::steep || (bad_[c] > 0 && pass < thresholds::shape_passes)) any = better(c) || any;
       if (!any) return;
     }
   }
@@ -55,13 +55,24 @@ class Repair {
     for (const std::int32_t c : clusters) bad_[static_cast<std::size_t>(c)] = badness(members_[static_cast<std::size_t>(c)]);
   }
 
+  /// Neighbours in the cluster, which must follow one another around the vertex, and be two or more: else no disc comes of it.
+  [[nodiscard]] bool joins_well(std::int32_t v, std::int32_t to) {
+    const auto& fan = fans_.around(v);
+    std::size_t runs = 0, count = 0;
+    for (std::size_t k = 0; k < fan.size(); ++k) {
+      const bool here = of(fan[k]) == to, before = of(fan[(k + fan.size() - 1) % fan.size()]) == to;
+      count += here, runs += here && !before;
+    }
+    return count >= 2 && runs == 1;
+  }
+
   /// One move of a vertex in or beside the cluster, or of two that are neighbours to the same cluster.
   bool better(std::size_t c) {
     std::set<std::int32_t> near(members_[c].begin(), members_[c].end());
     for (const std::int32_t m : members_[c]) near.insert(fans_.around(m).begin(), fans_.around(m).end());
     for (const std::int32_t v : near)
       for (const std::int32_t to : touched(v))
-        if (to != of(v) && try_moves({v}, to)) return true;
+        if (to != of(v) && joins_well(v, to) && try_moves({v}, to)) return true;
     if (bad_[c] < thresholds::steep) return false;
     for (const std::int32_t v : near)
       for (const std::int32_t to : touched(v))

@@ -16,6 +16,8 @@ inline constexpr double no_star = 0.5, star_room = 0.15;
 
 /// Passes over the clusters with defects; of the surfaces tried, none needed more than five.
 inline constexpr int repair_passes = 20;
+/// Passes that better shapes, too.
+inline constexpr int shape_passes = 2;
 
 /// How often triangles are divided in four where clusters stay without a plane: 64 triangles in place of one.
 inline constexpr int subdivisions = 3;
