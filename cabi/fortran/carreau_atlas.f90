@@ -12,7 +12,7 @@ module carreau_atlas
   public :: carreau_loop_invert, carreau_loop_pivots
   public :: carreau_annulus_create, carreau_annulus_free, carreau_annulus_last_error, carreau_annulus_build
   public :: carreau_annulus_points, carreau_annulus_invert, carreau_annulus_pivots, carreau_annulus_outer_border
-  public :: carreau_annulus_skeleton
+  public :: carreau_annulus_skeleton, carreau_annulus_write_exr
   public :: carreau_atlas_create, carreau_atlas_free, carreau_atlas_last_error, carreau_atlas_build, carreau_atlas_count
   public :: carreau_atlas_chart_info, carreau_atlas_annulus_points, carreau_atlas_zones, carreau_atlas_transition
   public :: carreau_atlas_points, carreau_add_atlas
@@ -226,6 +226,14 @@ contains
     if (size(xy, 1) /= 2) return
     status = c_annulus_invert(annulus%handle, size(xy, 2, c_int64_t), xy, tau_phi, zones)
   end subroutine carreau_annulus_invert
+
+  subroutine carreau_annulus_write_exr(annulus, path, width, status)
+    type(carreau_annulus), intent(in) :: annulus
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(in) :: width
+    integer(c_int32_t), intent(out) :: status
+    status = c_annulus_write_exr(annulus%handle, trim(path)//c_null_char, width)
+  end subroutine carreau_annulus_write_exr
 
   !> xyz(3, n), triangles(3, m), clusters(n); without clusters the library makes them. reach: of those, in edges.
   subroutine carreau_atlas_build(atlas, xyz, triangles, status, clusters, border, reach)

@@ -189,6 +189,17 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_annulus_skeleton
 
+    !> Writes an OpenEXR file of `width` pixels a row: channels tau and phi (NaN outside of the annulus), and zone
+    !! (CARREAU_ZONE_...), over the box of the outer border, y upwards.
+    function c_annulus_write_exr(annulus, path, width) result(status) bind(c, name="carreau_annulus_write_exr")
+      import :: c_char, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: annulus
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t), value :: width
+      integer(c_int32_t) :: status
+    end function c_annulus_write_exr
+
     !> Creates an empty atlas.
     function c_atlas_create(atlas) result(status) bind(c, name="carreau_atlas_create")
       import :: c_int32_t, c_ptr

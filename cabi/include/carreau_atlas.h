@@ -92,6 +92,10 @@ CARREAU_API carreau_status carreau_annulus_outer_border(carreau_annulus* annulus
 /* The edges (x y x y) of the pseudo-skeleton of the inner border, and their number; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capacity, double out_edges[], int64_t* out_count);
 
+/* Writes an OpenEXR file of `width` pixels a row: channels tau and phi (NaN outside of the annulus), and zone (CARREAU_ZONE_...),
+ * over the box of the outer border, y upwards. Errors: ARGUMENT (a width below 2 or above 65536), SEQUENCE, FILE, INTERNAL (a library without OpenEXR). */
+CARREAU_API carreau_status carreau_annulus_write_exr(carreau_annulus* annulus, const char* path, int32_t width);
+
 /* ---- Atlases of closed triangulated surfaces ---- */
 
 typedef struct carreau_atlas carreau_atlas;

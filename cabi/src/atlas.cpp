@@ -1,12 +1,14 @@
 // Loops, annuli and atlases.
 #include "carreau_atlas.h"
 
+#include <bit>
 #include <cmath>
 
 #include "arguments.h"
 #include "atlas/pseudo_skeleton.h"
 #include "geometry/atlas/blended_surface.h"
 #include "guard.h"
+#include "io/exr.h"
 
 using carreau::InvalidArgument;
 using carreau::Vec2;
@@ -113,6 +115,33 @@ carreau::atlas::Triangulation triangulation_of(std::int64_t n, const double* xyz
   return surface;
 }
 
+/// tau, phi and zone at the centres of pixels.
+void write_image(const carreau::atlas::Annulus& annulus, const char* path, int width) {
+  Vec2 low = annulus.outer()[0], high = low;
+  for (const Vec2& p : annulus.outer()) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  const double step = (high.x() - low.x()) / width;
+  carreau::ExrPart part;
+  part.name = "annulus", part.width = width;
+  part.height = std::clamp(static_cast<int>(std::ceil((high.y() - low.y()) / step)), 1, 16 * width);
+  part.channels = {{"phi", carreau::ExrType::real}, {"tau", carreau::ExrType::real}, {"zone", carreau::ExrType::integer}};
+  part.attributes = {{"low", low}, {"pixel", step}};
+  carreau::ExrWriter writer(path, {&part, 1}, {});
+  const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
+  writer.write_part(0, [&](int first, int rows) -> carreau::ExrFill {
+    return [=, &annulus, &part](std::span<carreau::ExrPlane> planes) {
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < width; ++c) {
+          const Vec2 p(low.x() + (c + .5) * step, low.y() + (part.height - first - r - .5) * step);
+          const auto found = annulus.find(carreau::atlas::pair_of(p));
+          const auto at = static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c);
+          planes[0][at] = bits(found ? found->phi : NAN), planes[1][at] = bits(found ? found->tau : NAN);
+          planes[2][at] = static_cast<std::uint32_t>(found ? CARREAU_ZONE_ANNULUS : (annulus.encloses(p) ? CARREAU_ZONE_INSIDE : CARREAU_ZONE_OUTSIDE));
+        }
+    };
+  });
+  writer.commit();
+}
+
 }  // namespace
 
 carreau_status carreau_loop_create(carreau_loop** out_loop) { return create(out_loop); }
@@ -200,6 +229,14 @@ carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capaci
     check_capacity(capacity, skeleton.edges.size(), "edges");
     for (std::size_t k = 0; k < skeleton.edges.size(); ++k)
       put(skeleton.edges[k].first, out_edges, 2 * k), put(skeleton.edges[k].second, out_edges, 2 * k + 1);
+  });
+}
+
+carreau_status carreau_annulus_write_exr(carreau_annulus* annulus, const char* path, int32_t width) {
+  return guarded(annulus, [&] {
+    constexpr std::int32_t widest = 65536;
+    if (width < 2 || width > widest) throw InvalidArgument("the width of an image is " + std::to_string(width) + "; it must be from 2 to 65536");
+    write_image(annulus->get(), required(path, "path"), width);
   });
 }
 
