@@ -79,7 +79,7 @@ CARREAU_API carreau_status carreau_annulus_build(carreau_annulus* annulus, int64
 CARREAU_API carreau_status carreau_annulus_points(carreau_annulus* annulus, int64_t n, const double tau_phi[], double out_xy[],
                                                   double out_derivatives[]);
 
-/* Zones of n points, and tau, phi (n x 2) of those in the annulus; of others 0. An array may be NULL. Errors: ARGUMENT, SEQUENCE. */
+/* Zones of n points, and tau, phi (n x 2, phi from 0 to 2 pi) of those in the annulus; of others 0. An array may be NULL. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_invert(carreau_annulus* annulus, int64_t n, const double xy[], double out_tau_phi[],
                                                   int32_t out_zones[]);
 
@@ -93,7 +93,7 @@ CARREAU_API carreau_status carreau_annulus_outer_border(carreau_annulus* annulus
 CARREAU_API carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capacity, double out_edges[], int64_t* out_count);
 
 /* Writes an OpenEXR file of `width` pixels a row: channels tau and phi (NaN outside of the annulus), and zone (CARREAU_ZONE_...),
- * over the box of the outer border, y upwards. Errors: ARGUMENT (a width below 2 or above 65536), SEQUENCE, FILE, INTERNAL (a library without OpenEXR). */
+ * over the box of the outer border, y upwards. Errors: ARGUMENT (a width below 2 or above 65536), SEQUENCE, FILE (a library without OpenEXR, too). */
 CARREAU_API carreau_status carreau_annulus_write_exr(carreau_annulus* annulus, const char* path, int32_t width);
 
 /* ---- Atlases of closed triangulated surfaces ---- */

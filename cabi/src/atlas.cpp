@@ -207,7 +207,8 @@ carreau_status carreau_annulus_invert(carreau_annulus* annulus, int64_t n, const
     for (std::size_t k = 0; k < rows(n, {{xy, "xy"}}); ++k) {
       const Vec2 p(xy[2 * k], xy[2 * k + 1]);
       const auto found = annulus->get().find(carreau::atlas::pair_of(p));
-      if (out_tau_phi != nullptr) put(found ? Vec2(found->tau, found->phi) : Vec2(0, 0), out_tau_phi, k);
+      const double period = annulus->get().period();
+      if (out_tau_phi != nullptr) put(found ? Vec2(found->tau, found->phi - period * std::floor(found->phi / period)) : Vec2(0, 0), out_tau_phi, k);
       if (out_zones != nullptr) out_zones[k] = found ? CARREAU_ZONE_ANNULUS : (annulus->get().encloses(p) ? CARREAU_ZONE_INSIDE : CARREAU_ZONE_OUTSIDE);
     }
   });

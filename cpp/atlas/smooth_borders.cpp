@@ -33,6 +33,24 @@ OuterPieces divided_at_feet(const OuterPieces& given) {
   return result;
 }
 
+/// Pieces over which the ratio of both borders changes much are divided, so that b can follow it.
+OuterPieces divided_where_steep(const Part& part, const OuterPieces& given) {
+  OuterPieces result;
+  for (std::size_t k = 0; k + 1 < given.angle.size(); ++k) {
+    const double from = given.angle[k], to = given.angle[k + 1];
+    const Vec2 outer = given.line(k), inner = part.line[interval_of(part.angle, (from + to) / 2)];
+    const auto width = [&](double at) { return std::abs(radius_on(outer, at) / radius_on(inner, at) - 1); };
+    const double change = std::abs(std::log(width(to) / width(from)));
+    const int count = std::isfinite(change) ? std::clamp(static_cast<int>(std::ceil(change / thresholds::change_of_width)), 1, thresholds::divisions) : 1;
+    for (int i = 0; i < count; ++i) {
+      const double at = from + (to - from) * i / count;
+      result.angle.push_back(at), result.radius.push_back(i == 0 ? given.radius[k] : radius_on(outer, at));
+    }
+  }
+  result.angle.push_back(given.angle.back()), result.radius.push_back(given.radius.back());
+  return result;
+}
+
 /// One part: its polygonal borders, from which bounds follow.
 class PartBorders {
  public:
@@ -124,7 +142,7 @@ void agree_at_joints(std::vector<Part>& parts) {
 void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, OuterBorder kind) {
   for (std::size_t n = 0; n < parts.size(); ++n) {
     Part& part = parts[n];
-    if (kind != OuterBorder::polygon) pieces[n] = divided_at_feet(pieces[n]);
+    if (kind != OuterBorder::polygon) pieces[n] = divided_where_steep(part, divided_at_feet(pieces[n]));
     PartBorders borders(part, pieces[n]);
     const std::size_t count = pieces[n].angle.size() - 1;
     part.ratio_angle = pieces[n].angle;

@@ -46,4 +46,9 @@ inline constexpr double least_slope = 1e-5;
 /// Radians: knots of the outer border that are nearer to one another are one.
 inline constexpr double same_angle = 1e-9;
 
+/// Logarithm of the change of width over which the outer border gets one knot more, and how many at most in a piece. Covers a tenth more of
+/// random annuli than the knots of the polygons alone.
+inline constexpr double change_of_width = 0.2;
+inline constexpr int divisions = 8;
+
 }  // namespace carreau::atlas::thresholds

@@ -168,7 +168,7 @@ static int draw(const figure* f, const char* folder) {
   snprintf(path, sizeof path, "%s/%s.png", folder, f->name);
   if (write_png(path) != 0) return fprintf(stderr, "%s cannot be written\n", path), 1;
   snprintf(path, sizeof path, "%s/%s.exr", folder, f->name);
-  if (carreau_annulus_write_exr(annulus, path, SIZE) != CARREAU_OK) return fprintf(stderr, "%s\n", carreau_annulus_last_error(annulus)), 1;
+  if (carreau_annulus_write_exr(annulus, path, SIZE) != CARREAU_OK) fprintf(stderr, "%s\n", carreau_annulus_last_error(annulus)); /* no OpenEXR */
   printf("%-9s %2d pivots; covered by splines %.3f, by one cubic a pivot %.3f\n", f->name, (int)count, covered(annulus, f), simple);
   carreau_annulus_free(annulus);
   return 0;

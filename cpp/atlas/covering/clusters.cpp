@@ -1,6 +1,7 @@
 #include "atlas/covering/clusters.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <tuple>
 
@@ -144,6 +145,23 @@ Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hop
 
 namespace {
 
+/// The least distance between both borders along rays from the centre to their vertices, as a share of the ray.
+double least_width(const Polygon& inner, const Polygon& outer, const Vec2& centre) {
+  const auto nearest = [&](const Polygon& border, const Vec2& ray) {
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < border.size(); ++i) {
+      const Vec2 a = border[i] - centre, edge = border[next_of(i, border.size())] - border[i];
+      const double determinant = cross(ray, edge), share = cross(a, ray) / determinant, along = cross(a, edge) / determinant;
+      if (determinant != 0 && share >= 0 && share <= 1 && along > 0) best = std::min(best, along);
+    }
+    return best;  // in units of the ray
+  };
+  double width = std::numeric_limits<double>::infinity();
+  for (const Vec2& v : inner) width = std::min(width, nearest(outer, v - centre) - 1);
+  for (const Vec2& v : outer) width = std::min(width, 1 - nearest(inner, v - centre));
+  return width;
+}
+
 struct Defect {
   double badness = 0;
   std::string sentence = {};
@@ -169,8 +187,9 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
     require_simple(inner, "the pure zone"), require_simple(outer, "the region"), require_annulus(inner, outer);
     // No defect, but a shape that distorts its chart: no sentence.
     const StarCentre star = star_centre(inner);
-    const double room = star.found ? std::min(star.room, room_around(outer, star.place)) : 0;
-    return {thresholds::no_star * std::max(0.0, 1 - room / thresholds::star_room), ""};
+    if (!star.found) return {thresholds::no_star, ""};
+    const double room = std::min({star.room, room_around(outer, star.place), least_width(inner, outer, star.place)});
+    return {thresholds::no_star * std::clamp(1 - room / thresholds::star_room, 0.0, 1.0), ""};
   } catch (const DomainError& error) {
     return {thresholds::folded, cluster + " does not project to its plane: " + error.what()};
   }
