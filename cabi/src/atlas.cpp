@@ -1,11 +1,10 @@
 // Loops, annuli and atlases.
-#include "carreau_atlas.h"
-
 #include <bit>
 #include <cmath>
 
 #include "arguments.h"
 #include "atlas/pseudo_skeleton.h"
+#include "carreau_atlas.h"
 #include "geometry/atlas/blended_surface.h"
 #include "guard.h"
 #include "io/exr.h"
@@ -98,18 +97,22 @@ void require_share(double tau) {
 std::size_t chart_of(const carreau::atlas::BlendedSurface& surface, std::int64_t chart) {
   const std::size_t count = surface.covering().charts().size();
   if (chart < 0 || static_cast<std::size_t>(chart) >= count)
-    throw InvalidArgument("the atlas has no chart " + std::to_string(chart) + "; it has " + std::to_string(count) + ", from 0");
+    throw InvalidArgument("the atlas has no chart " + std::to_string(chart) + "; it has " + std::to_string(count) +
+                          ", from 0");
   return static_cast<std::size_t>(chart);
 }
 
 std::int32_t number_of(carreau::atlas::Zone zone) {
-  return zone == carreau::atlas::Zone::outside ? CARREAU_ZONE_OUTSIDE
-                                               : (zone == carreau::atlas::Zone::shared ? CARREAU_ZONE_ANNULUS : CARREAU_ZONE_INSIDE);
+  return zone == carreau::atlas::Zone::outside
+             ? CARREAU_ZONE_OUTSIDE
+             : (zone == carreau::atlas::Zone::shared ? CARREAU_ZONE_ANNULUS : CARREAU_ZONE_INSIDE);
 }
 
-carreau::atlas::Triangulation triangulation_of(std::int64_t n, const double* xyz, std::int64_t m, const std::int32_t* triangles) {
+carreau::atlas::Triangulation triangulation_of(std::int64_t n, const double* xyz, std::int64_t m,
+                                               const std::int32_t* triangles) {
   carreau::atlas::Triangulation surface;
-  for (std::size_t k = 0; k < rows(n, {{xyz, "xyz"}}); ++k) surface.vertices.emplace_back(xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]);
+  for (std::size_t k = 0; k < rows(n, {{xyz, "xyz"}}); ++k)
+    surface.vertices.emplace_back(xyz[3 * k], xyz[3 * k + 1], xyz[3 * k + 2]);
   for (std::size_t k = 0; k < rows(m, {{triangles, "triangles"}}); ++k)
     surface.triangles.push_back({triangles[3 * k], triangles[3 * k + 1], triangles[3 * k + 2]});
   return surface;
@@ -123,7 +126,8 @@ void write_image(const carreau::atlas::Annulus& annulus, const char* path, int w
   carreau::ExrPart part;
   part.name = "annulus", part.width = width;
   part.height = std::clamp(static_cast<int>(std::ceil((high.y() - low.y()) / step)), 1, 16 * width);
-  part.channels = {{"phi", carreau::ExrType::real}, {"tau", carreau::ExrType::real}, {"zone", carreau::ExrType::integer}};
+  part.channels = {
+      {"phi", carreau::ExrType::real}, {"tau", carreau::ExrType::real}, {"zone", carreau::ExrType::integer}};
   part.attributes = {{"low", low}, {"pixel", step}};
   carreau::ExrWriter writer(path, {&part, 1}, {});
   const auto bits = [](double value) { return std::bit_cast<std::uint32_t>(static_cast<float>(value)); };
@@ -135,7 +139,8 @@ void write_image(const carreau::atlas::Annulus& annulus, const char* path, int w
           const auto found = annulus.find(carreau::atlas::pair_of(p));
           const auto at = static_cast<std::size_t>(r) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c);
           planes[0][at] = bits(found ? found->phi : NAN), planes[1][at] = bits(found ? found->tau : NAN);
-          planes[2][at] = static_cast<std::uint32_t>(found ? CARREAU_ZONE_ANNULUS : (annulus.encloses(p) ? CARREAU_ZONE_INSIDE : CARREAU_ZONE_OUTSIDE));
+          planes[2][at] = static_cast<std::uint32_t>(
+              found ? CARREAU_ZONE_ANNULUS : (annulus.encloses(p) ? CARREAU_ZONE_INSIDE : CARREAU_ZONE_OUTSIDE));
         }
     };
   });
@@ -153,11 +158,13 @@ carreau_status carreau_loop_build(carreau_loop* loop, int64_t n, const double xy
     if (speed != CARREAU_LOOP_EVEN && speed != CARREAU_LOOP_SMOOTH)
       throw InvalidArgument("the speed of a loop is " + std::to_string(speed) + "; it must be 0 or 1");
     using carreau::atlas::LoopSpeed;
-    loop->content = std::make_shared<carreau::atlas::Loop>(polygon_of(n, xy, "xy"), speed == CARREAU_LOOP_SMOOTH ? LoopSpeed::smooth : LoopSpeed::even);
+    loop->content = std::make_shared<carreau::atlas::Loop>(
+        polygon_of(n, xy, "xy"), speed == CARREAU_LOOP_SMOOTH ? LoopSpeed::smooth : LoopSpeed::even);
   });
 }
 
-carreau_status carreau_loop_points(carreau_loop* loop, int64_t n, const double phi[], double out_xy[], double out_derivatives[]) {
+carreau_status carreau_loop_points(carreau_loop* loop, int64_t n, const double phi[], double out_xy[],
+                                   double out_derivatives[]) {
   return guarded(loop, [&] {
     for (std::size_t k = 0; k < rows(n, {{phi, "phi"}, {out_xy, "out_xy"}}); ++k) {
       const auto place = loop->get().at(phi[k]);
@@ -167,7 +174,8 @@ carreau_status carreau_loop_points(carreau_loop* loop, int64_t n, const double p
   });
 }
 
-carreau_status carreau_loop_invert(carreau_loop* loop, int64_t n, const double xy[], double tolerance, double out_phi[]) {
+carreau_status carreau_loop_invert(carreau_loop* loop, int64_t n, const double xy[], double tolerance,
+                                   double out_phi[]) {
   return guarded(loop, [&] {
     for (std::size_t k = 0; k < rows(n, {{xy, "xy"}, {out_phi, "out_phi"}}); ++k)
       out_phi[k] = loop->get().phi_of({xy[2 * k], xy[2 * k + 1]}, tolerance);
@@ -182,34 +190,42 @@ carreau_status carreau_annulus_create(carreau_annulus** out_annulus) { return cr
 void carreau_annulus_free(carreau_annulus* annulus) { delete annulus; }
 const char* carreau_annulus_last_error(const carreau_annulus* annulus) { return sentence_of(annulus); }
 
-carreau_status carreau_annulus_build(carreau_annulus* annulus, int64_t n, const double inner_xy[], int64_t m, const double outer_xy[],
-                                     int32_t border, int32_t star) {
+carreau_status carreau_annulus_build(carreau_annulus* annulus, int64_t n, const double inner_xy[], int64_t m,
+                                     const double outer_xy[], int32_t border, int32_t star) {
   return guarded(annulus, [&] {
-    annulus->content = std::make_shared<carreau::atlas::Annulus>(polygon_of(n, inner_xy, "inner_xy"), polygon_of(m, outer_xy, "outer_xy"),
-                                                                 carreau::atlas::AnnulusOptions{.border = border_of(border), .star = star != 0, .phi = {}});
+    annulus->content = std::make_shared<carreau::atlas::Annulus>(
+        polygon_of(n, inner_xy, "inner_xy"), polygon_of(m, outer_xy, "outer_xy"),
+        carreau::atlas::AnnulusOptions{.border = border_of(border), .star = star != 0, .phi = {}});
   });
 }
 
-carreau_status carreau_annulus_points(carreau_annulus* annulus, int64_t n, const double tau_phi[], double out_xy[], double out_derivatives[]) {
+carreau_status carreau_annulus_points(carreau_annulus* annulus, int64_t n, const double tau_phi[], double out_xy[],
+                                      double out_derivatives[]) {
   return guarded(annulus, [&] {
     for (std::size_t k = 0; k < rows(n, {{tau_phi, "tau_phi"}, {out_xy, "out_xy"}}); ++k) {
       using carreau::atlas::Jet;
       require_share(tau_phi[2 * k]), require_finite(tau_phi[2 * k + 1], "phi");
       const auto p = annulus->get().at(Jet(tau_phi[2 * k], 1, 0), Jet(tau_phi[2 * k + 1], 0, 1));
       put(value_of(p), out_xy, k);
-      if (out_derivatives != nullptr) put({p[0].u, p[1].u}, out_derivatives, 2 * k), put({p[0].v, p[1].v}, out_derivatives, 2 * k + 1);
+      if (out_derivatives != nullptr)
+        put({p[0].u, p[1].u}, out_derivatives, 2 * k), put({p[0].v, p[1].v}, out_derivatives, 2 * k + 1);
     }
   });
 }
 
-carreau_status carreau_annulus_invert(carreau_annulus* annulus, int64_t n, const double xy[], double out_tau_phi[], int32_t out_zones[]) {
+carreau_status carreau_annulus_invert(carreau_annulus* annulus, int64_t n, const double xy[], double out_tau_phi[],
+                                      int32_t out_zones[]) {
   return guarded(annulus, [&] {
     for (std::size_t k = 0; k < rows(n, {{xy, "xy"}}); ++k) {
       const Vec2 p(xy[2 * k], xy[2 * k + 1]);
       const auto found = annulus->get().find(carreau::atlas::pair_of(p));
       const double period = annulus->get().period();
-      if (out_tau_phi != nullptr) put(found ? Vec2(found->tau, found->phi - period * std::floor(found->phi / period)) : Vec2(0, 0), out_tau_phi, k);
-      if (out_zones != nullptr) out_zones[k] = found ? CARREAU_ZONE_ANNULUS : (annulus->get().encloses(p) ? CARREAU_ZONE_INSIDE : CARREAU_ZONE_OUTSIDE);
+      if (out_tau_phi != nullptr)
+        put(found ? Vec2(found->tau, found->phi - period * std::floor(found->phi / period)) : Vec2(0, 0), out_tau_phi,
+            k);
+      if (out_zones != nullptr)
+        out_zones[k] =
+            found ? CARREAU_ZONE_ANNULUS : (annulus->get().encloses(p) ? CARREAU_ZONE_INSIDE : CARREAU_ZONE_OUTSIDE);
     }
   });
 }
@@ -218,11 +234,13 @@ carreau_status carreau_annulus_pivots(carreau_annulus* annulus, int64_t capacity
   return guarded(annulus, [&] { put_all(annulus->get().pivots().place, capacity, out_xy, out_count); });
 }
 
-carreau_status carreau_annulus_outer_border(carreau_annulus* annulus, int64_t capacity, double out_xy[], int64_t* out_count) {
+carreau_status carreau_annulus_outer_border(carreau_annulus* annulus, int64_t capacity, double out_xy[],
+                                            int64_t* out_count) {
   return guarded(annulus, [&] { put_all(annulus->get().described_outer(), capacity, out_xy, out_count); });
 }
 
-carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capacity, double out_edges[], int64_t* out_count) {
+carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capacity, double out_edges[],
+                                        int64_t* out_count) {
   return guarded(annulus, [&] {
     const auto skeleton = carreau::atlas::pseudo_skeleton(annulus->get().inner());
     *required(out_count, "out_count") = static_cast<std::int64_t>(skeleton.edges.size());
@@ -236,7 +254,8 @@ carreau_status carreau_annulus_skeleton(carreau_annulus* annulus, int64_t capaci
 carreau_status carreau_annulus_write_exr(carreau_annulus* annulus, const char* path, int32_t width) {
   return guarded(annulus, [&] {
     constexpr std::int32_t widest = 65536;
-    if (width < 2 || width > widest) throw InvalidArgument("the width of an image is " + std::to_string(width) + "; it must be from 2 to 65536");
+    if (width < 2 || width > widest)
+      throw InvalidArgument("the width of an image is " + std::to_string(width) + "; it must be from 2 to 65536");
     write_image(annulus->get(), required(path, "path"), width);
   });
 }
@@ -245,14 +264,15 @@ carreau_status carreau_atlas_create(carreau_atlas** out_atlas) { return create(o
 void carreau_atlas_free(carreau_atlas* atlas) { delete atlas; }
 const char* carreau_atlas_last_error(const carreau_atlas* atlas) { return sentence_of(atlas); }
 
-carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_options* options, int64_t n, const double xyz[], int64_t m,
-                                   const int32_t triangles[], const int32_t clusters[]) {
+carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_options* options, int64_t n,
+                                   const double xyz[], int64_t m, const int32_t triangles[], const int32_t clusters[]) {
   return guarded(atlas, [&] {
     carreau::atlas::CoveringOptions known;
     if (options != nullptr) {
       const carreau_atlas_options given = read_struct(options, "carreau_atlas_options");
       known.border = border_of(given.border);
-      if (known.border == OuterBorder::polygon) throw InvalidArgument("the borders of an atlas must be smooth: CARREAU_BORDER_SPLINE or CARREAU_BORDER_CUBIC");
+      if (known.border == OuterBorder::polygon)
+        throw InvalidArgument("the borders of an atlas must be smooth: CARREAU_BORDER_SPLINE or CARREAU_BORDER_CUBIC");
       if (given.reach != 0) known.hops = given.reach;
     }
     const auto surface = triangulation_of(n, xyz, m, triangles);
@@ -261,7 +281,8 @@ carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_opt
       return;
     }
     const carreau::atlas::Partition partition(clusters, clusters + n);
-    atlas->content = std::make_shared<carreau::atlas::BlendedSurface>(carreau::atlas::Covering(surface, partition, known));
+    atlas->content =
+        std::make_shared<carreau::atlas::BlendedSurface>(carreau::atlas::Covering(surface, partition, known));
   });
 }
 
@@ -273,7 +294,8 @@ carreau_status carreau_atlas_count(carreau_atlas* atlas, carreau_atlas_counts* o
     counts.triangles = static_cast<std::int64_t>(covering.surface().triangles.size());
     counts.charts = static_cast<std::int64_t>(covering.charts().size());
     counts.triples = static_cast<std::int64_t>(covering.triples().size());
-    for (const auto& chart : covering.charts()) counts.mended += chart.annulus.pivot_choice() == carreau::atlas::PivotChoice::near;
+    for (const auto& chart : covering.charts())
+      counts.mended += chart.annulus.pivot_choice() == carreau::atlas::PivotChoice::near;
     write_struct(counts, out_counts, "out_counts");
   });
 }
@@ -283,13 +305,15 @@ carreau_status carreau_atlas_chart_info(carreau_atlas* atlas, int64_t chart, car
     const auto& known = atlas->get().covering().charts()[chart_of(atlas->get(), chart)];
     carreau_atlas_chart info{};
     for (int k = 0; k < 3; ++k)
-      info.origin[k] = known.frame.origin[k], info.u[k] = known.frame.u[k], info.v[k] = known.frame.v[k], info.normal[k] = known.frame.normal[k];
+      info.origin[k] = known.frame.origin[k], info.u[k] = known.frame.u[k], info.v[k] = known.frame.v[k],
+      info.normal[k] = known.frame.normal[k];
     info.period = known.annulus.period(), info.vertices = static_cast<std::int64_t>(known.members.size());
     write_struct(info, out_chart, "out_chart");
   });
 }
 
-carreau_status carreau_atlas_annulus_points(carreau_atlas* atlas, int64_t chart, int64_t n, const double tau_phi[], double out_xy[]) {
+carreau_status carreau_atlas_annulus_points(carreau_atlas* atlas, int64_t chart, int64_t n, const double tau_phi[],
+                                            double out_xy[]) {
   return guarded(atlas, [&] {
     const auto& annulus = atlas->get().covering().charts()[chart_of(atlas->get(), chart)].annulus;
     for (std::size_t k = 0; k < rows(n, {{tau_phi, "tau_phi"}, {out_xy, "out_xy"}}); ++k) {
@@ -299,7 +323,8 @@ carreau_status carreau_atlas_annulus_points(carreau_atlas* atlas, int64_t chart,
   });
 }
 
-carreau_status carreau_atlas_zones(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[], int32_t out_zones[], double out_weights[]) {
+carreau_status carreau_atlas_zones(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[],
+                                   int32_t out_zones[], double out_weights[]) {
   return guarded(atlas, [&] {
     const auto& covering = atlas->get().covering();
     const std::size_t i = chart_of(atlas->get(), chart);
@@ -311,7 +336,8 @@ carreau_status carreau_atlas_zones(carreau_atlas* atlas, int64_t chart, int64_t 
   });
 }
 
-carreau_status carreau_atlas_transition(carreau_atlas* atlas, int64_t i, int64_t j, int64_t n, const double xy[], double out_xy[], int32_t out_found[]) {
+carreau_status carreau_atlas_transition(carreau_atlas* atlas, int64_t i, int64_t j, int64_t n, const double xy[],
+                                        double out_xy[], int32_t out_found[]) {
   return guarded(atlas, [&] {
     const std::size_t from = chart_of(atlas->get(), i), to = chart_of(atlas->get(), j);
     for (std::size_t k = 0; k < rows(n, {{xy, "xy"}, {out_xy, "out_xy"}, {out_found, "out_found"}}); ++k) {
@@ -322,7 +348,8 @@ carreau_status carreau_atlas_transition(carreau_atlas* atlas, int64_t i, int64_t
   });
 }
 
-carreau_status carreau_atlas_points(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[], double out_xyz[], double out_derivatives[]) {
+carreau_status carreau_atlas_points(carreau_atlas* atlas, int64_t chart, int64_t n, const double xy[], double out_xyz[],
+                                    double out_derivatives[]) {
   return guarded(atlas, [&] {
     const std::size_t i = chart_of(atlas->get(), chart);
     for (std::size_t k = 0; k < rows(n, {{xy, "xy"}, {out_xyz, "out_xyz"}}); ++k) {
@@ -330,7 +357,9 @@ carreau_status carreau_atlas_points(carreau_atlas* atlas, int64_t chart, int64_t
       const carreau::SurfaceJet jet = atlas->get().at(i, {xy[2 * k], xy[2 * k + 1]});
       for (std::size_t c = 0; c < 3; ++c) {
         out_xyz[3 * k + c] = jet.s[static_cast<int>(c)];
-        if (out_derivatives != nullptr) out_derivatives[6 * k + c] = jet.su[static_cast<int>(c)], out_derivatives[6 * k + 3 + c] = jet.sv[static_cast<int>(c)];
+        if (out_derivatives != nullptr)
+          out_derivatives[6 * k + c] = jet.su[static_cast<int>(c)],
+                                  out_derivatives[6 * k + 3 + c] = jet.sv[static_cast<int>(c)];
       }
     }
   });

@@ -73,7 +73,10 @@ bool is_mesh_file(const std::string& path) {
 }
 
 std::unique_ptr<CadInput> open_atlas(const std::string& path) {
-  if (!is_mesh_file(path)) throw Failure("--surface atlas goes with a mesh of triangles (.off, .obj, .ply, .stl, .mesh, .vtu, .msh), not with '" + path + "'.");
+  if (!is_mesh_file(path))
+    throw Failure(
+        "--surface atlas goes with a mesh of triangles (.off, .obj, .ply, .stl, .mesh, .vtu, .msh), not with '" + path +
+        "'.");
   AtlasHandle atlas = build(path);
   SessionHandle session = make_silent_session();
   require(session.get(), carreau_add_atlas(session.get(), atlas.get()));

@@ -10,9 +10,11 @@ namespace carreau::atlas {
 namespace {
 
 void require_phi(const std::vector<double>& phi, std::size_t vertices, double period) {
-  if (!(period > 0) || !std::isfinite(period)) throw InvalidArgument("the period of an annulus must be positive and finite");
+  if (!(period > 0) || !std::isfinite(period))
+    throw InvalidArgument("the period of an annulus must be positive and finite");
   if (phi.size() != vertices)
-    throw InvalidArgument("there are " + std::to_string(phi.size()) + " values of phi for " + std::to_string(vertices) + " vertices of the inner border");
+    throw InvalidArgument("there are " + std::to_string(phi.size()) + " values of phi for " + std::to_string(vertices) +
+                          " vertices of the inner border");
   for (std::size_t v = 0; v < vertices; ++v)
     if (!(phi[v] < (v + 1 < vertices ? phi[v + 1] : phi[0] + period)) || !std::isfinite(phi[v]))
       throw InvalidArgument("phi does not increase behind vertex " + std::to_string(v + 1) + " of the inner border");

@@ -1,4 +1,5 @@
-// An annulus of the plane, described by (tau, phi): from 0 at the inner to 1 at the outer border, and around (Atlas sec. 5.3, 5.4).
+// An annulus of the plane, described by (tau, phi): from 0 at the inner to 1 at the outer border, and around (Atlas
+// sec. 5.3, 5.4).
 #pragma once
 
 #include <optional>
@@ -39,7 +40,8 @@ class Annulus {
   /// The point at (tau, phi), tau from 0 to 1, any phi.
   template <typename Number>
   [[nodiscard]] Pair<Number> at(const Number& tau, const Number& phi) const;
-  /// The parameters of a point, phi from that of the first pivot's joint on, over one period. Empty outside of the annulus.
+  /// The parameters of a point, phi from that of the first pivot's joint on, over one period. Empty outside of the
+  /// annulus.
   template <typename Number>
   [[nodiscard]] std::optional<Strata<Number>> find(const Pair<Number>& p) const;
   /// Is p inside of the annulus' inner border, which is the smooth one (Atlas sec. 5.5.2.2)?

@@ -10,18 +10,21 @@ namespace {
 
 bool any(const std::vector<char>& marks) { return std::find(marks.begin(), marks.end(), 1) != marks.end(); }
 
-/// Drops an inner pivot and the outer one behind it where five pivots with two outer ones cross one another (Atlas fig. 5.8).
+/// Drops an inner pivot and the outer one behind it where five pivots with two outer ones cross one another (Atlas
+/// fig. 5.8).
 bool drop_crossing(Pivots& pivots) {
   const std::size_t n = pivots.size();
   if (n <= 4) return false;
   for (std::size_t k = 0; k < n; k += 2) {
     const auto place = [&](std::size_t i) -> const Vec2& { return pivots.place[(k + i) % n]; };
-    const bool crosses = segments_meet(place(0), place(1), place(2), place(3)) || segments_meet(place(1), place(2), place(3), place(4)) ||
+    const bool crosses = segments_meet(place(0), place(1), place(2), place(3)) ||
+                         segments_meet(place(1), place(2), place(3), place(4)) ||
                          segments_meet(place(0), place(1), place(3), place(4));
     if (!crosses) continue;
     const std::size_t gone = (k + 2) % n;  // even, and so is followed by its outer pivot
     const auto erase = [&](std::vector<Vec2>& list) {
-      list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone), list.begin() + static_cast<std::ptrdiff_t>(gone) + 2);
+      list.erase(list.begin() + static_cast<std::ptrdiff_t>(gone),
+                 list.begin() + static_cast<std::ptrdiff_t>(gone) + 2);
     };
     erase(pivots.place), erase(pivots.anchor);
     return true;
@@ -82,7 +85,7 @@ Pivots beside_vertices(const Polygon& loop) {
       if (wrong[k] != 0) height[worst = owner[k]] *= thresholds::nearer;
   }
   throw DomainError(Where{.uv = loop[worst]}, "no pivots describe the loop near vertex " + std::to_string(worst + 1) +
-                    ": its parts are too near to one another there");
+                                                  ": its parts are too near to one another there");
 }
 
 }  // namespace

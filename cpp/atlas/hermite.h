@@ -36,7 +36,9 @@ template <typename Number, typename Slope>
 auto hermite_inverse(const HermiteData<Slope>& h, const Number& y) {
   using std::sqrt;
   // Slightly outside of the interval the parabolas still increase, until their apex.
-  const auto root = [](const auto& square) { return value_of(square) > 0 ? sqrt(square) : decltype(sqrt(square))(0.0); };
+  const auto root = [](const auto& square) {
+    return value_of(square) > 0 ? sqrt(square) : decltype(sqrt(square))(0.0);
+  };
   if (value_of(y) <= value_of(h.middle_value())) {
     const auto rise = y - h.y1;
     return h.x1 + 2 * rise / (h.slope1 + root(h.slope1 * h.slope1 + 4 * h.first_coefficient() * rise));

@@ -11,8 +11,8 @@ std::size_t part_of(std::span<const Part> parts, double period, double& phi) {
   const double first = parts.front().phi.front();
   phi -= period * std::floor((phi - first) / period);
   if (phi >= first + period) phi = first;
-  const auto behind = std::upper_bound(parts.begin() + 1, parts.end(), phi,
-                                       [](double x, const Part& p) { return x < p.phi.front(); });
+  const auto behind =
+      std::upper_bound(parts.begin() + 1, parts.end(), phi, [](double x, const Part& p) { return x < p.phi.front(); });
   return static_cast<std::size_t>(behind - parts.begin()) - 1;
 }
 

@@ -13,7 +13,8 @@ enum class LoopSpeed {
 /// phi runs from 0 at vertex 1 to 2 pi, counterclockwise, and repeats.
 class Loop {
  public:
-  /// Throws DomainError with the vertex: a loop that crosses itself, runs clockwise, or has parts too near to one another.
+  /// Throws DomainError with the vertex: a loop that crosses itself, runs clockwise, or has parts too near to one
+  /// another.
   explicit Loop(Polygon polygon, LoopSpeed speed = LoopSpeed::smooth, bool star = false);
 
   [[nodiscard]] const Polygon& polygon() const { return polygon_; }
@@ -26,8 +27,8 @@ class Loop {
   };
   /// Point and derivative by phi; at vertices that of the edge behind.
   [[nodiscard]] Place at(double phi) const;
-  /// phi, from 0 to 2 pi, of the point of the loop that p is seen at from its pivot; the nearest when there are several. Throws
-  /// InvalidArgument when p is further from the loop than `tolerance`.
+  /// phi, from 0 to 2 pi, of the point of the loop that p is seen at from its pivot; the nearest when there are
+  /// several. Throws InvalidArgument when p is further from the loop than `tolerance`.
   [[nodiscard]] double phi_of(const Vec2& p, double tolerance) const;
 
  private:

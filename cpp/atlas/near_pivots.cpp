@@ -30,15 +30,16 @@ Pivots near_pivots(const Polygon& loop, const std::vector<double>& height, std::
   for (std::size_t v = 0; v < m; ++v) {
     const Vec2 &before = loop[previous_of(v, m)], &after = loop[next_of(v, m)];
     const int side = orientation(before, loop[v], after);
-    if (side != 0)
-      beside.push_back({loop[v] + height[v] * bisector(before, loop[v], after, side), side, v});
+    if (side != 0) beside.push_back({loop[v] + height[v] * bisector(before, loop[v], after, side), side, v});
   }
   // The chain begins inside.
   const auto first = std::find_if(beside.begin(), beside.end(), [](const Beside& b) { return b.side > 0; });
   std::rotate(beside.begin(), first, beside.end());
   Pivots pivots;
   owner.clear();
-  const auto add = [&](const Vec2& place, std::size_t vertex) { pivots.place.push_back(place), owner.push_back(vertex); };
+  const auto add = [&](const Vec2& place, std::size_t vertex) {
+    pivots.place.push_back(place), owner.push_back(vertex);
+  };
   for (std::size_t k = 0; k < beside.size(); ++k) {
     const Beside &b = beside[k], &next = beside[next_of(k, beside.size())];
     add(b.place, b.vertex);

@@ -82,7 +82,8 @@ class View {
       if (determinant == 0) continue;
       const double r = cross(a, edge) / determinant, share = cross(a, u) / determinant;
       if (share < 0 || share > 1) continue;
-      if (part_.side > 0 ? (r > rho * (1 + clear) && r < best.radius) : (r < rho * (1 - clear) && r > best.radius)) best = {&o, r};
+      if (part_.side > 0 ? (r > rho * (1 + clear) && r < best.radius) : (r < rho * (1 - clear) && r > best.radius))
+        best = {&o, r};
     }
     return best;
   }
@@ -118,10 +119,13 @@ class View {
     const auto is_knot = [&](double at) { return std::binary_search(part_.angle.begin(), part_.angle.end(), at); };
     std::vector<double> kept;
     for (const double at : list) {
-      if (kept.empty() || at - kept.back() > thresholds::same_angle) kept.push_back(at);
+      if (kept.empty() || at - kept.back() > thresholds::same_angle)
+        kept.push_back(at);
       else if (is_knot(at) && at != kept.back()) {
-        if (is_knot(kept.back())) kept.push_back(at);
-        else kept.back() = at;
+        if (is_knot(kept.back()))
+          kept.push_back(at);
+        else
+          kept.back() = at;
       }
     }
     return kept;
@@ -145,7 +149,9 @@ class Border {
       if (!shrink_crossings()) return std::move(pieces_);
       agree_at_joints();
     }
-    throw DomainError(Where{.uv = parts_[worst_].pivot}, "the outer border of the annulus crosses itself however near it comes to the inner one; its parts are too near to one another there");
+    throw DomainError(Where{.uv = parts_[worst_].pivot},
+                      "the outer border of the annulus crosses itself however near it comes to the inner one; its "
+                      "parts are too near to one another there");
   }
 
  private:
@@ -168,7 +174,8 @@ class Border {
 
   void set_radii() {
     for (std::size_t n = 0; n < pieces_.size(); ++n)
-      for (std::size_t k = 0; k < pieces_[n].angle.size(); ++k) pieces_[n].radius[k] = inner(n, k) + parts_[n].side * rooms_[n][k];
+      for (std::size_t k = 0; k < pieces_[n].angle.size(); ++k)
+        pieces_[n].radius[k] = inner(n, k) + parts_[n].side * rooms_[n][k];
   }
 
   /// Less room at the ends of edges that meet others.
@@ -185,12 +192,15 @@ class Border {
     std::vector<char> wrong(edges.size(), 0);
     for (std::size_t i = 0; i < edges.size(); ++i)
       for (std::size_t j = i + 2; j < edges.size(); ++j)
-        if (next_of(j, edges.size()) != i && segments_meet(edges[i].a, edges[i].b, edges[j].a, edges[j].b)) wrong[i] = wrong[j] = 1;
+        if (next_of(j, edges.size()) != i && segments_meet(edges[i].a, edges[i].b, edges[j].a, edges[j].b))
+          wrong[i] = wrong[j] = 1;
     std::vector<std::vector<char>> marked(pieces_.size());
     for (std::size_t n = 0; n < pieces_.size(); ++n) marked[n].assign(pieces_[n].angle.size(), 0);
     bool any = false;
     for (std::size_t i = 0; i < edges.size(); ++i)
-      if (wrong[i] != 0) marked[edges[i].part][edges[i].k] = marked[edges[i].part][edges[i].k + 1] = 1, any = true, worst_ = edges[i].part;
+      if (wrong[i] != 0)
+        marked[edges[i].part][edges[i].k] = marked[edges[i].part][edges[i].k + 1] = 1, any = true,
+        worst_ = edges[i].part;
     for (std::size_t n = 0; n < pieces_.size(); ++n)
       for (std::size_t k = 0; k < marked[n].size(); ++k)
         if (marked[n][k] != 0) rooms_[n][k] *= thresholds::less_room;
@@ -206,7 +216,9 @@ class Border {
 }  // namespace
 
 Vec2 OuterPieces::line(std::size_t k) const {
-  const auto point = [&](std::size_t i) -> Vec2 { return {radius[i] * std::cos(angle[i]), radius[i] * std::sin(angle[i])}; };
+  const auto point = [&](std::size_t i) -> Vec2 {
+    return {radius[i] * std::cos(angle[i]), radius[i] * std::sin(angle[i])};
+  };
   const Vec2 p = point(k), q = point(k + 1);
   return Vec2(q.y() - p.y(), p.x() - q.x()) / cross(p, q);
 }

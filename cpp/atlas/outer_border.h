@@ -14,7 +14,8 @@ struct OuterPieces {
   [[nodiscard]] Vec2 line(std::size_t k) const;
 };
 
-/// Pieces for all parts, which agree at joints, and together are a simple polygon. Throws DomainError where they cannot be.
+/// Pieces for all parts, which agree at joints, and together are a simple polygon. Throws DomainError where they cannot
+/// be.
 std::vector<OuterPieces> outer_pieces(const Polygon& inner, const Polygon& outer, std::span<const Part> parts);
 
 /// A point of a part.

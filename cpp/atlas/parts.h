@@ -1,4 +1,5 @@
-// A loop in pieces, each described in the polar basis of a pivot (Atlas sec. 5.2.3), and the annulus on it (sec. 5.3.3, 5.4).
+// A loop in pieces, each described in the polar basis of a pivot (Atlas sec. 5.2.3), and the annulus on it
+// (sec. 5.3.3, 5.4).
 #pragma once
 
 #include <algorithm>
@@ -18,9 +19,9 @@ struct Rounding {
   double radius = 0;
 };
 
-/// What one pivot describes. Angles are 0 at the first joint and increase along the loop, whatever the side of the pivot: this is the
-/// vartheta of Atlas sec. 5.2.3.2 but for a constant. Straight lines are g with 1 / rho = g . (cos, sin): d and o of Atlas eq. 5.8 without
-/// their singularities.
+/// What one pivot describes. Angles are 0 at the first joint and increase along the loop, whatever the side of the
+/// pivot: this is the vartheta of Atlas sec. 5.2.3.2 but for a constant. Straight lines are g with 1 / rho = g . (cos,
+/// sin): d and o of Atlas eq. 5.8 without their singularities.
 struct Part {
   Vec2 pivot{0, 0};
   double side = 1;  ///< +1: inside, -1: outside
@@ -33,7 +34,7 @@ struct Part {
   std::vector<Rounding> rounding = {};     ///< of each knot; empty: none
   std::vector<double> ratio_angle = {};    ///< knots of b, which is outer radius by inner radius; empty: a loop only
   std::vector<double> ratio = {};          ///< its values: cubics with zero slopes between them
-  std::vector<Vec2> outer_line = {};       ///< in place of the values, the outer border is straight pieces; empty: it is not
+  std::vector<Vec2> outer_line = {};  ///< in place of the values, the outer border is straight pieces; empty: it is not
 
   [[nodiscard]] double total() const { return angle.back(); }
   template <typename Number>
@@ -61,7 +62,8 @@ std::vector<Part> make_parts(const Polygon& loop, const Pivots& pivots, std::spa
 /// Lengths along the loop, scaled to the period.
 std::vector<double> phi_by_length(const Polygon& loop, double period);
 
-/// The largest speeds at joints, and slopes at vertices, for which angles increase with phi (Atlas eq. 5.6, 5.7, 5.13): C1 across joints.
+/// The largest speeds at joints, and slopes at vertices, for which angles increase with phi (Atlas eq. 5.6, 5.7, 5.13):
+/// C1 across joints.
 void make_smooth(std::vector<Part>& parts);
 
 /// 1 / rho of a line through two points in the frame of a part.

@@ -102,7 +102,8 @@ double room_around(const Polygon& loop, const Vec2& place) {
   double nearest = std::numeric_limits<double>::infinity(), reach = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vec2 edge = loop[next_of(i, loop.size())] - loop[i];
-    nearest = std::min(nearest, cross(edge, place - loop[i]) / norm(edge)), reach = std::max(reach, norm(loop[i] - loop[0]));
+    nearest = std::min(nearest, cross(edge, place - loop[i]) / norm(edge)),
+    reach = std::max(reach, norm(loop[i] - loop[0]));
   }
   return std::max(0.0, nearest / reach);
 }

@@ -47,7 +47,8 @@ bool segments_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) 
 
 bool segments_meet(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) noexcept {
   if (boxes_apart(a, b, c, d)) return false;
-  const int abc = orientation(a, b, c), abd = orientation(a, b, d), cda = orientation(c, d, a), cdb = orientation(c, d, b);
+  const int abc = orientation(a, b, c), abd = orientation(a, b, d), cda = orientation(c, d, a),
+            cdb = orientation(c, d, b);
   if (abc * abd < 0 && cda * cdb < 0) return true;
   return (abc == 0 && in_box(a, b, c)) || (abd == 0 && in_box(a, b, d)) || (cda == 0 && in_box(c, d, a)) ||
          (cdb == 0 && in_box(c, d, b));
@@ -73,8 +74,7 @@ bool is_inside(const Polygon& polygon, const Vec2& p) noexcept {
 
 double signed_area(const Polygon& polygon) noexcept {
   double twice = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i)
-    twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+  for (std::size_t i = 2; i < polygon.size(); ++i) twice += cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
   return twice / 2;
 }
 
@@ -85,9 +85,11 @@ void require_simple(const Polygon& polygon, const std::string& name) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j)
       if (next_of(j, n) != i && segments_meet(polygon[i], polygon[i + 1], polygon[j], polygon[next_of(j, n)]))
-        fail(name, " crosses or touches itself: its edge from vertex " + rank(i) + " meets the one from vertex " + rank(j),
+        fail(name,
+             " crosses or touches itself: its edge from vertex " + rank(i) + " meets the one from vertex " + rank(j),
              polygon[i]);
-  if (signed_area(polygon) <= 0) throw DomainError(name + " runs clockwise; vertex 1 and those after it must run counterclockwise");
+  if (signed_area(polygon) <= 0)
+    throw DomainError(name + " runs clockwise; vertex 1 and those after it must run counterclockwise");
 }
 
 void require_annulus(const Polygon& inner, const Polygon& outer) {
@@ -95,9 +97,12 @@ void require_annulus(const Polygon& inner, const Polygon& outer) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < m; ++j)
       if (segments_meet(inner[i], inner[next_of(i, n)], outer[j], outer[next_of(j, m)]))
-        fail("the annulus", " has no width where the edge of its inner border from vertex " + rank(i) +
-             " meets the edge of its outer border from vertex " + rank(j), inner[i]);
-  if (!is_inside(outer, inner[0])) fail("the inner border", " is not inside the outer one: vertex 1 lies outside", inner[0]);
+        fail("the annulus",
+             " has no width where the edge of its inner border from vertex " + rank(i) +
+                 " meets the edge of its outer border from vertex " + rank(j),
+             inner[i]);
+  if (!is_inside(outer, inner[0]))
+    fail("the inner border", " is not inside the outer one: vertex 1 lies outside", inner[0]);
 }
 
 }  // namespace carreau::atlas

@@ -11,8 +11,8 @@ namespace carreau::atlas {
 /// Vertices in counterclockwise order, the first one not repeated.
 using Polygon = std::vector<Vec2>;
 
-/// Throws DomainError with the vertices, from 1, where a polygon is not simple, or not counterclockwise. `name` is for the sentence:
-/// "the inner border".
+/// Throws DomainError with the vertices, from 1, where a polygon is not simple, or not counterclockwise. `name` is for
+/// the sentence: "the inner border".
 void require_simple(const Polygon& polygon, const std::string& name);
 /// Throws DomainError unless the inner polygon lies inside the outer one without touching it.
 void require_annulus(const Polygon& inner, const Polygon& outer);

@@ -45,7 +45,9 @@ std::vector<std::array<std::size_t, 3>> triangulate(const Polygon& polygon) {
     std::size_t best = n;
     for (std::size_t k = 0; k < n; ++k) {
       if (score[k] == unknown)
-        score[k] = is_ear(polygon, left, k) ? roundness(polygon[left[previous_of(k, n)]], polygon[left[k]], polygon[left[next_of(k, n)]]) : no_ear;
+        score[k] = is_ear(polygon, left, k)
+                       ? roundness(polygon[left[previous_of(k, n)]], polygon[left[k]], polygon[left[next_of(k, n)]])
+                       : no_ear;
       if (score[k] != no_ear && (best == n || score[k] > score[best])) best = k;
     }
     if (best == n) break;  // what is left has no area
@@ -81,7 +83,8 @@ PseudoSkeleton pseudo_skeleton(const Polygon& polygon) {
         skeleton.edges.emplace_back(middle(diagonals[k]), middle(diagonals[l]));
     for (std::size_t k = 0; k < 3; ++k)
       if (next_of(t[k], n) == t[(k + 1) % 3])
-        skeleton.facing[t[k]] = diagonals.size() == 2 ? Vec2((middle(diagonals[0]) + middle(diagonals[1])) / 2) : centre;
+        skeleton.facing[t[k]] =
+            diagonals.size() == 2 ? Vec2((middle(diagonals[0]) + middle(diagonals[1])) / 2) : centre;
   }
   std::sort(skeleton.ears.begin(), skeleton.ears.end());
   return skeleton;

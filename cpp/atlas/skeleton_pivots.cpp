@@ -97,7 +97,8 @@ class SkeletonPivots {
     while (at + w.edges < stop && turn(at + w.edges) >= 0) {
       const Walk longer{at, w.edges + 1, false};
       const Vec2 p = middle(longer);
-      const bool behind_wall = meets_skeleton(inner_.back().place, p) || meets_skeleton(p, skeleton_.facing[(at + longer.edges) % m_]);
+      const bool behind_wall =
+          meets_skeleton(inner_.back().place, p) || meets_skeleton(p, skeleton_.facing[(at + longer.edges) % m_]);
       if (w.edges > 0 && behind_wall) break;
       w = longer;
     }
@@ -126,7 +127,8 @@ class SkeletonPivots {
     const bool on_border = &outer_ == &loop_ && !w.right;
     const double leaves = on_border ? 0 : nearest(outer_, from, right, beyond);
     if (!std::isfinite(leaves)) return anchor + half_way * right;
-    const double again = std::min(nearest(outer_, from, right, leaves + beyond), nearest(loop_, from, right, leaves + beyond));
+    const double again =
+        std::min(nearest(outer_, from, right, leaves + beyond), nearest(loop_, from, right, leaves + beyond));
     const double further = std::isfinite(again) ? (again - leaves) / 2 : half_way;
     return from + (leaves + further) * right;
   }

@@ -41,7 +41,10 @@ OuterPieces divided_where_steep(const Part& part, const OuterPieces& given) {
     const Vec2 outer = given.line(k), inner = part.line[interval_of(part.angle, (from + to) / 2)];
     const auto width = [&](double at) { return std::abs(radius_on(outer, at) / radius_on(inner, at) - 1); };
     const double change = std::abs(std::log(width(to) / width(from)));
-    const int count = std::isfinite(change) ? std::clamp(static_cast<int>(std::ceil(change / thresholds::change_of_width)), 1, thresholds::divisions) : 1;
+    const int count =
+        std::isfinite(change)
+            ? std::clamp(static_cast<int>(std::ceil(change / thresholds::change_of_width)), 1, thresholds::divisions)
+            : 1;
     for (int i = 0; i < count; ++i) {
       const double at = from + (to - from) * i / count;
       result.angle.push_back(at), result.radius.push_back(i == 0 ? given.radius[k] : radius_on(outer, at));
@@ -72,7 +75,8 @@ class PartBorders {
     }
   }
 
-  /// A bound of b on piece k: with it b * rho stays on the inner side of the outer border, rounded or not. Below 1 for pivots outside.
+  /// A bound of b on piece k: with it b * rho stays on the inner side of the outer border, rounded or not. Below 1 for
+  /// pivots outside.
   [[nodiscard]] double bound(std::size_t k) const {
     const double from = pieces_.angle[k], to = pieces_.angle[k + 1];
     double b = nearer(outer(k, from) / straight(from, k), outer(k, to) / straight(to, k));
@@ -117,7 +121,8 @@ class PartBorders {
       const double a = std::max(pieces_.angle[k], r.first), z = std::min(pieces_.angle[k + 1], r.last);
       if (a >= z) continue;
       for (const double at : {a, z}) {
-        polygonal = nearer(polygonal, outer(k, at) / straight(at, k)), rounded = nearer(rounded, outer(k, at) / r.radius);
+        polygonal = nearer(polygonal, outer(k, at) / straight(at, k)),
+        rounded = nearer(rounded, outer(k, at) / r.radius);
       }
     }
     return (rounded - 1) * part_.side >= (polygonal - 1) * part_.side / 2;
@@ -149,7 +154,8 @@ void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, O
     if (kind == OuterBorder::polygon) {
       for (std::size_t k = 0; k < count; ++k) part.outer_line.push_back(pieces[n].line(k));
       for (std::size_t k = 0; k <= count; ++k)
-        part.ratio.push_back(pieces[n].radius[k] / radius_on(part.line[interval_of(part.angle, pieces[n].angle[k])], pieces[n].angle[k]));
+        part.ratio.push_back(pieces[n].radius[k] /
+                             radius_on(part.line[interval_of(part.angle, pieces[n].angle[k])], pieces[n].angle[k]));
       continue;
     }
     borders.round_vertices();

@@ -19,9 +19,10 @@ struct Sphere {
 
   explicit Sphere(int level) {
     const double g = std::numbers::phi;
-    xyz = {-1, g, 0, 1, g, 0, -1, -g, 0, 1, -g, 0, 0, -1, g, 0, 1, g, 0, -1, -g, 0, 1, -g, g, 0, -1, g, 0, 1, -g, 0, -1, -g, 0, 1};
-    triangles = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4, 11, 10, 2, 10, 7, 6, 7, 1, 8,
-                 3, 9, 4, 3, 4, 2, 3, 2, 6, 3, 6, 8, 3, 8, 9, 4, 9, 5, 2, 4, 11, 6, 2, 10, 8, 6, 7, 9, 8, 1};
+    xyz = {-1, g,  0,  1, g, 0,  -1, -g, 0,  1, -g, 0, 0,  -1, g,  0,  1, g,
+           0,  -1, -g, 0, 1, -g, g,  0,  -1, g, 0,  1, -g, 0,  -1, -g, 0, 1};
+    triangles = {0, 11, 5, 0, 5, 1, 0, 1, 7, 0, 7, 10, 0, 10, 11, 1, 5, 9, 5, 11, 4,  11, 10, 2,  10, 7, 6, 7, 1, 8,
+                 3, 9,  4, 3, 4, 2, 3, 2, 6, 3, 6, 8,  3, 8,  9,  4, 9, 5, 2, 4,  11, 6,  2,  10, 8,  6, 7, 9, 8, 1};
     for (int k = 0; k < level; ++k) divide();
     for (std::size_t v = 0; v < xyz.size(); v += 3) {
       const double r = std::hypot(xyz[v], xyz[v + 1], xyz[v + 2]);
@@ -34,9 +35,11 @@ struct Sphere {
  private:
   std::int32_t middle(std::int32_t a, std::int32_t b) {
     std::array<double, 3> p{};
-    for (std::size_t c = 0; c < 3; ++c) p[c] = (xyz[3 * static_cast<std::size_t>(a) + c] + xyz[3 * static_cast<std::size_t>(b) + c]) / 2;
+    for (std::size_t c = 0; c < 3; ++c)
+      p[c] = (xyz[3 * static_cast<std::size_t>(a) + c] + xyz[3 * static_cast<std::size_t>(b) + c]) / 2;
     for (std::size_t v = 0; v < xyz.size(); v += 3)
-      if (std::hypot(xyz[v] - p[0], xyz[v + 1] - p[1], xyz[v + 2] - p[2]) < 1e-9) return static_cast<std::int32_t>(v / 3);
+      if (std::hypot(xyz[v] - p[0], xyz[v + 1] - p[1], xyz[v + 2] - p[2]) < 1e-9)
+        return static_cast<std::int32_t>(v / 3);
     xyz.insert(xyz.end(), p.begin(), p.end());
     return static_cast<std::int32_t>(xyz.size() / 3 - 1);
   }
@@ -78,7 +81,8 @@ TEST(CAtlas, LoopThereAndBack) {
 TEST(CAtlas, AnnulusThereAndBack) {
   carreau_annulus* annulus = nullptr;
   ASSERT_EQ(carreau_annulus_create(&annulus), CARREAU_OK);
-  EXPECT_EQ(carreau_annulus_build(annulus, 4, small.data(), 4, small.data(), CARREAU_BORDER_SPLINE, 0), CARREAU_ERR_DOMAIN);
+  EXPECT_EQ(carreau_annulus_build(annulus, 4, small.data(), 4, small.data(), CARREAU_BORDER_SPLINE, 0),
+            CARREAU_ERR_DOMAIN);
   EXPECT_NE(std::string(carreau_annulus_last_error(annulus)).find("no width"), std::string::npos);
   ASSERT_EQ(carreau_annulus_build(annulus, 4, small.data(), 4, large.data(), CARREAU_BORDER_SPLINE, 0), CARREAU_OK);
   for (int k = 0; k < 100; ++k) {
@@ -108,7 +112,9 @@ TEST(CAtlas, SphereIsCoveredBlendedAndMeshed) {
   const Sphere sphere(2);
   carreau_atlas* atlas = nullptr;
   ASSERT_EQ(carreau_atlas_create(&atlas), CARREAU_OK);
-  ASSERT_EQ(carreau_atlas_build(atlas, nullptr, sphere.vertices(), sphere.xyz.data(), sphere.count(), sphere.triangles.data(), nullptr), CARREAU_OK)
+  ASSERT_EQ(carreau_atlas_build(atlas, nullptr, sphere.vertices(), sphere.xyz.data(), sphere.count(),
+                                sphere.triangles.data(), nullptr),
+            CARREAU_OK)
       << carreau_atlas_last_error(atlas);
   carreau_atlas_counts counts{};
   counts.struct_size = sizeof counts;
@@ -157,9 +163,12 @@ TEST(CAtlas, BadTriangulationsAreToldWithTheVertex) {
   carreau_atlas* atlas = nullptr;
   ASSERT_EQ(carreau_atlas_create(&atlas), CARREAU_OK);
   const auto build = [&](const std::int32_t* clusters) {
-    return carreau_atlas_build(atlas, nullptr, sphere.vertices(), sphere.xyz.data(), sphere.count(), sphere.triangles.data(), clusters);
+    return carreau_atlas_build(atlas, nullptr, sphere.vertices(), sphere.xyz.data(), sphere.count(),
+                               sphere.triangles.data(), clusters);
   };
-  const auto says = [&](const char* words) { return std::string(carreau_atlas_last_error(atlas)).find(words) != std::string::npos; };
+  const auto says = [&](const char* words) {
+    return std::string(carreau_atlas_last_error(atlas)).find(words) != std::string::npos;
+  };
   const Sphere whole = sphere;
   sphere.triangles.resize(sphere.triangles.size() - 3);
   EXPECT_EQ(build(nullptr), CARREAU_ERR_ARGUMENT);
@@ -190,7 +199,8 @@ TEST(CAtlas, BadTriangulationsAreToldWithTheVertex) {
   const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const std::int32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
   const carreau_status status = carreau_atlas_build(atlas, nullptr, 4, corners, 4, faces, nullptr);
-  EXPECT_TRUE(status == CARREAU_OK || (status == CARREAU_ERR_DOMAIN && says("vertex"))) << carreau_atlas_last_error(atlas);
+  EXPECT_TRUE(status == CARREAU_OK || (status == CARREAU_ERR_DOMAIN && says("vertex")))
+      << carreau_atlas_last_error(atlas);
   carreau_atlas_free(atlas);
 }
 

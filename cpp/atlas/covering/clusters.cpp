@@ -77,7 +77,8 @@ class Growth {
     }
   }
 
-  /// Would the cluster stay a disc with v, and v be in a triangle of it? Its neighbours of the cluster must follow one another.
+  /// Would the cluster stay a disc with v, and v be in a triangle of it? Its neighbours of the cluster must follow one
+  /// another.
   [[nodiscard]] bool may_join(std::int32_t v, std::int32_t cluster) {
     const auto& fan = fans_.around(v);
     std::size_t runs = 0, count = 0;
@@ -95,7 +96,8 @@ class Growth {
       if (cluster_[i] != none) continue;
       const auto v = static_cast<std::int32_t>(i);
       for (const std::int32_t w : fans_.around(v))
-        if (of(w) != none && may_join(v, of(w))) offers.emplace_back(norm(place(v) - place(seeds_[static_cast<std::size_t>(of(w))])), v, of(w));
+        if (of(w) != none && may_join(v, of(w)))
+          offers.emplace_back(norm(place(v) - place(seeds_[static_cast<std::size_t>(of(w))])), v, of(w));
     }
     std::sort(offers.begin(), offers.end());
     bool any = false;
@@ -132,16 +134,22 @@ std::vector<std::vector<std::int32_t>> members_of(const Partition& partition) {
   std::vector<std::vector<std::int32_t>> members;
   for (std::size_t v = 0; v < partition.size(); ++v) {
     if (partition[v] < 0 || static_cast<std::size_t>(partition[v]) >= partition.size())
-      throw InvalidArgument("the cluster of vertex " + std::to_string(v + 1) + " is " + std::to_string(partition[v]) + "; clusters are numbered from 0, without gaps");
-    if (members.size() <= static_cast<std::size_t>(partition[v])) members.resize(static_cast<std::size_t>(partition[v]) + 1);
+      throw InvalidArgument("the cluster of vertex " + std::to_string(v + 1) + " is " + std::to_string(partition[v]) +
+                            "; clusters are numbered from 0, without gaps");
+    if (members.size() <= static_cast<std::size_t>(partition[v]))
+      members.resize(static_cast<std::size_t>(partition[v]) + 1);
     members[static_cast<std::size_t>(partition[v])].push_back(static_cast<std::int32_t>(v));
   }
   for (std::size_t c = 0; c < members.size(); ++c)
-    if (members[c].empty()) throw InvalidArgument("cluster " + std::to_string(c) + " has no vertex; clusters are numbered from 0, without gaps");
+    if (members[c].empty())
+      throw InvalidArgument("cluster " + std::to_string(c) +
+                            " has no vertex; clusters are numbered from 0, without gaps");
   return members;
 }
 
-Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hops) { return Growth(surface, fans, hops).grow(); }
+Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hops) {
+  return Growth(surface, fans, hops).grow();
+}
 
 namespace {
 
@@ -151,7 +159,8 @@ double least_width(const Polygon& inner, const Polygon& outer, const Vec2& centr
     double best = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < border.size(); ++i) {
       const Vec2 a = border[i] - centre, edge = border[next_of(i, border.size())] - border[i];
-      const double determinant = cross(ray, edge), share = cross(a, ray) / determinant, along = cross(a, edge) / determinant;
+      const double determinant = cross(ray, edge), share = cross(a, ray) / determinant,
+                   along = cross(a, edge) / determinant;
       if (determinant != 0 && share >= 0 && share <= 1 && along > 0) best = std::min(best, along);
     }
     return best;  // in units of the ray
@@ -167,7 +176,8 @@ struct Defect {
   std::string sentence = {};
 };
 
-Defect find_defect(const Triangulation& surface, const Fans& fans, const Partition& partition, const std::vector<std::int32_t>& members) {
+Defect find_defect(const Triangulation& surface, const Fans& fans, const Partition& partition,
+                   const std::vector<std::int32_t>& members) {
   Defect defect;
   const Ring ring = ring_of(fans, partition, members, defect.sentence);
   if (!defect.sentence.empty()) return {thresholds::no_disc, defect.sentence};
@@ -197,11 +207,13 @@ Defect find_defect(const Triangulation& surface, const Fans& fans, const Partiti
 
 }  // namespace
 
-std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition, const std::vector<std::int32_t>& members) {
+std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition,
+                      const std::vector<std::int32_t>& members) {
   return find_defect(surface, fans, partition, members).sentence;
 }
 
-double cluster_badness(const Triangulation& surface, const Fans& fans, const Partition& partition, const std::vector<std::int32_t>& members) {
+double cluster_badness(const Triangulation& surface, const Fans& fans, const Partition& partition,
+                       const std::vector<std::int32_t>& members) {
   return find_defect(surface, fans, partition, members).badness;
 }
 

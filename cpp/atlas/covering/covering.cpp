@@ -26,25 +26,31 @@ std::string first_of(const std::vector<std::string>& list) {
 }  // namespace
 
 Covering::Covering(const Triangulation& surface, const CoveringOptions& options) : surface_(surface), fans_(surface) {
-  if (options.hops < 1) throw InvalidArgument("clusters of an atlas reach " + std::to_string(options.hops) + " edges; they must reach 1 or more");
+  if (options.hops < 1)
+    throw InvalidArgument("clusters of an atlas reach " + std::to_string(options.hops) +
+                          " edges; they must reach 1 or more");
   std::string why;
   for (int level = 0; level <= thresholds::subdivisions; ++level) {
     if (level > 0) surface_ = subdivided(surface_), fans_ = Fans(surface_);
     Partition partition = grown_clusters(surface_, fans_, options.hops);
     const std::vector<std::string> before = defects(surface_, fans_, partition);
     const auto sound = std::count(before.begin(), before.end(), "");
-    if (static_cast<double>(sound) >= thresholds::repairable * static_cast<double>(before.size())) repair_clusters(surface_, fans_, partition);
+    if (static_cast<double>(sound) >= thresholds::repairable * static_cast<double>(before.size()))
+      repair_clusters(surface_, fans_, partition);
     why = first_of(defects(surface_, fans_, partition));
     if (!why.empty()) continue;
     build(partition, options);
     return;
   }
-  throw DomainError("no clusters of the triangulation make an atlas, although its triangles were divided " + std::to_string(thresholds::subdivisions) + " times: " + why);
+  throw DomainError("no clusters of the triangulation make an atlas, although its triangles were divided " +
+                    std::to_string(thresholds::subdivisions) + " times: " + why);
 }
 
-Covering::Covering(const Triangulation& surface, const Partition& partition, const CoveringOptions& options) : surface_(surface), fans_(surface) {
+Covering::Covering(const Triangulation& surface, const Partition& partition, const CoveringOptions& options)
+    : surface_(surface), fans_(surface) {
   if (partition.size() != surface.vertices.size())
-    throw InvalidArgument("there are clusters of " + std::to_string(partition.size()) + " vertices for a triangulation of " + std::to_string(surface.vertices.size()));
+    throw InvalidArgument("there are clusters of " + std::to_string(partition.size()) +
+                          " vertices for a triangulation of " + std::to_string(surface.vertices.size()));
   const std::string why = first_of(defects(surface_, fans_, partition));
   if (!why.empty()) throw DomainError(why);
   build(partition, options);
@@ -71,8 +77,12 @@ void Covering::build(const Partition& partition, const CoveringOptions& options)
     }
     set_phi(surface_, ring);
     RingChart chart = chart_of_ring(surface_, frame, ring);
-    AnnulusOptions annulus{.border = options.border, .star = true, .phi = std::move(chart.phi), .period = sixth_turn * static_cast<double>(corners.size())};
-    charts_.push_back({frame, Annulus(std::move(chart.inner), std::move(chart.outer), std::move(annulus)), std::move(corners), members[i], ring.outer_border});
+    AnnulusOptions annulus{.border = options.border,
+                           .star = true,
+                           .phi = std::move(chart.phi),
+                           .period = sixth_turn * static_cast<double>(corners.size())};
+    charts_.push_back({frame, Annulus(std::move(chart.inner), std::move(chart.outer), std::move(annulus)),
+                       std::move(corners), members[i], ring.outer_border});
   }
 }
 

@@ -1,4 +1,5 @@
-// Domains of the plane for the regions of a triangulation, with C1 transitions and a partition of unity (Atlas sec. 5.5).
+// Domains of the plane for the regions of a triangulation, with C1 transitions and a partition of unity (Atlas
+// sec. 5.5).
 #pragma once
 
 #include <array>
@@ -19,8 +20,8 @@ struct Corner {
 /// The domain Omega_i of a region.
 struct Chart {
   Frame frame;
-  Annulus annulus;              ///< what it shares; phi has a period of pi / 3 a corner
-  std::vector<Corner> corners;  ///< counterclockwise: corner k has phi from k pi / 3 to (k + 1) pi / 3
+  Annulus annulus;                    ///< what it shares; phi has a period of pi / 3 a corner
+  std::vector<Corner> corners;        ///< counterclockwise: corner k has phi from k pi / 3 to (k + 1) pi / 3
   std::vector<std::int32_t> members;  ///< vertices of its cluster
   std::vector<std::int32_t> around;   ///< vertices of the region's border
 };
@@ -41,8 +42,8 @@ struct CoveringOptions {
 
 class Covering {
  public:
-  /// With clusters of its own, and triangles divided in four as long as they find none. Throws InvalidArgument (see Fans), DomainError with
-  /// a vertex.
+  /// With clusters of its own, and triangles divided in four as long as they find none. Throws InvalidArgument (see
+  /// Fans), DomainError with a vertex.
   explicit Covering(const Triangulation& surface, const CoveringOptions& options = {});
   /// With given clusters. Throws DomainError with the vertex where they do not make a well-formed covering.
   Covering(const Triangulation& surface, const Partition& partition, const CoveringOptions& options);
@@ -106,7 +107,8 @@ std::optional<Covering::OnT<Number>> Covering::on_t(std::size_t chart, const Pai
   const double turns = std::floor(value_of(strata->phi) / sixth_turn);
   const long slot = ((static_cast<long>(turns) % n) + n) % n;
   const Corner corner = c.corners[static_cast<std::size_t>(slot)];
-  return OnT<Number>{corner, from_polar(corner.corner, polar_at(strata->tau, Number(strata->phi - turns * sixth_turn)))};
+  return OnT<Number>{corner,
+                     from_polar(corner.corner, polar_at(strata->tau, Number(strata->phi - turns * sixth_turn)))};
 }
 
 template <typename Number>
@@ -114,7 +116,8 @@ Pair<Number> Covering::from_t(std::int32_t triple, int corner, const Pair<Number
   const Triple& t = triples_[static_cast<std::size_t>(triple)];
   const auto k = static_cast<std::size_t>(corner);
   const Polar<Number> polar = to_polar(corner, place);
-  return charts_[static_cast<std::size_t>(t.chart[k])].annulus.at(share_of(polar), Number(polar.phi + t.slot[k] * sixth_turn));
+  return charts_[static_cast<std::size_t>(t.chart[k])].annulus.at(share_of(polar),
+                                                                  Number(polar.phi + t.slot[k] * sixth_turn));
 }
 
 }  // namespace carreau::atlas

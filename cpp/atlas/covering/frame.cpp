@@ -33,7 +33,8 @@ Frame frame_of(const Triangulation& surface, const Fans& fans, const std::vector
   };
   if (normals.empty()) return frame;
   Vec3 n = norm(sum) > 0 ? Vec3(sum / norm(sum)) : normals[0];
-  // Towards the centre of the smallest cone that holds all normals, from the mean of normals (steps of Badoiu and Clarkson).
+  // Towards the centre of the smallest cone that holds all normals, from the mean of normals (steps of Badoiu and
+  // Clarkson).
   Vec3 best = n;
   constexpr int steps = 40;
   for (int i = 1; i <= steps; ++i) {

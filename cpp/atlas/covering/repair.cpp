@@ -52,10 +52,12 @@ class Repair {
   }
 
   void judge(const std::set<std::int32_t>& clusters) {
-    for (const std::int32_t c : clusters) bad_[static_cast<std::size_t>(c)] = badness(members_[static_cast<std::size_t>(c)]);
+    for (const std::int32_t c : clusters)
+      bad_[static_cast<std::size_t>(c)] = badness(members_[static_cast<std::size_t>(c)]);
   }
 
-  /// Neighbours in the cluster, which must follow one another around the vertex, and be two or more: else no disc comes of it.
+  /// Neighbours in the cluster, which must follow one another around the vertex, and be two or more: else no disc comes
+  /// of it.
   [[nodiscard]] bool joins_well(std::int32_t v, std::int32_t to) {
     const auto& fan = fans_.around(v);
     std::size_t runs = 0, count = 0;
@@ -104,6 +106,8 @@ class Repair {
 
 }  // namespace
 
-void repair_clusters(const Triangulation& surface, const Fans& fans, Partition& partition) { Repair(surface, fans, partition).run(); }
+void repair_clusters(const Triangulation& surface, const Fans& fans, Partition& partition) {
+  Repair(surface, fans, partition).run();
+}
 
 }  // namespace carreau::atlas

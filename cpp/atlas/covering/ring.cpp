@@ -26,9 +26,11 @@ class RingWalk {
     start_at_a_border_vertex();
     find_triples();
     borders(defect);
-    if (defect.empty() && ring_.spokes.size() != all) defect = "the cluster with vertex " + name(own()) + " is no disc: it has a hole";
+    if (defect.empty() && ring_.spokes.size() != all)
+      defect = "the cluster with vertex " + name(own()) + " is no disc: it has a hole";
     if (defect.empty() && ring_.triples.size() < 2)
-      defect = "the cluster with vertex " + name(own()) + " has " + std::to_string(ring_.triples.size()) + " places where three clusters meet; it needs two";
+      defect = "the cluster with vertex " + name(own()) + " has " + std::to_string(ring_.triples.size()) +
+               " places where three clusters meet; it needs two";
     return std::move(ring_);
   }
 
@@ -49,7 +51,8 @@ class RingWalk {
         ++count;
         if (ring_.spokes.empty()) ring_.spokes.push_back({v, fan[k]});
       }
-      if (!in_triangle && defect.empty()) defect = "vertex " + name(v) + " is in no triangle whose vertices are all of its cluster";
+      if (!in_triangle && defect.empty())
+        defect = "vertex " + name(v) + " is in no triangle whose vertices are all of its cluster";
     }
     if (count == 0 && defect.empty()) defect = "the cluster with vertex " + name(own()) + " is the whole surface";
     return count;
@@ -75,18 +78,23 @@ class RingWalk {
   void borders(std::string& defect) {
     const auto& s = ring_.spokes;
     for (std::size_t k = 0; k < s.size(); ++k) {
-      if (ring_.inner_border.empty() || s[k].inner != ring_.inner_border.back()) ring_.inner_border.push_back(s[k].inner), ring_.first_spoke.push_back(k);
+      if (ring_.inner_border.empty() || s[k].inner != ring_.inner_border.back())
+        ring_.inner_border.push_back(s[k].inner), ring_.first_spoke.push_back(k);
       if (s[k].outer != s[(k + s.size() - 1) % s.size()].outer) ring_.outer_border.push_back(s[k].outer);
     }
-    require_once(ring_.inner_border, "the cluster", defect), require_once(ring_.outer_border, "the region of the cluster", defect);
+    require_once(ring_.inner_border, "the cluster", defect),
+        require_once(ring_.outer_border, "the region of the cluster", defect);
   }
 
   void require_once(std::vector<std::int32_t> border, const std::string& what, std::string& defect) const {
     if (!defect.empty()) return;
     std::sort(border.begin(), border.end());
     const auto twice = std::adjacent_find(border.begin(), border.end());
-    if (twice != border.end()) defect = what + " with vertex " + name(own()) + " is no disc: its border passes vertex " + name(*twice) + " twice";
-    else if (border.size() < 3) defect = what + " with vertex " + name(own()) + " has a border of fewer than three vertices";
+    if (twice != border.end())
+      defect =
+          what + " with vertex " + name(own()) + " is no disc: its border passes vertex " + name(*twice) + " twice";
+    else if (border.size() < 3)
+      defect = what + " with vertex " + name(own()) + " has a border of fewer than three vertices";
   }
 
   const Fans& fans_;
@@ -98,7 +106,8 @@ class RingWalk {
 
 }  // namespace
 
-Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members, std::string& defect) {
+Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members,
+             std::string& defect) {
   return RingWalk(fans, cluster, members).walk(defect);
 }
 

@@ -18,14 +18,15 @@ struct Spoke {
 /// Triangles that touch a cluster and lie not inside of it, counterclockwise: triangle k is between spokes k and k + 1.
 struct Ring {
   std::vector<Spoke> spokes;
-  std::vector<std::size_t> triples;         ///< triangles of three clusters, ascending
-  std::vector<std::int32_t> inner_border;   ///< vertices of the pure zone's border, counterclockwise
-  std::vector<std::size_t> first_spoke;     ///< of each of them
-  std::vector<std::int32_t> outer_border;   ///< of the region
+  std::vector<std::size_t> triples;        ///< triangles of three clusters, ascending
+  std::vector<std::int32_t> inner_border;  ///< vertices of the pure zone's border, counterclockwise
+  std::vector<std::size_t> first_spoke;    ///< of each of them
+  std::vector<std::int32_t> outer_border;  ///< of the region
 };
 
-/// The ring of a cluster. When the cluster is no disc, its region none, or no three clusters meet beside it, `defect` tells
-/// it with a vertex.
-Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members, std::string& defect);
+/// The ring of a cluster. When the cluster is no disc, its region none, or no three clusters meet beside it, `defect`
+/// tells it with a vertex.
+Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members,
+             std::string& defect);
 
 }  // namespace carreau::atlas

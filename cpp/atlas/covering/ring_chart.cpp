@@ -40,7 +40,8 @@ class StarRing {
       for (const Bearing& bearing : on_edge) {
         const double at = from + bearing.angle;
         const Vec2 ray(std::cos(at), std::sin(at));
-        chart.inner.push_back(lerp(a, b, crossing_share(a, b, centre_, Vec2(centre_ + ray)))), chart.phi.push_back(bearing.phi);
+        chart.inner.push_back(lerp(a, b, crossing_share(a, b, centre_, Vec2(centre_ + ray)))),
+            chart.phi.push_back(bearing.phi);
       }
     }
     unwrap(chart.phi, period);
@@ -48,10 +49,16 @@ class StarRing {
   }
 
  private:
-  [[nodiscard]] static double positive(double angle) { return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi)); }
+  [[nodiscard]] static double positive(double angle) {
+    return angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
+  }
   [[nodiscard]] double angle_of(const Vec2& p) const { return std::atan2(p.y() - centre_.y(), p.x() - centre_.x()); }
-  [[nodiscard]] double turn(const Vec2& a, const Vec2& b) const { return std::atan2(cross(a - centre_, b - centre_), dot(a - centre_, b - centre_)); }
-  [[nodiscard]] Vec2 project(std::int32_t v) const { return frame_.project(surface_.vertices[static_cast<std::size_t>(v)]); }
+  [[nodiscard]] double turn(const Vec2& a, const Vec2& b) const {
+    return std::atan2(cross(a - centre_, b - centre_), dot(a - centre_, b - centre_));
+  }
+  [[nodiscard]] Vec2 project(std::int32_t v) const {
+    return frame_.project(surface_.vertices[static_cast<std::size_t>(v)]);
+  }
 
   [[nodiscard]] std::vector<Bearing> middles() const {
     std::vector<Bearing> list;
@@ -76,7 +83,8 @@ class StarRing {
       }
       const double step = std::remainder(b.angle - kept.back().angle, 2 * std::numbers::pi);
       const double at = kept.back().angle + step;
-      if (step > thresholds::apart && at < kept.front().angle + 2 * std::numbers::pi - thresholds::apart) kept.push_back({at, b.phi});
+      if (step > thresholds::apart && at < kept.front().angle + 2 * std::numbers::pi - thresholds::apart)
+        kept.push_back({at, b.phi});
     }
     return kept;
   }

@@ -12,8 +12,9 @@ struct RingChart {
   std::vector<double> phi;
 };
 
-/// Of a ring with phi at its spokes. Where the pure zone is star-shaped, the inner border gets vertices more, so that the middles of spokes
-/// and of triples have the same phi in all charts that share them: two charts agree best where both count most.
+/// Of a ring with phi at its spokes. Where the pure zone is star-shaped, the inner border gets vertices more, so that
+/// the middles of spokes and of triples have the same phi in all charts that share them: two charts agree best where
+/// both count most.
 RingChart chart_of_ring(const Triangulation& surface, const Frame& frame, const Ring& ring);
 
 }  // namespace carreau::atlas

@@ -31,7 +31,8 @@ Number outer_length(const Number& phi) {
     const Number c = cos(p);
     return c - sqrt(c * c - 13.0 / 16);
   }
-  const Number c = cos(std::numbers::pi / 6 - p) / std::numbers::sqrt3;  // the circle of radius sqrt(3) / 12 about the centre
+  const Number c =
+      cos(std::numbers::pi / 6 - p) / std::numbers::sqrt3;  // the circle of radius sqrt(3) / 12 about the centre
   return c + sqrt(c * c - 5.0 / 16);
 }
 

@@ -18,12 +18,14 @@ struct Triangulation {
 /// Neighbours of vertices, in order.
 class Fans {
  public:
-  /// Throws InvalidArgument with the vertices, from 1: a border, an edge of three triangles, triangles that are turned differently, a vertex
-  /// where several fans meet, indices and coordinates that are none.
+  /// Throws InvalidArgument with the vertices, from 1: a border, an edge of three triangles, triangles that are turned
+  /// differently, a vertex where several fans meet, indices and coordinates that are none.
   explicit Fans(const Triangulation& surface);
 
   /// Counterclockwise, each once; with the next one a triangle.
-  [[nodiscard]] const std::vector<std::int32_t>& around(std::int32_t vertex) const { return fans_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] const std::vector<std::int32_t>& around(std::int32_t vertex) const {
+    return fans_[static_cast<std::size_t>(vertex)];
+  }
   [[nodiscard]] std::size_t size() const { return fans_.size(); }
   /// The vertex of the triangle on the left of the edge from a to b.
   [[nodiscard]] std::int32_t left_of(std::int32_t a, std::int32_t b) const;

@@ -19,7 +19,9 @@ class AtlasCad final : public Cad {
     (void)side_of(face, ic);
     return {-1, 1};
   }
-  CurveJet curve(int face, int ic, unsigned, double t) override { return surface_->side(chart_of(face), side_of(face, ic), t); }
+  CurveJet curve(int face, int ic, unsigned, double t) override {
+    return surface_->side(chart_of(face), side_of(face, ic), t);
+  }
   [[nodiscard]] bool reentrant() const noexcept override { return true; }
 
  private:
@@ -57,7 +59,8 @@ BuiltGeometry build_atlas(std::shared_ptr<const BlendedSurface> surface) {
     Face face{.ref = static_cast<int>(i) + 1, .curves = {}, .points = {}};
     const std::size_t n = charts[i].corners.size();
     for (std::size_t k = 0; k < n; ++k) {
-      const int number = curves.try_emplace(zone_behind(charts[i], k), static_cast<int>(curves.size()) + 1).first->second;
+      const int number =
+          curves.try_emplace(zone_behind(charts[i], k), static_cast<int>(curves.size()) + 1).first->second;
       FaceCurve curve;
       curve.ref = number;
       curve.end1 = charts[i].corners[k].triple + 1, curve.end2 = charts[i].corners[(k + 1) % n].triple + 1;

@@ -24,7 +24,9 @@ BlendedSurface::Point BlendedSurface::blended(const Covering::OnT<Jet>& on, cons
   for (int c = 0; c < 3; ++c) {
     const auto k = static_cast<std::size_t>(c);
     if (weights[k].f <= 0) continue;
-    const Point p = c == on.corner.corner ? own_point : own(static_cast<std::size_t>(triple.chart[k]), covering_.from_t(on.corner.triple, c, on.place));
+    const Point p = c == on.corner.corner ? own_point
+                                          : own(static_cast<std::size_t>(triple.chart[k]),
+                                                covering_.from_t(on.corner.triple, c, on.place));
     for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weights[k] * p[i];
   }
   return sum;

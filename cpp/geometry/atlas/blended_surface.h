@@ -19,8 +19,8 @@ class BlendedSurface {
   /// Point and derivatives to order two. Beyond the chart's region it is the chart's own height field.
   [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m) const;
 
-  /// The part of a chart that is its own: of each T, what is nearer to its corner than to the others. Side k runs from the middle of T number
-  /// k of the chart to the middle of the next, t from -1 to 1, and is C1.
+  /// The part of a chart that is its own: of each T, what is nearer to its corner than to the others. Side k runs from
+  /// the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is C1.
   [[nodiscard]] CurveJet side(std::size_t chart, std::size_t k, double t) const;
 
  private:
@@ -32,7 +32,8 @@ class BlendedSurface {
   std::vector<HeightField> fields_;
 };
 
-/// Each chart becomes a face, whose reference is its rank from 1, trimmed to what is its own; double zones become curves, triple ones points.
+/// Each chart becomes a face, whose reference is its rank from 1, trimmed to what is its own; double zones become
+/// curves, triple ones points.
 BuiltGeometry build_atlas(std::shared_ptr<const BlendedSurface> surface);
 
 }  // namespace carreau::atlas

@@ -26,7 +26,9 @@ Partials one_sided(const Annulus& a, double tau, double phi, double side) {
   constexpr double h = 1e-6;
   const auto at = [&](double t, double x) { return value_of(a.at(t, x)); };
   const Vec2 here = at(tau, phi + 1e-13 * side);
-  const auto slope = [&](const Vec2& near, const Vec2& far, double step) -> Vec2 { return (4 * near - far - 3 * here) / (2 * step); };
+  const auto slope = [&](const Vec2& near, const Vec2& far, double step) -> Vec2 {
+    return (4 * near - far - 3 * here) / (2 * step);
+  };
   return {slope(at(tau + h, phi + 1e-13 * side), at(tau + 2 * h, phi + 1e-13 * side), h),
           slope(at(tau, phi + side * h), at(tau, phi + 2 * side * h), side * h)};
 }
@@ -96,8 +98,8 @@ TEST(Annulus, ThousandRandomOnesAreDescribed) {
     const double share = covered(a);
     spline += share, cubic += covered(simple), least = std::min(least, share);
   }
-  std::cout << "pivots by the skeleton " << by_skeleton << " of " << made << "; covered by splines " << spline / made << ", least " << least
-            << ", by cubics " << cubic / made << "; there and back " << worst << "\n";
+  std::cout << "pivots by the skeleton " << by_skeleton << " of " << made << "; covered by splines " << spline / made
+            << ", least " << least << ", by cubics " << cubic / made << "; there and back " << worst << "\n";
   EXPECT_LT(worst, 1e-9);
   EXPECT_GT(by_skeleton, 700);
   EXPECT_GT(spline, cubic);
@@ -202,14 +204,20 @@ std::string sentence_of(Make&& make) {
 
 TEST(Annulus, BadBordersAreToldWithTheVertex) {
   const Polygon square = test::two_squares().inner;
-  EXPECT_NE(sentence_of([] { Loop({{0, 0}, {2, 2}, {2, 0}, {0, 2}}); }).find("from vertex 1 meets the one from vertex 3"), std::string::npos);
+  EXPECT_NE(sentence_of([] {
+              Loop({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
+            }).find("from vertex 1 meets the one from vertex 3"),
+            std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {0, 2}, {2, 2}, {2, 0}}); }).find("clockwise"), std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, 0}}); }).find("2 vertices"), std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, 0}, {1, 0}, {0, 1}}); }).find("vertices 2 and 3"), std::string::npos);
   EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, NAN}, {1, 1}}); }).find("vertex 2"), std::string::npos);
   EXPECT_NE(sentence_of([&] { Annulus(square, square); }).find("no width"), std::string::npos);
   EXPECT_NE(sentence_of([&] { Annulus(square, {{5, 5}, {6, 5}, {6, 6}}); }).find("not inside"), std::string::npos);
-  EXPECT_NE(sentence_of([&] { Annulus(square, test::two_squares().outer, {.phi = {0, 1, 1, 2}}); }).find("vertex 2"), std::string::npos);
+  EXPECT_NE(sentence_of([&] {
+              Annulus(square, test::two_squares().outer, {.phi = {0, 1, 1, 2}});
+            }).find("vertex 2"),
+            std::string::npos);
 }
 
 }  // namespace

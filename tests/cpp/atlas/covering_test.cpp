@@ -14,7 +14,8 @@ namespace {
 double printed_outer_length(double phi) {
   const double pi = std::numbers::pi, first = std::atan(std::sqrt(3) / 5), second = std::atan(std::sqrt(3) / 2);
   if (phi <= first) return std::cos(phi) - std::sqrt(std::cos(phi) * std::cos(phi) - 13. / 16);
-  if (phi <= second) return std::cos(pi / 6 - phi) / std::sqrt(3) + std::sqrt(std::pow(std::cos(pi / 6 - phi), 2) / 3 - 5. / 16);
+  if (phi <= second)
+    return std::cos(pi / 6 - phi) / std::sqrt(3) + std::sqrt(std::pow(std::cos(pi / 6 - phi), 2) / 3 - 5. / 16);
   return std::cos(pi / 3 - phi) - std::sqrt(std::pow(std::cos(pi / 3 - phi), 2) - 13. / 16);
 }
 
@@ -23,7 +24,8 @@ TEST(SharedTriangle, BorderIsC1AndGoesThroughItsClosedValues) {
   EXPECT_NEAR(outer_length(0.), .566987, 1e-6);
   EXPECT_NEAR(outer_length(std::atan(std::sqrt(3) / 5)), .661438, 1e-6);
   EXPECT_NEAR(outer_length(std::numbers::pi / 6), .721688, 1e-6);
-  for (int k = 0; k <= 60; ++k) EXPECT_NEAR(outer_length(sixth_turn * k / 60), printed_outer_length(sixth_turn * k / 60), 1e-14);
+  for (int k = 0; k <= 60; ++k)
+    EXPECT_NEAR(outer_length(sixth_turn * k / 60), printed_outer_length(sixth_turn * k / 60), 1e-14);
   for (const double at : {std::atan(std::sqrt(3) / 5), std::atan(std::sqrt(3) / 2), std::numbers::pi / 6, sixth_turn}) {
     const double before = outer_length(Jet(at - 1e-9, 1, 0)).u, behind = outer_length(Jet(at + 1e-9, 1, 0)).u;
     EXPECT_NEAR(before, behind, 1e-7);
@@ -49,8 +51,7 @@ TEST(SharedTriangle, WeightsHaveTheSumOneAndAreC1) {
     constexpr double h = 1e-7;
     for (const Vec2& d : {Vec2(h, 0), Vec2(0, h)}) {
       const auto near = Covering::weights(pair_of(p + d)), far = Covering::weights(pair_of(p - d));
-      for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_NEAR((near[c] - far[c]) / (2 * h), d.x() > 0 ? w[c].u : w[c].v, 1e-4);
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR((near[c] - far[c]) / (2 * h), d.x() > 0 ? w[c].u : w[c].v, 1e-4);
     }
     for (int c = 0; c < 3; ++c) EXPECT_LT(norm(value_of(from_polar(c, to_polar(c, pair_of(p)))) - p), 1e-14);
   }

@@ -52,7 +52,8 @@ TEST(PseudoSkeleton, TriangulatesWithoutNewPoints) {
 TEST(Loop, LiesOnItsPolygonAndThereAndBack) {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> unit(0, 1);
-  std::vector<Polygon> polygons = {test::two_squares().inner, test::two_hexagons().inner, test::hook().inner, test::spiral(2, 40, .5)};
+  std::vector<Polygon> polygons = {test::two_squares().inner, test::two_hexagons().inner, test::hook().inner,
+                                   test::spiral(2, 40, .5)};
   for (int k = 0; k < 40; ++k) polygons.push_back(test::random_star(random, 4 + static_cast<std::size_t>(k), .6));
   for (const Polygon& p : polygons)
     for (const LoopSpeed speed : {LoopSpeed::even, LoopSpeed::smooth}) {

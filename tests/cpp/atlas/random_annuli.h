@@ -29,7 +29,16 @@ inline Borders two_squares() { return {{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {{-
 inline Borders two_hexagons() { return {regular(6, 1, 0), regular(6, 2, 0)}; }
 inline Borders hook() {
   return {{{0, 0}, {6, 0}, {6, 5}, {3.4, 5}, {3.4, 4}, {5, 4}, {5, 1}, {1, 1}, {1, 6}, {0, 6}},
-          {{-.6, -.6}, {6.6, -.6}, {6.6, 5.6}, {2.8, 5.6}, {2.8, 3.4}, {4.4, 3.4}, {4.4, 1.6}, {1.6, 1.6}, {1.6, 6.6}, {-.6, 6.6}}};
+          {{-.6, -.6},
+           {6.6, -.6},
+           {6.6, 5.6},
+           {2.8, 5.6},
+           {2.8, 3.4},
+           {4.4, 3.4},
+           {4.4, 1.6},
+           {1.6, 1.6},
+           {1.6, 6.6},
+           {-.6, 6.6}}};
 }
 
 inline Polygon random_star(std::mt19937_64& random, std::size_t n, double depth) {
@@ -69,14 +78,16 @@ inline Polygon widened(const Polygon& p, double by) {
   return wide;
 }
 
-/// Stars of 4 to 60 sides of three depths, and spirals of up to two turns; empty when no width is found for the polygon drawn.
+/// Stars of 4 to 60 sides of three depths, and spirals of up to two turns; empty when no width is found for the polygon
+/// drawn.
 inline std::optional<Borders> random_borders(std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(0, 1);
   const auto n = static_cast<std::size_t>(4 + 57 * unit(random));
   const double depths[] = {.2, .6, .85};
   const auto kind = static_cast<std::size_t>(4 * unit(random));
   Borders borders;
-  borders.inner = kind == 3 ? spiral(2 * unit(random) + .05, 2 + n / 2, .3 + .4 * unit(random)) : random_star(random, n, depths[kind]);
+  borders.inner = kind == 3 ? spiral(2 * unit(random) + .05, 2 + n / 2, .3 + .4 * unit(random))
+                            : random_star(random, n, depths[kind]);
   double by = .02 + .3 * unit(random) * unit(random);
   for (int trial = 0; trial < 12; ++trial, by *= .6) {
     borders.outer = widened(borders.inner, by);

@@ -81,13 +81,16 @@ TEST(BlendedSurface, SidesAreOneCurveInBothFaces) {
   const BuiltGeometry built = build_atlas(std::make_shared<BlendedSurface>(Covering(test::icosphere(2))));
   std::map<int, std::vector<std::pair<int, int>>> uses;
   for (const Face& face : built.model.faces)
-    for (std::size_t k = 0; k < face.curves.size(); ++k) uses[face.curves[k].ref].emplace_back(face.ref, static_cast<int>(k) + 1);
+    for (std::size_t k = 0; k < face.curves.size(); ++k)
+      uses[face.curves[k].ref].emplace_back(face.ref, static_cast<int>(k) + 1);
   for (const auto& [ref, two] : uses) {
     ASSERT_EQ(two.size(), 2u) << ref;
     for (int k = 0; k <= 10; ++k) {
       const double t = -1 + .2 * k;
       const auto point = [&](std::pair<int, int> use, double at) -> Vec3 {
-        return surface_at(*built.cad, use.first, want_position, built.cad->curve(use.first, use.second, want_position, at).c).s;
+        return surface_at(*built.cad, use.first, want_position,
+                          built.cad->curve(use.first, use.second, want_position, at).c)
+            .s;
       };
       EXPECT_LT(norm(point(two[0], t) - point(two[1], -t)), 1e-12);
     }
