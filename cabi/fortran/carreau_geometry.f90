@@ -25,7 +25,8 @@ module carreau_geometry
   public :: carreau_geometry_points, carreau_geometry_curve
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
-    CARREAU_GEOMETRY_MOLECULE = 3, CARREAU_GEOMETRY_PLANE = 4, CARREAU_GEOMETRY_GRID = 5
+    CARREAU_GEOMETRY_MOLECULE = 3, CARREAU_GEOMETRY_PLANE = 4, CARREAU_GEOMETRY_GRID = 5, &
+    CARREAU_GEOMETRY_ATLAS = 7
   integer(c_int32_t), parameter, public :: CARREAU_BEZIER_DEGREE = 15
   integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
   integer(c_int32_t), parameter, public :: CARREAU_REST_PARITY = 0, CARREAU_REST_INSIDE = 1, CARREAU_REST_OUTSIDE = 2

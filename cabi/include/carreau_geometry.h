@@ -36,7 +36,8 @@ enum {
   CARREAU_GEOMETRY_BEZIER = 2,
   CARREAU_GEOMETRY_MOLECULE = 3,
   CARREAU_GEOMETRY_PLANE = 4,
-  CARREAU_GEOMETRY_GRID = 5
+  CARREAU_GEOMETRY_GRID = 5,
+  CARREAU_GEOMETRY_ATLAS = 7 /* carreau_atlas.h */
 };
 
 /* A geometry, and the references that are its own: its face k is face first_face + k - 1 of the session. A geometry

@@ -1,3 +1,4 @@
+#include "atlas_input.h"
 #include "cad_input.h"
 #include "failure.h"
 #include "formula_input.h"
@@ -20,6 +21,7 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const std::string&
                                      const GridChoice& grid, const std::string& domain) {
   if (is_formula(path)) return open_formula(path, domain);
   if (!domain.empty()) throw Failure("--domain goes with a surface by formulas, not with '" + path + "'.");
+  if (molecule.surface == atlas_surface) return open_atlas(path);
   check_geometry_name(path);
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");

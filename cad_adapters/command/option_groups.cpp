@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "atlas_input.h"
 #include "formula_input.h"
 
 namespace command {
@@ -14,8 +15,10 @@ std::string is_gradation(const std::string& value) {
   const bool known = CLI::detail::lexical_cast(value, ratio) && (ratio == 0 || (ratio >= 1.0001 && ratio <= 1e9));
   return known ? "" : "'" + value + "' is neither a ratio from 1.0001 to 1e9 nor 0";
 }
-std::vector<std::string> molecule_surface_names() {
-  return {std::begin(molecule_surfaces), std::end(molecule_surfaces)};
+std::vector<std::string> surface_names() {
+  std::vector<std::string> names(std::begin(molecule_surfaces), std::end(molecule_surfaces));
+  names.emplace_back(atlas_surface);
+  return names;
 }
 
 }  // namespace
@@ -80,8 +83,9 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
 
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice) {
   app->add_option("--surface", choice.surface,
-                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent")
-      ->check(CLI::IsMember(molecule_surface_names()))
+                  "Of a molecule: vws, the van der Waals surface; sas, the surface accessible to a solvent; ses, excluding it. Of "
+                  "closed triangles: atlas, a smooth surface over them")
+      ->check(CLI::IsMember(surface_names()))
       ->capture_default_str();
   app->add_option("--probe", choice.probe, "Radius of the probe that stands for the solvent")
       ->check(CLI::Range(0.0, 1e9))

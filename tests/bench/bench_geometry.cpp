@@ -9,6 +9,7 @@
 #include <string>
 
 #include "cad/host_cad.h"
+#include "geometry/atlas/blended_surface.h"
 #include "geometry/bezier/bezier_geometry.h"
 #include "geometry/molecule/molecule.h"
 #include "io/bezier/bezier_reader.h"
@@ -103,12 +104,39 @@ void run(const std::string& name, const BuiltGeometry& built, double size, int r
   }
 }
 
+/// Nanoseconds of a chart's evaluation, of its inverse, and of the blended surface with all derivatives (aim: a chart below 1000).
+void run_chart(int repeat) {
+  using namespace carreau::atlas;
+  Triangulation s{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                  {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  for (int k = 0; k < 3; ++k) s = subdivided(s);
+  for (Vec3& p : s.vertices) p /= norm(p);
+  const BlendedSurface surface{Covering(s)};
+  const Annulus& a = surface.covering().charts()[0].annulus;
+  constexpr int count = 200000;
+  double best[3] = {1e9, 1e9, 1e9}, sum = 0;
+  for (int r = 0; r < repeat; ++r)
+    for (int what = 0; what < 3; ++what) {
+      const std::clock_t start = std::clock();
+      for (int k = 0; k < count; ++k) {
+        const double tau = (k % 97) / 97., phi = 1e-3 * k;
+        const Pair<double> p = a.at(tau, phi);
+        sum += p[0];
+        if (what == 1) sum += a.find(p)->phi;
+        if (what == 2) sum += surface.at(0, value_of(p)).s.x();
+      }
+      best[what] = std::min(best[what], 1e9 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC / count);
+    }
+  std::printf("{\"case\": \"atlas\", \"chart_ns\": %.1f, \"inverse_ns\": %.1f, \"surface_ns\": %.1f, \"sum\": %.3g}\n", best[0], best[1] - best[0], best[2] - best[0], sum);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const int repeat = argc > 1 ? std::max(1, std::atoi(argv[1])) : 3;
   run("teapot", build_bezier({.patches = read_bezier(CARREAU_SOURCE_DIR "/fortran_examples/teapot/teapot.bpt"), .side_refs = {}}),
       0.05, repeat);
+  run_chart(repeat);
   Monitor monitor;
   run("sphere", molecule::build_surface({.balls = {{{0, 0, 0}, 1}}}, {}, monitor), 0.02, repeat);
 }

@@ -9,7 +9,7 @@ need() {
     [ -e "$path" ] || { echo "missing: $path"; fail=1; }
   done
 }
-need include/carreau.h include/carreau_geometry.h include/carreau_remesh.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
+need include/carreau.h include/carreau_geometry.h include/carreau_atlas.h include/carreau_remesh.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
   share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md
 if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
@@ -37,7 +37,7 @@ for program in bin/*; do
 done
 # The C headers, and no file that knows where it was built.
 headers=$(find include -type f | sort | tr '\n' ' ')
-[ "$headers" = "include/carreau.h ${cad_header}include/carreau_geometry.h include/carreau_remesh.h " ] || { echo "headers: $headers"; fail=1; }
+[ "$headers" = "include/carreau.h include/carreau_atlas.h ${cad_header}include/carreau_geometry.h include/carreau_remesh.h " ] || { echo "headers: $headers"; fail=1; }
 if grep -rlI -e "$tree.first" .; then
   echo "these files hold the path of the first installation"
   fail=1

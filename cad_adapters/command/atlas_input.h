@@ -1,0 +1,20 @@
+// Closed triangulated surfaces as geometry: the C1 surface of an atlas over them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace command {
+
+class CadInput;
+
+/// The value of --surface.
+inline constexpr const char* atlas_surface = "atlas";
+
+/// Whether the suffix is that of a mesh.
+bool is_mesh_file(const std::string& path);
+
+/// Reads the triangles of a mesh file and makes an atlas of them. Throws Failure.
+std::unique_ptr<CadInput> open_atlas(const std::string& path);
+
+}  // namespace command

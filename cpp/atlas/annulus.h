@@ -1,0 +1,84 @@
+// An annulus of the plane, described by (tau, phi): from 0 at the inner to 1 at the outer border, and around (Atlas
+// sec. 5.3, 5.4).
+#pragma once
+
+#include <optional>
+
+#include "atlas/loop.h"
+#include "atlas/smooth_borders.h"
+
+namespace carreau::atlas {
+
+struct AnnulusOptions {
+  OuterBorder border = OuterBorder::spline;
+  bool star = false;  ///< one pivot where the inner border is star-shaped
+  /// At vertices of the inner border: increasing, the first one again after `period`. Empty: by lengths.
+  std::vector<double> phi = {};
+  double period = 2 * std::numbers::pi;
+};
+
+/// A place of an annulus by its parameters.
+template <typename Number>
+struct Strata {
+  Number tau, phi;
+};
+
+class Annulus {
+ public:
+  /// Throws DomainError with the vertex: a border that crosses itself, no width, parts that no pivots describe.
+  Annulus(Polygon inner, Polygon outer, AnnulusOptions options = {});
+
+  [[nodiscard]] const Polygon& inner() const { return inner_; }
+  [[nodiscard]] const Polygon& outer() const { return outer_; }
+  /// The outer border that was described in place of the given one; inside it.
+  [[nodiscard]] const Polygon& described_outer() const { return described_; }
+  [[nodiscard]] const Pivots& pivots() const { return chosen_.pivots; }
+  [[nodiscard]] PivotChoice pivot_choice() const { return chosen_.how; }
+  [[nodiscard]] std::span<const Part> parts() const { return parts_; }
+  [[nodiscard]] double period() const { return period_; }
+
+  /// The point at (tau, phi), tau from 0 to 1, any phi.
+  template <typename Number>
+  [[nodiscard]] Pair<Number> at(const Number& tau, const Number& phi) const;
+  /// The parameters of a point, phi from that of the first pivot's joint on, over one period. Empty outside of the
+  /// annulus.
+  template <typename Number>
+  [[nodiscard]] std::optional<Strata<Number>> find(const Pair<Number>& p) const;
+  /// Is p inside of the annulus' inner border, which is the smooth one (Atlas sec. 5.5.2.2)?
+  [[nodiscard]] bool encloses(const Vec2& p) const;
+
+ private:
+  /// The part that holds p, or none: parts.size().
+  [[nodiscard]] std::size_t part_around(const Vec2& p) const;
+
+  Polygon inner_, outer_, described_;
+  double period_;
+  ChosenPivots chosen_;
+  std::vector<Part> parts_;
+  Polygon chain_;
+};
+
+template <typename Number>
+Pair<Number> Annulus::at(const Number& tau, const Number& phi) const {
+  double x = value_of(phi);
+  const Part& part = parts_[part_of(parts_, period_, x)];
+  const Number moved = phi + (x - value_of(phi));
+  const Number angle = hermite(part.angle_data(interval_of(part.phi, x), tau), moved);
+  const Number r = ((1.0 - tau) + tau * part.ratio_at(angle)) * part.inner_radius(angle);
+  const Pair<Number> u = part.direction(angle);
+  return {part.pivot.x() + r * u[0], part.pivot.y() + r * u[1]};
+}
+
+template <typename Number>
+std::optional<Strata<Number>> Annulus::find(const Pair<Number>& p) const {
+  const std::size_t n = part_around(value_of(p));
+  if (n == parts_.size()) return {};
+  const Part& part = parts_[n];
+  const Pair<Number> polar = part.polar(p);
+  const Number rho = part.inner_radius(polar[0]);
+  const Number tau = (polar[1] - rho) / ((part.ratio_at(polar[0]) - 1.0) * rho);  // Atlas eq. 5.9
+  const std::size_t k = interval_of(part.angle, value_of(polar[0]));
+  return Strata<Number>{tau, Number(hermite_inverse(part.angle_data(k, tau), polar[0]))};
+}
+
+}  // namespace carreau::atlas

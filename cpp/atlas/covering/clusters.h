@@ -1,0 +1,34 @@
+// A partition of the vertices of a triangulation into clusters that make a well-formed covering (Atlas sec. 5.5).
+#pragma once
+
+#include <string>
+
+#include "atlas/covering/frame.h"
+
+namespace carreau::atlas {
+
+/// Cluster of each vertex, from 0, without gaps.
+using Partition = std::vector<std::int32_t>;
+
+std::vector<std::vector<std::int32_t>> members_of(const Partition& partition);
+
+/// Clusters around seeds, each a disc with a pure zone: seeds are `hops` * 2 + 1 edges apart, and vertices join the
+/// nearest where it stays a disc. Most, but not all, clusters are then as a covering wants them; the others are told by
+/// `defects`. Deterministic.
+Partition grown_clusters(const Triangulation& surface, const Fans& fans, int hops);
+
+/// Of each cluster, what keeps it from being part of a well-formed covering; empty: nothing. Regions that are steep or
+/// fold count.
+std::vector<std::string> defects(const Triangulation& surface, const Fans& fans, const Partition& partition);
+/// Of one cluster.
+std::string defect_of(const Triangulation& surface, const Fans& fans, const Partition& partition,
+                      const std::vector<std::int32_t>& members);
+/// 0 for a cluster without a defect whose pure zone is well star-shaped; the larger, the further from it; from 1 on, a
+/// defect.
+double cluster_badness(const Triangulation& surface, const Fans& fans, const Partition& partition,
+                       const std::vector<std::int32_t>& members);
+
+/// Moves vertices between clusters while that makes defects fewer or smaller. Deterministic.
+void repair_clusters(const Triangulation& surface, const Fans& fans, Partition& partition);
+
+}  // namespace carreau::atlas

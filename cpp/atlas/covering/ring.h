@@ -1,0 +1,32 @@
+// What a cluster of vertices shares with others: the ring of triangles around its pure zone (Atlas sec. 5.5).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "atlas/covering/triangulation.h"
+
+namespace carreau::atlas {
+
+/// An edge from a vertex of the cluster to one of another cluster.
+struct Spoke {
+  std::int32_t inner = 0, outer = 0;
+  double phi = 0;  ///< set by the covering
+};
+
+/// Triangles that touch a cluster and lie not inside of it, counterclockwise: triangle k is between spokes k and k + 1.
+struct Ring {
+  std::vector<Spoke> spokes;
+  std::vector<std::size_t> triples;        ///< triangles of three clusters, ascending
+  std::vector<std::int32_t> inner_border;  ///< vertices of the pure zone's border, counterclockwise
+  std::vector<std::size_t> first_spoke;    ///< of each of them
+  std::vector<std::int32_t> outer_border;  ///< of the region
+};
+
+/// The ring of a cluster. When the cluster is no disc, its region none, or no three clusters meet beside it, `defect`
+/// tells it with a vertex.
+Ring ring_of(const Fans& fans, const std::vector<std::int32_t>& cluster, const std::vector<std::int32_t>& members,
+             std::string& defect);
+
+}  // namespace carreau::atlas

@@ -1,0 +1,20 @@
+// Borders of a region in its plane, with phi at the vertices of the inner one.
+#pragma once
+
+#include "atlas/covering/frame.h"
+#include "atlas/covering/ring.h"
+#include "atlas/polygon.h"
+
+namespace carreau::atlas {
+
+struct RingChart {
+  Polygon inner, outer;
+  std::vector<double> phi;
+};
+
+/// Of a ring with phi at its spokes. Where the pure zone is star-shaped, the inner border gets vertices more, so that
+/// the middles of spokes and of triples have the same phi in all charts that share them: two charts agree best where
+/// both count most.
+RingChart chart_of_ring(const Triangulation& surface, const Frame& frame, const Ring& ring);
+
+}  // namespace carreau::atlas

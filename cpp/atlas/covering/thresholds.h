@@ -1,0 +1,37 @@
+// Numbers that decide something about coverings.
+#pragma once
+
+namespace carreau::atlas::thresholds {
+
+/// Smallest cosine between the normal of a triangle and that of its cluster's plane. At .2, 78 degrees, lengths in the
+/// plane are a fifth of those on the surface: as much as a height field can bear.
+inline constexpr double steepest_cosine = 0.2;
+
+/// How bad defects of clusters are for their repair: one that is no disc is worse than one that folds, that than a
+/// steep one.
+inline constexpr double no_disc = 3, folded = 2, steep = 1;
+
+/// The same for a pure zone without a point from which it is seen whole, and how far (as a share of its extent) that
+/// point should be from the lines of all edges: charts with one pivot distort least.
+inline constexpr double no_star = 0.5, star_room = 0.15;
+
+/// Passes over the clusters with defects; of the surfaces tried, none needed more than five.
+inline constexpr int repair_passes = 20;
+/// Passes that better shapes, too.
+inline constexpr int shape_passes = 2;
+
+/// How often triangles are divided in four where clusters stay without a plane: 64 triangles in place of one.
+inline constexpr int subdivisions = 3;
+
+/// Share of clusters without a defect from which moves of single vertices can mend the others; below, triangles are
+/// divided first.
+inline constexpr double repairable = 0.8;
+
+/// Share of a region's width by which a place may be beyond it and still be in it, for rounding.
+inline constexpr double beyond_zone = 1e-9;
+
+/// Radians between directions that both get a vertex of the inner border: nearer ones would make steep functions of
+/// phi.
+inline constexpr double apart = 0.02;
+
+}  // namespace carreau::atlas::thresholds

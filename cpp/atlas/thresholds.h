@@ -1,0 +1,56 @@
+// Numbers that decide something in this room.
+#pragma once
+
+namespace carreau::atlas::thresholds {
+
+/// Share of both neighbouring intervals of angles over which a vertex of the inner border is rounded (Atlas
+/// sec. 5.4.2). It is halved where the arc would leave the annulus.
+inline constexpr double rounded_share = 1.0 / 3;
+
+/// The smooth outer border keeps this share of the room that the polygonal one leaves, so that rounding does not put it
+/// outside; one thousandth is far above the rounding errors, and cannot be seen.
+inline constexpr double used_room = 0.999;
+
+/// An outer border comes no nearer to a pivot outside than this share of the inner border's distance: an angle must
+/// keep its meaning there, and derivatives grow as its inverse.
+inline constexpr double nearest_to_pivot = 0.15;
+
+/// Where a ray meets the inner border again, or the polyline of pivots, the annulus keeps this share of the way: the
+/// other side has as much.
+inline constexpr double shared_gap = 0.45;
+
+/// Pivots outside slide this share of the way towards the loop where a condition fails, so many times; then other
+/// pivots are taken. Of random polygons hardly one needs more than six.
+inline constexpr double slide = 0.6;
+inline constexpr int slides = 12;
+
+/// Pivots near the loop come nearer by this factor where a condition fails. Two to the minus forty is below any width
+/// that doubles of one size can have in a polygon which is simple for practical purposes.
+inline constexpr double nearer = 0.5;
+inline constexpr int nearer_rounds = 40;
+
+/// The room of the outer border shrinks by this factor where it crosses itself, at most so many times.
+inline constexpr double less_room = 0.6;
+inline constexpr int room_rounds = 80;
+
+/// Radians, and shares of the width: places that are outside of an annulus by less belong to it, since angles and radii
+/// have rounding errors.
+inline constexpr double on_border = 1e-9;
+
+/// Radians: a pivot must see each edge of its part under a larger angle. Exact conditions may hold where rounding
+/// leaves no angle; at 1e-6 angles keep nine digits.
+inline constexpr double least_angle = 1e-6;
+
+/// Sine of the angle between an edge and the ray to it: below, distances along the ray say little. Pivots that are
+/// barycentres of slivers are refused so.
+inline constexpr double least_slope = 1e-5;
+
+/// Radians: knots of the outer border that are nearer to one another are one.
+inline constexpr double same_angle = 1e-9;
+
+/// Logarithm of the change of width over which the outer border gets one knot more, and how many at most in a piece.
+/// Covers a tenth more of random annuli than the knots of the polygons alone.
+inline constexpr double change_of_width = 0.2;
+inline constexpr int divisions = 8;
+
+}  // namespace carreau::atlas::thresholds

@@ -1,0 +1,56 @@
+#include "geometry/atlas/blended_surface.h"
+
+#include <cmath>
+
+namespace carreau::atlas {
+
+BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering)) {
+  for (const Chart& chart : covering_.charts()) fields_.push_back(fit_heights(covering_.surface(), chart));
+}
+
+BlendedSurface::Point BlendedSurface::own(std::size_t chart, const Pair<Jet>& m) const {
+  const Frame& f = covering_.charts()[chart].frame;
+  const Jet height = fields_[chart].at(m);
+  Point p;
+  for (int k = 0; k < 3; ++k)
+    p[static_cast<std::size_t>(k)] = f.origin[k] + m[0] * f.u[k] + m[1] * f.v[k] + height * f.normal[k];
+  return p;
+}
+
+BlendedSurface::Point BlendedSurface::blended(const Covering::OnT<Jet>& on, const Point& own_point) const {
+  const auto weights = Covering::weights(on.place);
+  const Triple& triple = covering_.triples()[static_cast<std::size_t>(on.corner.triple)];
+  Point sum;
+  for (int c = 0; c < 3; ++c) {
+    const auto k = static_cast<std::size_t>(c);
+    if (weights[k].f <= 0) continue;
+    const Point p = c == on.corner.corner ? own_point
+                                          : own(static_cast<std::size_t>(triple.chart[k]),
+                                                covering_.from_t(on.corner.triple, c, on.place));
+    for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weights[k] * p[i];
+  }
+  return sum;
+}
+
+SurfaceJet BlendedSurface::at(std::size_t chart, const Vec2& m) const {
+  const Pair<Jet> place = parameters_at(m);
+  Point p = own(chart, place);
+  if (const auto on = covering_.on_t(chart, place)) p = blended(*on, p);
+  SurfaceJet jet;
+  for (int k = 0; k < 3; ++k) {
+    const Jet& c = p[static_cast<std::size_t>(k)];
+    jet.s[k] = c.f, jet.su[k] = c.u, jet.sv[k] = c.v, jet.suu[k] = c.uu, jet.suv[k] = c.uv, jet.svv[k] = c.vv;
+  }
+  return jet;
+}
+
+CurveJet BlendedSurface::side(std::size_t chart, std::size_t k, double t) const {
+  // In two triangles T unfolded about their common side it is straight: the points as far from both ends of the side.
+  const double half_way = 1 / (2 * std::numbers::sqrt3);  // from the middle of the side to that of T
+  const Jet along = half_way * Jet(t, 1, 0);
+  const Polar<Jet> polar{sqrt(along * along + .25), static_cast<double>(k + 1) * sixth_turn + atan2(along, Jet(.5))};
+  const Pair<Jet> m = covering_.charts()[chart].annulus.at(share_of(polar), polar.phi);
+  return {value_of(m), {m[0].u, m[1].u}, {m[0].uu, m[1].uu}};
+}
+
+}  // namespace carreau::atlas

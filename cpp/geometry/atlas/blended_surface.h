@@ -1,0 +1,39 @@
+// A C1 surface near a triangulation: height fields over the charts of an atlas, blended by its partition of unity.
+#pragma once
+
+#include <memory>
+
+#include "cad/cad.h"
+#include "geometry/atlas/height_field.h"
+#include "geometry/built_geometry.h"
+
+namespace carreau::atlas {
+
+/// S(m) = sum of alpha_j(phi_ij m) P_j(phi_ij m): the same point whatever the chart that m is given in.
+class BlendedSurface {
+ public:
+  explicit BlendedSurface(Covering covering);
+
+  [[nodiscard]] const Covering& covering() const { return covering_; }
+  [[nodiscard]] const HeightField& field(std::size_t chart) const { return fields_[chart]; }
+  /// Point and derivatives to order two. Beyond the chart's region it is the chart's own height field.
+  [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m) const;
+
+  /// The part of a chart that is its own: of each T, what is nearer to its corner than to the others. Side k runs from
+  /// the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is C1.
+  [[nodiscard]] CurveJet side(std::size_t chart, std::size_t k, double t) const;
+
+ private:
+  using Point = std::array<Jet, 3>;
+  [[nodiscard]] Point own(std::size_t chart, const Pair<Jet>& m) const;
+  [[nodiscard]] Point blended(const Covering::OnT<Jet>& on, const Point& own) const;
+
+  Covering covering_;
+  std::vector<HeightField> fields_;
+};
+
+/// Each chart becomes a face, whose reference is its rank from 1, trimmed to what is its own; double zones become
+/// curves, triple ones points.
+BuiltGeometry build_atlas(std::shared_ptr<const BlendedSurface> surface);
+
+}  // namespace carreau::atlas

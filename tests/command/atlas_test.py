@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""atlas_test.py CARREAU: `carreau mesh --surface atlas` on a torus of triangles, and on files that are none."""
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv[1]
+
+
+def torus(n, m, large, small):
+    """OFF text of n x m vertices, rows shifted by half a step by turns."""
+    lines = [f"OFF {n * m} {2 * n * m} 0"]
+    for i in range(n):
+        for j in range(m):
+            a, b = 2 * math.pi * i / n, 2 * math.pi * (j + .5 * (i % 2)) / m
+            r = large + small * math.cos(b)
+            lines.append(f"{r * math.cos(a):.17g} {r * math.sin(a):.17g} {small * math.sin(b):.17g}")
+    for i in range(n):
+        for j in range(m):
+            def at(row, column):
+                return row % n * m + column % m
+            shift = i % 2
+            lines.append(f"3 {at(i, j)} {at(i + 1, j + shift)} {at(i, j + 1)}")
+            lines.append(f"3 {at(i, j)} {at(i + 1, j + shift - 1)} {at(i + 1, j + shift)}")
+    return lines
+
+
+class Atlas(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="carreau atlas ")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def mesh(self, name, lines, code):
+        with open(os.path.join(self.folder, name), "w") as file:
+            file.write("\n".join(lines) + "\n")
+        done = subprocess.run([PROGRAM, "mesh", name, "--surface", "atlas", "--size", "0.2", "-o", "out.mesh"],
+                              capture_output=True, text=True, timeout=120, cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_a_torus_becomes_a_closed_mesh_on_it(self):
+        text = self.mesh("torus.off", torus(36, 18, 2, .8), 0)
+        self.assertIn("atlas over 1296 triangles", text)
+        self.assertIn("0 failed", text)
+        with open(os.path.join(self.folder, "out.mesh")) as file:
+            words = file.read().split()
+        count = int(words[words.index("Vertices") + 1])
+        start = words.index("Vertices") + 2
+        triangles = int(words[words.index("Triangles") + 1])
+        self.assertEqual(2 * count, triangles)  # closed, of Euler number 0
+        for v in range(count):
+            x, y, z = map(float, words[start + 4 * v:start + 4 * v + 3])
+            self.assertAlmostEqual(math.hypot(math.hypot(x, y) - 2, z), .8, delta=.04)
+
+    def test_what_is_no_closed_surface_is_told_with_the_vertex(self):
+        lines = torus(12, 8, 2, .8)
+        self.assertIn("border at the edge of vertices", self.mesh("open.off", [lines[0].replace("192", "191")] + lines[1:-1], 2))
+        self.assertIn("goes with a mesh of triangles", self.mesh("file.bpt", ["1"], 2))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,224 @@
+#include "atlas/annulus.h"
+
+#include <gtest/gtest.h>
+
+#include "atlas/pseudo_skeleton.h"
+#include "predicates/predicates.h"
+#include "random_annuli.h"
+
+namespace carreau::atlas {
+namespace {
+
+using test::Borders;
+
+constexpr double pi = std::numbers::pi;
+
+double circular(double difference, double period) {
+  const double d = std::abs(std::remainder(difference, period));
+  return d;
+}
+
+/// Partial derivatives on one side of a place: quotients of Richardson's first order, whose error is of order two.
+struct Partials {
+  Vec2 tau, phi;
+};
+Partials one_sided(const Annulus& a, double tau, double phi, double side) {
+  constexpr double h = 1e-6;
+  const auto at = [&](double t, double x) { return value_of(a.at(t, x)); };
+  const Vec2 here = at(tau, phi + 1e-13 * side);
+  const auto slope = [&](const Vec2& near, const Vec2& far, double step) -> Vec2 {
+    return (4 * near - far - 3 * here) / (2 * step);
+  };
+  return {slope(at(tau + h, phi + 1e-13 * side), at(tau + 2 * h, phi + 1e-13 * side), h),
+          slope(at(tau, phi + side * h), at(tau, phi + 2 * side * h), side * h)};
+}
+
+/// The share of the polygonal annulus that the smooth one covers.
+double covered(const Annulus& a) {
+  Polygon inner, outer;
+  constexpr int samples = 4000;
+  for (int k = 0; k < samples; ++k) {
+    inner.push_back(value_of(a.at(0., a.period() * k / samples)));
+    outer.push_back(value_of(a.at(1., a.period() * k / samples)));
+  }
+  return (signed_area(outer) - signed_area(inner)) / (signed_area(a.outer()) - signed_area(a.inner()));
+}
+
+std::vector<Borders> figures() { return {test::two_squares(), test::two_hexagons(), test::hook()}; }
+
+TEST(Annulus, FiguresAreDescribedByTheSkeletonAndThereAndBack) {
+  for (const Borders& b : figures())
+    for (const OuterBorder kind : {OuterBorder::polygon, OuterBorder::spline, OuterBorder::cubic}) {
+      const Annulus a(b.inner, b.outer, {.border = kind});
+      EXPECT_EQ(a.pivot_choice(), PivotChoice::skeleton);
+      std::mt19937_64 random(7);
+      std::uniform_real_distribution<double> unit(0, 1);
+      for (int k = 0; k < 1000; ++k) {
+        const double tau = unit(random), phi = a.period() * unit(random);
+        const auto back = a.find(a.at(tau, phi));
+        ASSERT_TRUE(back.has_value());
+        EXPECT_NEAR(back->tau, tau, 1e-12);
+        EXPECT_LT(circular(back->phi - phi, a.period()), 1e-12);
+      }
+    }
+}
+
+TEST(Annulus, PolygonalBordersAreTheGivenOnes) {
+  const Borders b = test::two_squares();
+  const Annulus a(b.inner, b.outer, {.border = OuterBorder::polygon});
+  for (int k = 0; k < 100; ++k) {
+    const Vec2 in = value_of(a.at(0., k * 2 * pi / 100)), out = value_of(a.at(1., k * 2 * pi / 100));
+    EXPECT_NEAR(in.cwiseAbs().maxCoeff(), 1, 1e-12);
+    EXPECT_LE(out.cwiseAbs().maxCoeff(), 2 + 1e-12);
+  }
+  EXPECT_NEAR(signed_area(a.described_outer()), 16, 1.7);
+}
+
+TEST(Annulus, ThousandRandomOnesAreDescribed) {
+  std::mt19937_64 random(1);
+  int made = 0, by_skeleton = 0;
+  double spline = 0, cubic = 0, least = 1, worst = 0;
+  std::uniform_real_distribution<double> unit(0, 1);
+  while (made < 1000) {
+    const auto borders = test::random_borders(random);
+    if (!borders) continue;
+    ++made;
+    const Annulus a(borders->inner, borders->outer);
+    const Annulus simple(borders->inner, borders->outer, {.border = OuterBorder::cubic});
+    by_skeleton += a.pivot_choice() == PivotChoice::skeleton;
+    for (const Annulus* one : {&a, &simple})
+      for (int k = 0; k < 20; ++k) {
+        const double tau = unit(random), phi = a.period() * unit(random);
+        const auto p = one->at(Jet(tau, 1, 0), Jet(phi, 0, 1));
+        EXPECT_GT(p[0].u * p[1].v - p[0].v * p[1].u, 0) << "Jacobian of annulus " << made;
+        const auto back = one->find(Pair<double>{p[0].f, p[1].f});
+        ASSERT_TRUE(back.has_value()) << made;
+        worst = std::max({worst, std::abs(back->tau - tau), circular(back->phi - phi, a.period())});
+      }
+    const double share = covered(a);
+    spline += share, cubic += covered(simple), least = std::min(least, share);
+  }
+  std::cout << "pivots by the skeleton " << by_skeleton << " of " << made << "; covered by splines " << spline / made
+            << ", least " << least << ", by cubics " << cubic / made << "; there and back " << worst << "\n";
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_GT(by_skeleton, 700);
+  EXPECT_GT(spline, cubic);
+}
+
+TEST(Annulus, IsInsideThePolygonalOne) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int points = 0;
+  while (points < 100000) {
+    const auto b = test::random_borders(random);
+    if (!b) continue;
+    const Annulus a(b->inner, b->outer, {.border = points % 2 == 0 ? OuterBorder::spline : OuterBorder::cubic});
+    for (int k = 0; k < 999; ++k, ++points) {
+      // Both borders, and between; at tau = 0 on straight parts of the inner border rounding decides.
+      const double tau = k % 3 == 0 ? 1 : (k % 3 == 1 ? 1e-9 : unit(random));
+      const Vec2 p = value_of(a.at(tau, a.period() * unit(random)));
+      ASSERT_TRUE(is_inside(b->outer, p));
+      ASSERT_FALSE(is_inside(b->inner, p));
+    }
+  }
+}
+
+TEST(Annulus, IsC1AcrossJointsAndVerticesAndAnywhere) {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const Borders& b : figures())
+    for (const OuterBorder kind : {OuterBorder::spline, OuterBorder::cubic}) {
+      const Annulus a(b.inner, b.outer, {.border = kind});
+      std::vector<double> places;
+      for (const Part& part : a.parts()) places.insert(places.end(), part.phi.begin(), part.phi.end());
+      for (int k = 0; k < 1000; ++k) places.push_back(a.period() * unit(random));
+      for (const double phi : places)
+        for (const double tau : {0., .37, .9}) {
+          const Partials left = one_sided(a, tau, phi, -1), right = one_sided(a, tau, phi, 1);
+          const double scale = norm(left.phi) + norm(left.tau);
+          EXPECT_LT(norm(left.phi - right.phi), 1e-6 * scale + 1e-8) << phi << " " << tau;
+          EXPECT_LT(norm(left.tau - right.tau), 1e-6 * scale + 1e-8) << phi << " " << tau;
+        }
+    }
+}
+
+TEST(Annulus, DerivativesAreThoseOfDifferences) {
+  const Borders b = test::hook();
+  const Annulus a(b.inner, b.outer);
+  for (int k = 0; k < 50; ++k) {
+    const double tau = .3, phi = .017 + a.period() * k / 50, h = 1e-5;
+    const auto p = a.at(Jet(tau, 1, 0), Jet(phi, 0, 1));
+    const auto at = [&](double t, double x) { return value_of(a.at(t, x)); };
+    const Vec2 d = (at(tau, phi + h) - at(tau, phi - h)) / (2 * h);
+    EXPECT_NEAR(p[0].v, d.x(), 1e-3);
+    EXPECT_NEAR(p[1].v, d.y(), 1e-3);
+    // Chart and inverse: the product of their Jacobians is the identity.
+    const auto q = a.find(Pair<Jet>{Jet(p[0].f, 1, 0), Jet(p[1].f, 0, 1)});
+    ASSERT_TRUE(q.has_value());
+    EXPECT_NEAR(q->tau.u * p[0].u + q->tau.v * p[1].u, 1, 1e-10);
+    EXPECT_NEAR(q->tau.u * p[0].v + q->tau.v * p[1].v, 0, 1e-10);
+    EXPECT_NEAR(q->phi.u * p[0].v + q->phi.v * p[1].v, 1, 1e-10);
+    EXPECT_NEAR(q->phi.u * p[0].u + q->phi.v * p[1].u, 0, 1e-10);
+  }
+}
+
+TEST(Annulus, EnclosesWhatIsInsideOfItsSmoothBorder) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> unit(-1, 7);
+  for (const Borders& b : figures()) {
+    const Annulus a(b.inner, b.outer);
+    Polygon smooth;
+    constexpr int samples = 20000;
+    for (int k = 0; k < samples; ++k) smooth.push_back(value_of(a.at(0., a.period() * k / samples)));
+    for (int k = 0; k < 500; ++k) {
+      const Vec2 p(unit(random), unit(random));
+      EXPECT_EQ(a.encloses(p), is_inside(smooth, p)) << p.transpose();
+    }
+  }
+}
+
+TEST(Annulus, OnePivotServesStars) {
+  const Borders b = test::two_hexagons();
+  const Annulus a(b.inner, b.outer, {.star = true});
+  EXPECT_EQ(a.pivot_choice(), PivotChoice::star);
+  EXPECT_NEAR(norm(a.pivots().place[0]), 0, 1e-12);
+  for (int k = 0; k < 60; ++k) {
+    const double phi = a.period() * k / 60;
+    const auto back = a.find(a.at(.5, phi));
+    ASSERT_TRUE(back.has_value());
+    EXPECT_LT(circular(back->phi - phi, a.period()), 1e-12);
+  }
+  EXPECT_TRUE(a.encloses({0, 0}));
+  EXPECT_FALSE(a.encloses({1.5, 0}));
+}
+
+template <typename Make>
+std::string sentence_of(Make&& make) {
+  try {
+    make();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Annulus, BadBordersAreToldWithTheVertex) {
+  const Polygon square = test::two_squares().inner;
+  EXPECT_NE(sentence_of([] {
+              Loop({{0, 0}, {2, 2}, {2, 0}, {0, 2}});
+            }).find("from vertex 1 meets the one from vertex 3"),
+            std::string::npos);
+  EXPECT_NE(sentence_of([] { Loop({{0, 0}, {0, 2}, {2, 2}, {2, 0}}); }).find("clockwise"), std::string::npos);
+  EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, 0}}); }).find("2 vertices"), std::string::npos);
+  EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, 0}, {1, 0}, {0, 1}}); }).find("vertices 2 and 3"), std::string::npos);
+  EXPECT_NE(sentence_of([] { Loop({{0, 0}, {1, NAN}, {1, 1}}); }).find("vertex 2"), std::string::npos);
+  EXPECT_NE(sentence_of([&] { Annulus(square, square); }).find("no width"), std::string::npos);
+  EXPECT_NE(sentence_of([&] { Annulus(square, {{5, 5}, {6, 5}, {6, 6}}); }).find("not inside"), std::string::npos);
+  EXPECT_NE(sentence_of([&] {
+              Annulus(square, test::two_squares().outer, {.phi = {0, 1, 1, 2}});
+            }).find("vertex 2"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace carreau::atlas
