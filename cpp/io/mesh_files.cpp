@@ -11,6 +11,13 @@ namespace carreau {
 
 namespace {
 
+/// Formats that are read only.
+struct PolygonReader {
+  const char* suffix;
+  FlatMesh (*read)(std::string_view content, const std::string& name);
+};
+constexpr PolygonReader polygon_readers[] = {{".off", read_mesh_off}, {".obj", read_mesh_obj}, {".ply", read_mesh_ply}};
+
 void check_length(const char* what, std::size_t found, std::size_t expected) {
   if (found != expected)
     throw InvalidArgument("a mesh cannot be written: " + std::string(what) + " has " + std::to_string(found) +
@@ -91,7 +98,8 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (suffix == ".msh2") return MeshFormat::msh2;
   if (suffix == ".bl2d") return MeshFormat::bl2d;
   throw InvalidArgument("'" + path +
-                        "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d");
+                        "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d; "
+                        ".off, .obj, .ply are read only");
 }
 
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options) {
@@ -120,6 +128,8 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 }
 
 FlatMesh read_mesh(const std::string& path) {
+  for (const auto& [suffix, read] : polygon_readers)
+    if (suffix_of(path) == suffix) return read(read_file(path), path);
   const MeshFormat format = mesh_format_of(path);
   const std::string content = read_file(path);
   switch (format) {

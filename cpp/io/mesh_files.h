@@ -35,7 +35,7 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
 /// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Reads a file by its suffix, as mesh_format_of() tells it. Throws InvalidArgument for another suffix, FileError with
+/// Reads a file by its suffix: one of those of mesh_format_of(), .off, .obj or .ply. Throws InvalidArgument for another suffix, FileError with
 /// file and line, or file and byte. Vertices, edges and triangles are taken, their references, names of faces and, of
 /// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files and BL2D's only.
 FlatMesh read_mesh(const std::string& path);
@@ -52,6 +52,11 @@ FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
 FlatMesh read_mesh_msh(std::string_view content, const std::string& name);
 /// STL, text or binary: corners of equal coordinates become one vertex. Solids of the text form are faces.
 FlatMesh read_mesh_stl(std::string_view content, const std::string& name);
+/// OFF (text), Wavefront OBJ, PLY (text, both binary forms): vertices, and polygons cut into triangles. Of OBJ groups and
+/// objects are faces, polylines edges; PLY needs the list vertex_indices. Colours, normals and textures are skipped.
+FlatMesh read_mesh_off(std::string_view content, const std::string& name);
+FlatMesh read_mesh_obj(std::string_view content, const std::string& name);
+FlatMesh read_mesh_ply(std::string_view content, const std::string& name);
 /// BL2D: vertices, edges and triangles of the plane, with references.
 FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name);
 /// VTK XML: one piece, arrays as text, base64 or raw bytes, not compressed. Cells are triangles and quadrilaterals of
