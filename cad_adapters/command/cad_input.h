@@ -14,6 +14,7 @@
 #include "grid_input.h"
 #include "molecule_input.h"
 #include "plane_input.h"
+#include "triangles_input.h"
 
 namespace command {
 
@@ -78,16 +79,16 @@ class CadInput {
 
 /// Whether the name says that the file has no geometry of its own (.pardom): a shared library gives it.
 bool needs_host(const std::string& path);
-/// Throws Failure when the name of an input is empty or that of a mesh.
+/// Throws Failure when the name of an input is empty.
 void check_geometry_name(const std::string& path);
 
 /// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; a
-/// molecule; a grid; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
+/// molecule; a grid; triangles; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
 /// the share that is done, where it is known.
 using ReadingProgress = std::function<void(double fraction)>;
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
                                      const ReadingProgress& progress = {}, const MoleculeChoice& molecule = {},
-                                     const GridChoice& grid = {});
+                                     const GridChoice& grid = {}, const TrianglesChoice& triangles = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);

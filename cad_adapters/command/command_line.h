@@ -43,6 +43,8 @@ class CommandLine {
   static void add_mesh_options(CLI::App* app, MeshOptions& options);
   static void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
   static void add_grid_options(CLI::App* app, GridChoice& choice);
+  static void add_triangles_options(CLI::App* app, TrianglesChoice& choice);
+  void add_refine();
   void add_info();
   void add_areas();
   void add_picture();
@@ -59,6 +61,7 @@ class CommandLine {
 
   CLI::App app_;
   MeshOptions mesh_, plane_, adapt_;
+  RefineOptions refine_;
   InfoOptions info_;
   AreasOptions areas_;
   PictureOptions picture_;

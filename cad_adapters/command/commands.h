@@ -10,6 +10,7 @@
 #include "molecule_input.h"
 #include "plane_input.h"
 #include "scene.h"
+#include "triangles_input.h"
 
 namespace command {
 
@@ -20,6 +21,7 @@ struct PictureOptions {
   std::vector<std::string> views;  ///< side by side; none: iso, or top for a plane mesh
   SceneOptions scene;
   bool labels = false;  ///< numbers of faces
+  TrianglesChoice triangles;  ///< draws lines that are found in triangles where `sharp` is given
   bool json = false;
 };
 
@@ -32,6 +34,7 @@ struct MeshOptions {
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
   GridChoice grid;          ///< of a structured grid
+  TrianglesChoice triangles;  ///< of a surface given as triangles
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -57,6 +60,7 @@ struct InfoOptions {
   std::string input;
   std::string host;    ///< shared library, of a .pardom
   GridChoice grid;     ///< of a structured grid
+  TrianglesChoice triangles;  ///< of a surface given as triangles
   int limit = 10;      ///< sentences of each kind
   bool faces = false;  ///< a line for each
   bool json = false;
@@ -64,6 +68,18 @@ struct InfoOptions {
 
 /// Prints what a file of geometry holds, and what of it is hard to mesh. 0; throws Failure.
 int info(const InfoOptions& options);
+
+struct RefineOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  TrianglesChoice triangles;
+  double angle = 0;  ///< degrees
+  int depth = 6;
+  bool quiet = false, json = false;
+};
+
+/// Cuts triangles finer on the smooth surface over them (HDR sec. 4.9.3). 0; throws Failure.
+int refine(const RefineOptions& options);
 
 struct AreasOptions {
   std::string input;

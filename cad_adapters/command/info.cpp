@@ -27,6 +27,14 @@ std::string sentence(const ModelDanger& danger) {
 
 int info(const InfoOptions& options) {
   check_geometry_name(options.input);
+  if (is_triangles(options.input) && options.host.empty() && !options.faces) {
+    print_triangles_info(options.input, options.triangles, options.json);
+    return 0;
+  }
+  if (is_triangles(options.input) && options.host.empty()) {
+    print_faces(open_triangles(options.input, options.triangles)->faces());
+    return 0;
+  }
   const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" ||
                          is_molecule(options.input) || is_grid(options.input, options.grid);
   if (!in_memory) {

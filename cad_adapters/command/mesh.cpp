@@ -152,7 +152,7 @@ int mesh(const MeshOptions& given) {
           ? open_plane(options.input, options.plane)
           : open_input(
                 options.input, options.host, [&](double fraction) { progress.reading(fraction); }, options.molecule,
-                options.grid);
+                options.grid, options.triangles);
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();

@@ -9,14 +9,11 @@ bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; 
 
 void check_geometry_name(const std::string& path) {
   if (path.empty()) throw Failure("The name of the input is empty.");
-  for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
-    if (suffix_of(path) == suffix)
-      throw Failure("'" + path + "' is a mesh already: carreau check and carreau picture read meshes.");
 }
 
 std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
                                      const ReadingProgress& progress, const MoleculeChoice& molecule,
-                                     const GridChoice& grid) {
+                                     const GridChoice& grid, const TrianglesChoice& triangles) {
   check_geometry_name(path);
   if (needs_host(path)) {
     if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
@@ -24,6 +21,7 @@ std::unique_ptr<CadInput> open_input(const std::string& path, const std::string&
   }
   if (!host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
   if (is_grid(path, grid)) return open_grid(path, grid);
+  if (is_triangles(path)) return open_triangles(path, triangles);
   if (is_molecule(path)) return open_molecule(path, molecule);
   return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path, progress);
 }
