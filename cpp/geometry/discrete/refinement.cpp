@@ -32,7 +32,7 @@ class Refiner {
         mesh_.complete = false;
         break;
       }
-      close();
+      if (wish_.triangle) close();
       if (static_cast<std::int64_t>(mesh_.triangles.size() + 2 * middle_.size()) > limits_.triangles)
         throw LimitError("the refined mesh has more than " + std::to_string(limits_.triangles) + " triangles");
       cut();
@@ -101,6 +101,22 @@ class Refiner {
         const std::int32_t m = middle(t, i);
         add(t, {c[i], m, c[k]}, {uv[i], middle_uv(t, i), uv[k]});
         add(t, {m, c[j], c[k]}, {middle_uv(t, i), uv[j], uv[k]});
+      } else if (n == 2) {
+        std::size_t k = 0;  // the corner between the halved sides
+        while (middle_.contains(key_of(c[(k + 1) % 3], c[(k + 2) % 3]))) ++k;
+        const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+        const std::int32_t ma = middle(t, k), mb = middle(t, b);
+        const Vec2 pa = middle_uv(t, k), pb = middle_uv(t, b);
+        add(t, {c[k], ma, mb}, {uv[k], pa, pb});
+        // The shorter diagonal of what is left.
+        const auto at = [&](std::int32_t v) -> const Vec3& { return mesh_.vertices[index(v)]; };
+        if (norm(at(c[a]) - at(mb)) <= norm(at(c[b]) - at(ma))) {
+          add(t, {ma, c[a], mb}, {pa, uv[a], pb});
+          add(t, {mb, c[a], c[b]}, {pb, uv[a], uv[b]});
+        } else {
+          add(t, {ma, c[a], c[b]}, {pa, uv[a], uv[b]});
+          add(t, {mb, ma, c[b]}, {pb, pa, uv[b]});
+        }
       } else {
         const std::array<std::int32_t, 3> m{middle(t, 0), middle(t, 1), middle(t, 2)};
         const std::array<Vec2, 3> p{middle_uv(t, 0), middle_uv(t, 1), middle_uv(t, 2)};

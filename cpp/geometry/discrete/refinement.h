@@ -32,7 +32,8 @@ struct RefinementWish {
   std::function<bool(const RefinedMesh& mesh, std::int32_t v, std::int32_t w)> edge;
 };
 
-/// Cuts triangles by their edges until all is as wanted: those with two halved edges get the third one halved, too.
+/// Cuts triangles by their edges until all is as wanted. Where triangles are wished, those with two halved edges get the
+/// third one halved, too (HDR sec. 4.9.3); where edges alone are, they become three.
 /// Throws LimitError and Cancelled.
 RefinedMesh refine(const DiscreteSurface& surface, const RefinementWish& wish, const RefinementLimits& limits,
                    Monitor& monitor);

@@ -23,7 +23,7 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   result.interfaces.resize(model.faces.size());
   result.spaces.resize(model.faces.size());
   monitor.progress(Phase::patches, 0, 0.2);
-  RemeshingFrame frame = start_frame(surface, result.mesh, result.vertex_size, cad, monitor);
+  RemeshingFrame frame = start_frame(surface, result.mesh, result.vertex_size, options, cad, monitor);
   const auto atlas = frame.charts;
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
   if (!why.empty()) {

@@ -11,6 +11,10 @@ namespace {
 
 using discrete::RefinedMesh;
 
+/// Of the angle of the geometric rule: A1 of an equilateral triangle whose edges have that angle with the surface, on a
+/// cylinder, is up to 2 / sqrt(3) of it, and lengths vary.
+constexpr double angle_slack = 1.6;
+
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Edges between the triangles of the mesh that are on lines, with the faces of their triangles.
@@ -151,13 +155,15 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
 }
 
 RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const SurfaceMesh& mesh, std::span<const double> sizes,
-                           Cad& cad, Monitor& monitor) {
+                           const CompositeOptions& options, Cad& cad, Monitor& monitor) {
   RemeshingFrame frame{.jets = evaluate_vertices(mesh, cad, monitor),
                        .sharp = {},
                        .charts = {},
                        .corners = surface.discrete().lines().corners,
                        .lines = {},
-                       .geometry = {}};
+                       .geometry = {},
+                       .everywhere = true,
+                       .angle_slack = options.size.geo_guarantee ? 1 : angle_slack};
   for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
     const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
     for (std::size_t k = 1; k < chain.size(); ++k) frame.sharp.push_back(mesh_edge(chain[k - 1], chain[k]));

@@ -16,6 +16,6 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
 
 /// Keeps references to all but `sizes` until the frame is done with.
 RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const SurfaceMesh& mesh, std::span<const double> sizes,
-                           Cad& cad, Monitor& monitor);
+                           const CompositeOptions& options, Cad& cad, Monitor& monitor);
 
 }  // namespace carreau

@@ -79,7 +79,7 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeRe
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
     if (round > 0 && changed == 0) break;
-    report += remesh(free, monitor);
+    report += remesh(free, monitor, frame.everywhere);
   }
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -106,7 +106,8 @@ std::string worse(const SurfaceMesh& made, const SurfaceMesh& before) {
 
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
-  const SurfaceTolerances tolerances = tolerances_of(options);
+  SurfaceTolerances tolerances = tolerances_of(options);
+  if (std::isfinite(geometric_limits(options.size).edge_angle_deg)) tolerances.angle_deg *= frame.angle_slack;
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;

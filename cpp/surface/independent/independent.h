@@ -25,6 +25,8 @@ struct RemeshingFrame {
   std::vector<std::int32_t> corners;  ///< ascending
   std::vector<SharpLine> lines;
   std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
+  bool everywhere = false;  ///< see remesh()
+  double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
 };
 
 /// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns why it
