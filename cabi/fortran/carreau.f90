@@ -97,7 +97,6 @@ module carreau
 
   !> A mesh: of a session, or read from a file.
   type :: carreau_mesh
-    private
     type(c_ptr) :: handle = c_null_ptr
   end type carreau_mesh
 
