@@ -73,6 +73,8 @@ class CadInput {
   [[nodiscard]] virtual bool has_sizes() const { return false; }
   /// Whether each edge of the file has two faces.
   [[nodiscard]] virtual bool closed() const { return false; }
+  /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
+  [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
 };

@@ -77,6 +77,14 @@ class TrianglesInput final : public CadInput {
     return false;
   }
   [[nodiscard]] bool closed() const override { return report_.border_edges == 0; }
+  [[nodiscard]] std::string of_mesh(carreau_session* session) const override {
+    double distances[2] = {};
+    require(session, carreau_triangles_distances(session, distances));
+    char text[160];
+    std::snprintf(text, sizeof text, "distance   %.4g from the mesh to the triangles, %.4g back; their smooth surface is within %.4g",
+                  distances[0], distances[1], report_.deviation);
+    return text;
+  }
 
  private:
   SessionHandle session_;

@@ -173,6 +173,10 @@ MeshEvaluation measure(const Meshed& meshed, const CompositeResult& result, Moni
   return evaluate_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
 }
 
+void refuse_fields(const Model& model) {
+  if (model.discrete) throw InvalidArgument("a surface given as triangles has no fields over parameter domains");
+}
+
 }  // namespace
 
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}
@@ -362,6 +366,7 @@ std::vector<std::string> Session::write_fields(const std::string& path, const Fi
 std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, FieldOptions options) {
   State& s = *state_;
   const Meshed& meshed = s.meshed;
+  refuse_fields(meshed.model);
   CheckedCad whole_cad(*meshed.cad);
   PartCad cad(whole_cad, parts_of(meshed.model));
   const double diag = s.result.report.diag;
@@ -389,6 +394,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   State& s = *state_;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  refuse_fields(s.model);
   CheckedCad whole_cad(*s.cad);
   PartCad cad(whole_cad, parts_of(s.model));
   const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
