@@ -14,11 +14,12 @@ DiscreteCad::DiscreteCad(std::shared_ptr<const DiscreteSurface> surface)
       width_(static_cast<std::int32_t>(std::ceil(std::sqrt(static_cast<double>(surface_->triangles()))))) {}
 
 Vec2 DiscreteCad::corner_of_tile(std::int32_t triangle) const noexcept {
-  return {2.0 * (triangle % width_), 2.0 * (triangle / width_)};
+  return {tile_distance * (triangle % width_), tile_distance * (triangle / width_)};
 }
 
 std::int32_t DiscreteCad::patch_of(const Vec2& uv) const noexcept {
-  const double i = std::floor((uv.x() + 0.5) / 2), j = std::floor((uv.y() + 0.5) / 2), triangle = j * width_ + i;
+  const double i = std::floor((uv.x() + 1) / tile_distance), j = std::floor((uv.y() + 1) / tile_distance),
+               triangle = j * width_ + i;
   const bool known = i >= 0 && i < width_ && triangle >= 0 && triangle < static_cast<double>(surface_->triangles());
   return known ? static_cast<std::int32_t>(triangle) : -1;
 }

@@ -9,9 +9,11 @@
 
 namespace carreau::discrete {
 
-/// The plane of (u, v) is paved: triangle t of the surface has the tile of whole numbers (i, j) = (t mod w, t div w) and
-/// is the half of it with corners (2 i, 2 j), (2 i + 1, 2 j), (2 i, 2 j + 1). Faces are its regions, and do not matter for
+/// The plane of (u, v) has a tile for each triangle, far from all others: triangle t of the surface, with the whole numbers
+/// (i, j) = (t mod w, t div w), has the corners (d i, d j), (d i + 1, d j), (d i, d j + 1), d = tile_distance. Faces are its regions, and do not matter for
 /// where a point is. There are no curves of the parameter plane.
+inline constexpr double tile_distance = 64;
+
 class DiscreteCad final : public Cad {
  public:
   explicit DiscreteCad(std::shared_ptr<const DiscreteSurface> surface);
@@ -24,7 +26,7 @@ class DiscreteCad final : public Cad {
   [[nodiscard]] const DiscreteSurface& discrete() const noexcept { return *surface_; }
   /// Where a triangle of the surface is.
   [[nodiscard]] Vec2 corner_of_tile(std::int32_t triangle) const noexcept;
-  /// The triangle that has a place of (u, v), with half a unit of room around; -1: none.
+  /// The triangle that has a place of (u, v), with room around; -1: none.
   [[nodiscard]] std::int32_t patch_of(const Vec2& uv) const noexcept;
 
  private:
