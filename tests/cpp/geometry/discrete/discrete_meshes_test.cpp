@@ -59,6 +59,7 @@ TEST(DiscreteMeshes, ATorusHasTheSizesAskedForAndLiesOnItsSurface) {
     EXPECT_LT(length.spread.mean, 1.15);
     EXPECT_GT(length.spread.p1, 0.6);
     EXPECT_LT(length.spread.p99, 1.5);
+    EXPECT_GT(made.delivered[EvaluationKind::metric_quality].spread.min, 0.3);
   }
 }
 
