@@ -43,8 +43,8 @@ std::size_t count_of(std::int64_t n, const char* name) {
 
 FlatMesh mesh_of(const carreau_triangles& given) {
   FlatMesh mesh;
-  const std::size_t n = count_of(given.vertex_count, "vertex_count"), m = count_of(given.triangle_count, "triangle_count"),
-                    k = count_of(given.edge_count, "edge_count");
+  const std::size_t n = count_of(given.vertex_count, "vertex_count"),
+                    m = count_of(given.triangle_count, "triangle_count"), k = count_of(given.edge_count, "edge_count");
   if (n > 0) required(given.vertices, "triangles->vertices");
   if (m > 0) required(given.triangles, "triangles->triangles");
   if (k > 0) required(given.edges, "triangles->edges");
@@ -138,10 +138,12 @@ carreau_status carreau_triangles_refine(carreau_session* session, double angle, 
     session->monitor.begin_run();
     discrete::RefinementLimits limits{.depth = depth};
     if (const int most = session->parameters->integer("max_triangles"); most > 0) limits.triangles = most;
-    discrete::RefinedMesh refined = depth == 0 ? unrefined(surface) : refine(surface, wish_of_angle(surface, angle), limits, session->monitor);
+    discrete::RefinedMesh refined =
+        depth == 0 ? unrefined(surface) : refine(surface, wish_of_angle(surface, angle), limits, session->monitor);
     if (!refined.complete)
-      session->monitor.message(Level::warning, "triangles differ from the surface by more than the angle: the depth of " +
-                                                   std::to_string(depth) + " is reached");
+      session->monitor.message(Level::warning,
+                               "triangles differ from the surface by more than the angle: the depth of " +
+                                   std::to_string(depth) + " is reached");
     mesh->flat = flat_mesh(surface, refined);
     mesh->flat_faces = faces_of(mesh->flat);
     mesh->filled = true;
@@ -155,7 +157,9 @@ carreau_status carreau_triangles_distances(carreau_session* session, double out_
     const discrete::Triangulation& input = surface_of(*session).mesh();
     const FlatMesh flat = carreau::flatten(session->session.mesh(), false);
     session->monitor.begin_run();
-    out_distances[0] = largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor);
-    out_distances[1] = largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor);
+    out_distances[0] =
+        largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor);
+    out_distances[1] =
+        largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor);
   });
 }

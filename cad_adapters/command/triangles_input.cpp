@@ -81,7 +81,8 @@ class TrianglesInput final : public CadInput {
     double distances[2] = {};
     require(session, carreau_triangles_distances(session, distances));
     char text[160];
-    std::snprintf(text, sizeof text, "distance   %.4g from the mesh to the triangles, %.4g back; their smooth surface is within %.4g",
+    std::snprintf(text, sizeof text,
+                  "distance   %.4g from the mesh to the triangles, %.4g back; their smooth surface is within %.4g",
                   distances[0], distances[1], report_.deviation);
     return text;
   }
@@ -139,7 +140,8 @@ std::unique_ptr<CadInput> open_triangles(const std::string& path, const Triangle
   return std::make_unique<TrianglesInput>(std::move(session), path, choice);
 }
 
-MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth, bool quiet) {
+MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth,
+                             bool quiet) {
   SessionHandle session = quiet ? make_silent_session() : make_session();
   require(session.get(), load(session.get(), path, choice));
   return refined(session.get(), angle, depth);

@@ -14,9 +14,9 @@ class CadInput;
 
 /// What of a surface given as triangles is a line.
 struct TrianglesChoice {
-  double sharp = 0;                ///< degrees; 0: not given
-  double corner = 0;               ///< degrees; 0: not given
-  bool given_edges = false;        ///< lines are the edges of the file
+  double sharp = 0;          ///< degrees; 0: not given
+  double corner = 0;         ///< degrees; 0: not given
+  bool given_edges = false;  ///< lines are the edges of the file
   bool ignore_references = false;
 };
 
@@ -28,7 +28,8 @@ std::unique_ptr<CadInput> open_triangles(const std::string& path, const Triangle
 
 /// The triangles of a file, mended, with their lines; refined where an angle (degrees) is above 0. Warnings go to the
 /// error output unless `quiet`. Throws Failure.
-MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth, bool quiet);
+MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth,
+                             bool quiet);
 
 /// What `carreau info` prints of a file of triangles. Throws Failure.
 void print_triangles_info(const std::string& path, const TrianglesChoice& choice, bool json);

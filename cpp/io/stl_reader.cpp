@@ -44,7 +44,8 @@ class JoinedPoints {
   }
   std::int32_t& find(const std::vector<Vec3>& vertices, const Vec3& p) {
     std::size_t k = hash(p) & (slots_.size() - 1);
-    while (slots_[k] != free_slot && vertices[static_cast<std::size_t>(slots_[k])] != p) k = (k + 1) & (slots_.size() - 1);
+    while (slots_[k] != free_slot && vertices[static_cast<std::size_t>(slots_[k])] != p)
+      k = (k + 1) & (slots_.size() - 1);
     return slots_[k];
   }
   void grow(const std::vector<Vec3>& vertices) {

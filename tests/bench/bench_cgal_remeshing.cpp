@@ -23,13 +23,15 @@ int main(int argc, char** argv) {
   std::vector<Mesh::Vertex_index> v;
   for (const carreau::Vec3& p : flat.vertices) v.push_back(mesh.add_vertex({p.x(), p.y(), p.z()}));
   for (const auto& t : flat.triangles)
-    mesh.add_face(v[static_cast<std::size_t>(t[0])], v[static_cast<std::size_t>(t[1])], v[static_cast<std::size_t>(t[2])]);
+    mesh.add_face(v[static_cast<std::size_t>(t[0])], v[static_cast<std::size_t>(t[1])],
+                  v[static_cast<std::size_t>(t[2])]);
   const double size = std::atof(argv[3]);
   const auto start = std::chrono::steady_clock::now();
   auto sharp = mesh.add_property_map<Mesh::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(mesh, std::atof(argv[4]), sharp);
-  pmp::isotropic_remeshing(mesh.faces(), size, mesh,
-                           pmp::parameters::edge_is_constrained_map(sharp).number_of_iterations(5).number_of_relaxation_steps(3));
+  pmp::isotropic_remeshing(
+      mesh.faces(), size, mesh,
+      pmp::parameters::edge_is_constrained_map(sharp).number_of_iterations(5).number_of_relaxation_steps(3));
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   mesh.collect_garbage();
   std::ofstream out(argv[2]);

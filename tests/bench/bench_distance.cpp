@@ -1,5 +1,5 @@
-// bench_distance A B ANGLE: how far the mesh A is from B, and B from A (vertices, middles of edges and triangles), and how far
-// points of the sharp lines of B are from those of A.
+// bench_distance A B ANGLE: how far the mesh A is from B, and B from A (vertices, middles of edges and triangles), and
+// how far points of the sharp lines of B are from those of A.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -32,5 +32,8 @@ int main(int argc, char** argv) {
   const auto of_a = lines_of(a, angle), of_b = lines_of(b, angle);
   std::printf("%.6g %.6g %.6g %zu %zu\n", largest_distance(a.vertices, a.triangles, b.vertices, b.triangles, silent),
               largest_distance(b.vertices, b.triangles, a.vertices, a.triangles, silent),
-              of_b.empty() ? 0 : of_a.empty() ? 1e300 : largest_distance(b.vertices, of_b, a.vertices, of_a, silent), of_a.size(), of_b.size());
+              of_b.empty()   ? 0
+              : of_a.empty() ? 1e300
+                             : largest_distance(b.vertices, of_b, a.vertices, of_a, silent),
+              of_a.size(), of_b.size());
 }

@@ -39,7 +39,7 @@ def row(name, seconds, build, target, path, size, sharp):
         print(f"{os.path.basename(path):14} {name:8} no mesh that can be read")
         return
     print(f"{os.path.basename(path):14} {name:8} {quality['triangles']:8} {seconds:8.3f} {q['q2_mean']:7.4f} {q['q2_min']:7.4f} " +
-          " ".join(f"{float(x) / size:8.4f}" for x in far[:3]) + f" {far[3]:>6}/{far[4]}")
+          " ".join(f"{float(x) / size:8.4f}" if float(x) < 1e100 else "    none" for x in far[:3]) + f" {far[3]:>6}/{far[4]}")
     sys.stdout.flush()
 
 

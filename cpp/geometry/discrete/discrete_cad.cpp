@@ -33,11 +33,13 @@ void DiscreteCad::surface(int face, unsigned want, std::span<const Vec2> uv, std
 }
 
 Interval DiscreteCad::curve_interval(int face, int ic) {
-  throw InvalidArgument(Where{.face = face, .curve_index = ic}, "a surface of triangles has no curves of the parameter plane");
+  throw InvalidArgument(Where{.face = face, .curve_index = ic},
+                        "a surface of triangles has no curves of the parameter plane");
 }
 
 CurveJet DiscreteCad::curve(int face, int ic, unsigned, double) {
-  throw InvalidArgument(Where{.face = face, .curve_index = ic}, "a surface of triangles has no curves of the parameter plane");
+  throw InvalidArgument(Where{.face = face, .curve_index = ic},
+                        "a surface of triangles has no curves of the parameter plane");
 }
 
 BuiltGeometry discrete_geometry(std::shared_ptr<const DiscreteSurface> surface) {

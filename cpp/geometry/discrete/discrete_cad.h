@@ -9,9 +9,9 @@
 
 namespace carreau::discrete {
 
-/// The plane of (u, v) has a tile for each triangle, far from all others: triangle t of the surface, with the whole numbers
-/// (i, j) = (t mod w, t div w), has the corners (d i, d j), (d i + 1, d j), (d i, d j + 1), d = tile_distance. Faces are its regions, and do not matter for
-/// where a point is. There are no curves of the parameter plane.
+/// The plane of (u, v) has a tile for each triangle, far from all others: triangle t of the surface, with the whole
+/// numbers (i, j) = (t mod w, t div w), has the corners (d i, d j), (d i + 1, d j), (d i, d j + 1), d = tile_distance.
+/// Faces are its regions, and do not matter for where a point is. There are no curves of the parameter plane.
 inline constexpr double tile_distance = 64;
 
 class DiscreteCad final : public Cad {

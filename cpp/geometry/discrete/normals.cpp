@@ -147,8 +147,8 @@ Cubic curve_by_normals(const Vec3& p, const Vec3& q, const Vec3& np, const Vec3&
   const Vec3 u = (q - p) / length;
   const double a = dot(np, nq), ap = dot(np, u), aq = dot(nq, u), below = 4 - a * a;
   const double rho = 6 * (2 * ap + a * aq) / below, sigma = 6 * (2 * aq + a * ap) / below;
-  return {p, p + length / 18 * (6 * u - 2 * rho * np + sigma * nq), q - length / 18 * (6 * u + rho * np - 2 * sigma * nq),
-          q};
+  return {p, p + length / 18 * (6 * u - 2 * rho * np + sigma * nq),
+          q - length / 18 * (6 * u + rho * np - 2 * sigma * nq), q};
 }
 
 std::vector<Cubic> find_curves(const Triangulation& mesh, const SharpLines& lines, Frames& frames) {
@@ -162,7 +162,9 @@ std::vector<Cubic> find_curves(const Triangulation& mesh, const SharpLines& line
     const Side side = mesh.sides(static_cast<std::int32_t>(e)).front();
     const auto& [p, q] = mesh.edges[e];
     const bool forward = mesh.corner(side.triangle, side.side) == p;
-    const auto normal = [&](int k) { return frames.normal[3 * index(side.triangle) + static_cast<std::size_t>((side.side + k) % 3)]; };
+    const auto normal = [&](int k) {
+      return frames.normal[3 * index(side.triangle) + static_cast<std::size_t>((side.side + k) % 3)];
+    };
     curves[e] = curve_by_normals(mesh.at(p), mesh.at(q), normal(forward ? 0 : 1), normal(forward ? 1 : 0));
   }
   return curves;

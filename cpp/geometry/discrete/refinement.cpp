@@ -48,7 +48,8 @@ class Refiner {
       const auto& c = mesh_.triangles[t];
       const bool all = wish_.triangle && wish_.triangle(mesh_, t);
       for (std::size_t i = 0; i < 3; ++i)
-        if (const std::int32_t v = c[i], w = c[(i + 1) % 3]; all || (wish_.edge && wish_.edge(mesh_, std::min(v, w), std::max(v, w))))
+        if (const std::int32_t v = c[i], w = c[(i + 1) % 3];
+            all || (wish_.edge && wish_.edge(mesh_, std::min(v, w), std::max(v, w))))
           middle_.emplace(key_of(v, w), wanted);
     }
   }
@@ -65,7 +66,8 @@ class Refiner {
       more = false;
       for (const auto& c : mesh_.triangles)
         if (halved(c) == 2)
-          for (std::size_t i = 0; i < 3; ++i) more = middle_.emplace(key_of(c[i], c[(i + 1) % 3]), wanted).second || more;
+          for (std::size_t i = 0; i < 3; ++i)
+            more = middle_.emplace(key_of(c[i], c[(i + 1) % 3]), wanted).second || more;
     }
   }
 
@@ -169,7 +171,8 @@ RefinementWish wish_of_angle(const DiscreteSurface& surface, double angle) {
   RefinementWish wish;
   wish.triangle = [&surface, cosine](const RefinedMesh& mesh, std::size_t t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const Vec3 n = cross(mesh.vertices[index(b)] - mesh.vertices[index(a)], mesh.vertices[index(c)] - mesh.vertices[index(a)]);
+    const Vec3 n =
+        cross(mesh.vertices[index(b)] - mesh.vertices[index(a)], mesh.vertices[index(c)] - mesh.vertices[index(a)]);
     const double length = norm(n);
     return std::ranges::any_of(mesh.uv[t], [&](const Vec2& uv) {
       const SurfaceJet jet = surface.at(mesh.parent[t], uv, want_first);
@@ -185,7 +188,8 @@ std::vector<std::int32_t> face_refs(const DiscreteSurface& surface) {
   const bool several = std::ranges::any_of(given, [&](std::int32_t ref) { return ref != given.front(); });
   const std::int32_t shift = several ? std::max(0, 1 - *std::ranges::min_element(given)) : 0;
   std::vector<std::int32_t> refs;
-  for (std::size_t t = 0; t < given.size(); ++t) refs.push_back(several ? given[t] + shift : surface.lines().region[t] + 1);
+  for (std::size_t t = 0; t < given.size(); ++t)
+    refs.push_back(several ? given[t] + shift : surface.lines().region[t] + 1);
   return refs;
 }
 

@@ -61,8 +61,8 @@ class LineFinder {
   void start(std::int32_t e) {
     const auto both = mesh_.sides(e);
     const bool agree = both.size() == 2 && mesh_.beyond(both[0].triangle, both[0].side).triangle >= 0;
-    const bool refs = options_.references && agree &&
-                      mesh_.refs[index(both[0].triangle)] != mesh_.refs[index(both[1].triangle)];
+    const bool refs =
+        options_.references && agree && mesh_.refs[index(both[0].triangle)] != mesh_.refs[index(both[1].triangle)];
     const bool marked = std::ranges::binary_search(mesh_.marked, mesh_.edges[index(e)]);
     if (!agree || refs || marked)
       found_.sharp[index(e)] = certain_[index(e)] = 1;
@@ -78,7 +78,8 @@ class LineFinder {
     std::vector<int> count(mesh_.vertices.size(), 0);
     std::vector<char> kept(mesh_.vertices.size(), 1);
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e)
-      if (found_.sharp[e] != 0) count[sets.find(index(mesh_.edges[e][0]))] += certain_[e] != 0 ? thresholds::least_edges : 1;
+      if (found_.sharp[e] != 0)
+        count[sets.find(index(mesh_.edges[e][0]))] += certain_[e] != 0 ? thresholds::least_edges : 1;
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(kept.size()); ++v)
       if (degree(v) == 1) kept[sets.find(index(v))] = 0;
     for (std::size_t e = 0; e < mesh_.edges.size(); ++e) {
@@ -183,8 +184,7 @@ class LineFinder {
       if (here.empty()) corner = discs[index(v)] > 1;
       if (here.size() == 2) {
         corner = -dot(direction(here[0], v), direction(here[1], v)) < cosine;
-        for (const std::int32_t e : here)
-          corner = corner || static_cast<int>(mesh_.sides(e).size()) != discs[index(v)];
+        for (const std::int32_t e : here) corner = corner || static_cast<int>(mesh_.sides(e).size()) != discs[index(v)];
       }
       if (corner) found_.corners.push_back(v);
     }
@@ -252,7 +252,9 @@ UnionFind sectors_of(const Triangulation& mesh, const std::vector<char>& sharp) 
       if (sharp[index(mesh.edge(t, i))] != 0) continue;
       const Side u = mesh.beyond(t, i);  // runs the other way
       if (u.triangle < t) continue;
-      const auto rank = [](std::int32_t triangle, int k) { return 3 * index(triangle) + static_cast<std::size_t>(k % 3); };
+      const auto rank = [](std::int32_t triangle, int k) {
+        return 3 * index(triangle) + static_cast<std::size_t>(k % 3);
+      };
       sets.merge(rank(t, i), rank(u.triangle, u.side + 1));
       sets.merge(rank(t, i + 1), rank(u.triangle, u.side));
     }

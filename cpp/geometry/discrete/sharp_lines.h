@@ -30,10 +30,10 @@ struct SharpLines {
   std::vector<Line> lines;
   std::vector<std::int32_t> region;  ///< by triangle: connected over edges that are not sharp, from 0
   std::int32_t regions = 0;
-  std::int64_t edges = 0;           ///< that are sharp
-  std::int64_t dropped = 0;         ///< potential ones that no line goes through
-  std::int64_t prolonged = 0;       ///< regular ones over which lines go on
-  std::int64_t faded = 0;           ///< ends of lines on no other one
+  std::int64_t edges = 0;      ///< that are sharp
+  std::int64_t dropped = 0;    ///< potential ones that no line goes through
+  std::int64_t prolonged = 0;  ///< regular ones over which lines go on
+  std::int64_t faded = 0;      ///< ends of lines on no other one
   std::vector<std::string> sentences = {};
 };
 

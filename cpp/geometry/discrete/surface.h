@@ -24,7 +24,9 @@ class DiscreteSurface {
   [[nodiscard]] SurfaceJet at(std::int32_t triangle, Vec2 uv, unsigned want) const {
     return patches_[static_cast<std::size_t>(triangle)].at(uv, want);
   }
-  [[nodiscard]] const GregoryTriangle& patch(std::int32_t triangle) const { return patches_[static_cast<std::size_t>(triangle)]; }
+  [[nodiscard]] const GregoryTriangle& patch(std::int32_t triangle) const {
+    return patches_[static_cast<std::size_t>(triangle)];
+  }
   /// The curve of an edge, from the smaller vertex on.
   [[nodiscard]] const Cubic& curve(std::int32_t edge) const { return curves_[static_cast<std::size_t>(edge)]; }
   /// The normal of the region at a corner of a triangle, of unit length (eq. 4.96).
@@ -34,7 +36,8 @@ class DiscreteSurface {
   /// Tangents around vertices that turned back and were unfolded (eq. 4.101), and those that still do.
   [[nodiscard]] std::int64_t unfolded() const noexcept { return unfolded_; }
   [[nodiscard]] std::int64_t folded() const noexcept { return folded_; }
-  /// No point of the surface is farther from the triangles, and no point of the triangles from the surface; model length.
+  /// No point of the surface is farther from the triangles, and no point of the triangles from the surface; model
+  /// length.
   [[nodiscard]] double deviation() const noexcept;
 
  private:

@@ -25,7 +25,8 @@ inline constexpr int least_edges = 8, least_faded = 8;
 inline constexpr double clear_crease = 0.3;
 /// Sine of the angle between the two lines that bound a region at a corner: below, they span no plane.
 inline constexpr double clear_corner = 0.17;
-/// Cosine: the plane that two lines span at a corner is that of the region when its normal is no farther from the mean one.
+/// Cosine: the plane that two lines span at a corner is that of the region when its normal is no farther from the mean
+/// one.
 inline constexpr double same_side = 0.7;
 /// Denominators of the normals' product in eq. 4.98 and normals of no length.
 inline constexpr double tiny = 1e-12;

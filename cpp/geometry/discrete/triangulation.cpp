@@ -39,7 +39,8 @@ Triangulation::Triangulation(const FlatMesh& input, bool join) {
   take_triangles(input, number);
   if (triangles.empty()) throw InvalidArgument("the surface has no triangle");
   for (const auto& e : input.edges)
-    if (const Edge known = edge_of(number[index(e[0])], number[index(e[1])]); known[0] != known[1]) marked.push_back(known);
+    if (const Edge known = edge_of(number[index(e[0])], number[index(e[1])]); known[0] != known[1])
+      marked.push_back(known);
   drop_unused(input);
   link();
   turn();
@@ -68,7 +69,8 @@ void Triangulation::take_vertices(const FlatMesh& input, bool join, std::vector<
     const Vec3& p = input.vertices[index(v)];
     return std::tuple(p.x(), p.y(), p.z());
   };
-  std::ranges::sort(order, [&](std::int32_t v, std::int32_t w) { return std::tuple(key(v), v) < std::tuple(key(w), w); });
+  std::ranges::sort(order,
+                    [&](std::int32_t v, std::int32_t w) { return std::tuple(key(v), v) < std::tuple(key(w), w); });
   for (std::size_t k = 1; k < n; ++k)
     if (key(order[k]) == key(order[k - 1])) number[index(order[k])] = number[index(order[k - 1])];
 }
@@ -113,8 +115,9 @@ void Triangulation::take_triangles(const FlatMesh& input, const std::vector<std:
     const auto& [a, b, c] = triangles.back();
     const double longest = std::max({norm(at(b) - at(a)), norm(at(c) - at(b)), norm(at(a) - at(c))});
     if (!(norm(cross(at(b) - at(a), at(c) - at(a))) > thresholds::flat_height * longest * longest))
-      throw InvalidArgument("triangle " + std::to_string(t) + " (from 0) with corners at " + place(a) + ", " + place(b) +
-                            " and " + place(c) + " has no area: it cannot be dropped without a hole. Remove it first");
+      throw InvalidArgument("triangle " + std::to_string(t) + " (from 0) with corners at " + place(a) + ", " +
+                            place(b) + " and " + place(c) +
+                            " has no area: it cannot be dropped without a hole. Remove it first");
   }
 }
 
@@ -266,7 +269,8 @@ Vec3 Triangulation::normal(std::int32_t triangle) const {
 }
 
 double Triangulation::angle(std::int32_t triangle, int k) const {
-  const Vec3 p = at(corner(triangle, k + 1)) - at(corner(triangle, k)), q = at(corner(triangle, k + 2)) - at(corner(triangle, k));
+  const Vec3 p = at(corner(triangle, k + 1)) - at(corner(triangle, k)),
+             q = at(corner(triangle, k + 2)) - at(corner(triangle, k));
   return std::atan2(norm(cross(p, q)), dot(p, q));
 }
 

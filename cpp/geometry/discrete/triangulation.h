@@ -26,7 +26,7 @@ struct Findings {
   std::int64_t one_sided_edges = 0;     ///< on which no orientation agrees (a Moebius strip)
   std::int64_t shells = 0;              ///< connected over edges
   std::int64_t unused_vertices = 0;
-  std::int64_t euler_number = 0;        ///< vertices in use - edges + triangles
+  std::int64_t euler_number = 0;  ///< vertices in use - edges + triangles
   /// Sentences, a defect each, with the place of the first one.
   std::vector<std::string> sentences = {};
 };
@@ -40,10 +40,9 @@ struct Side {
 /// Triangles with neighbours. Vertices are those of the input that are in use, in order.
 class Triangulation {
  public:
-  /// Joins vertices of equal coordinates when `join`, drops repeated triangles, those with two corners at one place, and
-  /// turns triangles so that neighbours agree: each shell as most of its triangles are.
-  /// Throws InvalidArgument, with the place, for triangles without area whose corners are three places, and when no
-  /// triangle is left.
+  /// Joins vertices of equal coordinates when `join`, drops repeated triangles, those with two corners at one place,
+  /// and turns triangles so that neighbours agree: each shell as most of its triangles are. Throws InvalidArgument,
+  /// with the place, for triangles without area whose corners are three places, and when no triangle is left.
   explicit Triangulation(const FlatMesh& input, bool join = true);
 
   std::vector<Vec3> vertices;
@@ -57,21 +56,25 @@ class Triangulation {
   Findings findings;
 
   /// Index of an edge of a triangle, from corner `side` to the next one.
-  [[nodiscard]] std::int32_t edge(std::int32_t triangle, int side) const { return edge_[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(side)]; }
+  [[nodiscard]] std::int32_t edge(std::int32_t triangle, int side) const {
+    return edge_[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(side)];
+  }
   /// All sides that an edge has; two on most edges.
   [[nodiscard]] std::span<const Side> sides(std::int32_t edge) const;
   /// The other triangle on a side with exactly two that agree; triangle -1: none.
   [[nodiscard]] Side beyond(std::int32_t triangle, int side) const;
   /// Index of an edge; -1: there is none.
   [[nodiscard]] std::int32_t find_edge(std::int32_t v, std::int32_t w) const;
-  [[nodiscard]] std::int32_t corner(std::int32_t triangle, int k) const { return triangles[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(k % 3)]; }
+  [[nodiscard]] std::int32_t corner(std::int32_t triangle, int k) const {
+    return triangles[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(k % 3)];
+  }
   [[nodiscard]] const Vec3& at(std::int32_t vertex) const { return vertices[static_cast<std::size_t>(vertex)]; }
   /// Of unit length.
   [[nodiscard]] Vec3 normal(std::int32_t triangle) const;
   /// Angle of a triangle at a corner, radians.
   [[nodiscard]] double angle(std::int32_t triangle, int k) const;
-  /// Between the normals of the two triangles of an edge, degrees; 180 on edges with other than two, or two that run the
-  /// same way.
+  /// Between the normals of the two triangles of an edge, degrees; 180 on edges with other than two, or two that run
+  /// the same way.
   [[nodiscard]] double bend(std::int32_t edge) const;
   [[nodiscard]] double diagonal() const;
 

@@ -81,7 +81,8 @@ class Unfolder {
   [[nodiscard]] std::vector<double> turns(const Fan& fan) const {
     std::vector<double> beta;
     const std::size_t n = fan.edges.size();
-    for (std::size_t j = 0; j + (fan.closed ? 0 : 1) < n; ++j) beta.push_back(turn(fan.edges[j], fan.edges[(j + 1) % n]));
+    for (std::size_t j = 0; j + (fan.closed ? 0 : 1) < n; ++j)
+      beta.push_back(turn(fan.edges[j], fan.edges[(j + 1) % n]));
     return beta;
   }
   [[nodiscard]] std::int64_t folds(const Fan& fan) const {
@@ -90,8 +91,8 @@ class Unfolder {
     return n;
   }
 
-  /// Shares the sum of the angles of a window out in the ratio of their sizes; false where nothing is folded, or nothing
-  /// can be done.
+  /// Shares the sum of the angles of a window out in the ratio of their sizes; false where nothing is folded, or
+  /// nothing can be done.
   bool mend(const Fan& fan) {
     const std::vector<double> beta = turns(fan);
     const std::size_t n = beta.size();

@@ -13,7 +13,8 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   if (options.element != Element::p1)
     throw InvalidArgument("a surface given as triangles gets straight triangles: element must be p1");
   if (options.size.geo_anisotropic)
-    monitor.message(Level::warning, "sizes that differ by direction count as their least on a surface given as triangles");
+    monitor.message(Level::warning,
+                    "sizes that differ by direction count as their least on a surface given as triangles");
   const DiscreteSizes sizes(model, cad, surface, options);
   monitor.progress(Phase::curves, 0, 0);
   const discrete::RefinedMesh refined = refine_by_sizes(surface.discrete(), sizes, options, monitor);

@@ -15,7 +15,8 @@ namespace {
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 GeometricRule rule_of(const SizeParameters& size) {
-  GeometricRule rule{.criterion = size.geo_rule, .anisotropic = false, .angle_deg = size.angle_mesh, .eps0 = size.eps_chord};
+  GeometricRule rule{
+      .criterion = size.geo_rule, .anisotropic = false, .angle_deg = size.angle_mesh, .eps0 = size.eps_chord};
   if (size.geo_guarantee) {
     rule.angle_factor = thresholds::size::guaranteed_angle_factor;
     rule.chord_factor = thresholds::size::guaranteed_chord_factor;
@@ -77,7 +78,8 @@ void DiscreteSizes::prescribe(const discrete::RefinedMesh& mesh, std::vector<dou
     const int face = rank[index(refs[index(mesh.parent[t])])];
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 uv = surface_.corner_of_tile(mesh.parent[t]) + mesh.uv[t][k];
-      const SurfaceJet jet = surface_at(cad_, model_.faces[index(face)].ref, want_position | want_first | rules.surface_wants(), uv);
+      const SurfaceJet jet =
+          surface_at(cad_, model_.faces[index(face)].ref, want_position | want_first | rules.surface_wants(), uv);
       Metric2 metric;
       const double otherwise = physical.hphydef;
       rules.metrics_on_surface(face, {&uv, 1}, {&jet, 1}, [&](const Vec2&) { return otherwise; }, {&metric, 1});
@@ -93,7 +95,8 @@ void DiscreteSizes::bend(const discrete::RefinedMesh& mesh, std::vector<double>&
     const std::size_t first = 3 * index(mesh.parent[t]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2& p = mesh.uv[t][k];
-      const double curvature = (1 - p.x() - p.y()) / radius_[first] + p.x() / radius_[first + 1] + p.y() / radius_[first + 2];
+      const double curvature =
+          (1 - p.x() - p.y()) / radius_[first] + p.x() / radius_[first + 1] + p.y() / radius_[first + 2];
       const double h = geometric_size(rule, curvature > 0 ? 1 / curvature : infinity);
       double& least = size[index(mesh.triangles[t][k])];
       least = std::min(least, std::clamp(h, options_.size.hgeomin, options_.size.hgeomax));
@@ -105,7 +108,8 @@ std::vector<double> DiscreteSizes::at_vertices(const discrete::RefinedMesh& mesh
   std::vector<double> size(mesh.vertices.size(), infinity);
   prescribe(mesh, size, monitor);
   if (options_.size.geometric != GeometricSizes::ignored) bend(mesh, size);
-  if (options_.gradation > 0) grade_over_edges(mesh.vertices, mesh.triangles, slope_of_gradation(options_.gradation), size);
+  if (options_.gradation > 0)
+    grade_over_edges(mesh.vertices, mesh.triangles, slope_of_gradation(options_.gradation), size);
   return size;
 }
 

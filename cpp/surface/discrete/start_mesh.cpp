@@ -27,7 +27,8 @@ std::map<MeshEdge, std::vector<std::int32_t>> faces_beside(const SurfaceMesh& me
     for (const auto& t : mesh.faces[f].triangles)
       for (std::size_t i = 0; i < 3; ++i) {
         const std::int32_t v = mesh.faces[f].vertex[index(t[i])], w = mesh.faces[f].vertex[index(t[(i + 1) % 3])];
-        if (on_line[index(v)] != 0 && on_line[index(w)] != 0) faces[mesh_edge(v, w)].push_back(static_cast<std::int32_t>(f));
+        if (on_line[index(v)] != 0 && on_line[index(w)] != 0)
+          faces[mesh_edge(v, w)].push_back(static_cast<std::int32_t>(f));
       }
   return faces;
 }
@@ -49,7 +50,8 @@ class PatchLine final : public LineGeometry {
   PatchLine(const SharpLine& line, const SurfaceMesh& mesh, const Charts& charts, Cad& cad)
       : line_(line), charts_(charts), cad_(cad), arc_{0} {
     for (std::size_t k = 1; k < line.vertices.size(); ++k)
-      arc_.push_back(arc_.back() + norm(mesh.vertices[index(line.vertices[k])] - mesh.vertices[index(line.vertices[k - 1])]));
+      arc_.push_back(arc_.back() +
+                     norm(mesh.vertices[index(line.vertices[k])] - mesh.vertices[index(line.vertices[k - 1])]));
   }
   [[nodiscard]] bool is_known() const noexcept override { return true; }
   [[nodiscard]] const std::vector<double>& arcs() const noexcept override { return arc_; }

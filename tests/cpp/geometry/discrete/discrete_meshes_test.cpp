@@ -18,7 +18,8 @@ struct Made {
   MeshEvaluation delivered;
 };
 
-Made mesh_of(const BuiltGeometry& built, double size, double angle, bool closed, int threads = 1, double gradation = 0) {
+Made mesh_of(const BuiltGeometry& built, double size, double angle, bool closed, int threads = 1,
+             double gradation = 0) {
   Monitor silent;
   Session session(silent);
   session.set_cad(built.cad);
@@ -41,7 +42,9 @@ double mean_quality(const SurfaceMesh& mesh) {
   double sum = 0;
   for (const FaceMesh& face : mesh.faces)
     for (const auto& t : face.triangles) {
-      const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(t[k])])]; };
+      const auto at = [&](std::size_t k) {
+        return mesh.vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(t[k])])];
+      };
       sum += quality_q2(at(0), at(1), at(2));
     }
   return sum / static_cast<double>(mesh.triangle_count());
@@ -78,7 +81,9 @@ TEST(DiscreteMeshes, ACubeKeepsItsLinesAndCorners) {
   double area = 0;
   for (const FaceMesh& face : mesh.faces)
     for (const auto& t : face.triangles) {
-      const auto at = [&](std::size_t k) { return mesh.vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(t[k])])]; };
+      const auto at = [&](std::size_t k) {
+        return mesh.vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(t[k])])];
+      };
       area += norm(cross(at(1) - at(0), at(2) - at(0))) / 2;
     }
   EXPECT_NEAR(area, 6, 1e-12);
@@ -93,7 +98,9 @@ TEST(DiscreteMeshes, AnglesFollowTheCurvature) {
   // Curvature 1: h = 2 sin(8 degrees).
   const Delivery& angle = made.delivered[EvaluationKind::angle];
   EXPECT_LT(angle.spread.p99, 12);
-  for (const CurveMesh& curve : made.mesh.curves) EXPECT_NEAR(static_cast<double>(curve.vertices.size() - 1), 2 * std::numbers::pi / (2 * std::sin(8 * std::numbers::pi / 180)), 4);
+  for (const CurveMesh& curve : made.mesh.curves)
+    EXPECT_NEAR(static_cast<double>(curve.vertices.size() - 1),
+                2 * std::numbers::pi / (2 * std::sin(8 * std::numbers::pi / 180)), 4);
 }
 
 TEST(DiscreteMeshes, OpenSurfacesKeepTheirBorders) {

@@ -28,7 +28,8 @@ TEST(WaltonMeek, ArcsOfTheUnitSphere) {
 
 TEST(WaltonMeek, TangentsAreOrthogonalToAnyNormals) {
   for (int k = 0; k < 50; ++k) {
-    const Vec3 p{0, 0, 0}, q{1, 0.1 * k, -0.2}, np = Vec3{0.3, 0.1 * k - 2, 1}.normalized(), nq = Vec3{-0.5, 0.2, 1 + 0.1 * k}.normalized();
+    const Vec3 p{0, 0, 0}, q{1, 0.1 * k, -0.2}, np = Vec3{0.3, 0.1 * k - 2, 1}.normalized(),
+                                                nq = Vec3{-0.5, 0.2, 1 + 0.1 * k}.normalized();
     const Cubic z = curve_by_normals(p, q, np, nq);
     EXPECT_NEAR(dot(z[1] - z[0], np), 0, 1e-14);
     EXPECT_NEAR(dot(z[3] - z[2], nq), 0, 1e-14);
@@ -48,8 +49,10 @@ std::array<double, 3> jumps(const DiscreteSurface& s) {
       for (int k = 0; k <= 8; ++k) {
         const double w = k / 8.0;
         const Vec2 a = lerp(corner[static_cast<std::size_t>(i)], corner[static_cast<std::size_t>((i + 1) % 3)], w);
-        const Vec2 b = lerp(corner[static_cast<std::size_t>((u.side + 1) % 3)], corner[static_cast<std::size_t>(u.side)], w);
-        const SurfaceJet p = s.at(t, a, want_position | want_first), q = s.at(u.triangle, b, want_position | want_first);
+        const Vec2 b =
+            lerp(corner[static_cast<std::size_t>((u.side + 1) % 3)], corner[static_cast<std::size_t>(u.side)], w);
+        const SurfaceJet p = s.at(t, a, want_position | want_first),
+                         q = s.at(u.triangle, b, want_position | want_first);
         most[sharp ? 2 : 1] = std::max(most[sharp ? 2 : 1], norm(p.s - q.s));
         if (sharp) continue;
         most[0] = std::max(most[0], norm(cross(p.su, p.sv).normalized() - cross(q.su, q.sv).normalized()));
@@ -61,7 +64,8 @@ std::array<double, 3> jumps(const DiscreteSurface& s) {
 TEST(DiscreteSurface, IsSmoothOverRegularEdgesAndContinuousOverSharpOnes) {
   FlatMesh bumpy = torus(16, 10);
   for (std::size_t v = 0; v < bumpy.vertices.size(); ++v)
-    bumpy.vertices[v] += 0.05 * Vec3{std::sin(7.0 * static_cast<double>(v)), std::cos(5.0 * static_cast<double>(v)), std::sin(3.0 * static_cast<double>(v))};
+    bumpy.vertices[v] += 0.05 * Vec3{std::sin(7.0 * static_cast<double>(v)), std::cos(5.0 * static_cast<double>(v)),
+                                     std::sin(3.0 * static_cast<double>(v))};
   for (const FlatMesh& mesh : {icosahedron(), sphere(3), torus(24, 12), bumpy, cube(2), cylinder(36)}) {
     const DiscreteSurface s = surface_of(mesh, {.sharp_angle = mesh.triangles.size() == 20 ? 80.0 : 60.0});
     EXPECT_EQ(s.folded(), 0);
@@ -112,7 +116,8 @@ TEST(DiscreteSurface, DeviationBoundsTheDistanceToTheTriangles) {
 
 TEST(DiscreteSurface, TorusConvergesWithTheThirdPower) {
   const auto distance = [](const Vec3& p) { return distance_to_torus(p); };
-  const double coarse = largest(surface_of(torus(24, 12)), distance), fine = largest(surface_of(torus(48, 24)), distance),
+  const double coarse = largest(surface_of(torus(24, 12)), distance),
+               fine = largest(surface_of(torus(48, 24)), distance),
                finest = largest(surface_of(torus(96, 48)), distance);
   EXPECT_LT(coarse, 1.6e-3);
   EXPECT_GT(coarse / fine, 8);
@@ -138,10 +143,15 @@ TEST(DiscreteSurface, SphereAndEllipsoidConverge) {
 
 TEST(DiscreteSurface, ACylinderHasRoundRims) {
   const DiscreteSurface s = surface_of(cylinder(36));
-  EXPECT_LT(largest(s, [](const Vec3& p) { return p.z() > 1e-9 && p.z() < 2 - 1e-9 ? std::abs(std::hypot(p.x(), p.y()) - 1) : 0; }),
+  EXPECT_LT(largest(s,
+                    [](const Vec3& p) {
+                      return p.z() > 1e-9 && p.z() < 2 - 1e-9 ? std::abs(std::hypot(p.x(), p.y()) - 1) : 0;
+                    }),
             1e-5);  // the flat triangles are .0038 off
   // Tangent planes of each side are kept: the bottom stays plane.
-  EXPECT_LT(largest(s, [](const Vec3& p) { return p.z() < 0.5 && std::hypot(p.x(), p.y()) < 0.9 ? std::abs(p.z()) : 0; }), 1e-14);
+  EXPECT_LT(
+      largest(s, [](const Vec3& p) { return p.z() < 0.5 && std::hypot(p.x(), p.y()) < 0.9 ? std::abs(p.z()) : 0; }),
+      1e-14);
 }
 
 TEST(Unfolding, SharesTheAnglesOutUntilTangentsFollowEachOther) {
@@ -157,7 +167,9 @@ TEST(Unfolding, SharesTheAnglesOutUntilTangentsFollowEachOther) {
   Frames frames = find_frames(triangulation, lines);
   std::vector<Cubic> curves = find_curves(triangulation, lines, frames);
   EXPECT_EQ(unfold(triangulation, lines, frames, curves).unfolded, 0);
-  const auto control = [&](int spoke) -> Vec3& { return curves[static_cast<std::size_t>(triangulation.find_edge(0, spoke + 1))][1]; };
+  const auto control = [&](int spoke) -> Vec3& {
+    return curves[static_cast<std::size_t>(triangulation.find_edge(0, spoke + 1))][1];
+  };
   control(1) = Vec3{std::cos(140 * degree), std::sin(140 * degree), 0} / 3;
   const Unfolding done = unfold(triangulation, lines, frames, curves);
   EXPECT_EQ(done.unfolded, 1);
@@ -175,13 +187,15 @@ std::int64_t euler(const RefinedMesh& mesh) {
     for (std::size_t i = 0; i < 3; ++i) edges.push_back(edge_of(t[i], t[(i + 1) % 3]));
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return static_cast<std::int64_t>(mesh.vertices.size()) - static_cast<std::int64_t>(edges.size()) + static_cast<std::int64_t>(mesh.triangles.size());
+  return static_cast<std::int64_t>(mesh.vertices.size()) - static_cast<std::int64_t>(edges.size()) +
+         static_cast<std::int64_t>(mesh.triangles.size());
 }
 
 double worst_shape(const std::vector<Vec3>& x, const std::vector<std::array<std::int32_t, 3>>& triangles) {
   double worst = 1;
   for (const auto& t : triangles)
-    worst = std::min(worst, quality_q2(x[static_cast<std::size_t>(t[0])], x[static_cast<std::size_t>(t[1])], x[static_cast<std::size_t>(t[2])]));
+    worst = std::min(worst, quality_q2(x[static_cast<std::size_t>(t[0])], x[static_cast<std::size_t>(t[1])],
+                                       x[static_cast<std::size_t>(t[2])]));
   return worst;
 }
 
@@ -209,7 +223,8 @@ TEST(Refinement, AllTrianglesAreWithinTheAngle) {
 TEST(Refinement, KeepsLinesAndEulerNumbersOfOpenSurfaces) {
   Monitor monitor;
   FlatMesh open = cylinder(36);
-  std::erase_if(open.triangles, [&](const auto& t) { return std::find(t.begin(), t.end(), 72) != t.end(); });  // no bottom
+  std::erase_if(open.triangles,
+                [&](const auto& t) { return std::find(t.begin(), t.end(), 72) != t.end(); });  // no bottom
   const DiscreteSurface s = surface_of(open);
   EXPECT_EQ(s.mesh().findings.border_edges, 36);
   const RefinedMesh fine = refine(s, wish_of_angle(s, 2), {}, monitor);

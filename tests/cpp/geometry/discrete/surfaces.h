@@ -20,7 +20,9 @@ inline FlatMesh icosahedron() {
       mesh.vertices.push_back(Vec3{t, 0, s}.normalized());
     }
   const double side = 2 / std::sqrt(1 + g * g);
-  const auto near = [&](std::size_t i, std::size_t j) { return norm(mesh.vertices[i] - mesh.vertices[j]) < 1.01 * side; };
+  const auto near = [&](std::size_t i, std::size_t j) {
+    return norm(mesh.vertices[i] - mesh.vertices[j]) < 1.01 * side;
+  };
   for (std::int32_t i = 0; i < 12; ++i)
     for (std::int32_t j = i + 1; j < 12; ++j)
       for (std::int32_t k = j + 1; k < 12; ++k) {
@@ -46,7 +48,8 @@ inline FlatMesh cut(const FlatMesh& coarse, int n, const std::function<Vec3(cons
       std::array<std::size_t, 3> order{0, 1, 2};
       std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return v[a] < v[b]; });
       Vec3 p = Vec3::Zero();
-      for (const std::size_t k : order) p += (static_cast<double>(w[k]) / n) * coarse.vertices[static_cast<std::size_t>(v[k])];
+      for (const std::size_t k : order)
+        p += (static_cast<double>(w[k]) / n) * coarse.vertices[static_cast<std::size_t>(v[k])];
       fine.vertices.push_back(onto(p));
       return static_cast<std::int32_t>(fine.vertices.size()) - 1;
     };
@@ -73,9 +76,10 @@ inline FlatMesh torus(int around, int across, double R = 2, double r = 0.7) {
   for (int i = 0; i < around; ++i)
     for (int j = 0; j < across; ++j) {
       const double u = 2 * std::numbers::pi * i / around, v = 2 * std::numbers::pi * j / across;
-      mesh.vertices.emplace_back((R + r * std::cos(v)) * std::cos(u), (R + r * std::cos(v)) * std::sin(u), r * std::sin(v));
-      const std::int32_t a = i * across + j, b = (i + 1) % around * across + j, c = (i + 1) % around * across + (j + 1) % across,
-                         d = i * across + (j + 1) % across;
+      mesh.vertices.emplace_back((R + r * std::cos(v)) * std::cos(u), (R + r * std::cos(v)) * std::sin(u),
+                                 r * std::sin(v));
+      const std::int32_t a = i * across + j, b = (i + 1) % around * across + j,
+                         c = (i + 1) % around * across + (j + 1) % across, d = i * across + (j + 1) % across;
       mesh.triangles.push_back({a, b, c});
       mesh.triangles.push_back({a, c, d});
     }
@@ -94,7 +98,8 @@ inline FlatMesh cube(int n) {
         for (int j = 0; j < n; ++j) {
           const auto corner = [&](int di, int dj) {
             Vec3 p;
-            p[axis] = side, p[(axis + 1) % 3] = static_cast<double>(i + di) / n, p[(axis + 2) % 3] = static_cast<double>(j + dj) / n;
+            p[axis] = side, p[(axis + 1) % 3] = static_cast<double>(i + di) / n,
+            p[(axis + 2) % 3] = static_cast<double>(j + dj) / n;
             mesh.vertices.push_back(p);
             return static_cast<std::int32_t>(mesh.vertices.size()) - 1;
           };
@@ -136,7 +141,8 @@ double largest(const DiscreteSurface& surface, Distance&& distance, int n = 6) {
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(surface.triangles()); ++t)
     for (int i = 0; i <= n; ++i)
       for (int j = 0; i + j <= n; ++j)
-        most = std::max(most, distance(surface.at(t, {static_cast<double>(i) / n, static_cast<double>(j) / n}, want_position).s));
+        most = std::max(
+            most, distance(surface.at(t, {static_cast<double>(i) / n, static_cast<double>(j) / n}, want_position).s));
   return most;
 }
 

@@ -1,7 +1,8 @@
+#include "geometry/discrete/triangulation.h"
+
 #include <gtest/gtest.h>
 
 #include "geometry/discrete/sharp_lines.h"
-#include "geometry/discrete/triangulation.h"
 #include "support/error.h"
 #include "surfaces.h"
 
@@ -39,7 +40,8 @@ TEST(Triangulation, TurnsTrianglesAsMostOfTheirShellAre) {
       ASSERT_GE(u.triangle, 0);
       EXPECT_EQ(mended.corner(u.triangle, u.side), mended.corner(t, i + 1));
       EXPECT_EQ(mended.edge(u.triangle, u.side), mended.edge(t, i));
-      EXPECT_EQ(mended.edges[static_cast<std::size_t>(mended.edge(t, i))], edge_of(mended.corner(t, i), mended.corner(t, i + 1)));
+      EXPECT_EQ(mended.edges[static_cast<std::size_t>(mended.edge(t, i))],
+                edge_of(mended.corner(t, i), mended.corner(t, i + 1)));
     }
   }
 }
@@ -98,7 +100,8 @@ TEST(Triangulation, AMoebiusStripHasALineOnWhichItTurns) {
   for (int i = 0; i < n; ++i)
     for (const double w : {-0.3, 0.3}) {
       const double a = 2 * std::numbers::pi * i / n;
-      strip.vertices.emplace_back((1 + w * std::cos(a / 2)) * std::cos(a), (1 + w * std::cos(a / 2)) * std::sin(a), w * std::sin(a / 2));
+      strip.vertices.emplace_back((1 + w * std::cos(a / 2)) * std::cos(a), (1 + w * std::cos(a / 2)) * std::sin(a),
+                                  w * std::sin(a / 2));
     }
   for (int i = 0; i < n; ++i) {
     const std::int32_t a = 2 * i, b = 2 * i + 1;
@@ -143,7 +146,9 @@ FlatMesh two_cones(int n, double bend) {
   for (const int side : {0, 1})
     for (int i = 0; i < n; ++i) {
       const int j = (i + 1) % n;
-      const auto at = [&](int ring, int k) { return ring == 3 ? (2 * n * 2 + 2 * k) : 2 * n * (ring - 1) + 2 * k + side; };
+      const auto at = [&](int ring, int k) {
+        return ring == 3 ? (2 * n * 2 + 2 * k) : 2 * n * (ring - 1) + 2 * k + side;
+      };
       const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
         if (side == 1)
           mesh.triangles.push_back({a, b, c});
@@ -162,7 +167,9 @@ FlatMesh two_cones(int n, double bend) {
 TEST(SharpLines, GoOnWhereNoiseMakesThemFlatter) {
   FlatMesh mesh = two_cones(36, 46);
   for (int i = 0; i < 36; ++i)  // of the rim, flatter where it is dented
-    for (const int side : {0, 1}) mesh.vertices[static_cast<std::size_t>(4 * 36 + 2 * i + side)] *= i % 12 == 5 ? 0.97 : 1 + 0.001 * std::sin(11.0 * i);
+    for (const int side : {0, 1})
+      mesh.vertices[static_cast<std::size_t>(4 * 36 + 2 * i + side)] *=
+          i % 12 == 5 ? 0.97 : 1 + 0.001 * std::sin(11.0 * i);
   const Triangulation noisy(mesh);
   const SharpLines lines = find_sharp_lines(noisy);
   double least = 180;
@@ -209,7 +216,13 @@ TEST(SharpLines, GivenEdgesAndReferencesAreLines) {
   EXPECT_EQ(find_sharp_lines(Triangulation(mesh), {.references = false}).edges, 0);
   FlatMesh box = cube(2);
   const Triangulation whole(box);
-  FlatMesh marked{.vertices = whole.vertices, .vertex_refs = {}, .triangles = whole.triangles, .triangle_refs = {}, .edges = {whole.edges[5]}, .edge_refs = {}, .fields = {}};
+  FlatMesh marked{.vertices = whole.vertices,
+                  .vertex_refs = {},
+                  .triangles = whole.triangles,
+                  .triangle_refs = {},
+                  .edges = {whole.edges[5]},
+                  .edge_refs = {},
+                  .fields = {}};
   const SharpLines only = find_sharp_lines(Triangulation(marked), {.marked_only = true});
   EXPECT_EQ(only.edges, 1);
   EXPECT_EQ(only.regions, 1);
@@ -217,7 +230,8 @@ TEST(SharpLines, GivenEdgesAndReferencesAreLines) {
 
 TEST(SharpLines, RefusesAnglesOutOfRange) {
   EXPECT_THROW(find_sharp_lines(Triangulation(icosahedron()), {.sharp_angle = 0}), InvalidArgument);
-  EXPECT_THROW(find_sharp_lines(Triangulation(icosahedron()), {.sharp_angle = 45, .corner_angle = 200}), InvalidArgument);
+  EXPECT_THROW(find_sharp_lines(Triangulation(icosahedron()), {.sharp_angle = 45, .corner_angle = 200}),
+               InvalidArgument);
 }
 
 }  // namespace
