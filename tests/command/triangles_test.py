@@ -93,6 +93,8 @@ class Triangles(unittest.TestCase):
         for options, sentence in ((("--element", "p2"), "element must be p1"), (("--face-size", "1=2"), "have no sizes of their own")):
             done = self.run_command("mesh", self.path("a.off", off(x, t)), "-o", self.path("b.mesh"), *options, code=2)
             self.assertIn(sentence, done.stderr)
+        done = self.run_command("mesh", self.path("a.off"), "-o", self.path("b.mesh"), "--size", "1e-6", code=2)
+        self.assertIn("beyond the limit of 100000000 (parameter max_triangles)", done.stderr)
         done = self.run_command("fields", self.path("a.off"), "-o", self.path("a.exr"), code=2)
         self.assertIn("has no fields over parameter domains", done.stderr)
         self.assertIn("is no file of triangles", self.run_command("refine", "a.step", "-o", self.path("b.mesh"), code=2).stderr)

@@ -17,6 +17,17 @@ constexpr double angle_slack = 1.6;
 
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
+/// Equilateral triangles of the wanted sizes that have the area of the given ones.
+double expected_triangles(const RefinedMesh& mesh, const std::vector<double>& size) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t k) -> const Vec3& { return mesh.vertices[index(t[k])]; };
+    const double h = (size[index(t[0])] + size[index(t[1])] + size[index(t[2])]) / 3;
+    sum += norm(cross(at(1) - at(0), at(2) - at(0))) / (half_root3 * h * h);
+  }
+  return sum;
+}
+
 /// Edges between the triangles of the mesh that are on lines, with the faces of their triangles.
 std::map<MeshEdge, std::vector<std::int32_t>> faces_beside(const SurfaceMesh& mesh) {
   std::vector<char> on_line(mesh.vertices.size(), 0);
@@ -112,6 +123,10 @@ RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const Disc
   };
   discrete::RefinementLimits limits{.depth = 40};
   if (options.max_triangles > 0) limits.triangles = options.max_triangles;
+  const RefinedMesh given = unrefined(surface);
+  if (const double expected = expected_triangles(given, sizes.at_vertices(given, monitor));
+      expected > static_cast<double>(limits.triangles))
+    refuse_triangles({}, expected, limits.triangles);
   return refine(surface, wish, limits, monitor);
 }
 

@@ -7,7 +7,8 @@
 
 namespace carreau {
 
-/// Cuts triangles until edges are no longer than their sizes want: those of sharp lines 1, others sqrt(2) sizes.
+/// Cuts triangles until edges are no longer than their sizes want: those of sharp lines 1, others sqrt(2) sizes. Throws
+/// LimitError when there would be too many.
 discrete::RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
                                       const CompositeOptions& options, Monitor& monitor);
 
