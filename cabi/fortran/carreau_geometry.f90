@@ -1,10 +1,10 @@
 !> Fortran 2003 face of cabi/include/carreau_geometry.h: several geometries in
-!! a session, Bezier patches, molecules, grids and plane domains. What each routine means and its errors are written
+!! a session, Bezier patches, molecules, grids, triangles and plane domains. What each routine means and its errors are written
 !! there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL
 !! are optional.
 module carreau_geometry
   use, intrinsic :: iso_c_binding, only: c_double, c_funloc, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
-  use carreau, only: carreau_session, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
+  use carreau, only: carreau_session, carreau_mesh, carreau_string, CARREAU_ERR_ARGUMENT, CARREAU_OK, carreau_surface_fn, &
     carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn, carreau_surface_value_fn, carreau_curve_value_fn, &
     carreau_point_value_fn, carreau_failure_fn, carreau_release_fn
   use carreau_c, only: c_cad
@@ -22,11 +22,13 @@ module carreau_geometry
   public :: carreau_molecule_measure, carreau_molecule_atoms, carreau_molecule_atom_areas
   public :: carreau_molecule_atom_name
   public :: carreau_grid_options, carreau_add_grid, carreau_load_grid
+  public :: carreau_triangles_options, carreau_triangles_report, carreau_add_triangles, carreau_load_triangles
+  public :: carreau_triangles_measure, carreau_triangles_refine, carreau_triangles_distances
   public :: carreau_geometry_points, carreau_geometry_curve
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
     CARREAU_GEOMETRY_MOLECULE = 3, CARREAU_GEOMETRY_PLANE = 4, CARREAU_GEOMETRY_GRID = 5, &
-    CARREAU_GEOMETRY_ATLAS = 7
+    CARREAU_GEOMETRY_TRIANGLES = 6, CARREAU_GEOMETRY_ATLAS = 7
   integer(c_int32_t), parameter, public :: CARREAU_BEZIER_DEGREE = 15
   integer(c_int32_t), parameter, public :: CARREAU_VWS = 1, CARREAU_SAS = 2, CARREAU_SES = 3
   integer(c_int32_t), parameter, public :: CARREAU_REST_PARITY = 0, CARREAU_REST_INSIDE = 1, CARREAU_REST_OUTSIDE = 2
@@ -52,6 +54,21 @@ module carreau_geometry
     logical :: lengths = .false., orient = .false., fill = .false.
     real(c_double) :: join_angle = 0, tolerance = 0, step = 0
   end type carreau_grid_options
+
+  !> Angles in degrees; 0: 45
+  type :: carreau_triangles_options
+    real(c_double) :: sharp_angle = 0, corner_angle = 0
+    logical :: given_edges_only = .false., ignore_references = .false., keep_double_vertices = .false.
+  end type carreau_triangles_options
+
+  type :: carreau_triangles_report
+    integer(c_int64_t) :: vertices, triangles, edges, shells, euler_number
+    integer(c_int64_t) :: border_edges, manifold_breaks, one_sided_edges, pinched_vertices
+    integer(c_int64_t) :: turned_triangles, repeated_triangles, flat_triangles
+    integer(c_int64_t) :: sharp_edges, lines, corners, regions, dropped_edges, prolonged_edges, faded_ends
+    integer(c_int64_t) :: unfolded, folded
+    real(c_double) :: diagonal, deviation
+  end type carreau_triangles_report
 
   type :: carreau_molecule_measures
     real(c_double) :: area, volume
@@ -311,6 +328,94 @@ contains
     c%tolerance = options%tolerance
     c%step = options%step
   end function c_grid
+
+  ! ---- Surfaces given as triangles ----
+
+  !> vertices(3, n), triangles(3, m), refs(m), edges(2, k): vertices count from 1
+  subroutine carreau_add_triangles(session, options, vertices, triangles, status, refs, edges)
+    type(carreau_session), intent(in) :: session
+    type(carreau_triangles_options), intent(in) :: options
+    real(c_double), intent(in) :: vertices(:, :)
+    integer(c_int32_t), intent(in) :: triangles(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int32_t), intent(in), optional :: refs(:), edges(:, :)
+    real(c_double), allocatable, target :: x(:)
+    integer(c_int32_t), allocatable, target :: t(:), r(:), e(:)
+    type(c_triangles) :: c
+    status = CARREAU_ERR_ARGUMENT
+    if (size(vertices, 1) /= 3 .or. size(triangles, 1) /= 3) return
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%vertex_count = size(vertices, 2)
+    c%triangle_count = size(triangles, 2)
+    x = reshape(vertices, [size(vertices)])
+    t = reshape(triangles, [size(triangles)]) - 1
+    if (size(x) > 0) c%vertices = c_loc(x(1))
+    if (size(t) > 0) c%triangles = c_loc(t(1))
+    if (present(refs)) then
+      if (size(refs) /= size(triangles, 2)) return
+      r = refs
+      if (size(r) > 0) c%triangle_refs = c_loc(r(1))
+    end if
+    if (present(edges)) then
+      if (size(edges, 1) /= 2) return
+      c%edge_count = size(edges, 2)
+      e = reshape(edges, [size(edges)]) - 1
+      if (size(e) > 0) c%edges = c_loc(e(1))
+    end if
+    status = c_add_triangles(session%handle, c_triangles_of(options), c)
+  end subroutine carreau_add_triangles
+
+  subroutine carreau_load_triangles(session, options, path, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_triangles_options), intent(in) :: options
+    character(len=*), intent(in) :: path
+    integer(c_int32_t), intent(out) :: status
+    status = c_load_triangles(session%handle, c_triangles_of(options), trim(path)//c_null_char)
+  end subroutine carreau_load_triangles
+
+  function c_triangles_of(options) result(c)
+    type(carreau_triangles_options), intent(in) :: options
+    type(c_triangles_options) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    c%sharp_angle = options%sharp_angle
+    c%corner_angle = options%corner_angle
+    c%given_edges_only = merge(1, 0, options%given_edges_only)
+    c%ignore_references = merge(1, 0, options%ignore_references)
+    c%keep_double_vertices = merge(1, 0, options%keep_double_vertices)
+  end function c_triangles_of
+
+  subroutine carreau_triangles_measure(session, report, status)
+    type(carreau_session), intent(in) :: session
+    type(carreau_triangles_report), intent(out) :: report
+    integer(c_int32_t), intent(out) :: status
+    type(c_triangles_report) :: c
+    c%struct_size = size(transfer(c, [c_null_char]))
+    status = c_triangles_measure(session%handle, c)
+    if (status /= CARREAU_OK) return
+    report = carreau_triangles_report(c%vertices, c%triangles, c%edges, c%shells, c%euler_number, c%border_edges, &
+      c%manifold_breaks, c%one_sided_edges, c%pinched_vertices, c%turned_triangles, c%repeated_triangles, &
+      c%flat_triangles, c%sharp_edges, c%lines, c%corners, c%regions, c%dropped_edges, c%prolonged_edges, &
+      c%faded_ends, c%unfolded, c%folded, c%diagonal, c%deviation)
+  end subroutine carreau_triangles_measure
+
+  !> angle in degrees; mesh: of carreau_mesh_create
+  subroutine carreau_triangles_refine(session, angle, depth, mesh, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: angle
+    integer(c_int32_t), intent(in) :: depth
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(out) :: status
+    status = c_triangles_refine(session%handle, angle, depth, mesh%handle)
+  end subroutine carreau_triangles_refine
+
+  !> From the mesh to the triangles, and back
+  subroutine carreau_triangles_distances(session, distances, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(out) :: distances(2)
+    integer(c_int32_t), intent(out) :: status
+    distances = 0
+    status = c_triangles_distances(session%handle, distances)
+  end subroutine carreau_triangles_distances
 
   ! ---- Points of built-in geometries ----
 

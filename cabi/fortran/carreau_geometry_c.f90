@@ -56,6 +56,30 @@ module carreau_geometry_c
     integer(c_int32_t) :: fill = 0, reserved = 0
   end type c_grid_options
 
+  !> What of a surface given as triangles is a line.
+  type, bind(c) :: c_triangles_options
+    integer(c_size_t) :: struct_size = 0
+    real(c_double) :: sharp_angle = 0, corner_angle = 0
+    integer(c_int32_t) :: given_edges_only = 0, ignore_references = 0, keep_double_vertices = 0, reserved = 0
+  end type c_triangles_options
+
+  !> Triangles in arrays of the caller, copied.
+  type, bind(c) :: c_triangles
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: vertex_count = 0, triangle_count = 0, edge_count = 0
+    type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, triangle_refs = c_null_ptr, edges = c_null_ptr
+  end type c_triangles
+
+  !> What was found in the triangles of a session.
+  type, bind(c) :: c_triangles_report
+    integer(c_size_t) :: struct_size = 0
+    integer(c_int64_t) :: vertices = 0, triangles = 0, edges = 0, shells = 0, euler_number = 0, border_edges = 0, &
+      manifold_breaks = 0, one_sided_edges = 0, pinched_vertices = 0, turned_triangles = 0, repeated_triangles = 0, &
+      flat_triangles = 0, sharp_edges = 0, lines = 0, corners = 0, regions = 0, dropped_edges = 0, &
+      prolonged_edges = 0, faded_ends = 0, unfolded = 0, folded = 0
+    real(c_double) :: diagonal = 0, deviation = 0
+  end type c_triangles_report
+
   interface
     !> Count the geometries that were added, and tell of geometry `index`, from 0, in the order of adding.
     function c_geometry_count(session, count) result(status) bind(c, name="carreau_geometry_count")
@@ -240,6 +264,57 @@ module carreau_geometry_c
       integer(c_int32_t), value :: format
       integer(c_int32_t) :: status
     end function c_load_grid
+
+    !> Makes triangles the only geometry of a session that has no model: see carreau_model_clear.
+    function c_add_triangles(session, options, triangles) result(status) bind(c, name="carreau_add_triangles")
+      import :: c_int32_t, c_ptr, c_triangles, c_triangles_options
+      implicit none
+      type(c_ptr), value :: session
+      type(c_triangles_options), intent(in) :: options
+      type(c_triangles), intent(in) :: triangles
+      integer(c_int32_t) :: status
+    end function c_add_triangles
+
+    !> The same of a file that carreau_mesh_read reads.
+    function c_load_triangles(session, options, path) result(status) bind(c, name="carreau_load_triangles")
+      import :: c_char, c_int32_t, c_ptr, c_triangles_options
+      implicit none
+      type(c_ptr), value :: session
+      type(c_triangles_options), intent(in) :: options
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_load_triangles
+
+    !> Tells of the triangles that the session was given.
+    function c_triangles_measure(session, report) result(status) bind(c, name="carreau_triangles_measure")
+      import :: c_int32_t, c_ptr, c_triangles_report
+      implicit none
+      type(c_ptr), value :: session
+      type(c_triangles_report), intent(inout) :: report
+      integer(c_int32_t) :: status
+    end function c_triangles_measure
+
+    !> Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it
+    !! by more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made.
+    function c_triangles_refine(session, angle, depth, mesh) result(status) bind(c, name="carreau_triangles_refine")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), value :: angle
+      integer(c_int32_t), value :: depth
+      type(c_ptr), value :: mesh
+      integer(c_int32_t) :: status
+    end function c_triangles_refine
+
+    !> Distances between the mesh of a session and the triangles that it was given, model length, over their vertices,
+    !! middles of edges and of triangles: the largest from the mesh to the triangles, and back.
+    function c_triangles_distances(session, distances) result(status) bind(c, name="carreau_triangles_distances")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), intent(inout) :: distances(*)
+      integer(c_int32_t) :: status
+    end function c_triangles_distances
 
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")

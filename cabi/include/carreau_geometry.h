@@ -37,6 +37,7 @@ enum {
   CARREAU_GEOMETRY_MOLECULE = 3,
   CARREAU_GEOMETRY_PLANE = 4,
   CARREAU_GEOMETRY_GRID = 5,
+  CARREAU_GEOMETRY_TRIANGLES = 6,
   CARREAU_GEOMETRY_ATLAS = 7 /* carreau_atlas.h */
 };
 
@@ -281,6 +282,82 @@ CARREAU_API carreau_status carreau_add_grid(carreau_session* session, const carr
  * layouts. Errors: those above, FILE (with the line or byte, and the block). */
 CARREAU_API carreau_status carreau_load_grid(carreau_session* session, const carreau_grid_options* options,
                                              const char* path, int32_t format);
+
+/* ---- Surfaces given as triangles ---- */
+
+/* What of a surface given as triangles is a line. NULL stands for all members 0. */
+typedef struct carreau_triangles_options {
+  size_t struct_size;
+  double sharp_angle;        /* degrees: edges whose two triangles differ by more start a line; 0: 45 */
+  double corner_angle;       /* degrees: where a line turns by more it has a corner; 0: 45 */
+  int32_t given_edges_only;  /* 1: no other lines are sought than the edges that are given, borders, and edges with
+                                three triangles or more */
+  int32_t ignore_references; /* 1: borders between triangles of different references are no lines */
+  int32_t keep_double_vertices; /* 1: vertices at one place stay as many */
+  int32_t reserved;             /* 0 */
+} carreau_triangles_options;
+
+/* Triangles in arrays of the caller, copied. */
+typedef struct carreau_triangles {
+  size_t struct_size;
+  int64_t vertex_count, triangle_count, edge_count;
+  const double* vertices;       /* vertex_count x 3, model length */
+  const int32_t* triangles;     /* triangle_count x 3 vertices, from 0 */
+  const int32_t* triangle_refs; /* triangle_count, of faces; NULL: faces are the regions between lines */
+  const int32_t* edges;         /* edge_count x 2 vertices, from 0, that are of lines; NULL when edge_count is 0 */
+} carreau_triangles;
+
+/* Makes triangles the only geometry of a session that has no model: see carreau_model_clear. A smooth surface goes
+ * through their vertices, with tangent planes that agree but on lines: borders, edges with three triangles or more,
+ * edges of triangles that differ by more than the sharp angle and those over which such a line goes on. Its faces are
+ * the regions between lines, or the references of the triangles where they have several (moved up when one is not
+ * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and
+ * those with two corners at one place, and turns triangles that run against their neighbours; messages tell it.
+ * carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as
+ * their least, and elements are straight triangles. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
+ * that is not finite, a triangle without area between three places, an angle, a session with a model), SEQUENCE. */
+CARREAU_API carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
+                                                 const carreau_triangles* triangles);
+
+/* The same of a file that carreau_mesh_read reads. Errors: those above, FILE. */
+CARREAU_API carreau_status carreau_load_triangles(carreau_session* session, const carreau_triangles_options* options,
+                                                  const char* path);
+
+/* What was found in the triangles of a session. */
+typedef struct carreau_triangles_report {
+  size_t struct_size;
+  int64_t vertices, triangles, edges; /* that are left */
+  int64_t shells;                     /* connected over edges */
+  int64_t euler_number;               /* vertices - edges + triangles */
+  int64_t border_edges;               /* with one triangle */
+  int64_t manifold_breaks;            /* edges with three triangles or more */
+  int64_t one_sided_edges;            /* on which no orientation agrees */
+  int64_t pinched_vertices;           /* whose triangles hang together by the vertex alone */
+  int64_t turned_triangles, repeated_triangles, flat_triangles;
+  int64_t sharp_edges, lines, corners, regions;
+  int64_t dropped_edges;   /* sharper than the angle, but of no line */
+  int64_t prolonged_edges; /* flatter, but lines go on over them */
+  int64_t faded_ends;      /* of lines, on no other one */
+  int64_t unfolded;        /* tangents that turned back around a vertex, and were turned */
+  int64_t folded;          /* those that still do */
+  double diagonal;         /* of the box of the vertices */
+  double deviation;        /* no point of the smooth surface is farther from the triangles, nor the other way round */
+} carreau_triangles_report;
+
+/* Tells of the triangles that the session was given. Errors: SEQUENCE (none were), ARGUMENT. */
+CARREAU_API carreau_status carreau_triangles_measure(carreau_session* session, carreau_triangles_report* out_report);
+
+/* Cuts triangles into four by the middles of their edges on the smooth surface while their normals differ from it by
+ * more than `angle` degrees, at most `depth` times, and puts them into a mesh that carreau_mesh_create made. Depth 0:
+ * the triangles as they are mended. Edges are those of lines. Errors: SEQUENCE (no triangles were given), ARGUMENT, LIMIT
+ * (max_triangles). */
+CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, double angle, int32_t depth,
+                                                    carreau_mesh* mesh);
+
+/* Distances between the mesh of a session and the triangles that it was given, model length, over their vertices,
+ * middles of edges and of triangles: the largest from the mesh to the triangles, and back. Errors: SEQUENCE (no
+ * triangles, no mesh), ARGUMENT. */
+CARREAU_API carreau_status carreau_triangles_distances(carreau_session* session, double out_distances[2]);
 
 /* ---- Points of added geometries ---- */
 

@@ -52,6 +52,8 @@ void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, 
   refuse_begun();
   if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_PLANE)
     throw InvalidArgument("the session has a plane domain, which is the only geometry of a session");
+  if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_TRIANGLES)
+    throw InvalidArgument("the session has a surface of triangles, which is the only geometry of a session");
   const bool only = model().faces.empty(), checked_now = only && kind != CARREAU_GEOMETRY_CALLBACKS;
   Model merged = only ? Model{} : model();
   const GeometryRange range = append_geometry(merged, std::move(part));

@@ -11,8 +11,7 @@
 #include <vector>
 
 #include "face_list.h"
-#include "grid_input.h"
-#include "molecule_input.h"
+#include "input_choice.h"
 #include "plane_input.h"
 
 namespace command {
@@ -72,23 +71,23 @@ class CadInput {
   [[nodiscard]] virtual bool has_sizes() const { return false; }
   /// Whether each edge of the file has two faces.
   [[nodiscard]] virtual bool closed() const { return false; }
+  /// What the geometry tells of the mesh that a session made of it, for a person; "": nothing. Throws Failure.
+  [[nodiscard]] virtual std::string of_mesh(carreau_session*) const { return ""; }
   /// Gaps of the interfaces as a sentence; "" when the file has no curves of its own in space.
   [[nodiscard]] virtual std::string gaps() const { return ""; }
 };
 
 /// Whether the name says that the file has no geometry of its own (.pardom): a shared library gives it.
 bool needs_host(const std::string& path);
-/// Throws Failure when the name of an input is empty or that of a mesh.
+/// Throws Failure when the name of an input is empty.
 void check_geometry_name(const std::string& path);
 
-/// Opens a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with the shared library `host`; a
-/// molecule; a grid; a formula over
-/// `domain`; or what open_cad() reads. Throws Failure with a sentence, also when `host` is missing or of no use. `progress` is told
-/// the share that is done, where it is known.
+/// Opens a formula, or a file by its suffix: Bezier patches (.bpt); faces and curves (.pardom) with a shared library; a
+/// molecule; a grid; triangles; or what open_cad() reads. Throws Failure with a sentence, also where the choice is missing
+/// or of no use. `progress` is told the share that is done, where it is known.
 using ReadingProgress = std::function<void(double fraction)>;
-std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
-                                     const ReadingProgress& progress = {}, const MoleculeChoice& molecule = {},
-                                     const GridChoice& grid = {}, const std::string& domain = {});
+std::unique_ptr<CadInput> open_input(const std::string& path, const InputChoice& choice,
+                                     const ReadingProgress& progress = {});
 
 /// Opens STEP, IGES and BREP files. Throws Failure with a sentence.
 std::unique_ptr<CadInput> open_cad(const std::string& path, const ReadingProgress& progress);

@@ -19,7 +19,8 @@ namespace {
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .off, .obj or .ply";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
-    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or a surface: "
+    ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
+    ".stl, .off, .obj, .ply, .mesh, .meshb, .vtu, .msh, or a surface: "
     "'z = ...' in x and y, or 'x = ...; y = ...; z = ...' in u and v";
 constexpr const char* molecule_files = "File .xyzr, .xyz, .pdb, .ent, .cif or .mmcif";
 constexpr int most_listed = 1'000'000;
@@ -61,6 +62,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_mesh();
   add_plane();
   add_adapt();
+  add_refine();
   add_info();
   add_areas();
   add_check();
@@ -88,6 +90,7 @@ void CommandLine::add_mesh() {
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);
   add_grid_options(mesh, mesh_.grid);
+  add_triangles_options(mesh, mesh_.triangles);
   add_domain_option(mesh, mesh_.domain);
   add_mesh_options(mesh, mesh_);
   mesh->add_option("--dump-failed", mesh_.dump_failed,
@@ -162,6 +165,7 @@ void CommandLine::add_adapt() {
   adapt->add_flag("--smooth{50}", adapt_.plane.corner_angle, "Of a plane domain: see carreau plane")
       ->check(CLI::Range(0.1, 180.0));
   add_molecule_options(adapt, adapt_.molecule);
+  add_triangles_options(adapt, adapt_.triangles);
   add_domain_option(adapt, adapt_.domain);
   add_mesh_options(adapt, adapt_);
   adapt->add_flag("--json", adapt_.json, "Print a summary as JSON on the standard output");
@@ -179,8 +183,32 @@ void CommandLine::add_info() {
       ->capture_default_str();
   info->add_flag("--faces", info_.faces, "Print a line for each face: number, kind, area, narrowness, box, name");
   add_grid_options(info, info_.grid);
+  add_triangles_options(info, info_.triangles);
   add_domain_option(info, info_.domain);
   info->add_flag("--json", info_.json, "Print JSON");
+}
+
+void CommandLine::add_refine() {
+  CLI::App* app = add("refine", "Cut triangles finer where the smooth surface over them is curved");
+  app->add_option("TRIANGLES", refine_.input, "File .stl, .off, .obj, .ply, .mesh, .meshb, .vtu or .msh")
+      ->required()
+      ->type_name(kind::file);
+  repeated(app->add_option("-o,--output", refine_.outputs,
+                           "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1) or .msh2 (2.2), with the edges of "
+                           "sharp lines; may be repeated"))
+      ->required()
+      ->type_name(kind::file);
+  app->add_option("--angle", refine_.angle,
+                  "Degrees between triangles and the surface beyond which they are cut into four; none are when not given")
+      ->check(CLI::Range(0.01, 89.0))
+      ->type_name(kind::number);
+  app->add_option("--depth", refine_.depth, "Times that a triangle is cut at most")
+      ->check(CLI::Range(1, 20))
+      ->type_name(kind::number)
+      ->capture_default_str();
+  add_triangles_options(app, refine_.triangles);
+  app->add_flag("--json", refine_.json, "Print counts as JSON");
+  app->add_flag("-q,--quiet", refine_.quiet, "Tell errors only");
 }
 
 void CommandLine::add_areas() {
@@ -245,6 +273,10 @@ void CommandLine::add_picture() {
   picture->add_option("--label", label_, "faces: their numbers are drawn where they are seen")
       ->check(CLI::IsMember({"faces"}))
       ->type_name("WHAT");
+  picture->add_option("--sharp", picture_.triangles.sharp,
+                      "Draw the sharp lines of triangles that differ by more than these degrees, as carreau info finds them")
+      ->check(CLI::Range(0.1, 180.0))
+      ->type_name(kind::number);
   picture->add_flag("--json", picture_.json, "Print what was drawn as JSON");
   picture->add_option("--samples", picture_.samples, "Points a pixel in each direction")
       ->check(CLI::Range(1, 8))
@@ -336,6 +368,7 @@ int CommandLine::run_command() {
     adapt_.plane.is_plane = is_plane_file(adapt_.input);
     return mesh(adapt_);
   }
+  if (app_.got_subcommand("refine")) return refine(refine_);
   if (app_.got_subcommand("info")) return info(info_);
   if (app_.got_subcommand("areas")) return areas(areas_);
   if (app_.got_subcommand("check")) return check(check_);

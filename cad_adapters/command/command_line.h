@@ -26,6 +26,7 @@ class CommandLine {
   void add_mesh();
   void add_plane();
   void add_adapt();
+  void add_refine();
   void add_info();
   void add_areas();
   void add_picture();
@@ -39,6 +40,7 @@ class CommandLine {
 
   CLI::App app_;
   MeshOptions mesh_, plane_, adapt_;
+  RefineOptions refine_;
   InfoOptions info_;
   AreasOptions areas_;
   PictureOptions picture_;

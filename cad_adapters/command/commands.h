@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "adaptation.h"
-#include "grid_input.h"
-#include "molecule_input.h"
+#include "input_choice.h"
 #include "plane_input.h"
 #include "scene.h"
 
@@ -20,19 +19,16 @@ struct PictureOptions {
   std::vector<std::string> views;  ///< side by side; none: iso, or top for a plane mesh
   SceneOptions scene;
   bool labels = false;  ///< numbers of faces
+  TrianglesChoice triangles;  ///< draws lines that are found in triangles where `sharp` is given
   bool json = false;
 };
 
 int picture(const PictureOptions& options);
 
-struct MeshOptions {
+struct MeshOptions : InputChoice {
   std::string input;
-  std::string host;         ///< shared library, of a .pardom
-  MoleculeChoice molecule;  ///< of a molecule
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
-  GridChoice grid;          ///< of a structured grid
-  std::string domain;       ///< of a surface by formulas; empty: usual_domain
   std::vector<std::string> outputs;
   std::string env;                            ///< blsurf.env; empty: none
   std::string size, minimum, maximum, chord;  ///< lengths as typed; empty: not given
@@ -54,11 +50,8 @@ struct MeshOptions {
 /// Meshes a file of geometry. 0 all faces, 1 some faces have no mesh; throws Failure when none has one.
 int mesh(const MeshOptions& options);
 
-struct InfoOptions {
+struct InfoOptions : InputChoice {
   std::string input;
-  std::string host;    ///< shared library, of a .pardom
-  GridChoice grid;     ///< of a structured grid
-  std::string domain;  ///< of a surface by formulas; empty: usual_domain
   int limit = 10;      ///< sentences of each kind
   bool faces = false;  ///< a line for each
   bool json = false;
@@ -66,6 +59,18 @@ struct InfoOptions {
 
 /// Prints what a file of geometry holds, and what of it is hard to mesh. 0; throws Failure.
 int info(const InfoOptions& options);
+
+struct RefineOptions {
+  std::string input;
+  std::vector<std::string> outputs;
+  TrianglesChoice triangles;
+  double angle = 0;  ///< degrees
+  int depth = 6;
+  bool quiet = false, json = false;
+};
+
+/// Cuts triangles finer on the smooth surface over them (HDR sec. 4.9.3). 0; throws Failure.
+int refine(const RefineOptions& options);
 
 struct AreasOptions {
   std::string input;

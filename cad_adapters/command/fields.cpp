@@ -157,8 +157,7 @@ int fields(const FieldsOptions& options) {
     require(session, carreau_set_cad_m(session, &host.routines()));
     status = carreau_run_env(session, options.mesh.input.c_str());
   } else {
-    shape = open_input(options.mesh.input, options.mesh.host, {}, options.mesh.molecule, options.mesh.grid,
-                       options.mesh.domain);
+    shape = open_input(options.mesh.input, options.mesh);
     status = make_mesh(session, options, *shape, map);
   }
   const std::string why = status == CARREAU_OK ? "" : sentence_of_failure(session);

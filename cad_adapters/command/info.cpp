@@ -28,13 +28,21 @@ std::string sentence(const ModelDanger& danger) {
 
 int info(const InfoOptions& options) {
   check_geometry_name(options.input);
+  if (is_triangles(options.input) && options.host.empty() && !options.faces) {
+    print_triangles_info(options.input, options.triangles, options.json);
+    return 0;
+  }
+  if (is_triangles(options.input) && options.host.empty()) {
+    print_faces(open_triangles(options.input, options.triangles)->faces());
+    return 0;
+  }
   const bool in_memory = needs_host(options.input) || suffix_of(options.input) == ".bpt" ||
                          is_molecule(options.input) || is_grid(options.input, options.grid) || is_formula(options.input);
   if (!in_memory) {
     if (!options.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + options.input + "'.");
     return print_cad_info(options);
   }
-  const auto input = open_input(options.input, options.host, {}, {}, options.grid, options.domain);
+  const auto input = open_input(options.input, options);
   const ModelFigures figures = static_cast<const ModelInput&>(*input).look_at();
   if (options.json) {
     Json dangers = Json::array();

@@ -150,9 +150,7 @@ int mesh(const MeshOptions& given) {
   const std::unique_ptr<CadInput> input =
       options.plane.is_plane
           ? open_plane(options.input, options.plane)
-          : open_input(
-                options.input, options.host, [&](double fraction) { progress.reading(fraction); }, options.molecule,
-                options.grid, options.domain);
+          : open_input(options.input, options, [&](double fraction) { progress.reading(fraction); });
   const SessionHandle session = make_session();
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
@@ -173,8 +171,10 @@ int mesh(const MeshOptions& given) {
   outputs.write([&](const std::vector<std::string>& hidden) { write_all(run, adaptation, hidden, progress); });
   run.seconds_writing = writing.seconds();
   if (!options.quiet || options.json) run.short_edges = find_short_edges(run.session, run.mesh);
-  if (!options.quiet)
+  if (!options.quiet) {
     for (const std::string& line : summary_lines(run)) progress.line(line);
+    if (const std::string line = input->of_mesh(run.session); !line.empty()) progress.line(line);
+  }
   run.warnings = progress.warnings();
   if (options.json) print_json(run);
   if (failed.empty() && lost.empty()) return all_faces;

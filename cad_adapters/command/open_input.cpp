@@ -11,25 +11,22 @@ bool needs_host(const std::string& path) { return suffix_of(path) == ".pardom"; 
 
 void check_geometry_name(const std::string& path) {
   if (path.empty()) throw Failure("The name of the input is empty.");
-  for (const char* suffix : {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"})
-    if (suffix_of(path) == suffix)
-      throw Failure("'" + path + "' is a mesh already: carreau check and carreau picture read meshes.");
 }
 
-std::unique_ptr<CadInput> open_input(const std::string& path, const std::string& host,
-                                     const ReadingProgress& progress, const MoleculeChoice& molecule,
-                                     const GridChoice& grid, const std::string& domain) {
-  if (is_formula(path)) return open_formula(path, domain);
-  if (!domain.empty()) throw Failure("--domain goes with a surface by formulas, not with '" + path + "'.");
-  if (molecule.surface == atlas_surface) return open_atlas(path);
+std::unique_ptr<CadInput> open_input(const std::string& path, const InputChoice& choice,
+                                     const ReadingProgress& progress) {
+  if (is_formula(path)) return open_formula(path, choice.domain);
+  if (!choice.domain.empty()) throw Failure("--domain goes with a surface by formulas, not with '" + path + "'.");
+  if (choice.molecule.surface == atlas_surface) return open_atlas(path);
   check_geometry_name(path);
   if (needs_host(path)) {
-    if (host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
-    return open_pardom(path, host);
+    if (choice.host.empty()) throw Failure("'" + path + "' has no geometry: --host names the shared library that has.");
+    return open_pardom(path, choice.host);
   }
-  if (!host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
-  if (is_grid(path, grid)) return open_grid(path, grid);
-  if (is_molecule(path)) return open_molecule(path, molecule);
+  if (!choice.host.empty()) throw Failure("--host goes with a .pardom file, not with '" + path + "'.");
+  if (is_grid(path, choice.grid)) return open_grid(path, choice.grid);
+  if (is_triangles(path)) return open_triangles(path, choice.triangles);
+  if (is_molecule(path)) return open_molecule(path, choice.molecule);
   return suffix_of(path) == ".bpt" ? open_bezier(path) : open_cad(path, progress);
 }
 

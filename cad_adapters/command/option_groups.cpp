@@ -123,6 +123,21 @@ void add_domain_option(CLI::App* app, std::string& domain) {
       ->type_name("DOMAIN");
 }
 
+void add_triangles_options(CLI::App* app, TrianglesChoice& choice) {
+  app->add_option("--sharp", choice.sharp,
+                  "Of triangles: degrees between two of them beyond which their edge is one of a sharp line; 45")
+      ->check(CLI::Range(0.1, 180.0))
+      ->type_name(kind::number);
+  app->add_option("--corner", choice.corner,
+                  "Of triangles: degrees by which a sharp line turns at a vertex that is a corner; 45")
+      ->check(CLI::Range(0.1, 180.0))
+      ->type_name(kind::number);
+  app->add_flag("--given-edges", choice.given_edges,
+                "Of triangles: sharp lines are the edges of the file, and no others are sought");
+  app->add_flag("--ignore-references", choice.ignore_references,
+                "Of triangles: borders between different references are no lines");
+}
+
 void add_estimator_options(CLI::App* app, std::vector<std::string>& settings) {
   const auto parameter = [&](const char* option, const char* name, const char* help) {
     return app->add_option_function<std::string>(

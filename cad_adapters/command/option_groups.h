@@ -30,6 +30,8 @@ CLI::Option* threads(CLI::App* app, int& value);
 void add_mesh_options(CLI::App* app, MeshOptions& options);
 void add_molecule_options(CLI::App* app, MoleculeChoice& choice);
 void add_grid_options(CLI::App* app, GridChoice& choice);
+/// Of a surface given as triangles.
+void add_triangles_options(CLI::App* app, TrianglesChoice& choice);
 /// Of a surface by formulas.
 void add_domain_option(CLI::App* app, std::string& domain);
 /// How fields become sizes: `settings` gets the parameters adapt_*, "NAME=VALUE".

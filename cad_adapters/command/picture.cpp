@@ -30,7 +30,8 @@ void print_as_json(const PictureOptions& options, const std::vector<std::string>
 int picture(const PictureOptions& options) {
   catch_signals();
   OutputFiles output({options.out}, {".png"});
-  const MeshHandle handle = read_mesh(options.mesh);
+  const MeshHandle handle = options.triangles.sharp > 0 ? refined_triangles(options.mesh, options.triangles, 0, 0, true)
+                                                       : read_mesh(options.mesh);
   const MeshArrays mesh = arrays_of(handle.get());
   if (mesh.triangles.empty() && mesh.edges.empty())
     throw Failure("The mesh '" + options.mesh + "' has neither triangles nor edges to draw.");

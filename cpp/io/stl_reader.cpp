@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <set>
-#include <unordered_map>
+#include <vector>
 
 #include "io/mesh_files.h"
 #include "io/raw_numbers.h"
@@ -18,27 +18,42 @@ namespace {
 
 constexpr std::size_t header_size = 80, facet_size = 50;
 
-/// Points become one vertex when their coordinates are equal.
+/// Points become one vertex when their coordinates are equal: a table of numbers of vertices with open addresses.
 class JoinedPoints {
  public:
-  std::int32_t add(std::vector<Vec3>& vertices, Vec3 p) {
-    const auto [at, fresh] = numbers_.try_emplace(p, static_cast<std::int32_t>(vertices.size()));
-    if (fresh) vertices.push_back(p);
-    return at->second;
+  std::int32_t add(std::vector<Vec3>& vertices, const Vec3& p) {
+    if (2 * (vertices.size() + 1) > slots_.size()) grow(vertices);
+    std::int32_t& slot = find(vertices, p);
+    if (slot == free_slot) {
+      slot = static_cast<std::int32_t>(vertices.size());
+      vertices.push_back(p);
+    }
+    return slot;
   }
 
  private:
-  struct Hash {
-    std::size_t operator()(const Vec3& p) const noexcept {
-      std::uint64_t hash = 0;
-      for (const double x : {p.x(), p.y(), p.z()}) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 and 0 are equal
-        hash ^= hash >> 32;
-      }
-      return hash;
+  static constexpr std::int32_t free_slot = -1;
+
+  static std::size_t hash(const Vec3& p) noexcept {
+    std::uint64_t hash = 0;
+    for (const double x : {p.x(), p.y(), p.z()}) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 and 0 are equal
+      hash ^= hash >> 32;
     }
-  };
-  std::unordered_map<Vec3, std::int32_t, Hash> numbers_;
+    return hash;
+  }
+  std::int32_t& find(const std::vector<Vec3>& vertices, const Vec3& p) {
+    std::size_t k = hash(p) & (slots_.size() - 1);
+    while (slots_[k] != free_slot && vertices[static_cast<std::size_t>(slots_[k])] != p)
+      k = (k + 1) & (slots_.size() - 1);
+    return slots_[k];
+  }
+  void grow(const std::vector<Vec3>& vertices) {
+    slots_.assign(std::max<std::size_t>(1024, 4 * slots_.size()), free_slot);
+    for (std::size_t v = 0; v < vertices.size(); ++v) find(vertices, vertices[v]) = static_cast<std::int32_t>(v);
+  }
+
+  std::vector<std::int32_t> slots_;  // a power of two
 };
 
 bool same_word(std::string_view found, std::string_view lower) noexcept {
@@ -150,6 +165,7 @@ FlatMesh read_binary(std::string_view bytes, const std::string& name) {
   FlatMesh mesh;
   JoinedPoints points;
   const std::size_t n = announced(bytes);
+  mesh.triangles.reserve(n);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t corners = header_size + 4 + i * facet_size + 12;  // behind the normal
     auto& triangle = mesh.triangles.emplace_back();

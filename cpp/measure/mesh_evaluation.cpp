@@ -382,6 +382,26 @@ class Measurement {
     std::size_t last = samples.size();
     for (const SpreadSample& s : samples)
       if (s.triangle != last) finish_by_lengths(last = s.triangle);
+    finish_beside_spread();
+  }
+
+  // Triangles of (u, v) with edges that were measured with a spread neighbour, after them.
+  void finish_beside_spread() {
+    std::vector<char> late(edges_.segment.size(), 0);
+    std::vector<std::size_t> plain;
+    std::size_t place = 0;
+    for (const FaceMesh& face : mesh_.faces)
+      for (std::size_t t = 0; t < face.triangles.size(); ++t, ++place) {
+        if (!face.is_spread(t)) plain.push_back(place);
+        for (std::size_t i = 0; i < 3 && face.is_spread(t); ++i)
+          if (edges_.names[place][i] != 0) late[static_cast<std::size_t>(edges_.of_triangle[place][i])] = 1;
+      }
+    for (const std::size_t t : plain)
+      for (const std::int32_t edge : edges_.of_triangle[t])
+        if (late[static_cast<std::size_t>(edge)] != 0) {
+          finish_by_lengths(t);
+          break;
+        }
   }
 
   void note_above(const SpreadSample& s, const Vec3& p) {

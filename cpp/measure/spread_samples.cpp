@@ -19,14 +19,14 @@ class SpreadTriangle {
     }
   }
 
-  /// From the corner of the largest weight that leads there.
+  /// From the corner of the largest weight that leads there, or to a barrier beside.
   void sample(const std::array<double, 3>& weight, SpreadSample& sample) const {
     sample.flat = weight[0] * corner_[0] + weight[1] * corner_[1] + weight[2] * corner_[2];
     std::array<int, 3> order{0, 1, 2};
     std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
     for (const int i : order) {
       if (!place_[i].regular) continue;
-      if (const auto found = atlas_.charts->towards(cad_, place_[i], sample.flat)) {
+      if (const auto found = atlas_.charts->towards(cad_, place_[i], sample.flat, true)) {
         sample.face = atlas_.charts->face(found->foot);
         sample.uv = found->foot.uv;
         sample.turned = atlas_.is_turned(face_, found->foot.triangle);

@@ -76,6 +76,8 @@ struct Model {
   /// References that results have in place of those of points, where they differ.
   std::map<int, int> shown_points = {};
   std::vector<GeometryRange> geometries = {};  ///< beside the host's own; see Face::geometry
+  /// The surface is given by triangles: faces have no curves, and their mesh is made in space.
+  bool discrete = false;
   bool plane = false;  ///< all of it lies in the plane z = 0, and files of its mesh have dimension 2
 };
 

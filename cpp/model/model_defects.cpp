@@ -23,7 +23,7 @@ class ModelChecker {
     if (model_.faces.empty()) add({.file = model_.source}, "the model has no face");
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       check_face(f);
-      if (!model_.faces[f].left_out.empty()) continue;
+      if (!model_.faces[f].left_out.empty() || model_.discrete) continue;
       check_orientation(f);
       const bool gluing = gluing_[static_cast<std::size_t>(model_.faces[f].geometry)];
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {

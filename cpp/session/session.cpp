@@ -6,11 +6,13 @@
 
 #include "cad/checked_cad.h"
 #include "fields/field_files.h"
+#include "geometry/discrete/discrete_cad.h"
 #include "io/delivered_json.h"
 #include "io/files.h"
 #include "io/mesh_files.h"
 #include "io/pardom.h"
 #include "measure/composite_evaluation.h"
+#include "measure/discrete_evaluation.h"
 #include "model/geometries.h"
 #include "model/places.h"
 #include "session/derivatives.h"
@@ -24,6 +26,7 @@
 #include "support/format.h"
 #include "support/infinity.h"
 #include "support/part_monitor.h"
+#include "surface/discrete/discrete_run.h"
 
 namespace carreau {
 
@@ -167,9 +170,16 @@ std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
 
 MeshEvaluation measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
   CheckedCad whole_cad(*meshed.cad);
+  if (meshed.model.discrete)
+    return evaluate_discrete(dynamic_cast<const discrete::DiscreteCad&>(*meshed.cad), whole_cad, meshed.options, result,
+                             monitor);
   PartCad cad(whole_cad, parts_of(meshed.model));
   set_parameter_boxes(meshed.model, meshed.supports, cad);
   return evaluate_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
+}
+
+void refuse_fields(const Model& model) {
+  if (model.discrete) throw InvalidArgument("a surface given as triangles has no fields over parameter domains");
 }
 
 }  // namespace
@@ -266,6 +276,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   const bool measured = s.parameters.integer("measure") != 0;
   constexpr double share_of_mesh = 0.75;  // measuring asks the geometry about as often as meshing
   PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
+  if (known.discrete) return make_discrete_mesh(known, whole_cad, making, measuring, run);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
   if (!(supports.diag > 0))
@@ -294,6 +305,35 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
     throw DomainError("no face could be meshed: " +
                       (failed != result.mesh.faces.end() ? failed->why : std::string("no reason is known")));
   }
+  keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
+              background, measuring);
+  run.progress(Phase::idle, 0, 1);
+}
+
+// A surface given as triangles has no curves to be found, glued or cut first.
+void Session::make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run) {
+  State& s = *state_;
+  const auto& surface = dynamic_cast<const discrete::DiscreteCad&>(*s.cad);
+  CompositeOptions options = composite_options(s.parameters, surface.discrete().mesh().diagonal());
+  const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, model.plane, s.background);
+  options.size.sources = s.sources(background.get());
+  for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
+  CompositeResult result = mesh_discrete(model, surface, cad, options, making);
+  Topology topology;
+  topology.curve_of.resize(model.faces.size());
+  ModelSupports supports;
+  supports.of_face.resize(model.faces.size());
+  supports.diag = result.report.diag;
+  keep_result(model, std::move(supports), std::move(topology), std::move(options), std::move(result), background,
+              measuring);
+  run.progress(Phase::idle, 0, 1);
+}
+
+void Session::keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
+                          CompositeResult result, const std::shared_ptr<BackgroundField>& background,
+                          Monitor& measuring) {
+  State& s = *state_;
+  const bool measured = s.parameters.integer("measure") != 0;
   std::vector<Interface> interfaces = list_interfaces(model, topology, result.gaps, s.glued);
   for (const PrescriptionSource* source : options.size.sources)
     for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);
@@ -321,7 +361,6 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   describe_result(s.result, s.meshed.options.threads, s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_evaluation(*s.delivered, s.monitor);
-  run.progress(Phase::idle, 0, 1);
 }
 
 std::vector<std::string> Session::write_fields(const std::string& path, const FieldOptions& options) {
@@ -332,6 +371,7 @@ std::vector<std::string> Session::write_fields(const std::string& path, const Fi
 std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, FieldOptions options) {
   State& s = *state_;
   const Meshed& meshed = s.meshed;
+  refuse_fields(meshed.model);
   CheckedCad whole_cad(*meshed.cad);
   PartCad cad(whole_cad, parts_of(meshed.model));
   const double diag = s.result.report.diag;
@@ -359,6 +399,7 @@ std::vector<std::string> Session::write_fields_of_model(const std::string& path,
   State& s = *state_;
   if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
   if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  refuse_fields(s.model);
   CheckedCad whole_cad(*s.cad);
   PartCad cad(whole_cad, parts_of(s.model));
   const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;

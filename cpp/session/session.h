@@ -112,6 +112,9 @@ class Session {
 
  private:
   void make_mesh_of(Model& known, Monitor& run);
+  void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);
+  void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
+                   CompositeResult result, const std::shared_ptr<BackgroundField>& background, Monitor& measuring);
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
   std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);
   [[nodiscard]] bool has_model_from_host() const noexcept;

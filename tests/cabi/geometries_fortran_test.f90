@@ -102,9 +102,43 @@ program geometries_fortran_test
   triangles(2, 3) = 0
   call carreau_mesh_from_arrays(copy, xyz, triangles, status)
   call check(status == CARREAU_ERR_ARGUMENT .and. index(carreau_mesh_last_error(copy), 'triangle 2') > 0, 'no such vertex')
+  call triangles_of_a_tetrahedron(copy)
   call carreau_mesh_free(copy)
   call carreau_session_free(session)
 contains
+  ! Six lines, four corners, four plane faces of area 1/2 (three of them) and sqrt(3)/2.
+  subroutine triangles_of_a_tetrahedron(fine)
+    type(carreau_mesh), intent(in) :: fine
+    type(carreau_session) :: other
+    type(carreau_mesh) :: made
+    type(carreau_triangles_report) :: report
+    type(carreau_quality) :: of_made
+    real(c_double) :: distances(2)
+    integer(c_int64_t) :: n
+    call carreau_session_create(other, status)
+    call carreau_add_triangles(other, carreau_triangles_options(corner_angle=30._c_double), &
+      reshape(real([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1], c_double), [3, 4]), &
+      reshape([1, 3, 2, 1, 2, 4, 1, 4, 3, 2, 3, 4], [3, 4]), status)
+    call check(status == CARREAU_OK, carreau_last_error(other))
+    call carreau_triangles_measure(other, report, status)
+    call check(report%lines == 6 .and. report%corners == 4 .and. report%regions == 4, 'lines of a tetrahedron')
+    call check(report%euler_number == 2 .and. report%deviation < 1e-15_c_double, 'a plane surface')
+    call carreau_triangles_refine(other, 8._c_double, 0, fine, status)
+    call carreau_mesh_edges(fine, edges, status)
+    call check(size(edges, 2) == 6, 'edges of lines')
+    call carreau_set_real(other, 'hphydef', 0.2_c_double, status)
+    call carreau_mesh_generate(other, status)
+    call check(status == CARREAU_OK, carreau_last_error(other))
+    call carreau_session_mesh(other, made, status)
+    call carreau_mesh_quality(made, of_made, status)
+    call check(abs(of_made%area - 1.5_c_double - sqrt(3._c_double) / 2) < 1e-12_c_double, 'area')
+    call check(of_made%open_edges == 0, 'closed')
+    call carreau_triangles_distances(other, distances, status)
+    call check(all(distances < 1e-12_c_double), 'distances')
+    call carreau_geometry_count(other, n, status)
+    call check(n == 1, 'one geometry')
+    call carreau_session_free(other)
+  end subroutine triangles_of_a_tetrahedron
   subroutine check(good, what)
     logical, intent(in) :: good
     character(len=*), intent(in) :: what

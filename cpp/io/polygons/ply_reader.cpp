@@ -35,11 +35,10 @@ struct TypeName {
   Number type;
 };
 constexpr TypeName type_names[] = {
-    {"char", Number::int8},     {"uchar", Number::uint8},    {"short", Number::int16},   {"ushort", Number::uint16},
-    {"int", Number::int32},     {"uint", Number::uint32},    {"float", Number::float32}, {"double", Number::float64},
-    {"int8", Number::int8},     {"uint8", Number::uint8},    {"int16", Number::int16},   {"uint16", Number::uint16},
-    {"int32", Number::int32},   {"uint32", Number::uint32},  {"float32", Number::float32},
-    {"float64", Number::float64}};
+    {"char", Number::int8},   {"uchar", Number::uint8},   {"short", Number::int16},     {"ushort", Number::uint16},
+    {"int", Number::int32},   {"uint", Number::uint32},   {"float", Number::float32},   {"double", Number::float64},
+    {"int8", Number::int8},   {"uint8", Number::uint8},   {"int16", Number::int16},     {"uint16", Number::uint16},
+    {"int32", Number::int32}, {"uint32", Number::uint32}, {"float32", Number::float32}, {"float64", Number::float64}};
 
 constexpr std::size_t size_of(Number type) noexcept {
   switch (type) {
@@ -107,7 +106,8 @@ class PlyReader : private Words {
 
  private:
   void read_header() {
-    if (const std::string_view first = word(); first != "ply") fail(begin(first), "ply was expected, not " + shown(first));
+    if (const std::string_view first = word(); first != "ply")
+      fail(begin(first), "ply was expected, not " + shown(first));
     for (;;) {
       const std::string_view key = word();
       if (key.empty()) fail(Words::end(), "the file ends inside its header");
@@ -148,8 +148,8 @@ class PlyReader : private Words {
     element.name = word();
     element.count = integer_64("the number of elements");
     if (element.count < 0 || element.count > std::numeric_limits<std::int32_t>::max())
-      fail(position(), "the number of elements " + shown(element.name) + " is negative or too large: " +
-                           std::to_string(element.count));
+      fail(position(), "the number of elements " + shown(element.name) +
+                           " is negative or too large: " + std::to_string(element.count));
     elements_.push_back(std::move(element));
   }
 
@@ -247,7 +247,8 @@ class PlyReader : private Words {
   void read_faces(const Element& element) {
     std::size_t which = element.properties.size();
     for (std::size_t k = 0; k < element.properties.size(); ++k)
-      if (const Property& p = element.properties[k]; p.count && (p.name == "vertex_indices" || p.name == "vertex_index"))
+      if (const Property& p = element.properties[k];
+          p.count && (p.name == "vertex_indices" || p.name == "vertex_index"))
         which = k;
     if (which == element.properties.size()) fail(position(), "the faces have no list vertex_indices");
     std::vector<std::int32_t> corners;
@@ -268,7 +269,8 @@ class PlyReader : private Words {
       const char* const at = position();
       const double value = next(property.type);
       if (!(value >= 0) || value != std::floor(value) || value >= static_cast<double>(mesh_.vertices.size()))
-        fail(at, "a face names vertex " + format_number(value) + " (from 0) of " + std::to_string(mesh_.vertices.size()));
+        fail(at,
+             "a face names vertex " + format_number(value) + " (from 0) of " + std::to_string(mesh_.vertices.size()));
       v = static_cast<std::int32_t>(value);
     }
   }

@@ -162,7 +162,7 @@ Foot Charts::over(std::int32_t t, int side, const Vec2& at) const {
 }
 
 // Along the straight line, out of each triangle by the side that it meets first.
-Charts::Walk Charts::walk(const Foot& from, const Vec2& to) const {
+Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   std::int32_t t = from.triangle;
   for (int step = 0; step < most_steps; ++step) {
     const std::array<double, 3> start = weights(t, from.uv), end = weights(t, to);
@@ -175,14 +175,19 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to) const {
       if (share < way) way = share, side = i;
     }
     if (side < 0) return {Walk::End::there, {t, to}};
-    if (triangles_[t].beyond[side] < 0) return {};
+    if (triangles_[t].beyond[side] < 0) {
+      if (!slides) return {};
+      const Vec2 p = uv(t, side), along = uv(t, (side + 1) % 3) - p;
+      return {Walk::End::there, {t, p + std::clamp(dot(to - p, along) / dot(along, along), 0.0, 1.0) * along}};
+    }
     if (triangles_[t].same_chart[side] == 0) return {Walk::End::border, over(t, side, lerp(from.uv, to, way))};
     t = triangles_[t].beyond[side];
   }
   return {};
 }
 
-std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, const Vec3& target) const {
+std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
+                                            bool slides) const {
   SurfacePlace at = from;
   const double first = norm(target - from.xyz);
   for (int step = 0; step < most_newton_steps; ++step) {
@@ -192,7 +197,7 @@ std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, 
     const double p = dot(at.su, d), q = dot(at.sv, d);
     const Vec2 way{(g * p - f * q) / det, (e * q - f * p) / det};
     if (!is_finite(way)) return {};
-    const Walk walked = walk(at.foot, at.foot.uv + way);
+    const Walk walked = walk(at.foot, at.foot.uv + way, slides);
     if (walked.end == Walk::End::blocked) return {};
     at = evaluate(cad, walked.foot);
     if (walked.end == Walk::End::border) continue;

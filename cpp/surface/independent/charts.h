@@ -73,8 +73,9 @@ class Charts {
   /// What is known of it is enough: derivatives from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
   /// A place of the surface near `target`, by Gauss-Newton steps from `from`, which is regular. Empty where a barrier
-  /// or a singular place is in the way.
-  [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target) const;
+  /// or a singular place is in the way; `slides`: on the barrier then, beside the target.
+  [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
+                                                    bool slides = false) const;
 
  private:
   struct Walk {
@@ -91,7 +92,7 @@ class Charts {
   void link(std::int32_t t, int i, std::int32_t u, int j);
   void turn();
   [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
-  [[nodiscard]] Walk walk(const Foot& from, const Vec2& to) const;
+  [[nodiscard]] Walk walk(const Foot& from, const Vec2& to, bool slides) const;
   [[nodiscard]] Foot over(std::int32_t t, int side, const Vec2& at) const;
 
   std::vector<Triangle> triangles_;

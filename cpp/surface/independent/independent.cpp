@@ -50,18 +50,9 @@ std::int64_t euler(const SurfaceMesh& mesh) {
          static_cast<std::int64_t>(mesh.triangle_count());
 }
 
-/// The atlas, and what of the borders stays.
-struct Frame {
-  VertexJets jets;
-  std::vector<MeshEdge> sharp;
-  std::shared_ptr<Charts> charts;
-  std::vector<std::int32_t> corners;
-  std::vector<SharpLine> lines;
-};
-
-Frame frame_of(const CurveModel& model, double angle, const CompositeResult& result, Monitor& monitor) {
+RemeshingFrame frame_of(const CurveModel& model, double angle, const CompositeResult& result, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
-  Frame frame{.jets = evaluate_vertices(mesh, model.cad, monitor), .sharp = {}, .charts = {}, .corners = {}, .lines = {}};
+  RemeshingFrame frame{.jets = evaluate_vertices(mesh, model.cad, monitor), .sharp = {}, .charts = {}, .corners = {}, .lines = {}, .geometry = {}};
   frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
   const auto link = [&] {
     frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, monitor);
@@ -78,19 +69,17 @@ Frame frame_of(const CurveModel& model, double angle, const CompositeResult& res
   return frame;
 }
 
-FreedMesh freed(const CurveModel& model, std::span<const DiscreteCurve> curves, const SurfaceTolerances& tolerances,
-                const CompositeResult& result, Frame& frame, Monitor& monitor) {
-  FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts,
-                model.cad);
+FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
+                Monitor& monitor) {
+  FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts, cad);
   std::vector<WorkedLine> worked;
-  for (const SharpLine& line : frame.lines)
-    worked.emplace_back(line, result.mesh, model, curves, *frame.charts, model.cad);
+  for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
   const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
   RemeshingReport report;
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
     if (round > 0 && changed == 0) break;
-    report += remesh(free, monitor);
+    report += remesh(free, monitor, frame.everywhere);
   }
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -115,10 +104,10 @@ std::string worse(const SurfaceMesh& made, const SurfaceMesh& before) {
 
 }  // namespace
 
-void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                       CompositeResult& result, Monitor& monitor) {
-  Frame frame = frame_of(model, options.sharp_angle, result, monitor);
-  const SurfaceTolerances tolerances = tolerances_of(options);
+std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                            Monitor& monitor) {
+  SurfaceTolerances tolerances = tolerances_of(options);
+  if (std::isfinite(geometric_limits(options.size).edge_angle_deg)) tolerances.angle_deg *= frame.angle_slack;
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;
@@ -127,7 +116,7 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     monitor.checkpoint();
-    made = freed(model, curves, tolerances, result, frame, monitor);
+    made = freed(cad, tolerances, result, frame, monitor);
     const Intersections found = crossings(made.mesh, options.threads, monitor);
     if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);
@@ -136,10 +125,7 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
     }
     guard(found, made, *frame.charts);
   }
-  if (!why.empty()) {
-    monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
-    return;
-  }
+  if (!why.empty()) return why;
   for (std::size_t f = 0; f < made.mesh.faces.size(); ++f)
     if (made.mesh.faces[f].status != result.mesh.faces[f].status)
       monitor.message(Level::warning, made.mesh.faces[f].why);
@@ -149,6 +135,17 @@ void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> c
   result.curve_parameters = std::move(made.curve_parameters);
   result.atlas = std::move(frame.charts);
   result.feet = std::move(made.feet);
+  return "";
+}
+
+void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
+                       CompositeResult& result, Monitor& monitor) {
+  RemeshingFrame frame = frame_of(model, options.sharp_angle, result, monitor);
+  frame.geometry = [&](const SharpLine& line) {
+    return std::make_unique<LinePlaces>(line, result.mesh, model, curves, *frame.charts, model.cad);
+  };
+  if (const std::string why = remesh_in_frame(frame, model.cad, options, result, monitor); !why.empty())
+    monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
 }
 
 }  // namespace carreau

@@ -1,14 +1,38 @@
 // Meshes whose sizes are what was asked for, whatever the patches (HDR sec. 4.5.5).
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
+#include "surface/independent/charts.h"
+#include "surface/independent/line_places.h"
+#include "surface/independent/sharp_edges.h"
 #include "surface/options.h"
 #include "surface/result.h"
 
 namespace carreau {
+
+/// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
+struct RemeshingFrame {
+  VertexJets jets;
+  std::vector<MeshEdge> sharp;  ///< ascending
+  std::shared_ptr<Charts> charts;
+  std::vector<std::int32_t> corners;  ///< ascending
+  std::vector<SharpLine> lines;
+  std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
+  bool everywhere = false;  ///< see remesh()
+  double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
+};
+
+/// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns why it
+/// stays as it is, which has then been done four times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.
+std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                            Monitor& monitor);
 
 /// `curves`: what it was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes, references, curves and (u, v) of its
 /// corners. It stays as it is where the outcome would have a defect or triangles that cross and did not. Sentences

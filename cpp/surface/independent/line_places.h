@@ -23,23 +23,37 @@ struct OnCurve {
   double t = 0;
 };
 
-/// One line by its length in space, as the supports of its curves measure it. Keeps references to all that it is given.
-class LinePlaces {
+/// One line by its length in space.
+class LineGeometry {
+ public:
+  virtual ~LineGeometry() = default;
+  /// The places of its vertices are known.
+  [[nodiscard]] virtual bool is_known() const noexcept = 0;
+  /// Of the vertices of the line, from 0, ascending.
+  [[nodiscard]] virtual const std::vector<double>& arcs() const noexcept = 0;
+  /// The line there, or no farther from it than what it is known by.
+  [[nodiscard]] virtual Vec3 near(double arc) const = 0;
+  /// On the surfaces beside.
+  [[nodiscard]] virtual KeptPlaces at(double arc) = 0;
+  /// On curves of the host: two where one ends and the next one begins; none where the line is of no curves.
+  [[nodiscard]] virtual std::vector<OnCurve> on_curves(double /*arc*/) const { return {}; }
+};
+
+/// A line of curves by its length in space, as the supports of its curves measure it. Keeps references to all that it is given.
+class LinePlaces final : public LineGeometry {
  public:
   /// `known`: the discrete curves by index in SurfaceMesh::curves.
   LinePlaces(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
              std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad);
 
   /// The line has curves whose vertices are where the discrete ones have them.
-  [[nodiscard]] bool is_known() const noexcept { return arc_.size() == line_.vertices.size(); }
-  /// Of the vertices of the line, from 0, ascending.
-  [[nodiscard]] const std::vector<double>& arcs() const noexcept { return arc_; }
-  /// Of a place of the line: two where one curve ends and the next one begins.
-  [[nodiscard]] std::vector<OnCurve> on_curves(double arc) const;
+  [[nodiscard]] bool is_known() const noexcept override { return arc_.size() == line_.vertices.size(); }
+  [[nodiscard]] const std::vector<double>& arcs() const noexcept override { return arc_; }
+  [[nodiscard]] std::vector<OnCurve> on_curves(double arc) const override;
   /// Off the curve by no more than its support; no evaluation.
-  [[nodiscard]] Vec3 near(double arc) const;
+  [[nodiscard]] Vec3 near(double arc) const override;
   /// On the curves, evaluated: about four times a use.
-  [[nodiscard]] KeptPlaces at(double arc);
+  [[nodiscard]] KeptPlaces at(double arc) override;
 
  private:
   /// A part of the line: a whole curve, or some edges of it.

@@ -19,7 +19,7 @@ class LineRemesher {
  public:
   LineRemesher(FreeMesh& mesh, WorkedLine& line, const LineTolerance& tolerance, Monitor& monitor)
       : mesh_(mesh),
-        places_(line.places),
+        places_(*line.places),
         left_(line.left),
         closed_(line.closed),
         tolerance_(tolerance),
@@ -130,7 +130,7 @@ class LineRemesher {
   }
 
   FreeMesh& mesh_;
-  LinePlaces& places_;
+  LineGeometry& places_;
   std::vector<LineNode>& left_;
   bool closed_;
   const LineTolerance& tolerance_;
@@ -140,11 +140,10 @@ class LineRemesher {
 
 }  // namespace
 
-WorkedLine::WorkedLine(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
-                       std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad)
-    : places(line, mesh, model, known, charts, cad), closed(line.closed()) {
-  if (places.is_known())
-    for (std::size_t k = 0; k < line.vertices.size(); ++k) left.push_back({line.vertices[k], places.arcs()[k]});
+WorkedLine::WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geometry)
+    : places(std::move(geometry)), closed(line.closed()) {
+  if (places->is_known())
+    for (std::size_t k = 0; k < line.vertices.size(); ++k) left.push_back({line.vertices[k], places->arcs()[k]});
 }
 
 std::vector<std::int32_t> remesh_lines(FreeMesh& mesh, std::span<WorkedLine> lines, const LineTolerance& tolerance,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -25,13 +26,11 @@ struct LineNode {
 
 /// A line that is worked at.
 struct WorkedLine {
-  LinePlaces places;
+  std::unique_ptr<LineGeometry> places;
   std::vector<LineNode> left;
   bool closed;
 
-  /// Arguments as for LinePlaces.
-  WorkedLine(const SharpLine& line, const SurfaceMesh& mesh, const CurveModel& model,
-             std::span<const DiscreteCurve> known, const Charts& charts, Cad& cad);
+  WorkedLine(const SharpLine& line, std::unique_ptr<LineGeometry> geometry);
 };
 
 /// Collapses edges of lines until there are as many as their length in the prescribed metric wants (RR-2818 sec. 4.5),

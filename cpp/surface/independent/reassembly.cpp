@@ -287,7 +287,7 @@ class Reassembler {
     std::multimap<std::pair<std::int32_t, std::int32_t>, OnCurve> known;  // by curve of before and vertex
     for (const WorkedLine& line : worked)
       for (const LineNode& node : line.left)
-        for (const OnCurve& place : line.places.on_curves(node.arc))
+        for (const OnCurve& place : line.places->on_curves(node.arc))
           if (number_[node.vertex] >= 0) known.emplace(std::pair{place.curve, number_[node.vertex]}, place);
     for (std::size_t c = 0; c < result_.mesh.curves.size(); ++c) {
       CurveParameters& on = result_.curve_parameters.emplace_back();

@@ -24,7 +24,8 @@ struct LongEdge {
 
 class Remesher {
  public:
-  Remesher(FreeMesh& mesh, Monitor& monitor) : mesh_(mesh), monitor_(monitor) {}
+  Remesher(FreeMesh& mesh, Monitor& monitor, bool everywhere)
+      : mesh_(mesh), monitor_(monitor), everywhere_(everywhere) {}
 
   RemeshingReport run() {
     activate_all();
@@ -56,7 +57,8 @@ class Remesher {
 
   // What is bad, and what is around.
   void activate_all() {
-    active_.assign(mesh_.vertices(), 0);
+    active_.assign(mesh_.vertices(), static_cast<char>(everywhere_));
+    if (everywhere_) return;
     for (const auto& t : mesh_.triangles()) {
       if (t[0] < 0) continue;
       TriangleShapes shape;
@@ -339,12 +341,15 @@ class Remesher {
 
   FreeMesh& mesh_;
   Monitor& monitor_;
+  bool everywhere_;
   std::vector<char> active_;  // by vertex
   RemeshingReport report_;
 };
 
 }  // namespace
 
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor).run(); }
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere) {
+  return Remesher(mesh, monitor, everywhere).run();
+}
 
 }  // namespace carreau

@@ -20,7 +20,8 @@ struct RemeshingReport {
 };
 
 /// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
-/// Deterministic. Throws what the host throws, and Cancelled.
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor);
+/// `everywhere`: all triangles are worked at, not only those below `good_enough` and what is around: of a mesh that is no
+/// mesher's. Deterministic. Throws what the host throws, and Cancelled.
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false);
 
 }  // namespace carreau

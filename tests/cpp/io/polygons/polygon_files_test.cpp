@@ -13,7 +13,9 @@ using Triangles = std::vector<std::array<std::int32_t, 3>>;
 double area_of(const FlatMesh& mesh) {
   double area = 0;
   for (const auto& t : mesh.triangles) {
-    const auto p = [&](int k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])]; };
+    const auto p = [&](int k) -> const Vec3& {
+      return mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    };
     area += norm(cross(p(1) - p(0), p(2) - p(0))) / 2;
   }
   return area;
@@ -56,14 +58,16 @@ TEST(Off, NamesTheLineOfWhatIsWrong) {
   EXPECT_EQ(sentence("3 0 1 2", "3 0 1 3"), "x.off, line 6: a polygon names vertex 3 (from 0) of 3");
   EXPECT_EQ(sentence("3 0 1 2", "2 0 1"), "x.off, line 6: a polygon has 2 corners");
   EXPECT_EQ(sentence("1 0 0", "1 nan 0"), "x.off, line 4: a coordinate of a vertex is not finite: 'nan'");
-  EXPECT_EQ(sentence("OFF", "OFF BINARY"), "x.off, line 1: the binary form of OFF is not read: convert the file to text");
+  EXPECT_EQ(sentence("OFF", "OFF BINARY"),
+            "x.off, line 1: the binary form of OFF is not read: convert the file to text");
   for (std::size_t n = 0; n + 1 < good.size(); ++n)
     EXPECT_NE(sentence_of<FileError>([&] { read_mesh_off(good.substr(0, n), "x.off"); }), "") << n;
 }
 
 TEST(Obj, GroupsAreFacesAndVerticesMayCountBackwards) {
   const FlatMesh mesh = read_mesh_obj(
-      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\nvt 0 0\nf 1 2 3\ng left\nf 1/1/1 2//1 3/1\ng right\n"
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0 0.5 0.5 0.5\nv 0 1 0\nvt 0 0\nf 1 2 3\ng left\nf 1/1/1 2//1 3/1\ng "
+      "right\n"
       "f -4 -2 -1 # the same\ng left\nf 1 2 3 4\nl 1 2 3\n",
       "x");
   EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{0, 1, 2, 1, 1}));
@@ -80,9 +84,11 @@ TEST(Obj, GroupsAreFacesAndVerticesMayCountBackwards) {
 }
 
 std::string ply_header(const std::string& form, const std::string& index = "int") {
-  return "ply\nformat " + form + " 1.0\ncomment of a square\nelement vertex 4\nproperty double x\nproperty uchar red\n" +
+  return "ply\nformat " + form +
+         " 1.0\ncomment of a square\nelement vertex 4\nproperty double x\nproperty uchar red\n" +
          "property float y\nproperty float z\nelement edge 1\nproperty int vertex1\nproperty int vertex2\n" +
-         "element face 1\nproperty list uchar " + index + " vertex_indices\nproperty list int float weights\nend_header\n";
+         "element face 1\nproperty list uchar " + index +
+         " vertex_indices\nproperty list int float weights\nend_header\n";
 }
 
 std::string ply_bytes(bool big) {

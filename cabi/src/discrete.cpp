@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "arguments.h"
+#include "carreau_geometry.h"
+#include "geometry/discrete/discrete_cad.h"
+#include "geometry/discrete/refinement.h"
+#include "guard.h"
+#include "io/mesh_files.h"
+#include "mesh/surface_distance.h"
+
+using carreau::FlatMesh;
+using carreau::InvalidArgument;
+using carreau::Level;
+using namespace carreau::abi;
+namespace discrete = carreau::discrete;
+
+namespace {
+
+struct Options {
+  discrete::SharpOptions sharp;
+  bool join = true;
+};
+
+Options options_of(const carreau_triangles_options* given) {
+  Options options;
+  if (given == nullptr) return options;
+  const carreau_triangles_options known = read_struct(given, "carreau_triangles_options");
+  if (known.sharp_angle != 0) options.sharp.sharp_angle = known.sharp_angle;
+  if (known.corner_angle != 0) options.sharp.corner_angle = known.corner_angle;
+  options.sharp.marked_only = known.given_edges_only != 0;
+  options.sharp.references = known.ignore_references == 0;
+  options.join = known.keep_double_vertices == 0;
+  return options;
+}
+
+std::size_t count_of(std::int64_t n, const char* name) {
+  if (n >= 0 && n <= std::numeric_limits<std::int32_t>::max()) return static_cast<std::size_t>(n);
+  throw InvalidArgument("triangles->" + std::string(name) + " is " + std::to_string(n) +
+                        "; it must lie between 0 and " + std::to_string(std::numeric_limits<std::int32_t>::max()));
+}
+
+FlatMesh mesh_of(const carreau_triangles& given) {
+  FlatMesh mesh;
+  const std::size_t n = count_of(given.vertex_count, "vertex_count"),
+                    m = count_of(given.triangle_count, "triangle_count"), k = count_of(given.edge_count, "edge_count");
+  if (n > 0) required(given.vertices, "triangles->vertices");
+  if (m > 0) required(given.triangles, "triangles->triangles");
+  if (k > 0) required(given.edges, "triangles->edges");
+  for (std::size_t i = 0; i < n; ++i)
+    mesh.vertices.emplace_back(given.vertices[3 * i], given.vertices[3 * i + 1], given.vertices[3 * i + 2]);
+  for (std::size_t i = 0; i < m; ++i)
+    mesh.triangles.push_back({given.triangles[3 * i], given.triangles[3 * i + 1], given.triangles[3 * i + 2]});
+  if (given.triangle_refs != nullptr) mesh.triangle_refs.assign(given.triangle_refs, given.triangle_refs + m);
+  for (std::size_t i = 0; i < k; ++i) {
+    mesh.edges.push_back({given.edges[2 * i], given.edges[2 * i + 1]});
+    for (const std::int32_t v : mesh.edges.back())
+      if (v < 0 || static_cast<std::size_t>(v) >= n)
+        throw InvalidArgument("edge " + std::to_string(i) + " (from 0) names vertex " + std::to_string(v) + " of " +
+                              std::to_string(n));
+  }
+  return mesh;
+}
+
+void add(carreau_session& session, const FlatMesh& mesh, const Options& options) {
+  session.refuse_begun();
+  if (!session.model().faces.empty())
+    throw InvalidArgument("the session has faces already: call carreau_model_clear first");
+  session.monitor.begin_run();
+  discrete::Triangulation triangulation(mesh, options.join);
+  discrete::SharpLines lines = find_sharp_lines(triangulation, options.sharp);
+  for (const auto* sentences : {&triangulation.findings.sentences, &lines.sentences})
+    for (const std::string& sentence : *sentences) session.monitor.message(Level::warning, sentence);
+  auto surface = std::make_shared<const discrete::DiscreteSurface>(std::move(triangulation), std::move(lines));
+  carreau::BuiltGeometry built = discrete_geometry(surface);
+  // Names and colours of a file are those of its references.
+  if (surface->mesh().refs.front() == face_refs(*surface).front())
+    for (carreau::Face& face : built.model.faces)
+      for (const carreau::FlatFace& known : mesh.faces)
+        if (known.ref == face.ref) face.name = known.name, face.rgb = known.rgb;
+  session.add_geometry(CARREAU_GEOMETRY_TRIANGLES, std::move(built.cad), std::move(built.model));
+}
+
+const discrete::DiscreteSurface& surface_of(const carreau_session& session) {
+  if (session.added.empty() || session.added.front().kind != CARREAU_GEOMETRY_TRIANGLES)
+    throw StatusError(CARREAU_ERR_SEQUENCE, "the session was given no triangles: call carreau_add_triangles first");
+  return dynamic_cast<const discrete::DiscreteCad&>(*session.added.front().cad).discrete();
+}
+
+}  // namespace
+
+carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
+                                     const carreau_triangles* triangles) {
+  return guarded(session, [&] {
+    const Options known = options_of(options);
+    add(*session, mesh_of(read_struct(triangles, "carreau_triangles")), known);
+  });
+}
+
+carreau_status carreau_load_triangles(carreau_session* session, const carreau_triangles_options* options,
+                                      const char* path) {
+  return guarded(session, [&] {
+    const Options known = options_of(options);
+    add(*session, carreau::read_mesh(required(path, "path")), known);
+  });
+}
+
+carreau_status carreau_triangles_measure(carreau_session* session, carreau_triangles_report* out_report) {
+  return guarded(session, [&] {
+    const discrete::DiscreteSurface& surface = surface_of(*session);
+    const discrete::Triangulation& mesh = surface.mesh();
+    const discrete::Findings& found = mesh.findings;
+    const discrete::SharpLines& lines = surface.lines();
+    carreau_triangles_report report{};
+    report.vertices = std::int64_t(mesh.vertices.size()), report.triangles = std::int64_t(mesh.triangles.size());
+    report.edges = std::int64_t(mesh.edges.size());
+    report.shells = found.shells, report.euler_number = found.euler_number;
+    report.border_edges = found.border_edges, report.manifold_breaks = found.manifold_breaks;
+    report.one_sided_edges = found.one_sided_edges, report.pinched_vertices = found.pinched_vertices;
+    report.turned_triangles = found.turned_triangles, report.repeated_triangles = found.repeated_triangles;
+    report.flat_triangles = found.flat_triangles;
+    report.sharp_edges = lines.edges, report.lines = std::int64_t(lines.lines.size());
+    report.corners = std::int64_t(lines.corners.size()), report.regions = lines.regions;
+    report.dropped_edges = lines.dropped, report.prolonged_edges = lines.prolonged, report.faded_ends = lines.faded;
+    report.unfolded = surface.unfolded(), report.folded = surface.folded();
+    report.diagonal = mesh.diagonal(), report.deviation = surface.deviation();
+    write_struct(report, out_report, "out_report");
+  });
+}
+
+carreau_status carreau_triangles_refine(carreau_session* session, double angle, int32_t depth, carreau_mesh* mesh) {
+  return guarded(session, [&] {
+    const discrete::DiscreteSurface& surface = surface_of(*session);
+    if (required(mesh, "mesh")->session != nullptr)
+      throw InvalidArgument("the mesh of a session cannot be replaced: use carreau_mesh_create");
+    if (depth < 0) throw InvalidArgument("the depth of refinement is " + std::to_string(depth));
+    session->monitor.begin_run();
+    discrete::RefinementLimits limits{.depth = depth};
+    if (const int most = session->parameters->integer("max_triangles"); most > 0) limits.triangles = most;
+    discrete::RefinedMesh refined =
+        depth == 0 ? unrefined(surface) : refine(surface, wish_of_angle(surface, angle), limits, session->monitor);
+    if (!refined.complete)
+      session->monitor.message(Level::warning,
+                               "triangles differ from the surface by more than the angle: the depth of " +
+                                   std::to_string(depth) + " is reached");
+    mesh->flat = flat_mesh(surface, refined);
+    mesh->flat_faces = faces_of(mesh->flat);
+    mesh->filled = true;
+    mesh->corner_uv.clear();
+  });
+}
+
+carreau_status carreau_triangles_distances(carreau_session* session, double out_distances[2]) {
+  return guarded(session, [&] {
+    required(out_distances, "out_distances");
+    const discrete::Triangulation& input = surface_of(*session).mesh();
+    const FlatMesh flat = carreau::flatten(session->session.mesh(), false);
+    session->monitor.begin_run();
+    out_distances[0] =
+        largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor);
+    out_distances[1] =
+        largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor);
+  });
+}

@@ -1,0 +1,37 @@
+// Surfaces given as triangles as geometry.
+#pragma once
+
+#include <carreau.h>
+
+#include <memory>
+#include <string>
+
+#include "mesh_file.h"
+
+namespace command {
+
+class CadInput;
+
+/// What of a surface given as triangles is a line.
+struct TrianglesChoice {
+  double sharp = 0;          ///< degrees; 0: not given
+  double corner = 0;         ///< degrees; 0: not given
+  bool given_edges = false;  ///< lines are the edges of the file
+  bool ignore_references = false;
+};
+
+/// Whether the suffix is that of a file of triangles.
+bool is_triangles(const std::string& path);
+
+/// Throws Failure.
+std::unique_ptr<CadInput> open_triangles(const std::string& path, const TrianglesChoice& choice);
+
+/// The triangles of a file, mended, with their lines; refined where an angle (degrees) is above 0. Warnings go to the
+/// error output unless `quiet`. Throws Failure.
+MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& choice, double angle, int depth,
+                             bool quiet);
+
+/// What `carreau info` prints of a file of triangles. Throws Failure.
+void print_triangles_info(const std::string& path, const TrianglesChoice& choice, bool json);
+
+}  // namespace command

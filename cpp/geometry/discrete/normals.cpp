@@ -1,0 +1,173 @@
+#include "geometry/discrete/normals.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/discrete/thresholds.h"
+#include "support/incidence.h"
+
+namespace carreau::discrete {
+
+namespace {
+
+std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+Vec3 unit(const Vec3& v) noexcept {
+  const double length = norm(v);
+  return length > 0 ? Vec3(v / length) : Vec3::Zero();
+}
+
+/// Without what it has along a unit vector; the same vector where nothing is left.
+Vec3 across(const Vec3& n, const Vec3& t) noexcept {
+  const Vec3 left = n - dot(n, t) * t;
+  return norm(left) > thresholds::tiny ? unit(left) : n;
+}
+
+/// The sharp edges at each vertex.
+class LinesAt {
+ public:
+  LinesAt(const Triangulation& mesh, const SharpLines& lines)
+      : mesh_(mesh), lines_(lines), at_(mesh.vertices.size(), mesh.edges) {}
+  [[nodiscard]] std::vector<std::int32_t> of(std::int32_t v) const {
+    std::vector<std::int32_t> found;
+    for (const std::int32_t e : at_.of(v))
+      if (lines_.sharp[index(e)] != 0) found.push_back(e);
+    return found;
+  }
+  [[nodiscard]] Vec3 leaving(std::int32_t e, std::int32_t v) const {
+    const Edge& edge = mesh_.edges[index(e)];
+    return mesh_.at(edge[0] == v ? edge[1] : edge[0]) - mesh_.at(v);
+  }
+
+ private:
+  const Triangulation& mesh_;
+  const SharpLines& lines_;
+  Incidence at_;
+};
+
+std::vector<Vec3> mean_normals(const Triangulation& mesh, UnionFind& sectors) {
+  std::vector<Vec3> normal(3 * mesh.triangles.size(), Vec3::Zero());
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
+    for (int k = 0; k < 3; ++k)
+      normal[sectors.find(3 * index(t) + static_cast<std::size_t>(k))] += mesh.angle(t, k) * mesh.normal(t);
+  for (std::size_t c = 0; c < normal.size(); ++c)
+    if (const std::size_t first = sectors.find(c); first == c) {
+      const Vec3 n = unit(normal[c]);
+      normal[c] = norm(n) > 0 ? n : mesh.normal(static_cast<std::int32_t>(c / 3));
+    } else {
+      normal[c] = normal[first];
+    }
+  return normal;
+}
+
+/// Tangents of the lines that pass vertices.
+std::vector<Vec3> line_tangents(const Triangulation& mesh, const SharpLines& lines, const std::vector<Vec3>& normal) {
+  std::vector<Vec3> tangent(mesh.vertices.size(), Vec3::Zero());
+  const LinesAt at(mesh, lines);
+  for (const Line& line : lines.lines)
+    for (const std::int32_t v : line.vertices) {
+      if (norm(tangent[index(v)]) > 0 || std::ranges::binary_search(lines.corners, v)) continue;
+      const std::vector<std::int32_t> two = at.of(v);
+      if (two.size() != 2) continue;
+      // Along the polyline, each edge weighing by the inverse of its length: as a parabola has it.
+      const Vec3 p = at.leaving(two[0], v), q = at.leaving(two[1], v);
+      Vec3 t = unit(q / dot(q, q) - p / dot(p, p));
+      const auto both = mesh.sides(two[0]);
+      if (both.size() == 2) {
+        const auto normal_in = [&](const Side& s) {
+          const int k = mesh.corner(s.triangle, s.side) == v ? s.side : s.side + 1;
+          return normal[3 * index(s.triangle) + static_cast<std::size_t>(k % 3)];
+        };
+        const Vec3 crease = cross(normal_in(both[0]), normal_in(both[1]));
+        if (norm(crease) > thresholds::clear_crease) t = unit(dot(crease, t) < 0 ? Vec3(-crease) : crease);
+      }
+      tangent[index(v)] = t;
+    }
+  return tangent;
+}
+
+/// Of sharp edges. At a corner it is free: a parabola, or the straight edge.
+Cubic line_curve(const Vec3& p, const Vec3& q, const Vec3& tp, const Vec3& tq) noexcept {
+  const double length = norm(q - p);
+  const auto along = [&](const Vec3& t) -> Vec3 { return dot(t, q - p) < 0 ? Vec3(-t) : t; };
+  const bool free_p = norm(tp) == 0, free_q = norm(tq) == 0;
+  Vec3 z1 = p + length / 3 * along(tp), z2 = q - length / 3 * along(tq);
+  if (free_p && free_q) return {p, lerp(p, q, 1. / 3), lerp(p, q, 2. / 3), q};
+  if (free_p) z1 = 0.5 * (p + z2);
+  if (free_q) z2 = 0.5 * (z1 + q);
+  return {p, z1, z2, q};
+}
+
+/// At corners the region has the plane of the two lines beside it.
+void set_corner_planes(const Triangulation& mesh, const SharpLines& lines, const std::vector<Cubic>& curves,
+                       Frames& frames) {
+  UnionFind sectors = sectors_of(mesh, lines.sharp);
+  std::vector<std::array<Vec3, 2>> beside(3 * mesh.triangles.size());
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t e = mesh.edge(t, i);
+      if (lines.sharp[index(e)] == 0) continue;
+      const Cubic& z = curves[index(e)];
+      for (const int k : {i, (i + 1) % 3}) {
+        const std::int32_t v = mesh.corner(t, k);
+        const bool at_start = mesh.edges[index(e)][0] == v;
+        auto& two = beside[sectors.find(3 * index(t) + static_cast<std::size_t>(k))];
+        two[k == i ? 0 : 1] = unit(at_start ? z[1] - z[0] : z[2] - z[3]);
+      }
+    }
+  for (std::size_t c = 0; c < beside.size(); ++c) {
+    const std::int32_t v = mesh.triangles[c / 3][c % 3];
+    if (!std::ranges::binary_search(lines.corners, v)) continue;
+    const auto& [first, second] = beside[sectors.find(c)];
+    Vec3& n = frames.normal[c];
+    const Vec3 plane = cross(first, second);
+    const double sine = norm(plane);
+    const Vec3 of_lines = dot(plane, n) < 0 ? Vec3(-plane) : plane;
+    if (sine > thresholds::clear_corner && dot(of_lines, n) > thresholds::same_side * sine)
+      n = of_lines / sine;
+    else if (norm(first) > 0)
+      n = across(n, first);
+  }
+}
+
+}  // namespace
+
+Frames find_frames(const Triangulation& mesh, const SharpLines& lines) {
+  UnionFind sectors = sectors_of(mesh, lines.sharp);
+  Frames frames{.normal = mean_normals(mesh, sectors), .tangent = {}};
+  frames.tangent = line_tangents(mesh, lines, frames.normal);
+  for (std::size_t c = 0; c < frames.normal.size(); ++c)
+    if (const Vec3& t = frames.tangent[index(mesh.triangles[c / 3][c % 3])]; norm(t) > 0)
+      frames.normal[c] = across(frames.normal[c], t);
+  return frames;
+}
+
+Cubic curve_by_normals(const Vec3& p, const Vec3& q, const Vec3& np, const Vec3& nq) noexcept {
+  const double length = norm(q - p);
+  const Vec3 u = (q - p) / length;
+  const double a = dot(np, nq), ap = dot(np, u), aq = dot(nq, u), below = 4 - a * a;
+  const double rho = 6 * (2 * ap + a * aq) / below, sigma = 6 * (2 * aq + a * ap) / below;
+  return {p, p + length / 18 * (6 * u - 2 * rho * np + sigma * nq),
+          q - length / 18 * (6 * u + rho * np - 2 * sigma * nq), q};
+}
+
+std::vector<Cubic> find_curves(const Triangulation& mesh, const SharpLines& lines, Frames& frames) {
+  std::vector<Cubic> curves(mesh.edges.size());
+  for (std::size_t e = 0; e < curves.size(); ++e)
+    if (const auto& [p, q] = mesh.edges[e]; lines.sharp[e] != 0)
+      curves[e] = line_curve(mesh.at(p), mesh.at(q), frames.tangent[index(p)], frames.tangent[index(q)]);
+  set_corner_planes(mesh, lines, curves, frames);
+  for (std::size_t e = 0; e < curves.size(); ++e) {
+    if (lines.sharp[e] != 0) continue;
+    const Side side = mesh.sides(static_cast<std::int32_t>(e)).front();
+    const auto& [p, q] = mesh.edges[e];
+    const bool forward = mesh.corner(side.triangle, side.side) == p;
+    const auto normal = [&](int k) {
+      return frames.normal[3 * index(side.triangle) + static_cast<std::size_t>((side.side + k) % 3)];
+    };
+    curves[e] = curve_by_normals(mesh.at(p), mesh.at(q), normal(forward ? 0 : 1), normal(forward ? 1 : 0));
+  }
+  return curves;
+}
+
+}  // namespace carreau::discrete

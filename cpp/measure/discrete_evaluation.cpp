@@ -1,0 +1,71 @@
+#include "measure/discrete_evaluation.h"
+
+#include <cmath>
+
+#include "surface/independent/charts.h"
+
+namespace carreau {
+
+namespace {
+
+std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Triangles of the atlas by the patch that they are of.
+class PatchAtlas {
+ public:
+  PatchAtlas(const discrete::DiscreteCad& surface, const Charts& charts)
+      : surface_(surface), charts_(charts), first_(surface.discrete().triangles() + 1, 0) {
+    const auto n = static_cast<std::int32_t>(charts.triangles().size());
+    std::vector<std::int32_t> patch(index(n));
+    for (std::int32_t t = 0; t < n; ++t) ++first_[index(patch[index(t)] = surface.patch_of(middle(t))) + 1];
+    for (std::size_t p = 1; p < first_.size(); ++p) first_[p] += first_[p - 1];
+    of_.resize(index(n));
+    std::vector<std::int32_t> fill(first_.begin(), first_.end() - 1);
+    for (std::int32_t t = 0; t < n; ++t) of_[index(fill[index(patch[index(t)])]++)] = t;
+  }
+
+  [[nodiscard]] double size(const Vec2& uv) const {
+    const std::int32_t p = surface_.patch_of(uv);
+    std::int32_t best = of_[index(first_[index(p)])];
+    double most = -infinity;
+    for (std::int32_t k = first_[index(p)]; k < first_[index(p) + 1]; ++k)
+      if (const double inside = least_weight(of_[index(k)], uv); inside > most) most = inside, best = of_[index(k)];
+    return charts_.size({best, uv});
+  }
+
+ private:
+  [[nodiscard]] Vec2 middle(std::int32_t t) const {
+    return (charts_.uv(t, 0) + charts_.uv(t, 1) + charts_.uv(t, 2)) / 3;
+  }
+  [[nodiscard]] double least_weight(std::int32_t t, const Vec2& p) const {
+    const Vec2 a = charts_.uv(t, 0), b = charts_.uv(t, 1), c = charts_.uv(t, 2);
+    const double area = cross(b - a, c - a), wb = cross(p - a, c - a) / area, wc = cross(b - a, p - a) / area;
+    return std::min({1 - wb - wc, wb, wc});
+  }
+
+  const discrete::DiscreteCad& surface_;
+  const Charts& charts_;
+  std::vector<std::int32_t> first_, of_;
+};
+
+}  // namespace
+
+MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad, const CompositeOptions& options,
+                                 const CompositeResult& result, Monitor& monitor) {
+  const PatchAtlas atlas(surface, *result.atlas);
+  const PrescribedMetric metric{
+      want_first, [&](int, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
+        for (std::size_t k = 0; k < uv.size(); ++k) out[k] = induced_metric(jets[k].su, jets[k].sv, atlas.size(uv[k]));
+      }};
+  EvaluationOptions measure;
+  measure.curve_size = result.curve_size;
+  measure.law = options.size.law;
+  const GeometricLimits geometric = geometric_limits(options.size);
+  measure.edge_angle_limit = geometric.edge_angle_deg;
+  measure.shortest_for_angle = geometric.shortest_divided;
+  measure.deviation_limit = geometric.deviation;
+  measure.atlas = {result.atlas.get(), result.feet};
+  return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
+}
+
+}  // namespace carreau

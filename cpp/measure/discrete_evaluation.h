@@ -1,0 +1,15 @@
+// Meshes of surfaces given as triangles, against what was asked.
+#pragma once
+
+#include "geometry/discrete/discrete_cad.h"
+#include "measure/mesh_evaluation.h"
+#include "surface/options.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// What mesh_discrete() delivered, against the sizes that governed it: linear in the triangles of the atlas.
+MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad, const CompositeOptions& options,
+                                 const CompositeResult& result, Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,56 @@
+#include "surface/discrete/discrete_run.h"
+
+#include <chrono>
+
+#include "support/error.h"
+#include "surface/discrete/start_mesh.h"
+
+namespace carreau {
+
+CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& surface, Cad& cad,
+                              const CompositeOptions& options, Monitor& monitor) {
+  const auto start = std::chrono::steady_clock::now();
+  if (options.element != Element::p1)
+    throw InvalidArgument("a surface given as triangles gets straight triangles: element must be p1");
+  if (options.size.geo_anisotropic)
+    monitor.message(Level::warning,
+                    "sizes that differ by direction count as their least on a surface given as triangles");
+  const DiscreteSizes sizes(model, cad, surface, options);
+  monitor.progress(Phase::curves, 0, 0);
+  const discrete::RefinedMesh refined = refine_by_sizes(surface.discrete(), sizes, options, monitor);
+  CompositeResult result;
+  result.vertex_size = sizes.at_vertices(refined, monitor);
+  result.mesh = start_mesh(model, surface, refined);
+  result.interfaces.resize(model.faces.size());
+  result.spaces.resize(model.faces.size());
+  monitor.progress(Phase::patches, 0, 0.2);
+  RemeshingFrame frame = start_frame(surface, result.mesh, result.vertex_size, options, cad, monitor);
+  const auto atlas = frame.charts;
+  const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
+  if (!why.empty()) {
+    monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
+    result.atlas = atlas;
+    result.feet.resize(result.mesh.faces.size());
+    std::int32_t t = 0;
+    for (std::size_t f = 0; f < result.mesh.faces.size(); ++f) {
+      FaceMesh& face = result.mesh.faces[f];
+      result.feet[f].resize(face.vertex.size());
+      face.uv_face.assign(face.vertex.size(), static_cast<std::int32_t>(f));
+      face.spread.assign(face.triangles.size(), 0);
+      for (const auto& corners : face.triangles) {
+        for (const std::int32_t v : corners) result.feet[f][static_cast<std::size_t>(v)] = t;
+        ++t;
+      }
+    }
+    for (const CurveMesh& curve : result.mesh.curves) {
+      auto& of_curve = result.curve_size.emplace_back();
+      for (const std::int32_t v : curve.vertices) of_curve.push_back(result.vertex_size[static_cast<std::size_t>(v)]);
+    }
+  }
+  result.report.calls = cad.counts();
+  result.report.diag = surface.discrete().mesh().diagonal();
+  result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace carreau

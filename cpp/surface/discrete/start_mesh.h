@@ -1,0 +1,22 @@
+// Triangles of a discrete surface as a mesh of the engine, fine enough for the sizes that are wanted.
+#pragma once
+
+#include "surface/discrete/discrete_sizes.h"
+#include "surface/independent/independent.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// Cuts triangles until edges are no longer than their sizes want: those of sharp lines 1, others sqrt(2) sizes. Throws
+/// LimitError when there would be too many.
+discrete::RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
+                                      const CompositeOptions& options, Monitor& monitor);
+
+/// Each triangle has (u, v) on the tile of its patch; curves are the sharp lines. Faces as in the model.
+SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface, const discrete::RefinedMesh& refined);
+
+/// Keeps references to all but `sizes` until the frame is done with.
+RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const SurfaceMesh& mesh, std::span<const double> sizes,
+                           const CompositeOptions& options, Cad& cad, Monitor& monitor);
+
+}  // namespace carreau
