@@ -519,10 +519,10 @@ TEST_F(SessionTest, RunsABlsurfEnv) {
 
   file = std::fopen(env.c_str(), "w");
   ASSERT_NE(file, nullptr);
-  std::fputs("hphydef 0.5\nhphymmin 0.1\ncall inimesh\n", file);
+  std::fputs("hphydef 0.5\nhphyminn 0.1\ncall inimesh\n", file);
   std::fclose(file);
   EXPECT_EQ(carreau_run_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
-  EXPECT_EQ(error(), env + ", line 2: there is no parameter 'hphymmin'; did you mean 'hphymin'?");
+  EXPECT_EQ(error(), env + ", line 2: there is no parameter 'hphyminn'; did you mean 'hphymin'?");
   auto place = sized<carreau_error_place>();
   EXPECT_EQ(carreau_last_error_place(session, &place), CARREAU_OK);
   EXPECT_EQ(place.line, 2);
@@ -565,9 +565,9 @@ TEST_F(SessionTest, TheParametersOfAnEnvFileCanBeTakenWithoutItsActions) {
   carreau_mesh* none = nullptr;
   EXPECT_EQ(carreau_session_mesh(session, &none), CARREAU_ERR_SEQUENCE);
 
-  write("hphydef 0.25\nhphymmin 0.1\n");
+  write("hphydef 0.25\nhphyminn 0.1\n");
   EXPECT_EQ(carreau_read_env(session, env.c_str()), CARREAU_ERR_ARGUMENT);
-  EXPECT_EQ(error(), env + ", line 2: there is no parameter 'hphymmin'; did you mean 'hphymin'?");
+  EXPECT_EQ(error(), env + ", line 2: there is no parameter 'hphyminn'; did you mean 'hphymin'?");
   EXPECT_EQ(carreau_read_env(session, "/nonexistent/blsurf.env"), CARREAU_ERR_FILE);
   EXPECT_EQ(carreau_get_real(session, "hphydef", &hphydef), CARREAU_OK);
   EXPECT_EQ(hphydef, 0.5);  // as before

@@ -183,7 +183,7 @@ class Inputs(Folder):
         self.refused(self.write("a.pardom", "1\n"), "-o", "a.mesh", sentence="--host names the shared library")
         self.refused(self.write("a.pardom", "1\n"), "-o", "a.mesh", "--host", HOSTS[0], sentence="a.pardom")
         self.refused(self.write("b.pardom", "1\n" + FACE.format(1)), "-o", "a.mesh", "--host", "no.so", sentence="no.so")
-        self.refused("b.stl", "-o", "a.mesh", sentence="'b.stl' is a mesh already")
+        self.refused("b.stl", "-o", "a.mesh", sentence="b.stl': No such file")
         self.refused(TEAPOT, "-o", "a.mesh", "--host", HOSTS[0], sentence="--host goes with a .pardom file")
 
 
