@@ -3,6 +3,7 @@
 in each way that README has, and the listings compared with what is printed now. --refresh: writes the listings that differ into README.
 
 The build is not made again: `cmake` takes BUILD for build/release. Packages are not installed: `apt-get` does nothing."""
+import math
 import os
 import re
 import shutil
@@ -70,8 +71,46 @@ def prepare():
         shutil.copy(os.path.join(PARABOLOID, name), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/packages/blsurf/blsurf.env"), CLONE)
     shutil.copy(os.path.join(SOURCE, "tests/data/molecule/1bna.pdb"), CLONE)
+    write_triangles()
     for name in ("wing.fmt", "volcano.txt", "head.cyl"):
         shutil.copy(os.path.join(SOURCE, "tests/data/grid", name), CLONE)
+
+
+def write_triangles():
+    """A hexagonal bar as part.stl, an octahedron of 512 triangles on a sphere as scan.off."""
+    ring = [(math.cos(k * math.pi / 3), math.sin(k * math.pi / 3)) for k in range(6)]
+    triangles = []
+    for k in range(6):
+        (a, b), (c, d) = ring[k], ring[(k + 1) % 6]
+        triangles += [((a, b, 0), (c, d, 0), (c, d, 1)), ((a, b, 0), (c, d, 1), (a, b, 1))]
+        triangles += [((0, 0, 1), (a, b, 1), (c, d, 1)), ((0, 0, 0), (c, d, 0), (a, b, 0))]
+    with open(os.path.join(CLONE, "part.stl"), "w") as file:
+        file.write("solid bar\n")
+        for triangle in triangles:
+            corners = "".join(f"vertex {x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in triangle)
+            file.write(f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+        file.write("endsolid bar\n")
+    vertices, faces = [(1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)], []
+    for k in range(4):
+        faces += [(k, (k + 1) % 4, 4), ((k + 1) % 4, k, 5)]
+    for _ in range(3):
+        middle, finer = {}, []
+
+        def between(i, j):
+            if (min(i, j), max(i, j)) not in middle:
+                middle[min(i, j), max(i, j)] = len(vertices)
+                p = [x + y for x, y in zip(vertices[i], vertices[j])]
+                vertices.append(tuple(x / math.hypot(*p) for x in p))
+            return middle[min(i, j), max(i, j)]
+
+        for i, j, k in faces:
+            a, b, c = between(i, j), between(j, k), between(k, i)
+            finer += [(i, a, c), (a, j, b), (c, b, k), (a, b, c)]
+        faces = finer
+    with open(os.path.join(CLONE, "scan.off"), "w") as file:
+        file.write(f"OFF\n{len(vertices)} {len(faces)} 0\n")
+        file.writelines(f"{x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in vertices)
+        file.writelines(f"3 {i} {j} {k}\n" for i, j, k in faces)
 
 
 def environment():
@@ -198,7 +237,7 @@ def main():
             link_by_cmake(block)
     run("./blsurf")
     assert min(done.values()) > 0 and done["sh"] >= 5, done
-    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "wing.vtu", "volcano.mesh", "head.mesh",
+    for made in ("part.vtu", "part.png", "faces.png", "domain.png", "teapot.png", "sizes.face.1.png", "x.mesh", "1bna.vtu", "wing.vtu", "volcano.mesh", "head.mesh", "part.mesh", "scan.mesh", "front.vtu", "torus.mesh",
                  "out/teapot/teapot.png"):
         assert os.path.getsize(os.path.join(CLONE, made)) > 0, made
     if refreshed_text != text:
