@@ -3,6 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "failure.h"
@@ -160,7 +161,10 @@ class FormulaInput final : public ModelInput {
 
 }  // namespace
 
-bool is_formula(const std::string& input) { return left_side(input) != ' ' && input.find("==") != input.find('='); }
+bool is_formula(const std::string& input) {
+  std::error_code none;
+  return left_side(input) != ' ' && input.find("==") != input.find('=') && !std::filesystem::exists(input, none);
+}
 
 std::string domain_defect(const std::string& text) {
   return sides_of(text).empty() ? "'" + text + "' is no domain: box:x0,y0,x1,y1, disc:x,y,radius or ring:x,y,inner,outer" : "";
