@@ -2,8 +2,11 @@
 """compare_discrete.py BUILD FILE... [--size SHARE] [--sharp DEGREES]: surfaces given as triangles, by Carreau, Gmsh and CGAL in one run.
 
 Gmsh: merge, classifySurfaces, createGeometry, generate(2); CGAL: detect_sharp_edges, isotropic_remeshing. One thread each; seconds are those of
-meshing, without reading and writing (Carreau: with the surface it makes). Distances are shares of the size: from the mesh to the triangles, back, and
-from the sharp lines of the file to those of the mesh."""
+meshing, without reading and writing; those of Carreau are of the whole command. Distances are shares of the size: from the mesh to the triangles, back, and
+from the sharp lines of the file to those of the mesh. CGAL's program is built on request:
+
+    cmake --build BUILD --target carreau_command bench_distance bench_cgal_remeshing
+"""
 import argparse
 import json
 import math
@@ -51,6 +54,9 @@ def main():
     parser.add_argument("--sharp", type=float, default=45)
     given = parser.parse_args()
     command = os.path.join(given.build, "cad_adapters/command/carreau")
+    for program in (command, *(os.path.join(given.build, "tests/bench", name) for name in ("bench_distance", "bench_cgal_remeshing"))):
+        if not os.access(program, os.X_OK):
+            sys.exit(f"{program} is not there. Type: cmake --build {given.build} --target carreau_command bench_distance bench_cgal_remeshing")
     print("file           by      triangles  seconds  Q2 mean   worst  to file    back    lines  sharp edges of mesh/file")
     for path in given.files:
         diagonal = json.loads(subprocess.run([command, "info", path, "--json"], capture_output=True, text=True).stdout)["diagonal"]
