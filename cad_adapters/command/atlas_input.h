@@ -11,9 +11,6 @@ class CadInput;
 /// The value of --surface.
 inline constexpr const char* atlas_surface = "atlas";
 
-/// Whether the suffix is that of a mesh.
-bool is_mesh_file(const std::string& path);
-
 /// Reads the triangles of a mesh file and makes an atlas of them. Throws Failure.
 std::unique_ptr<CadInput> open_atlas(const std::string& path);
 

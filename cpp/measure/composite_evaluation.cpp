@@ -6,6 +6,18 @@
 
 namespace carreau {
 
+EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result) {
+  EvaluationOptions measure;
+  measure.curve_size = result.curve_size;
+  measure.curve_parameters = result.curve_parameters;
+  const GeometricLimits geometric = geometric_limits(options.size);
+  measure.edge_angle_limit = geometric.edge_angle_deg;
+  measure.shortest_for_angle = geometric.shortest_divided;
+  measure.deviation_limit = geometric.deviation;
+  measure.atlas = {result.atlas.get(), result.feet};
+  return measure;
+}
+
 MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, Cad& cad,
                                   const CompositeOptions& options, const CompositeResult& result, Monitor& monitor) {
   SizeRules rules(model, topology, cad, options.size);
@@ -22,20 +34,13 @@ MeshEvaluation evaluate_composite(const Model& model, const Topology& topology, 
         }
         prescribed->at(uv, jets, out);
       }};
-  EvaluationOptions measure;
-  measure.curve_size = result.curve_size;
+  EvaluationOptions measure = evaluation_options(options, result);
   measure.law = rules.law();
-  measure.curve_parameters = result.curve_parameters;
-  const GeometricLimits geometric = geometric_limits(options.size);
-  measure.edge_angle_limit = geometric.edge_angle_deg;
-  measure.shortest_for_angle = geometric.shortest_divided;
-  measure.deviation_limit = geometric.deviation;
   if (options.gradation > 0) {
     measure.gradation_limit = options.gradation;
     measure.spaces = result.spaces;
     measure.length_ratio_limit = adjacent_lengths * options.gradation;
   }
-  measure.atlas = {result.atlas.get(), result.feet};
   return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
 }
 

@@ -8,6 +8,9 @@
 
 namespace carreau {
 
+/// What every run says of its mesh: sizes and places along curves, the atlas, geometric limits. Refers to the result.
+EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result);
+
 /// Measures the mesh of mesh_composite(), called with the same arguments, against the sizes and metrics that its rules
 /// prescribe: asked again, from the host and from sources. With a gradation
 /// "prescribed" is what it left. Where the geometry governs, its angle or distance is the limit of edges or triangles;

@@ -1,7 +1,9 @@
 #include "measure/discrete_evaluation.h"
 
-#include <cmath>
+#include <algorithm>
 
+#include "measure/composite_evaluation.h"
+#include "support/infinity.h"
 #include "surface/independent/charts.h"
 
 namespace carreau {
@@ -38,9 +40,7 @@ class PatchAtlas {
     return (charts_.uv(t, 0) + charts_.uv(t, 1) + charts_.uv(t, 2)) / 3;
   }
   [[nodiscard]] double least_weight(std::int32_t t, const Vec2& p) const {
-    const Vec2 a = charts_.uv(t, 0), b = charts_.uv(t, 1), c = charts_.uv(t, 2);
-    const double area = cross(b - a, c - a), wb = cross(p - a, c - a) / area, wc = cross(b - a, p - a) / area;
-    return std::min({1 - wb - wc, wb, wc});
+    return std::ranges::min(charts_.weights(t, p));
   }
 
   const discrete::DiscreteCad& surface_;
@@ -57,14 +57,8 @@ MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad,
       want_first, [&](int, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
         for (std::size_t k = 0; k < uv.size(); ++k) out[k] = induced_metric(jets[k].su, jets[k].sv, atlas.size(uv[k]));
       }};
-  EvaluationOptions measure;
-  measure.curve_size = result.curve_size;
+  EvaluationOptions measure = evaluation_options(options, result);
   measure.law = options.size.law;
-  const GeometricLimits geometric = geometric_limits(options.size);
-  measure.edge_angle_limit = geometric.edge_angle_deg;
-  measure.shortest_for_angle = geometric.shortest_divided;
-  measure.deviation_limit = geometric.deviation;
-  measure.atlas = {result.atlas.get(), result.feet};
   return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
 }
 

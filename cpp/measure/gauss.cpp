@@ -1,6 +1,7 @@
 #include "measure/gauss.h"
 
 #include <cmath>
+#include <utility>
 #include <numbers>
 #include <string>
 
@@ -32,6 +33,21 @@ GaussRule gauss_rule(int n) {
     rule.node[i] = 0.5 * (1 - x);
     rule.node[n - 1 - i] = 0.5 * (1 + x);
     rule.weight[i] = rule.weight[n - 1 - i] = weight;
+  }
+  return rule;
+}
+
+std::array<Barycentric, 7> triangle_rule() {
+  const double root = std::sqrt(15.0);
+  const double near = (6 - root) / 21, far = (6 + root) / 21;
+  const double near_weight = (155 - root) / 1200, far_weight = (155 + root) / 1200;
+  std::array<Barycentric, 7> rule{};
+  rule[0] = {1.0 / 3, 1.0 / 3, 1.0 / 3, 9.0 / 40};
+  std::size_t k = 1;
+  for (const auto& [x, w] : {std::pair{near, near_weight}, std::pair{far, far_weight}}) {
+    rule[k++] = {1 - 2 * x, x, x, w};
+    rule[k++] = {x, 1 - 2 * x, x, w};
+    rule[k++] = {x, x, 1 - 2 * x, w};
   }
   return rule;
 }

@@ -11,6 +11,7 @@
 #include "measure/curve_evaluation.h"
 #include "measure/degenerate_sides.h"
 #include "measure/element_evaluation.h"
+#include "measure/forced.h"
 #include "measure/gauss.h"
 #include "measure/thresholds.h"
 #include "mesh/quality.h"
@@ -25,27 +26,6 @@ namespace {
 using namespace thresholds::measure;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-struct Barycentric {
-  double a, b, c, weight;
-};
-
-// Radon's rule of seven points, exact up to degree 5. Its centre is where a near equilateral triangle is farthest from
-// a surface.
-std::array<Barycentric, 7> triangle_rule() {
-  const double root = std::sqrt(15.0);
-  const double near = (6 - root) / 21, far = (6 + root) / 21;
-  const double near_weight = (155 - root) / 1200, far_weight = (155 + root) / 1200;
-  std::array<Barycentric, 7> rule{};
-  rule[0] = {1.0 / 3, 1.0 / 3, 1.0 / 3, 9.0 / 40};
-  std::size_t k = 1;
-  for (const auto& [x, w] : {std::pair{near, near_weight}, std::pair{far, far_weight}}) {
-    rule[k++] = {1 - 2 * x, x, x, w};
-    rule[k++] = {x, 1 - 2 * x, x, w};
-    rule[k++] = {x, x, 1 - 2 * x, w};
-  }
-  return rule;
-}
 
 double degrees(double radians) noexcept { return radians * 180 / std::numbers::pi; }
 double angle_between(const Vec3& p, const Vec3& q) noexcept { return std::atan2(norm(cross(p, q)), dot(p, q)); }
@@ -551,31 +531,6 @@ CallCounts difference(const CallCounts& p, const CallCounts& q) {
           p.curv1 - q.curv1, p.curv2 - q.curv2, p.sizes - q.sizes};
 }
 
-// Of what is beyond a limit: edges that are as short as the smallest size lets them be, and those inside faces that
-// curves hold at both ends.
-void count_forced(const SurfaceMesh& mesh, const EvaluationOptions& options, MeshEvaluation& d) {
-  std::vector<char> on_curve(mesh.vertices.size(), 0);
-  for (const CurveMesh& curve : mesh.curves)
-    for (const std::int32_t v : curve.vertices) on_curve[v] = 1;
-  Delivery &angle = d[EvaluationKind::edge_angle], &on_curves = d[EvaluationKind::curve_angle],
-           &triangles = d[EvaluationKind::vertex_angle], &gradation = d[EvaluationKind::gradation];
-  angle.shortest = on_curves.shortest = triangles.shortest = options.shortest_for_angle;
-  std::vector<char> shortest(d.edges.vertices.size(), 0);
-  for (std::size_t e = 0; e < d.edges.vertices.size(); ++e) {
-    const auto [a, b] = d.edges.vertices[e];
-    shortest[e] = static_cast<char>(norm(mesh.vertices[b] - mesh.vertices[a]) <= angle.shortest);
-    if (shortest[e] != 0 && angle.exceeds(angle.values[e])) ++angle.forced;
-    if (shortest[e] != 0 && on_curves.exceeds(on_curves.values[e])) ++on_curves.forced;
-    if (gradation.exceeds(gradation.values[e]) && d.edges.segment[e] < 0 && on_curve[a] != 0 && on_curve[b] != 0)
-      ++gradation.forced;
-  }
-  for (std::size_t t = 0; t < d.edges.of_triangle.size(); ++t) {
-    const auto [i, j, k] = d.edges.of_triangle[t];
-    if (shortest[i] != 0 && shortest[j] != 0 && shortest[k] != 0 && triangles.exceeds(triangles.values[t]))
-      ++triangles.forced;
-  }
-}
-
 }  // namespace
 
 MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed,
@@ -592,7 +547,7 @@ MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const Prescribed
   d[EvaluationKind::length_ratio].limit = options.length_ratio_limit;
   d[EvaluationKind::deviation].limit = options.deviation_limit;
   summarise(d);
-  count_forced(mesh, options, d);
+  count_forced(mesh, options.shortest_for_angle, d);
   d.calls = difference(cad.counts(), before);
   d.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return d;

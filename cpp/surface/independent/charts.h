@@ -70,6 +70,8 @@ class Charts {
   [[nodiscard]] double size(const Foot& f) const;
   /// One evaluation.
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
+  /// Barycentric coordinates of a place of its chart, by corner.
+  [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
   /// What is known of it is enough: derivatives from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
   /// A place of the surface near `target`, by Gauss-Newton steps from `from`, which is regular. Empty where a barrier
@@ -91,7 +93,6 @@ class Charts {
   void link(std::span<const MeshEdge> barriers);
   void link(std::int32_t t, int i, std::int32_t u, int j);
   void turn();
-  [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
   [[nodiscard]] Walk walk(const Foot& from, const Vec2& to, bool slides) const;
   [[nodiscard]] Foot over(std::int32_t t, int side, const Vec2& at) const;
 
