@@ -1,0 +1,213 @@
+/// Geometries that the library evaluates itself: carreau_geometry.h, see carreau.hpp.
+#ifndef CARREAU_GEOMETRY_HPP
+#define CARREAU_GEOMETRY_HPP
+
+#include "../carreau_geometry.h"
+#include "session.hpp"
+
+namespace carreau {
+
+// ---- Several geometries in one session ----
+
+/// All geometries that were added, in that order.
+inline std::vector<carreau_geometry> geometries(Session& session) {
+  std::int64_t n = 0;
+  session.done(carreau_geometry_count(session.get(), &n));
+  std::vector<carreau_geometry> out(static_cast<std::size_t>(n), detail::sized<carreau_geometry>());
+  for (std::int64_t i = 0; i < n; ++i) session.done(carreau_geometry_info(session.get(), i, &out[static_cast<std::size_t>(i)]));
+  return out;
+}
+
+/// Adds a geometry of callbacks beside what the session has. `describe` adds its faces and curves, under references of its own. When it
+/// throws, the session is as it was before, and the exception goes on.
+template <typename Describe>
+void add_geometry(Session& session, Geometry geometry, Describe&& describe) {
+  session.give(std::move(geometry), carreau_geometry_begin);
+  try {
+    describe();
+  } catch (...) {
+    carreau_geometry_cancel(session.get());
+    throw;
+  }
+  session.done(carreau_geometry_end(session.get()));
+}
+
+/// Points of a face at places (u, v).
+inline std::vector<Point3> geometry_points(Session& session, int face, std::span<const Point2> uv) {
+  std::vector<Point3> out(uv.size());
+  session.done(carreau_geometry_points(session.get(), face, detail::count_of(uv.size()), detail::flat(uv), detail::flat(out)));
+  return out;
+}
+/// (u, v) at a share, 0 to 1, of curve ic of a face.
+inline Point2 geometry_curve(Session& session, int face, int ic, double share) {
+  Point2 out{};
+  session.done(carreau_geometry_curve(session.get(), face, ic, share, out.data()));
+  return out;
+}
+
+// ---- Bezier patches ----
+
+/// One patch: degrees m in u and n in v, and (m + 1)(n + 1) control points, v running fastest.
+struct BezierPatch {
+  int m = 3, n = 3;
+  std::vector<Point3> controls{};
+  std::array<std::int32_t, 4> side_refs{}; ///< of v = 0, u = 1, v = 1, u = 0; all 0 in all patches: found by comparing positions
+};
+
+inline void add_bezier(Session& session, std::span<const BezierPatch> patches) {
+  std::vector<std::int32_t> degrees, sides;
+  std::vector<Point3> controls;
+  bool given = false;
+  for (const BezierPatch& patch : patches) {
+    if (patch.m < 0 || patch.n < 0 || patch.controls.size() != (static_cast<std::size_t>(patch.m) + 1) * (static_cast<std::size_t>(patch.n) + 1))
+      detail::fail(CARREAU_ERR_ARGUMENT, "A Bezier patch does not have (m + 1)(n + 1) control points.");
+    degrees.insert(degrees.end(), {patch.m, patch.n});
+    controls.insert(controls.end(), patch.controls.begin(), patch.controls.end());
+    sides.insert(sides.end(), patch.side_refs.begin(), patch.side_refs.end());
+    given = given || patch.side_refs != std::array<std::int32_t, 4>{};
+  }
+  auto in = detail::sized<carreau_bezier>();
+  in.patch_count = detail::count_of(patches.size());
+  in.degrees = degrees.data();
+  in.controls = detail::flat(controls);
+  in.side_refs = given ? sides.data() : nullptr;
+  session.done(carreau_add_bezier(session.get(), &in));
+}
+inline void load_bezier(Session& session, const std::string& path) { session.done(carreau_load_bezier(session.get(), path.c_str())); }
+inline std::array<std::int32_t, 2> bezier_degrees(Session& session, int face) {
+  std::array<std::int32_t, 2> out{};
+  session.done(carreau_bezier_degrees(session.get(), face, out.data()));
+  return out;
+}
+
+// ---- Molecules ----
+
+/// surface: CARREAU_VWS, CARREAU_SAS or CARREAU_SES.
+struct MoleculeOptions {
+  int surface = CARREAU_VWS;
+  double probe = 0;
+  bool drop_cavities = false;
+};
+/// Of each atom.
+struct MoleculeAtoms {
+  std::vector<std::int32_t> refs;
+  std::vector<double> areas, convex, torus, concave; ///< areas: of convex parts alone for CARREAU_SES
+};
+
+namespace detail {
+
+inline carreau_molecule_options c_of(const MoleculeOptions& options) {
+  auto out = sized<carreau_molecule_options>();
+  out.surface = options.surface;
+  out.drop_cavities = options.drop_cavities ? 1 : 0;
+  out.probe = options.probe;
+  return out;
+}
+
+} // namespace detail
+
+inline void add_molecule(Session& session, const MoleculeOptions& options, std::span<const Point3> centers, std::span<const double> radii) {
+  const carreau_molecule_options in = detail::c_of(options);
+  if (centers.size() != radii.size()) detail::fail(CARREAU_ERR_ARGUMENT, "A molecule does not have as many centers as radii.");
+  session.done(carreau_add_molecule(session.get(), &in, detail::count_of(radii.size()), detail::flat(centers), detail::data_or_null(radii)));
+}
+inline void load_molecule(Session& session, const MoleculeOptions& options, const std::string& path) {
+  const carreau_molecule_options in = detail::c_of(options);
+  session.done(carreau_load_molecule(session.get(), &in, path.c_str()));
+}
+inline carreau_molecule_measures molecule_measure(Session& session) { return session.filled(carreau_molecule_measure); }
+inline MoleculeAtoms molecule_atoms(Session& session) {
+  const std::int64_t n = molecule_measure(session).atoms;
+  const auto size = static_cast<std::size_t>(n);
+  MoleculeAtoms out{std::vector<std::int32_t>(size), std::vector<double>(size), std::vector<double>(size), std::vector<double>(size),
+                    std::vector<double>(size)};
+  session.done(carreau_molecule_atoms(session.get(), n, out.refs.data(), out.areas.data()));
+  session.done(carreau_molecule_atom_areas(session.get(), n, out.convex.data(), out.torus.data(), out.concave.data()));
+  return out;
+}
+/// Residue of an atom, from 0; "" when it has none, std::nullopt: no such atom.
+inline std::optional<std::string> molecule_atom_name(Session& session, std::int64_t atom) {
+  const char* name = carreau_molecule_atom_name(session.get(), atom);
+  return name == nullptr ? std::nullopt : std::optional<std::string>(name);
+}
+
+// ---- Plane domains ----
+
+/// The struct of the C interface, whose struct_size need not be set: it holds pointers to arrays of the caller.
+inline void add_plane_domain(Session& session, const carreau_plane_domain& domain) {
+  const carreau_plane_domain in = detail::sized(domain);
+  session.done(carreau_add_plane_domain(session.get(), &in));
+}
+inline void load_plane_domain(Session& session, const std::string& path, const std::string& sizes = "", double corner_angle = 0) {
+  session.done(carreau_load_plane_domain(session.get(), path.c_str(), sizes.c_str(), corner_angle));
+}
+inline bool plane_has_sizes(Session& session) {
+  std::int32_t out = 0;
+  session.done(carreau_plane_has_sizes(session.get(), &out));
+  return out != 0;
+}
+
+// ---- Structured grids ----
+
+/// A block of nodes, columns running fastest; NaN: missing.
+struct GridBlock {
+  int columns = 0, rows = 0;
+  std::span<const Point3> nodes{};
+};
+
+inline void add_grid(Session& session, std::span<const GridBlock> blocks, const carreau_grid_options& options = {}) {
+  const carreau_grid_options in = detail::sized(options);
+  std::vector<std::int32_t> counts;
+  std::vector<Point3> nodes;
+  for (const GridBlock& block : blocks) {
+    if (block.columns < 0 || block.rows < 0 || block.nodes.size() != static_cast<std::size_t>(block.columns) * static_cast<std::size_t>(block.rows))
+      detail::fail(CARREAU_ERR_ARGUMENT, "A block of a grid does not have columns x rows nodes.");
+    counts.insert(counts.end(), {block.columns, block.rows});
+    nodes.insert(nodes.end(), block.nodes.begin(), block.nodes.end());
+  }
+  session.done(carreau_add_grid(session.get(), &in, detail::count_of(blocks.size()), counts.data(), detail::flat(nodes)));
+}
+/// format: CARREAU_GRID_...
+inline void load_grid(Session& session, const std::string& path, const carreau_grid_options& options = {},
+                      int format = CARREAU_GRID_BY_SUFFIX) {
+  const carreau_grid_options in = detail::sized(options);
+  session.done(carreau_load_grid(session.get(), &in, path.c_str(), format));
+}
+
+// ---- Surfaces given as triangles ----
+
+inline void add_triangles(Session& session, const MeshArrays& arrays, const carreau_triangles_options& options = {}) {
+  const carreau_triangles_options with = detail::sized(options);
+  auto in = detail::sized<carreau_triangles>();
+  if (!arrays.triangle_refs.empty() && arrays.triangle_refs.size() != arrays.triangles.size())
+    detail::fail(CARREAU_ERR_ARGUMENT, "There are not as many references as triangles.");
+  in.vertex_count = detail::count_of(arrays.vertices.size());
+  in.triangle_count = detail::count_of(arrays.triangles.size());
+  in.edge_count = detail::count_of(arrays.edges.size());
+  in.vertices = detail::flat(arrays.vertices);
+  in.triangles = detail::flat(arrays.triangles);
+  in.triangle_refs = detail::data_or_null(arrays.triangle_refs);
+  in.edges = detail::flat(arrays.edges);
+  session.done(carreau_add_triangles(session.get(), &with, &in));
+}
+inline void load_triangles(Session& session, const std::string& path, const carreau_triangles_options& options = {}) {
+  const carreau_triangles_options with = detail::sized(options);
+  session.done(carreau_load_triangles(session.get(), &with, path.c_str()));
+}
+inline carreau_triangles_report triangles_measure(Session& session) { return session.filled(carreau_triangles_measure); }
+/// The triangles cut into four by the smooth surface, at most `depth` times, while normals differ by more than `angle` degrees.
+inline Mesh triangles_refine(Session& session, double angle, int depth) {
+  Mesh out;
+  session.done(carreau_triangles_refine(session.get(), angle, depth, out.get()));
+  return out;
+}
+/// The largest distance from the mesh to the triangles, and back.
+inline std::array<double, 2> triangles_distances(Session& session) {
+  std::array<double, 2> out{};
+  session.done(carreau_triangles_distances(session.get(), out.data()));
+  return out;
+}
+
+} // namespace carreau
+
+#endif

@@ -1,0 +1,242 @@
+/// Meshes: see carreau.hpp.
+#ifndef CARREAU_MESH_HPP
+#define CARREAU_MESH_HPP
+
+#include "error.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace carreau {
+
+// ---- Meshes ----
+
+/// A face of a mesh: carreau_face with texts of its own.
+struct Face {
+  int ref = 0;
+  int status = CARREAU_FACE_NOT_MESHED; ///< CARREAU_FACE_...
+  std::int64_t triangles = 0;
+  std::string why;  ///< sentence for mended, failed and collapsed faces
+  std::string name;
+  int rgb = -1; ///< 0xRRGGBB, or -1
+};
+
+/// Arrays of a mesh of the caller. Rows of vertices, triangles and edges are those of carreau_mesh_arrays, as are defaults of spans that
+/// are empty.
+struct MeshArrays {
+  std::span<const Point3> vertices{};
+  std::span<const Triangle> triangles{};
+  std::span<const Edge> edges{};
+  std::span<const std::int32_t> vertex_refs{}, triangle_refs{}, edge_refs{};
+  std::span<const std::array<Point2, 3>> corner_uv{};
+};
+
+/// Pairs of triangles that cross, and a place of each.
+struct Intersections {
+  std::int64_t count = 0; ///< of all pairs; the vectors may hold fewer
+  std::vector<Edge> triangles;
+  std::vector<Point3> places;
+};
+
+/// A mesh of its own, or the mesh of a session, which then lives as long as this object.
+class Mesh {
+ public:
+  /// An empty mesh, to be filled by read, from_arrays or carreau::remesh.
+  Mesh() {
+    if (const carreau_status status = carreau_mesh_create(&mesh_); status != CARREAU_OK) detail::fail(status, "");
+  }
+  /// The mesh of a file.
+  explicit Mesh(const std::string& path) : Mesh() { read(path); }
+  /// A copy of arrays.
+  explicit Mesh(const MeshArrays& arrays) : Mesh() { from_arrays(arrays); }
+  /// A handle of the C interface that `owner` keeps alive.
+  Mesh(carreau_mesh* mesh, std::shared_ptr<void> owner) : mesh_(mesh), owner_(std::move(owner)) {}
+  Mesh(Mesh&& other) noexcept : mesh_(std::exchange(other.mesh_, nullptr)), owner_(std::move(other.owner_)) {}
+  Mesh& operator=(Mesh&& other) noexcept {
+    std::swap(mesh_, other.mesh_);
+    owner_.swap(other.owner_);
+    return *this;
+  }
+  ~Mesh() {
+    if (owner_ == nullptr) carreau_mesh_free(mesh_);
+  }
+  /// The handle of the C interface; it stays this object's.
+  [[nodiscard]] carreau_mesh* get() const { return mesh_; }
+
+  void read(const std::string& path) { done(carreau_mesh_read(mesh_, path.c_str())); }
+  void write(const std::string& path) const { done(carreau_mesh_write(mesh_, path.c_str())); }
+  void from_arrays(const MeshArrays& arrays) {
+    if (!sizes_agree(arrays)) detail::fail(CARREAU_ERR_ARGUMENT, "The arrays of a mesh have numbers of rows that do not agree.");
+    auto in = detail::sized<carreau_mesh_arrays>();
+    in.dimension = 3;
+    in.vertex_count = detail::count_of(arrays.vertices.size());
+    in.triangle_count = detail::count_of(arrays.triangles.size());
+    in.edge_count = detail::count_of(arrays.edges.size());
+    in.vertices = detail::flat(arrays.vertices);
+    in.triangles = detail::flat(arrays.triangles);
+    in.edges = detail::flat(arrays.edges);
+    in.vertex_refs = detail::data_or_null(arrays.vertex_refs);
+    in.triangle_refs = detail::data_or_null(arrays.triangle_refs);
+    in.edge_refs = detail::data_or_null(arrays.edge_refs);
+    in.corner_uv = arrays.corner_uv.empty() ? nullptr : arrays.corner_uv.front().front().data();
+    done(carreau_mesh_from_arrays(mesh_, &in));
+  }
+
+  [[nodiscard]] std::int64_t vertex_count() const { return counts().vertices; }
+  [[nodiscard]] std::int64_t triangle_count() const { return counts().triangles; }
+  [[nodiscard]] std::int64_t edge_count() const { return counts().edges; }
+  [[nodiscard]] int dimension() const {
+    std::int32_t out = 0;
+    done(carreau_mesh_dimension(mesh_, &out));
+    return out;
+  }
+  [[nodiscard]] std::vector<Point3> vertices() const {
+    return rows<double, 3>(counts().vertices, carreau_mesh_vertices);
+  }
+  [[nodiscard]] std::vector<std::int32_t> vertex_refs() const {
+    return values<std::int32_t>(counts().vertices, carreau_mesh_vertex_refs);
+  }
+  [[nodiscard]] std::vector<double> vertex_sizes() const {
+    return values<double>(counts().vertices, carreau_mesh_vertex_sizes);
+  }
+  [[nodiscard]] std::vector<Triangle> triangles() const {
+    return rows<std::int32_t, 3>(counts().triangles, carreau_mesh_triangles);
+  }
+  [[nodiscard]] std::vector<std::int32_t> triangle_refs() const {
+    return values<std::int32_t>(counts().triangles, carreau_mesh_triangle_refs);
+  }
+  /// u, v of the three corners of each triangle: rows of 6.
+  [[nodiscard]] std::vector<std::array<double, 6>> corner_uv() const {
+    return rows<double, 6>(counts().triangles, carreau_mesh_corner_uv);
+  }
+  [[nodiscard]] std::vector<Triangle> corner_faces() const {
+    return rows<std::int32_t, 3>(counts().triangles, carreau_mesh_corner_faces);
+  }
+  [[nodiscard]] std::vector<Edge> edges() const { return rows<std::int32_t, 2>(counts().edges, carreau_mesh_edges); }
+  [[nodiscard]] std::vector<std::int32_t> edge_refs() const {
+    return values<std::int32_t>(counts().edges, carreau_mesh_edge_refs);
+  }
+  [[nodiscard]] std::vector<std::int32_t> edge_mids() const {
+    return values<std::int32_t>(counts().edges, carreau_mesh_edge_mids);
+  }
+
+  /// Nodes of an element of a kind, CARREAU_CELL_...
+  static constexpr int nodes_of(int kind) { return kind == CARREAU_CELL_QUAD4 ? 4 : kind == CARREAU_CELL_QUAD8 ? 8 : 3 * kind; }
+  [[nodiscard]] std::int64_t cell_count(int kind) const {
+    std::int64_t out = 0;
+    done(carreau_mesh_cell_count(mesh_, kind, &out));
+    return out;
+  }
+  /// Nodes of all elements of a kind: nodes_of(kind) to an element.
+  [[nodiscard]] std::vector<std::int32_t> cells(int kind) const {
+    const std::int64_t n = cell_count(kind);
+    std::vector<std::int32_t> out(static_cast<std::size_t>(n * nodes_of(kind)));
+    if (n > 0) done(carreau_mesh_cells(mesh_, kind, n, out.data(), nullptr));
+    return out;
+  }
+  /// References of the faces of all elements of a kind.
+  [[nodiscard]] std::vector<std::int32_t> cell_refs(int kind) const {
+    const std::int64_t n = cell_count(kind);
+    std::vector<std::int32_t> nodes(static_cast<std::size_t>(n * nodes_of(kind))), out(static_cast<std::size_t>(n));
+    if (n > 0) done(carreau_mesh_cells(mesh_, kind, n, nodes.data(), out.data()));
+    return out;
+  }
+  /// u, v of all nodes, in the order of cells.
+  [[nodiscard]] std::vector<Point2> cell_uv(int kind) const {
+    const std::int64_t n = cell_count(kind);
+    std::vector<Point2> out(static_cast<std::size_t>(n * nodes_of(kind)));
+    if (n > 0) done(carreau_mesh_cell_uv(mesh_, kind, n, detail::flat(out)));
+    return out;
+  }
+
+  [[nodiscard]] std::vector<Face> faces() const {
+    std::vector<Face> out;
+    const std::int64_t n = counts().faces;
+    for (std::int64_t i = 0; i < n; ++i) {
+      auto face = detail::sized<carreau_face>();
+      done(carreau_mesh_face(mesh_, i, &face));
+      out.push_back({face.ref, face.status, face.triangles, face.why, face.name, face.rgb});
+    }
+    return out;
+  }
+  [[nodiscard]] carreau_quality quality() const { return filled(carreau_mesh_quality); }
+  [[nodiscard]] carreau_cell_quality cell_quality() const { return filled(carreau_mesh_cell_quality); }
+  /// A sentence for each of the first `limit` defects; none: empty.
+  [[nodiscard]] std::vector<std::string> defects(bool closed = false, std::int64_t limit = 100) const {
+    std::int64_t count = 0;
+    const char* text = "";
+    done(carreau_mesh_defects(mesh_, closed ? 1 : 0, limit, &count, &text));
+    std::vector<std::string> out;
+    for (std::string_view left = text; !left.empty();) {
+      const std::size_t end = left.find('\n');
+      out.emplace_back(left.substr(0, end));
+      left.remove_prefix(end == std::string_view::npos ? left.size() : end + 1);
+    }
+    return out;
+  }
+  /// At most `capacity` pairs; the count is of all.
+  [[nodiscard]] Intersections intersections(std::int64_t capacity = 1000, int threads = 0) const {
+    Intersections out;
+    out.triangles.resize(static_cast<std::size_t>(capacity));
+    out.places.resize(out.triangles.size());
+    done(carreau_mesh_intersections(mesh_, threads, capacity, &out.count, detail::flat(out.triangles), detail::flat(out.places)));
+    const auto known = static_cast<std::size_t>(std::min(capacity, out.count));
+    out.triangles.resize(known);
+    out.places.resize(known);
+    return out;
+  }
+  /// Metrics of space at the vertices, from a .sol, .solb or .h.
+  [[nodiscard]] std::vector<Tensor3> read_metrics(const std::string& sol_path) const {
+    return rows<double, 6>(counts().vertices, [&](carreau_mesh* mesh, std::int64_t capacity, double* out) {
+      return carreau_mesh_read_metrics(mesh, sol_path.c_str(), capacity, out);
+    });
+  }
+
+  /// Throws what a status of a call on this mesh means.
+  void done(carreau_status status) const {
+    if (status != CARREAU_OK) detail::fail(status, carreau_mesh_last_error(mesh_));
+  }
+  /// Arrays by a function of the C interface that copies `n` rows.
+  template <typename Number, typename Copy>
+  [[nodiscard]] std::vector<Number> values(std::int64_t n, Copy&& copy) const {
+    std::vector<Number> out(static_cast<std::size_t>(n));
+    if (n > 0) done(copy(mesh_, n, out.data()));
+    return out;
+  }
+
+ private:
+  struct Counts {
+    std::int64_t vertices = 0, triangles = 0, edges = 0, faces = 0;
+  };
+
+  [[nodiscard]] Counts counts() const {
+    Counts out;
+    done(carreau_mesh_count(mesh_, &out.vertices, &out.triangles, &out.edges, &out.faces));
+    return out;
+  }
+  template <typename Number, std::size_t N, typename Copy>
+  [[nodiscard]] std::vector<std::array<Number, N>> rows(std::int64_t n, Copy&& copy) const {
+    std::vector<std::array<Number, N>> out(static_cast<std::size_t>(n));
+    if (n > 0) done(copy(mesh_, n, detail::flat(out)));
+    return out;
+  }
+  template <typename Struct>
+  [[nodiscard]] Struct filled(carreau_status (*fill)(carreau_mesh*, Struct*)) const {
+    auto out = detail::sized<Struct>();
+    done(fill(mesh_, &out));
+    return out;
+  }
+  static bool sizes_agree(const MeshArrays& arrays) {
+    const auto fits = [](std::size_t n, std::size_t rows) { return n == 0 || n == rows; };
+    return fits(arrays.vertex_refs.size(), arrays.vertices.size()) && fits(arrays.triangle_refs.size(), arrays.triangles.size()) &&
+           fits(arrays.edge_refs.size(), arrays.edges.size()) && fits(arrays.corner_uv.size(), arrays.triangles.size());
+  }
+
+  carreau_mesh* mesh_ = nullptr;
+  std::shared_ptr<void> owner_; ///< of a session's mesh
+};
+
+} // namespace carreau
+
+#endif
