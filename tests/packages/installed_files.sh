@@ -10,14 +10,14 @@ need() {
   done
 }
 need include/carreau.h include/carreau_geometry.h include/carreau_atlas.h include/carreau_remesh.h lib/libcarreau.so lib/cmake/carreau/carreau-config.cmake lib/pkgconfig/carreau.pc \
-  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md
+  share/doc/carreau/LICENSE share/doc/carreau/README.md share/doc/carreau/CHANGELOG.md share/doc/carreau/docs/limits.md share/doc/carreau/docs/third_party.md
 if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
     lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1
 fi
 cad_header=
 if [ "$cad" = 1 ]; then
-  cad_header="include/carreau_cad.h "
+  cad_header="include/carreau_cad.h include/carreau_cad.hpp "
   need lib/libcarreau_cad.so lib/pkgconfig/carreau-cad.pc lib/cmake/carreau/carreau-cad-targets.cmake
   if [ "$fortran" = 1 ]; then
     need share/carreau/fortran/carreau_cad.f90 lib/libcarreau_cad_fortran.a lib/fortran/modules/carreau/*/carreau_cad.mod \
@@ -35,9 +35,11 @@ for program in bin/*; do
   [ -e "$program" ] || continue
   need "share/man/man1/${program##*/}.1"
 done
-# The C headers, and no file that knows where it was built.
-headers=$(find include -type f | sort | tr '\n' ' ')
-[ "$headers" = "include/carreau.h include/carreau_atlas.h ${cad_header}include/carreau_geometry.h include/carreau_remesh.h " ] || { echo "headers: $headers"; fail=1; }
+# The headers, and no file that knows where it was built.
+headers=$(find include -type f | LC_ALL=C sort | tr '\n' ' ')
+wrapper=$(for part in adaptation atlas callbacks delivered error geometry mesh metric remesh session; do printf 'include/carreau/%s.hpp ' $part; done)
+wanted="include/carreau.h include/carreau.hpp ${wrapper}include/carreau_atlas.h ${cad_header}include/carreau_geometry.h include/carreau_remesh.h "
+[ "$headers" = "$wanted" ] || { echo "headers: $headers"; fail=1; }
 if grep -rlI -e "$tree.first" .; then
   echo "these files hold the path of the first installation"
   fail=1

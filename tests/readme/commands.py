@@ -10,6 +10,8 @@ import shutil
 import subprocess
 import sys
 
+import samples
+
 README, WORK, BUILD, MAKE_SHAPES, SOURCE = sys.argv[1:6]
 CLONE = os.path.join(WORK, "clone")
 BIN = os.path.join(WORK, "bin")
@@ -210,10 +212,7 @@ def main():
         text = file.read()
     blocks = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "cmake": 0, "": 0}
-    for language, name in (("c", "program.c"), ("fortran", "program.f90"), ("c", "step.c"), ("cpp", "step.cpp"), ("fortran", "step.f90")):
-        source, = (block for kind, block in blocks if kind == language and ("carreau_cad_open" in block) == name.startswith("step"))
-        with open(os.path.join(CLONE, name), "w", encoding="utf-8") as file:
-            file.write(source)
+    samples.write(text, CLONE, "program")
     # The tree P: the commands of "How to link" stand in its sentences.
     inline = re.findall(r"`((?:cc|cmake) [^`]*)`", text[text.index("## How to link"):])
     install = next(command for command in inline if "--prefix P" in command)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""samples.py README FOLDER: writes the blocks ```c, ```cpp and ```fortran of README as FOLDER/sample.c, FOLDER/sample.f90, and those
+"""samples.py README FOLDER: writes the blocks ```c, ```cpp and ```fortran of README as FOLDER/sample.c, .cpp and .f90, and those
 that use carreau_cad as FOLDER/step.c, FOLDER/step.cpp and FOLDER/step.f90.
 
 samples.py --links FILE...: every file that these pages link to exists.
@@ -12,10 +12,18 @@ import sys
 def block(text, language, of_cad):
     """The block of a language that does, or does not, use carreau_cad."""
     blocks = [block for block in re.findall(rf"^```{language}\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-              if ("carreau_cad_open" in block) == of_cad]
+              if ("include <carreau_cad" in block or "use carreau_cad" in block) == of_cad]
     if len(blocks) != 1:
         sys.exit(f"{len(blocks)} blocks of {language} in README where 1 is expected")
     return blocks[0]
+
+
+def write(text, folder, name):
+    """The programs of a bowl as <name>.c, .cpp, .f90 in a folder, those that mesh a STEP file as step.c and so on."""
+    for language, suffix in (("c", ".c"), ("cpp", ".cpp"), ("fortran", ".f90")):
+        for stem in (name, "step"):
+            with open(os.path.join(folder, stem + suffix), "w", encoding="utf-8") as file:
+                file.write(block(text, language, stem == "step"))
 
 
 def missing_links(page):
@@ -33,9 +41,8 @@ def main():
     with open(sys.argv[1], encoding="utf-8") as file:
         text = file.read()
     os.makedirs(sys.argv[2], exist_ok=True)
-    for language, name in (("c", "sample.c"), ("fortran", "sample.f90"), ("c", "step.c"), ("cpp", "step.cpp"), ("fortran", "step.f90")):
-        with open(os.path.join(sys.argv[2], name), "w", encoding="utf-8") as file:
-            file.write(block(text, language, name.startswith("step")))
+    write(text, sys.argv[2], "sample")
 
 
-main()
+if __name__ == "__main__":
+    main()
