@@ -50,7 +50,8 @@ namespace detail {
 /// What callbacks reach: it stays where it is when a session is moved.
 struct SessionState {
   carreau_session* session = nullptr;
-  std::shared_ptr<Faults> faults = std::make_shared<Faults>();
+  std::shared_ptr<Faults> faults = std::make_shared<Faults>(); ///< of geometry, sizes, metrics and fields
+  Faults talk;                                                 ///< of messages and progress
   std::vector<std::unique_ptr<HeldMetrics>> metrics; ///< earlier ones, too: meshes are measured by what made them
   std::function<void(int level, std::string_view text)> message;
   std::function<bool(int phase, int entity, double fraction)> progress;
@@ -62,11 +63,11 @@ struct SessionState {
 
   static void on_message(std::int32_t level, const char* text, void* user) {
     auto& state = *static_cast<SessionState*>(user);
-    if (state.faults->guarded([&] { state.message(level, text); }) != 0) carreau_stop(state.session);
+    if (state.talk.guarded([&] { state.message(level, text); }) != 0) carreau_stop(state.session);
   }
   static std::int32_t on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user) {
     auto& state = *static_cast<SessionState*>(user);
-    return state.faults->guarded([&]() -> std::int32_t { return state.progress(phase, entity, fraction) ? 0 : 1; });
+    return state.talk.guarded([&]() -> std::int32_t { return state.progress(phase, entity, fraction) ? 0 : 1; });
   }
 };
 
@@ -237,18 +238,21 @@ class Session {
   void set_error(Status status, const std::string& sentence) {
     carreau_set_error(get(), static_cast<carreau_status>(status), sentence.c_str());
   }
-  /// Throws what a status of a call on this session means, with the exception of a callback nested in it.
+  /// Throws what a status of a call on this session means, with the exception of a callback nested in it. What messages or progress
+  /// have thrown too late to stop the call is thrown as it is.
   void done(carreau_status status) const {
-    const std::exception_ptr cause = state_->faults->take();
-    if (status == CARREAU_OK) return;
+    const std::exception_ptr talk = state_->talk.take(), other = state_->faults->take();
+    if (status == CARREAU_OK) {
+      if (talk) std::rethrow_exception(talk);
+      return;
+    }
     auto place = detail::sized<carreau_error_place>();
     carreau_last_error_place(get(), &place);
-    detail::fail(status, carreau_last_error(get()), place, cause);
+    detail::fail(status, carreau_last_error(get()), place, talk ? talk : other);
   }
-  /// The same, but for a mesh that lacks faces.
+  /// The same, but for a mesh that lacks faces, whose status is an outcome; last_error stays.
   [[nodiscard]] Outcome outcome(carreau_status status) const {
-    if (status != CARREAU_ERR_PARTIAL) done(status);
-    state_->faults->take();
+    done(status == CARREAU_ERR_PARTIAL ? CARREAU_OK : status);
     return status == CARREAU_OK ? Outcome::complete : Outcome::partial;
   }
   /// A struct that a function of the C interface fills.
