@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <thread>
 
@@ -10,6 +11,7 @@
 #include "mesh/quality.h"
 #include "mesh_content.h"
 #include "session/file_adaptation.h"
+#include "session/options.h"
 
 using carreau::FaceMesh;
 using carreau::FlatMesh;
@@ -48,6 +50,8 @@ void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_
   // A mesh may come without references: all are 0.
   for (std::size_t i = 0; i < n; ++i) out[i] = i < refs.size() ? refs[i] : 0;
 }
+
+int processors() { return std::max(1, int(std::thread::hardware_concurrency())); }
 
 }  // namespace
 
@@ -322,7 +326,9 @@ carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_qua
   return guarded(mesh, [&] {
     require_content(*mesh);
     const carreau::QualitySummary summary =
-        mesh->session != nullptr ? carreau::summarise_quality(flat_of(*mesh)) : carreau::summarise_quality(mesh->flat);
+        mesh->session != nullptr
+            ? carreau::summarise_quality(flat_of(*mesh), carreau::threads_of(mesh->session->session.parameters()))
+            : carreau::summarise_quality(mesh->flat, processors());
     carreau_quality result{};
     result.vertices = std::int64_t(summary.vertices);
     result.triangles = std::int64_t(summary.triangles);
@@ -373,7 +379,7 @@ carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, i
     carreau::Monitor silent;
     carreau::IntersectionOptions options;
     options.limit = std::size_t(capacity);
-    options.threads = threads > 0 ? threads : std::max(1, int(std::thread::hardware_concurrency()));
+    options.threads = threads > 0 ? threads : processors();
     FlatMesh copy;
     if (mesh->session != nullptr) copy = flat_of(*mesh);
     const FlatMesh& flat = mesh->session != nullptr ? copy : mesh->flat;

@@ -1,9 +1,12 @@
 #include "mesh/quality.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "support/infinity.h"
@@ -57,44 +60,95 @@ struct Part {
   }
 };
 
-void measure_edges(const FlatMesh& mesh, QualitySummary& summary) {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles)
-    for (int i = 0; i < 3; ++i) {
-      const auto a = static_cast<std::uint32_t>(t[i]), b = static_cast<std::uint32_t>(t[(i + 1) % 3]);
-      keys.push_back(static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b));
-    }
-  std::sort(keys.begin(), keys.end());
-  std::vector<int> degree(mesh.vertices.size(), 0);
-  std::vector<char> border(mesh.vertices.size(), 0);
+/// The edges of all triangles, each once for each triangle, sorted by their smaller vertex.
+struct EdgesByVertex {
+  std::vector<std::size_t> start;   ///< those of vertex v are others[start[v] .. start[v + 1] - 1]
+  std::vector<std::int32_t> others; ///< their larger vertices
+
+  explicit EdgesByVertex(const FlatMesh& mesh) : start(mesh.vertices.size() + 1, 0), others(3 * mesh.triangles.size()) {
+    for_each_side(mesh, [&](std::int32_t low, std::int32_t) { ++start[static_cast<std::size_t>(low) + 1]; });
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<std::size_t> next(start.begin(), start.end() - 1);
+    for_each_side(mesh, [&](std::int32_t low, std::int32_t high) { others[next[static_cast<std::size_t>(low)]++] = high; });
+  }
+
+  template <typename Use>
+  static void for_each_side(const FlatMesh& mesh, const Use& use) {
+    for (const auto& t : mesh.triangles)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+        use(low, high);
+      }
+  }
+};
+
+/// Lengths of the edges of some vertices.
+struct EdgeLengths {
   double sum = 0, low = infinity, high = 0;
-  for (std::size_t i = 0; i < keys.size();) {
-    std::size_t j = i;
-    while (j < keys.size() && keys[j] == keys[i]) ++j;
-    const auto a = static_cast<std::size_t>(keys[i] >> 32), b = static_cast<std::size_t>(keys[i] & 0xffffffffU);
-    const double l = norm(mesh.vertices[b] - mesh.vertices[a]);
-    sum += l;
-    low = std::min(low, l);
-    high = std::max(high, l);
-    ++summary.edges;
-    ++degree[a];
-    ++degree[b];
-    if (j - i == 1) ++summary.open_edges;
-    if (j - i != 2) border[a] = border[b] = 1;
-    i = j;
+  std::size_t count = 0, open = 0;
+
+  void add(const EdgeLengths& other) {
+    sum += other.sum, low = std::min(low, other.low), high = std::max(high, other.high);
+    count += other.count, open += other.open;
   }
-  if (summary.edges == 0) return;
-  summary.edge_min = low;
-  summary.edge_max = high;
-  summary.edge_mean = sum / static_cast<double>(summary.edges);
-  std::size_t inside = 0, six = 0;
-  for (std::size_t v = 0; v < degree.size(); ++v) {
-    if (border[v] != 0 || degree[v] == 0) continue;
-    ++inside;
-    if (degree[v] == 6) ++six;
+};
+
+/// What threads count of vertices that several of them meet.
+struct Degrees {
+  std::vector<std::int32_t> degree;
+  std::vector<std::int32_t> border; ///< 1: on an edge that has not two triangles
+
+  void count(std::size_t v, bool on_border) {
+    std::atomic_ref(degree[v]).fetch_add(1, std::memory_order_relaxed);
+    if (on_border) std::atomic_ref(border[v]).store(1, std::memory_order_relaxed);
   }
-  summary.degree6 = inside == 0 ? 0 : static_cast<double>(six) / static_cast<double>(inside);
+  [[nodiscard]] double share_of_six() const {
+    std::size_t inside = 0, six = 0;
+    for (std::size_t v = 0; v < degree.size(); ++v) {
+      if (border[v] != 0 || degree[v] == 0) continue;
+      ++inside;
+      if (degree[v] == 6) ++six;
+    }
+    return inside == 0 ? 0 : static_cast<double>(six) / static_cast<double>(inside);
+  }
+};
+
+/// The edges whose smaller vertex is v.
+void measure_edges_of(const FlatMesh& mesh, EdgesByVertex& edges, std::size_t v, EdgeLengths& lengths, Degrees& degrees) {
+  const std::span others(edges.others.data() + edges.start[v], edges.start[v + 1] - edges.start[v]);
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 0, j = 0; i < others.size(); i = j) {
+    while (j < others.size() && others[j] == others[i]) ++j;
+    const auto w = static_cast<std::size_t>(others[i]);
+    const double length = norm(mesh.vertices[w] - mesh.vertices[v]);
+    lengths.add({length, length, length, 1, j - i == 1 ? std::size_t{1} : 0});
+    degrees.count(v, j - i != 2);
+    degrees.count(w, j - i != 2);
+  }
+}
+
+void measure_edges(const FlatMesh& mesh, int threads, QualitySummary& summary) {
+  const std::size_t n = mesh.vertices.size();
+  EdgesByVertex edges(mesh);
+  Degrees degrees{std::vector<std::int32_t>(n, 0), std::vector<std::int32_t>(n, 0)};
+  std::vector<EdgeLengths> parts((n + part_size - 1) / part_size);
+  Monitor silent;
+  run_each(
+      parts.size(), false, threads,
+      [&](std::size_t i, Monitor&) {
+        const std::size_t end = std::min((i + 1) * part_size, n);
+        for (std::size_t v = i * part_size; v < end; ++v) measure_edges_of(mesh, edges, v, parts[i], degrees);
+      },
+      silent);
+  EdgeLengths all;
+  for (const EdgeLengths& part : parts) all.add(part);
+  summary.edges = all.count;
+  summary.open_edges = all.open;
+  if (all.count == 0) return;
+  summary.edge_min = all.low;
+  summary.edge_max = all.high;
+  summary.edge_mean = all.sum / static_cast<double>(all.count);
+  summary.degree6 = degrees.share_of_six();
 }
 
 }  // namespace
@@ -156,9 +210,9 @@ QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
   return summary;
 }
 
-QualitySummary summarise_quality(const FlatMesh& mesh) {
-  QualitySummary summary = summarise_shapes(mesh, 1);
-  measure_edges(mesh, summary);
+QualitySummary summarise_quality(const FlatMesh& mesh, int threads) {
+  QualitySummary summary = summarise_shapes(mesh, threads);
+  measure_edges(mesh, threads, summary);
   return summary;
 }
 

@@ -29,8 +29,8 @@ struct QualitySummary {
   double edge_min = 0, edge_mean = 0, edge_max = 0;
   double degree6 = 0;  ///< share of interior vertices of degree 6
 };
-QualitySummary summarise_quality(const FlatMesh& mesh);
-/// The same without what is known of edges only. It does not depend on the number of threads.
+QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);
+/// The same without what is known of edges only. Neither depends on the number of threads.
 QualitySummary summarise_shapes(const FlatMesh& mesh, int threads);
 
 }  // namespace carreau

@@ -1,0 +1,23 @@
+#!/bin/sh
+# cpack.sh CPACK BUILD WORK COMMAND: the archive and the package that cpack makes hold what is installed; the archive's command runs where
+# it was unpacked, and the package names the libraries that it needs.
+set -eu
+cpack=$1 build=$2 work=$3 command=$4
+rm -rf -- "$work"
+mkdir -p -- "$work/unpacked"
+cd -- "$work"
+"$cpack" --config "$build/CPackConfig.cmake" -B "$work/made" >cpack.log 2>&1 || { cat cpack.log; exit 1; }
+archive=$(find made -maxdepth 1 -name '*.tar.gz')
+tar xzf "$archive" -C unpacked
+root=$(find unpacked -mindepth 1 -maxdepth 1 -type d)
+test -e "$root/include/carreau.h" && test -e "$root/lib/libcarreau.so"
+if [ "$command" = 1 ]; then
+  "$root/bin/carreau" mesh 'z = x * y' --domain disc:0,0,1 --size 0.2 -q -o saddle.mesh
+  test -s saddle.mesh
+fi
+if command -v dpkg-deb >/dev/null 2>&1; then
+  deb=$(find made -maxdepth 1 -name '*.deb')
+  dpkg-deb --field "$deb" Depends | grep -q 'libc6'
+  dpkg-deb --contents "$deb" | grep -q 'usr/include/carreau.h'
+  dpkg-deb --ctrl-tarfile "$deb" | tar t | grep -q triggers
+fi
