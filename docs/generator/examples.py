@@ -9,7 +9,7 @@ AROUND = 3  # lines before and behind a call, at most
 # In the order in which they are preferred: programs to read first, then tests.
 C = ["fortran_examples/c_paraboloid", "fortran_examples/c_torus", "fortran_examples", "docs/tutorials", "tests/cabi/hosts.c", "tests/cabi/c_reference.c",
      "tests/cabi", "tests/adapters", "cad_adapters/command", "cad_adapters/bl2d"]
-FORTRAN = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf_m.f90"]
+FORTRAN = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
 CPP = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/cpp_wrapper"]
 PYTHON = ["docs/tutorials", "fortran_examples", "tests/python"]
 LANGUAGES = {"c": (C, (".c", ".cpp", ".h")), "fortran": (FORTRAN, (".f90",)), "cpp": (CPP, (".cpp",)), "python": (PYTHON, (".py",))}
@@ -44,10 +44,11 @@ class Calls:
             with open(os.path.join(root, path), encoding="utf-8") as file:
                 self.texts[path] = file.read().split("\n")
         self.index = {}
+        word = r"\b\w+(?=\s*\()" + (r"|(?<=call )\w+" if language == "fortran" else "")
         for path, lines in self.texts.items():
             for number, line in enumerate(lines):
-                for word in set(re.findall(r"\b\w+(?=\s*\()" if language != "fortran" else r"\w+(?=\s*\()", line.split("//")[0])):
-                    self.index.setdefault(word.lower(), []).append((path, number))
+                for name in set(re.findall(word, line.split("//")[0])):
+                    self.index.setdefault(name.lower(), []).append((path, number))
         self.fortran = language == "fortran"
 
     def find(self, name):
