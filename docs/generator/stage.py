@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import benchmark_tables
 import c_pages
 import cpp_pages
 import fortran_pages
@@ -47,7 +48,8 @@ class Stage:
             for name in sorted(names):
                 path = os.path.relpath(os.path.join(folder, name), ROOT)
                 if name.endswith(".md"):
-                    self.write(markdown_page(path), self.places.rewritten(read(path), path))
+                    text = benchmark_tables.filled(read(path), os.path.join(ROOT, "docs/benchmarks")) if path == "docs/benchmarks.md" else read(path)
+                    self.write(markdown_page(path), self.places.rewritten(text, path))
                 elif path.startswith("docs/") and name.endswith((".png", ".svg")):
                     target = os.path.join(self.folder, path.removeprefix("docs/"))
                     os.makedirs(os.path.dirname(target), exist_ok=True)
