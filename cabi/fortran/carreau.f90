@@ -200,10 +200,12 @@ module carreau
 
   ! The routines of cad_m, by reference (RT-0232 sec. 3.1).
   abstract interface
+    !> cad_init: called once.
     subroutine carreau_init_fn() bind(c)
       implicit none
     end subroutine carreau_init_fn
 
+    !> surf0: the point S(u, v).
     subroutine carreau_surf0_fn(refs, uv, S) bind(c)
       import :: c_double, c_int32_t
       implicit none
@@ -212,6 +214,7 @@ module carreau
       real(c_double), intent(out) :: S(3)
     end subroutine carreau_surf0_fn
 
+    !> surf1: its first derivatives.
     subroutine carreau_surf1_fn(refs, uv, Su, Sv) bind(c)
       import :: c_double, c_int32_t
       implicit none
@@ -220,6 +223,7 @@ module carreau
       real(c_double), intent(out) :: Su(3), Sv(3)
     end subroutine carreau_surf1_fn
 
+    !> surf2: its second derivatives.
     subroutine carreau_surf2_fn(refs, uv, Suu, Suv, Svv) bind(c)
       import :: c_double, c_int32_t
       implicit none
@@ -228,6 +232,7 @@ module carreau
       real(c_double), intent(out) :: Suu(3), Suv(3), Svv(3)
     end subroutine carreau_surf2_fn
 
+    !> curv_int: the interval [a, b] of curve ic, a < b.
     subroutine carreau_curv_int_fn(refs, ic, a, b) bind(c)
       import :: c_double, c_int32_t
       implicit none
@@ -262,6 +267,7 @@ module carreau
       real(c_double), intent(inout) :: h
     end subroutine carreau_hphyc_fn
 
+    !> cad_hphyp: of a point.
     subroutine carreau_hphyp_fn(refp, h) bind(c)
       import :: c_double, c_int32_t
       implicit none

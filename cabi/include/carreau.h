@@ -65,6 +65,7 @@ extern "C" {
 
 /* ---- Versions and status ---- */
 
+/* The version of this header. */
 #define CARREAU_VERSION_MAJOR 0
 #define CARREAU_VERSION_MINOR 1
 #define CARREAU_VERSION_PATCH 0
@@ -85,6 +86,7 @@ extern "C" {
   X(CARREAU_ERR_BUSY, 11, "the session is running: only carreau_stop may be called from a callback")          \
   X(CARREAU_ERR_INTERNAL, 99, "a defect of the library; please report it")
 
+/* What a function that can fail returns: CARREAU_OK, or one of the errors above. */
 typedef int32_t carreau_status;
 enum {
 #define CARREAU_STATUS_ROW(symbol, value, meaning) symbol = value,
@@ -180,7 +182,8 @@ CARREAU_API carreau_status carreau_set_cad_m(carreau_session* session, const car
 
 /* A callback returns 0, or any other value to report a failure. The run then ends with CARREAU_ERR_CALLBACK and a
  * sentence that holds the value. A size or radius that does not answer returns CARREAU_NO_ANSWER, or returns 0 and
- * leaves CARREAU_HVIDE in *value. A callback may leave entries above `order` untouched. face    reference of the face
+ * leaves CARREAU_HVIDE in *value. A callback may leave entries above `order` untouched.
+ *   face    reference of the face
  *   ic      rank of the curve in the face, from 1
  *   order   highest derivative wanted: 0, 1 or 2, never above surface_order (curve_order)
  *   user    the member `user` of the struct */
@@ -205,6 +208,7 @@ typedef int32_t (*carreau_point_value_fn)(int32_t point, double* value, void* us
  * the callback, from the same thread. The text is copied; NULL or "" says nothing. */
 typedef const char* (*carreau_failure_fn)(int32_t face, void* user);
 
+/* The callbacks of a geometry. */
 typedef struct carreau_cad {
   size_t struct_size;
   void* user;            /* handed to every callback; never looked at */
@@ -254,6 +258,7 @@ typedef int32_t (*carreau_curve_metric_fn)(int32_t face, int32_t ic, double t, i
                                            void* user);
 typedef int32_t (*carreau_point_metric_fn)(int32_t point, int32_t* kind, double* value, void* user);
 
+/* Callbacks that want metrics, beside those of a geometry. */
 typedef struct carreau_metric_callbacks {
   size_t struct_size;
   void* user;                               /* handed to every callback; never looked at */
@@ -277,7 +282,8 @@ CARREAU_API carreau_status carreau_set_metric_callbacks(carreau_session* session
 /* The kinds of curves (typc): on the boundary of a domain, or inside it. */
 enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
 
-/* Drops all faces, and all geometries that were added (carreau_geometry.h). An earlier mesh stays. */
+/* Drops all faces, and all geometries that were added (carreau_geometry.h). An earlier mesh stays. Errors:
+ * ARGUMENT. */
 CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
 
 /* Appends a face. Callbacks get the number `ref`, which differs from face to face. An orientation of +k (-k) says that
@@ -329,7 +335,8 @@ CARREAU_API carreau_status carreau_model_write_pardom(carreau_session* session, 
 /* Checks the model against the rules that need no geometry, as carreau_mesh_generate does. Errors: MODEL. */
 CARREAU_API carreau_status carreau_model_check(carreau_session* session);
 
-/* Counts faces, curves (of all faces together) and imposed points. Any pointer but session may be NULL. */
+/* Counts faces, curves (of all faces together) and imposed points. Any pointer but session may be NULL. Errors:
+ * ARGUMENT. */
 CARREAU_API carreau_status carreau_model_count(carreau_session* session, int64_t* out_faces, int64_t* out_curves,
                                                int64_t* out_points);
 
@@ -347,8 +354,10 @@ CARREAU_API carreau_status carreau_model_points(carreau_session* session, int64_
 
 /* ---- Parameters (RT-0232 sec. 3.3) ---- */
 
+/* The types of parameters. */
 enum { CARREAU_INTEGER = 1, CARREAU_REAL = 2, CARREAU_TEXT = 3 };
 
+/* What is known of a parameter, whatever its value. */
 typedef struct carreau_parameter {
   size_t struct_size;
   const char* name;         /* strings are static */
@@ -417,7 +426,8 @@ typedef void (*carreau_message_fn)(int32_t level, const char* text, void* user);
  * any other value to stop the run as carreau_stop does. */
 typedef int32_t (*carreau_progress_fn)(int32_t phase, int32_t entity, double fraction, void* user);
 
-/* Register a callback. NULL removes it, as in a new session. */
+/* Register a callback. NULL removes it, as in a new session. `user` is handed to it, never looked at. Errors: ARGUMENT.
+ */
 CARREAU_API carreau_status carreau_set_message_callback(carreau_session* session, carreau_message_fn callback,
                                                         void* user);
 CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* session, carreau_progress_fn callback,
@@ -453,7 +463,7 @@ typedef struct carreau_report {
   double seconds_curves, seconds_sampling, seconds_plane, seconds_lift, seconds_total;
 } carreau_report;
 
-/* Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Tells what that run did. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_report(carreau_session* session, carreau_report* out_report);
 
 /* ---- Interfaces: the curves of the last mesh in space ---- */
@@ -501,6 +511,7 @@ CARREAU_API carreau_status carreau_session_interface(carreau_session* session, i
 CARREAU_API carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path,
                                                        const char* sol_path);
 
+/* A background mesh in arrays of the caller. */
 typedef struct carreau_background {
   size_t struct_size;
   int32_t dimension; /* 3: a surface in space; 2: in parameter planes */
@@ -512,6 +523,7 @@ typedef struct carreau_background {
   const double* sizes;      /* vertex_count, model lengths; or NULL */
   const double* metrics;    /* vertex_count x 6 (xx xy xz yy yz zz), dimension 2: x 3 (uu uv vv); or NULL */
 } carreau_background;
+/* Takes arrays in place of files. */
 CARREAU_API carreau_status carreau_set_background(carreau_session* session, const carreau_background* background);
 
 /* Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh. Each face is looked up in its own
@@ -534,7 +546,7 @@ typedef struct carreau_background_report {
   int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest triangle */
   double farthest; /* distance of the farthest one; model length, or parameter length */
 } carreau_background_report;
-/* Errors: ARGUMENT, SEQUENCE (no mesh yet). */
+/* Tells how. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
 CARREAU_API carreau_status carreau_session_background(carreau_session* session, carreau_background_report* out_report);
 
 /* ---- Adaptation: from a field to a mesh that carries it (HDR sec. 3.4.3, 4.8) ---- */
@@ -548,6 +560,7 @@ enum { CARREAU_ISOTROPIC = 0, CARREAU_GRAPH = 1, CARREAU_ANISOTROPIC = 2 };
  * of triangles averaged at vertices, twice (double L2 projection), which is smoother, and biased at boundaries. */
 enum { CARREAU_FIT = 0, CARREAU_PROJECTION = 1 };
 
+/* How sizes are found from a field. Zeros in all members but struct_size are the defaults. */
 typedef struct carreau_estimator {
   size_t struct_size;
   int32_t source, shape; /* as above; GRAPH not with HESSIAN, and GRAPH, CURVATURE, DEFORMATION in the plane z = 0 */
@@ -592,6 +605,7 @@ CARREAU_API carreau_status carreau_transfer_files(carreau_session* session, cons
 /* Gives the field at n points of space; xyz is n x 3. Returns 0, or any other value to report a failure. */
 typedef int32_t (*carreau_field_fn)(int64_t n, const double* xyz, double* values, void* user);
 
+/* A loop of adaptation. */
 typedef struct carreau_adaptation {
   size_t struct_size;
   const carreau_estimator* estimator;
@@ -674,10 +688,11 @@ CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const ca
  * file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
 
-/* Counts vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. */
+/* Counts vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. Errors:
+ * ARGUMENT, SEQUENCE (no mesh). */
 CARREAU_API carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles,
                                               int64_t* out_edges, int64_t* out_faces);
-/* Tells the dimension: 3, or 2 when the mesh was read from a plane one. */
+/* Tells the dimension: 3, or 2 when the mesh was read from a plane one. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_dimension(carreau_mesh* mesh, int32_t* out_dimension);
 
 /* Copy results into arrays of the caller, which have room for `capacity` rows (n, m or k).
@@ -741,7 +756,7 @@ typedef struct carreau_cell_quality {
   double triangle_share;       /* of the area, that of triangles */
 } carreau_cell_quality;
 
-/* Errors: ARGUMENT, SEQUENCE. */
+/* Measures the elements. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_quality* out_quality);
 
 /* The status of a face. A `mended` face is meshed, but something was repaired, or triangles are turned over; `why` says
@@ -755,6 +770,7 @@ enum {
   CARREAU_FACE_COLLAPSED = 4
 };
 
+/* What became of a face. */
 typedef struct carreau_face {
   size_t struct_size;
   int32_t ref;       /* reference of the face */
@@ -784,7 +800,7 @@ typedef struct carreau_quality {
   double degree6;                       /* share of interior vertices with six edges */
 } carreau_quality;
 
-/* Errors: ARGUMENT, SEQUENCE. */
+/* Measures the triangles. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_quality);
 
 /* Looks for what makes a mesh unusable: indices out of range, numbers that are not finite, triangles without area or
@@ -842,6 +858,7 @@ enum {
 /* Both compress without loss. */
 enum { CARREAU_EXR_ZIP = 0, CARREAU_EXR_PIZ = 1 };
 
+/* Which images are written, and how. Zeros in all members but struct_size are the defaults. */
 typedef struct carreau_exr_options {
   size_t struct_size;
   int32_t longest; /* pixels of the longer side, up to 65536; the shorter one follows the patch in space; 0: 1024 */
@@ -974,8 +991,10 @@ enum {
   CARREAU_MEASURE_CURVE_A1 = 11,
   CARREAU_MEASURE_VERTEX_ANGLE = 12
 };
+/* What a measure has one value for. */
 enum { CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3 };
 
+/* What a mesh delivers, as a whole. */
 typedef struct carreau_delivered {
   size_t struct_size;
   int64_t vertices, edges, triangles;
@@ -989,9 +1008,11 @@ typedef struct carreau_delivered {
   double seconds;
 } carreau_delivered;
 
-/* Errors of these functions: ARGUMENT, SEQUENCE (no mesh yet), CALLBACK, CANCELLED, MEMORY. */
+/* Measures the mesh as a whole. Errors of these functions: ARGUMENT, SEQUENCE (no mesh yet), CALLBACK, CANCELLED,
+ * MEMORY. */
 CARREAU_API carreau_status carreau_session_delivered(carreau_session* session, carreau_delivered* out_delivered);
 
+/* The spread of one measure. */
 typedef struct carreau_measure {
   size_t struct_size;
   const char* name;  /* as in files; static */
@@ -1008,6 +1029,7 @@ typedef struct carreau_measure {
                      gradations of edges that cross a face from a vertex of a curve to another one */
 } carreau_measure;
 
+/* Tells the spread of a kind. */
 CARREAU_API carreau_status carreau_delivered_measure(carreau_session* session, int32_t kind,
                                                      carreau_measure* out_measure);
 

@@ -19,8 +19,10 @@ extern "C" {
 
 /* ---- Loops: simple polygons with an angle as parameter ---- */
 
+/* Holds a simple polygon with its parameter. */
 typedef struct carreau_loop carreau_loop;
 
+/* How fast the angle about a pivot changes. */
 enum {
   CARREAU_LOOP_EVEN = 0,  /* the angle about each pivot is linear in phi: a homeomorphism with the circle */
   CARREAU_LOOP_SMOOTH = 1 /* besides, C1 where pivots change; at vertices the polygon itself turns */
@@ -47,6 +49,7 @@ CARREAU_API carreau_status carreau_loop_pivots(carreau_loop* loop, int64_t capac
 
 /* ---- Annuli ---- */
 
+/* Holds the annulus between two polygons with its parameters. */
 typedef struct carreau_annulus carreau_annulus;
 
 /* The outer border, as a multiple of the inner one about each pivot. */
@@ -83,7 +86,7 @@ CARREAU_API carreau_status carreau_annulus_points(carreau_annulus* annulus, int6
 CARREAU_API carreau_status carreau_annulus_invert(carreau_annulus* annulus, int64_t n, const double xy[], double out_tau_phi[],
                                                   int32_t out_zones[]);
 
-/* As carreau_loop_pivots. */
+/* The pivots (x y) of an annulus, and their number; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
 CARREAU_API carreau_status carreau_annulus_pivots(carreau_annulus* annulus, int64_t capacity, double out_xy[], int64_t* out_count);
 
 /* The polygon (x y) that was described as outer border, and the number of its vertices; as carreau_loop_pivots. Errors: ARGUMENT (capacity), SEQUENCE. */
@@ -98,6 +101,7 @@ CARREAU_API carreau_status carreau_annulus_write_exr(carreau_annulus* annulus, c
 
 /* ---- Atlases of closed triangulated surfaces ---- */
 
+/* Holds charts of a closed triangulated surface. */
 typedef struct carreau_atlas carreau_atlas;
 
 /* Zeros in all members but struct_size are the defaults; NULL in place of the struct is the same. */
@@ -107,6 +111,7 @@ typedef struct carreau_atlas_options {
   int32_t reach;  /* of clusters that the library makes, in edges: 1 (0 is the same) for the smallest, 2, 3 for larger ones */
 } carreau_atlas_options;
 
+/* What an atlas consists of. */
 typedef struct carreau_atlas_counts {
   size_t struct_size;
   int64_t vertices, triangles; /* of the triangulation covered: the one given, or its division */
@@ -135,7 +140,7 @@ CARREAU_API const char* carreau_atlas_last_error(const carreau_atlas* atlas);
 CARREAU_API carreau_status carreau_atlas_build(carreau_atlas* atlas, const carreau_atlas_options* options, int64_t n, const double xyz[], int64_t m,
                                                const int32_t triangles[], const int32_t clusters[]);
 
-/* Counts. Errors: ARGUMENT, SEQUENCE (nothing was built). */
+/* Count what the atlas consists of, and tell of chart `chart`. Errors: ARGUMENT, SEQUENCE (nothing was built). */
 CARREAU_API carreau_status carreau_atlas_count(carreau_atlas* atlas, carreau_atlas_counts* out_counts);
 CARREAU_API carreau_status carreau_atlas_chart_info(carreau_atlas* atlas, int64_t chart, carreau_atlas_chart* out_chart);
 

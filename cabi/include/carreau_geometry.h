@@ -105,6 +105,7 @@ enum {
   CARREAU_SES = 3  /* solvent excluded: the boundary of what no probe outside the balls reaches */
 };
 
+/* Which surface of a molecule, and by which probe. */
 typedef struct carreau_molecule_options {
   size_t struct_size;
   int32_t surface;       /* CARREAU_VWS, CARREAU_SAS or CARREAU_SES */
@@ -230,7 +231,8 @@ CARREAU_API carreau_status carreau_add_plane_domain(carreau_session* session, co
 CARREAU_API carreau_status carreau_load_plane_domain(carreau_session* session, const char* path, const char* sizes,
                                                      double corner_angle);
 
-/* Tells whether the plane domain that the session was given last has sizes or metrics at its points. */
+/* Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was. Errors:
+ * ARGUMENT. */
 CARREAU_API carreau_status carreau_plane_has_sizes(carreau_session* session, int32_t* out_answer);
 
 /* ---- Structured grids ---- */

@@ -7,16 +7,18 @@ program cad_fortran_test
   implicit none
   type(carreau_session) :: session
   type(carreau_mesh) :: mesh
-  type(carreau_cad_file) :: file
+  type(carreau_cad_file) :: file, again
   type(carreau_cad_content) :: content
   type(carreau_cad_face) :: face
   type(carreau_cad_figures) :: figures
   type(carreau_cad_report) :: report
+  type(carreau_cad_gaps) :: gaps
+  type(carreau_cad_danger) :: danger
   type(carreau_geometry_place) :: place
   type(carreau_quality) :: quality
   character(len=1000) :: path
   character(len=:), allocatable :: kind
-  integer(c_int32_t), allocatable :: edges(:)
+  integer(c_int32_t), allocatable :: edges(:), parts(:)
   integer(c_int32_t) :: status, f, tops, count
   real(c_double) :: area, xyz(3), uv(2)
 
@@ -51,6 +53,20 @@ program cad_fortran_test
   call check(status == CARREAU_OK .and. abs(report%area - area) < 1d-9 * area .and. report%kinds == 1, 'report')
   call carreau_cad_surfaces(file, 1_c_int64_t, kind, count, status)
   call check(status == CARREAU_OK .and. kind == 'plane' .and. count == 6, 'kinds')
+  call carreau_cad_measure_gaps(file, gaps, status)
+  call check(status == CARREAU_OK .and. gaps%largest < 1d-6 .and. gaps%beyond == 0, 'a box has no gaps')
+  call carreau_cad_danger_at(file, int(report%dangers + 1, c_int64_t), danger, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'no such danger')
+  call check(carreau_cad_loss(file, 1_c_int64_t) == '', 'everything was read')
+  call carreau_cad_parts(file, 3, parts, status)
+  call check(status == CARREAU_OK .and. size(parts) == 1 .and. parts(1) == 3, 'a face that is not cut')
+  call check(carreau_cad_whole_face(file, 3) == 3 .and. carreau_cad_whole_edge(file, 5) == 5, 'wholes')
+  call carreau_cad_set_face_size(file, 'top', -1d0, status)
+  call check(status == CARREAU_ERR_ARGUMENT, 'a size below zero')
+  call carreau_cad_create(again, status)
+  call carreau_cad_read(again, path, status)
+  call check(status == CARREAU_OK, carreau_cad_last_error(again))
+  call carreau_cad_close(again)
   call carreau_cad_file_face(file, 7, face, status)
   call check(status == CARREAU_ERR_ARGUMENT .and. index(carreau_cad_last_error(file), 'face 7') > 0, 'no such face')
   call carreau_cad_add(file, session, status)

@@ -166,6 +166,11 @@ TEST(CadLibrary, PutsPointsOnCurves) {
       middles[edges[ic - 1]].push_back(p);
     }
     EXPECT_EQ(carreau_cad_whole_face(file, f), f);
+    std::int64_t parts = 0;
+    std::int32_t part = 0;
+    EXPECT_OK(file, carreau_cad_parts(file, f, 1, &part, &parts));
+    EXPECT_EQ(parts, 1);  // a face that is not cut is its only part
+    EXPECT_EQ(part, f);
   }
   int shared = 0;
   for (const auto& places : middles)

@@ -15,7 +15,7 @@ program atlas_fortran_test
   type(carreau_session) :: session
   real(c_double) :: xy(2, 1), derivatives(2, 1), phi(1), place(2, 1), back(2, 1), slopes(4, 1), surface(3, n*m), xyz(3, 1)
   real(c_double) :: there(2, 1), weights(1), other(1), same(3, 1), jet(6, 1), a, b
-  real(c_double), allocatable :: pivots(:, :)
+  real(c_double), allocatable :: pivots(:, :), border(:, :), edges(:, :)
   integer(c_int32_t) :: status, zones(1), triangles(3, 2*n*m), i, j, k
   integer(c_int64_t) :: c
   logical :: found(1)
@@ -37,6 +37,13 @@ program atlas_fortran_test
   call carreau_annulus_points(annulus, place, xy, slopes, status)
   call carreau_annulus_invert(annulus, xy, back, zones, status)
   if (zones(1) /= CARREAU_ZONE_ANNULUS .or. any(abs(back - place) > 1.e-12_c_double)) error stop 'annulus'
+  call carreau_annulus_outer_border(annulus, border, status)
+  if (any(abs(border - 2*small) > 1.e-12_c_double)) error stop 'outer border'
+  call carreau_annulus_pivots(annulus, pivots, status)
+  call carreau_annulus_skeleton(annulus, edges, status)
+  if (status /= CARREAU_OK .or. size(pivots, 1) /= 2 .or. size(edges, 1) /= 4) error stop 'pivots and skeleton'
+  call carreau_annulus_write_exr(annulus, 'annulus.exr', 1, status)
+  if (status /= CARREAU_ERR_ARGUMENT .or. carreau_annulus_last_error(annulus) == '') error stop 'an image of one pixel'
   call carreau_annulus_free(annulus)
 
   do i = 0, n - 1
@@ -50,6 +57,8 @@ program atlas_fortran_test
     end do
   end do
   call carreau_atlas_create(atlas, status)
+  call carreau_atlas_build(atlas, surface, triangles(:, 2:), status)
+  if (status /= CARREAU_ERR_ARGUMENT .or. carreau_atlas_last_error(atlas) == '') error stop 'a surface with a border'
   call carreau_atlas_build(atlas, surface, triangles, status)
   if (status /= CARREAU_OK) error stop 'atlas'
   call carreau_atlas_count(atlas, counts, status)

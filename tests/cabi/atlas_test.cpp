@@ -105,6 +105,11 @@ TEST(CAtlas, AnnulusThereAndBack) {
   double skeleton[4 * 2];
   ASSERT_EQ(carreau_annulus_skeleton(annulus, 2, skeleton, &edges), CARREAU_OK);
   EXPECT_EQ(edges, 2);  // two ears, each joined with the middle of the diagonal
+  std::int64_t corners = 0;
+  double border[2 * 4];
+  ASSERT_EQ(carreau_annulus_outer_border(annulus, 4, border, &corners), CARREAU_OK);
+  EXPECT_EQ(corners, 4);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(border[i], large[i]);
   carreau_annulus_free(annulus);
 }
 
@@ -120,6 +125,12 @@ TEST(CAtlas, SphereIsCoveredBlendedAndMeshed) {
   counts.struct_size = sizeof counts;
   ASSERT_EQ(carreau_atlas_count(atlas, &counts), CARREAU_OK);
   EXPECT_EQ(2 * counts.charts - counts.triples, 4);  // Euler's number of the dual triangulation, twice
+  carreau_atlas_chart chart{};
+  chart.struct_size = sizeof chart;
+  ASSERT_EQ(carreau_atlas_chart_info(atlas, 0, &chart), CARREAU_OK);
+  for (int i = 0; i < 3; ++i)  // u, v and the normal are a frame
+    EXPECT_NEAR(chart.u[(i + 1) % 3] * chart.v[(i + 2) % 3] - chart.u[(i + 2) % 3] * chart.v[(i + 1) % 3], chart.normal[i], 1e-12);
+  EXPECT_EQ(carreau_atlas_chart_info(atlas, counts.charts, &chart), CARREAU_ERR_ARGUMENT);
   for (std::int64_t i = 0; i < counts.charts; ++i)
     for (int k = 0; k < 10; ++k) {
       const double place[2] = {.05 + .09 * k, .6 * k};

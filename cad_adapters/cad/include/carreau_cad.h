@@ -38,6 +38,7 @@ typedef struct carreau_cad_file carreau_cad_file;
 /* Gets the share that is read, 0 to 1. Returns 0, or any other value to stop. */
 typedef int32_t (*carreau_cad_progress_fn)(double fraction, void* user);
 
+/* How a file is read. */
 typedef struct carreau_cad_options {
   size_t struct_size;
   int32_t trap_faults; /* 1: SIGSEGV, SIGBUS, SIGFPE and SIGILL that OpenCASCADE raises in a call of this library are the
@@ -84,6 +85,7 @@ CARREAU_CAD_API carreau_status carreau_cad_set_face_size(carreau_cad_file* file,
 
 /* ---- What a file holds ---- */
 
+/* What a file holds, counted. */
 typedef struct carreau_cad_content {
   size_t struct_size;
   int32_t faces, edges, vertices;
@@ -99,11 +101,13 @@ typedef struct carreau_cad_content {
   int32_t references;    /* largest reference of a face, parts of cut faces included */
 } carreau_cad_content;
 
+/* Counts what the file holds. */
 CARREAU_CAD_API carreau_status carreau_cad_info(carreau_cad_file* file, carreau_cad_content* out_content);
 
 /* Tells what of the file could not be read: a sentence, which names the entity. index: from 0. NULL: no such index. */
 CARREAU_CAD_API const char* carreau_cad_loss(carreau_cad_file* file, int64_t index);
 
+/* What the file tells of a face. */
 typedef struct carreau_cad_face {
   size_t struct_size;
   int32_t number;   /* from 1 */
@@ -116,6 +120,7 @@ typedef struct carreau_cad_face {
 CARREAU_CAD_API carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number,
                                                      carreau_cad_face* out_face);
 
+/* Measures of a face. */
 typedef struct carreau_cad_figures {
   size_t struct_size;
   const char* kind; /* "plane", "cylinder", ..., "broken" */
@@ -129,6 +134,7 @@ CARREAU_CAD_API carreau_status carreau_cad_measure_face(carreau_cad_file* file, 
 
 /* ---- What is hard to mesh ---- */
 
+/* What a file holds, and how much of it is hard to mesh. */
 typedef struct carreau_cad_report {
   size_t struct_size;
   int32_t solids, shells, faces, edges, vertices;
@@ -150,6 +156,7 @@ CARREAU_CAD_API carreau_status carreau_cad_inspect(carreau_cad_file* file, doubl
 CARREAU_CAD_API carreau_status carreau_cad_surfaces(carreau_cad_file* file, int64_t index, const char** out_kind,
                                                     int32_t* out_count);
 
+/* A place that a mesher may stumble over. */
 typedef struct carreau_cad_danger {
   size_t struct_size;
   const char* kind; /* "tiny edge", "sliver face", "gap", "free edge", "kink", ... */
@@ -173,6 +180,7 @@ typedef struct carreau_cad_gaps {
   int32_t reserved;
 } carreau_cad_gaps;
 
+/* Measures the gaps of all edges. */
 CARREAU_CAD_API carreau_status carreau_cad_measure_gaps(carreau_cad_file* file, carreau_cad_gaps* out_gaps);
 
 /* ---- Places, references ---- */

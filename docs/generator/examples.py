@@ -1,0 +1,76 @@
+"""Calls of functions in programs that tests run, each with the few lines around it."""
+import os
+import re
+import textwrap
+from dataclasses import dataclass
+
+AROUND = 3  # lines before and behind a call, at most
+
+# In the order in which they are preferred: programs to read first, then tests.
+C = ["fortran_examples/c_paraboloid", "fortran_examples/c_torus", "fortran_examples", "docs/tutorials", "tests/cabi/hosts.c", "tests/cabi/c_reference.c",
+     "tests/cabi", "tests/adapters", "cad_adapters/command", "cad_adapters/bl2d"]
+FORTRAN = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
+CPP = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/cpp_wrapper"]
+PYTHON = ["docs/tutorials", "fortran_examples", "tests/python"]
+LANGUAGES = {"c": (C, (".c", ".cpp", ".h")), "fortran": (FORTRAN, (".f90",)), "cpp": (CPP, (".cpp",)), "python": (PYTHON, (".py",))}
+
+
+@dataclass
+class Example:
+    path: str
+    line: int
+    text: str
+
+
+def files_below(root, places, suffixes):
+    found = []
+    for place in places:
+        path = os.path.join(root, place)
+        if os.path.isfile(path):
+            found.append(place)
+        for folder, folders, names in os.walk(path):
+            folders.sort()
+            found += [os.path.relpath(os.path.join(folder, name), root) for name in sorted(names) if name.endswith(suffixes)]
+    return list(dict.fromkeys(found))
+
+
+class Calls:
+    """language: a key of LANGUAGES."""
+
+    def __init__(self, root, language):
+        places, suffixes = LANGUAGES[language]
+        self.texts = {}
+        for path in files_below(root, places, suffixes):
+            with open(os.path.join(root, path), encoding="utf-8") as file:
+                self.texts[path] = file.read().split("\n")
+        self.index = {}
+        word = r"\b\w+(?=\s*\()" + (r"|(?<=call )\w+" if language == "fortran" else "")
+        for path, lines in self.texts.items():
+            for number, line in enumerate(lines):
+                for name in set(re.findall(word, line.split("//")[0])):
+                    self.index.setdefault(name.lower(), []).append((path, number))
+        self.fortran = language == "fortran"
+
+    def find(self, name):
+        """The first call in the order of preference that is one statement's worth of reading, or None."""
+        for path, number in self.index.get(name.lower(), []):
+            lines = self.texts[path]
+            if self._is_call(lines[number], name):
+                return Example(path, number + 1, self._around(lines, number))
+        return None
+
+    def _is_call(self, line, name):
+        declares = r"^\s*(?:end\s+)?(?:subroutine|function|type|interface|procedure|public|\w[\w\(\)]*\s+function)\b" if self.fortran \
+            else rf"^(?:static |extern |typedef |CARREAU)?[\w\s\*]*\b{name}\s*\([^)]*\)\s*\{{?$|^\s*(?://|\*|#)"
+        return not re.search(declares, line, re.I)
+
+    @staticmethod
+    def _around(lines, number):
+        """No further than an empty line or the end of a function."""
+        ends = re.compile(r"^\s*$|^\}|^\s*end (?:subroutine|function|program)|^(?:TEST|int main|static |extern |template)")
+        begin = end = number
+        while begin > 0 and number - begin < AROUND and not ends.search(lines[begin - 1]):
+            begin -= 1
+        while end + 1 < len(lines) and end - number < AROUND and not ends.search(lines[end + 1]):
+            end += 1
+        return textwrap.dedent("\n".join(lines[begin:end + 1]))

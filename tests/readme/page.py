@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""page.py PAGE WORK BUILD MAKE_SHAPES SOURCE PREFIX [--refresh]: runs every listing of a page of docs/, in its order and in one folder; what BUILD has
+made is installed in PREFIX.
+
+    ```sh                    commands, run as they stand
+    ```sh slow               the same; only with --slow
+    ```console               commands after `$ `, and what they print
+    ```{code-block} c        with `:caption: bowl.c`: a file of that name
+    ```text  ```json         what a file or a program shows, not run
+
+Another kind is an error, and so is a picture of the page that no command has made under its name (`img/x.png`: x.png).
+--refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page shows them."""
+import os
+import re
+import shutil
+import sys
+
+from listings import listing
+from sandbox import Sandbox
+
+BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+LARGEST = 150_000  # bytes of a picture
+SHOWN = ("text", "json", "{toctree}", "{figure}", "{contents}")
+
+
+def file_of(block):
+    """Name and text of a file that a page shows."""
+    caption = re.match(r":caption: (\S+)\n+", block)
+    if not caption:
+        sys.exit(f"a program without a name (`:caption: x.c`):\n{block}")
+    return caption.group(1), block[caption.end():]
+
+
+def pictures_of(block):
+    return re.findall(r"[\w.]+\.png", block)
+
+
+def show(page, sandbox, shown):
+    for name in shown:
+        made, target = os.path.join(sandbox.clone, os.path.basename(name)), os.path.join(os.path.dirname(os.path.abspath(page)), name)
+        if os.path.exists(made):
+            if os.path.getsize(made) > LARGEST:
+                sys.exit(f"{name} has {os.path.getsize(made)} bytes, more than {LARGEST}")
+            shutil.copyfile(made, target)
+
+
+def main():
+    page, work, build, make_shapes, source, prefix = sys.argv[1:7]
+    sandbox = Sandbox(work, build, make_shapes, source, prefix)
+    sandbox.prepare()
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    refreshed, run, later = text, 0, []
+    for language, block in BLOCK.findall(text):
+        if language == "sh" or language == "sh slow" and "--slow" in sys.argv:
+            sandbox.run(block)
+        elif language == "sh slow":
+            later += pictures_of(block)
+        elif language == "console":
+            refreshed = listing(block.splitlines(), refreshed, sandbox.run)
+        elif language.startswith("{code-block} "):
+            sandbox.write(*file_of(block))
+        elif language.split(" ")[0] not in SHOWN:
+            sys.exit(f"{page}: ```{language} is a listing that nobody runs")
+        run += language in ("sh", "console")
+    shown = re.findall(r"!\[[^\]]*\]\((\S+\.png)\)", text)
+    missing = [name for name in shown if not sandbox.size(os.path.basename(name)) and os.path.basename(name) not in later]
+    if missing:
+        sys.exit(f"{page}: no command makes {missing}")
+    if "--pictures" in sys.argv:
+        show(page, sandbox, shown)
+    if refreshed != text:
+        with open(page, "w", encoding="utf-8") as file:
+            file.write(refreshed)
+    print(f"{run} listings of {os.path.basename(page)} run")
+
+
+main()
