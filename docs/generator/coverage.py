@@ -12,7 +12,7 @@ import c_source
 import cpp_pages
 import python_pages
 from examples import Calls
-from interfaces import CPP_HEADER, PYTHON_PACKAGE, ROOT, Interfaces
+from interfaces import CPP_HEADERS, PYTHON_PACKAGE, ROOT, Interfaces
 
 CALLED = ("function", "subroutine", "method")
 
@@ -68,7 +68,7 @@ def fortran_share(interfaces):
 
 def cpp_share(xml):
     share, calls = Share("C++"), Calls(ROOT, "cpp")
-    for entity in cpp_pages.entities(cpp_pages.doxygen(CPP_HEADER, xml)):
+    for entity in cpp_pages.entities(cpp_pages.doxygen(CPP_HEADERS, xml)):
         share.add(f"{entity.scope}::{entity.name}", (not entity.described, "description"),
                   (entity.kind == "function" and not calls.find(entity.name), "example"))
     return share
@@ -84,7 +84,7 @@ def python_share():
 def main():
     interfaces = Interfaces()
     shares = [c_share(interfaces), fortran_share(interfaces)]
-    if os.path.exists(os.path.join(ROOT, CPP_HEADER)):
+    if os.path.exists(os.path.join(ROOT, CPP_HEADERS[0])):
         with tempfile.TemporaryDirectory() as folder:
             shares.append(cpp_share(sys.argv[2] if sys.argv[1:2] == ["--xml"] else folder))
     if os.path.isdir(os.path.join(ROOT, PYTHON_PACKAGE)):

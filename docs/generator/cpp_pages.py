@@ -1,4 +1,4 @@
-"""The C++ interface: Doxygen reads the header, Breathe makes the pages."""
+"""The C++ interface: Doxygen reads the headers, Breathe makes the pages."""
 import glob
 import os
 import subprocess
@@ -8,7 +8,9 @@ from examples import Calls
 from interfaces import ROOT
 from text import heading
 
-DOXYFILE = """INPUT = {header}
+DOXYFILE = """INPUT = {headers}
+FILE_PATTERNS = *.hpp
+FILTER_PATTERNS = *.hpp="python3 {filter}"
 OUTPUT_DIRECTORY = {folder}
 GENERATE_HTML = NO
 GENERATE_LATEX = NO
@@ -24,11 +26,12 @@ QUIET = YES
 """
 
 
-def doxygen(header, folder):
-    """XML of a header in `folder`/xml."""
+def doxygen(headers, folder):
+    """XML of headers in `folder`/xml."""
     os.makedirs(folder, exist_ok=True)
-    subprocess.run(["doxygen", "-"], input=DOXYFILE.format(header=os.path.join(ROOT, header), folder=folder), text=True, check=True, cwd=ROOT,
-                   stdout=subprocess.DEVNULL)
+    text = DOXYFILE.format(headers=" ".join(f'"{os.path.join(ROOT, header)}"' for header in headers if os.path.exists(os.path.join(ROOT, header))), folder=folder,
+                           filter=os.path.join(os.path.dirname(os.path.abspath(__file__)), "cpp_filter.py"))
+    subprocess.run(["doxygen", "-"], input=text, text=True, check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
     return os.path.join(folder, "xml")
 
 
@@ -48,7 +51,7 @@ def entities(xml):
     for path in sorted(glob.glob(os.path.join(xml, "*.xml"))):
         for compound in tree.parse(path).getroot().findall("compounddef"):
             kind, scope = compound.get("kind"), compound.findtext("compoundname")
-            if kind not in ("class", "struct", "namespace") or not scope.startswith("carreau") or compound.get("prot", "public") != "public":
+            if kind not in ("class", "struct", "namespace") or not scope.startswith("carreau") or "detail" in scope or compound.get("prot", "public") != "public":
                 continue
             if kind != "namespace":
                 found.append(Entity(scope.rsplit("::", 1)[-1], scope, kind, said(compound)))
@@ -56,14 +59,19 @@ def entities(xml):
                 name = member.findtext("name")
                 trivial = member.findtext("argsstring", "").endswith(("=delete", "=default")) or name.startswith(("~", "operator"))
                 if member.get("prot") == "public" and member.get("kind") in ("function", "variable", "enum", "typedef") and not trivial:
-                    found.append(Entity(name, scope, member.get("kind"), said(member)))
+                    # The comment of a struct is about its members, too.
+                    told = said(member) or member.get("kind") == "variable" and said(compound)
+                    found.append(Entity(name, scope, member.get("kind"), told))
     return found
 
 
-def stage(site, header, calls: Calls):
+def stage(site, headers, calls: Calls):
     from c_pages import example_lines
-    xml = doxygen(header, os.path.join(site.folder, "..", "doxygen"))
-    lines = heading(os.path.basename(header)) + [f"``#include <{os.path.basename(header)}>``", "", ".. doxygennamespace:: carreau", "   :project: carreau", "   :members:", ""]
+    xml = doxygen(headers, os.path.join(site.folder, "..", "doxygen"))
+    lines = heading("C++") + ["``#include <carreau.hpp>``, and ``<carreau_cad.hpp>`` for files of CAD, whose library is linked besides. Headers alone, for C++20.", "",
+                              "A function does what the function of the C interface does that it is named after, by its rules; structs of results are those "
+                              "of C.", "", ".. doxygennamespace:: carreau", "   :project: carreau", "   :members:", "", ".. doxygennamespace:: carreau::metric",
+                              "   :project: carreau", "   :members:", ""]
     lines += heading("Examples", "-")
     for entity in entities(xml):
         example = calls.find(entity.name) if entity.kind == "function" else None

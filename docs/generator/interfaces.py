@@ -10,7 +10,7 @@ HEADERS = ["cabi/include/carreau.h", "cabi/include/carreau_geometry.h", "cabi/in
 MODULES = ["cabi/fortran/carreau.f90", "cabi/fortran/carreau_geometry.f90", "cabi/fortran/carreau_atlas.f90", "cabi/fortran/carreau_remeshing.f90",
            "cad_adapters/cad/fortran/carreau_cad.f90", "cabi/fortran/blsurf_m.f90"]
 SYMBOLS = ["cabi/abi/symbols.txt", "cad_adapters/cad/abi/symbols.txt"]
-CPP_HEADER = "cabi/include/carreau.hpp"
+CPP_HEADERS = ["cabi/include/carreau.hpp", "cabi/include/carreau", "cad_adapters/cad/include/carreau_cad.hpp"]
 PYTHON_PACKAGE = "cabi/python/carreau"
 
 # The type of Fortran and the struct of C where they are called differently.

@@ -12,7 +12,7 @@ import cpp_pages
 import fortran_pages
 import python_pages
 from examples import Calls
-from interfaces import CPP_HEADER, HEADERS, MODULES, PYTHON_PACKAGE, ROOT, Interfaces
+from interfaces import CPP_HEADERS, HEADERS, MODULES, PYTHON_PACKAGE, ROOT, Interfaces
 from links import Places, markdown_page
 from text import Names, heading
 
@@ -81,9 +81,9 @@ class Stage:
         self.index("reference/fortran", "Fortran", [module.name for module in interfaces.modules],
                    "Fortran 2003 modules with the names of C. What C says of a routine is repeated here: in Fortran indices count from 1 "
                    "and arrays are turned round, so that *n x 3* is ``(3, n)``.")
-        if os.path.exists(os.path.join(ROOT, CPP_HEADER)):
+        if os.path.exists(os.path.join(ROOT, CPP_HEADERS[0])):
             parts.insert(1, "cpp/index")
-            cpp_pages.stage(self, CPP_HEADER, Calls(ROOT, "cpp"))
+            cpp_pages.stage(self, CPP_HEADERS, Calls(ROOT, "cpp"))
         if os.path.isdir(os.path.join(ROOT, PYTHON_PACKAGE)):
             parts.append("python/index")
             python_pages.stage(self, PYTHON_PACKAGE, Names(c_roles, interfaces.statuses), Calls(ROOT, "python"))

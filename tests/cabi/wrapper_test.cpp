@@ -1,36 +1,20 @@
 // carreau.hpp: the meshes of the C interface, exceptions across it, lifetimes, and every group of functions once.
-#include <carreau.hpp>
-
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "abi_fixture.h"
+#include "wrapper_host.h"
 
 namespace {
 
 using carreau::Point2;
 using carreau::Point3;
-
-carreau::CurvePoint side_of_paraboloid(int ic, double t) {
-  constexpr std::array<Point2, 4> at{{{-2.5, -2.5}, {2.5, -2.5}, {2.5, 2.5}, {-2.5, 2.5}}};
-  const Point2& from = at[static_cast<std::size_t>(ic - 1)];
-  const Point2& to = at[static_cast<std::size_t>(ic % 4)];
-  const Point2 along{to[0] - from[0], to[1] - from[1]};
-  return {.c = {from[0] + t * along[0], from[1] + t * along[1]}, .ct = along, .ctt = {0, 0}};
-}
-
-carreau::SurfacePoint paraboloid_at(double u, double v) {
-  return {{u, v, (u * u + v * v) / 2}, {1, 0, u}, {0, 1, v}, {0, 0, 1}, {0, 0, 0}, {0, 0, 1}};
-}
-
-carreau::Geometry paraboloid() {
-  return {.surface_order = 2,
-          .curve_order = 2,
-          .surface = [](int, double u, double v, int) { return paraboloid_at(u, v); },
-          .curve_interval = [](int, int) { return carreau::Interval{0, 1}; },
-          .curve = [](int, int ic, double t, int) { return side_of_paraboloid(ic, t); }};
-}
+using wrapper_tests::add_sides;
+using wrapper_tests::error_of;
+using wrapper_tests::paraboloid;
+using wrapper_tests::paraboloid_at;
+using wrapper_tests::session_of;
 
 carreau::Geometry batched_paraboloid() {
   carreau::Geometry out = paraboloid();
@@ -48,19 +32,6 @@ carreau::Geometry batched_paraboloid() {
   return out;
 }
 
-void add_sides(carreau::Session& session, int face = 1) {
-  session.add_face(face);
-  for (int ic = 1; ic <= 4; ++ic) session.add_curve(face, {.ref = ic, .ends = {ic, ic % 4 + 1}});
-}
-
-carreau::Session session_of(carreau::Geometry geometry, double size = 0.5) {
-  carreau::Session session;
-  session.set_geometry(std::move(geometry));
-  add_sides(session);
-  session.set("hphydef", size);
-  return session;
-}
-
 abi_tests::MeshData by_the_c_interface(double size) {
   test_host host{};
   carreau_session* session = nullptr;
@@ -76,18 +47,6 @@ abi_tests::MeshData by_the_c_interface(double size) {
   abi_tests::MeshData out = abi_tests::data_of(mesh);
   carreau_session_free(session);
   return out;
-}
-
-/// The error that a call ends with.
-template <typename Call>
-carreau::Error error_of(Call&& call) {
-  try {
-    call();
-  } catch (const carreau::Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return {CARREAU_ERR_INTERNAL, ""};
 }
 
 std::string nested_in(const carreau::Error& error) {

@@ -28,6 +28,7 @@ struct Adaptation {
   double convergence = 0;   ///< ends when the number of triangles changes by a smaller share
 };
 
+/// What a loop of adaptation came to.
 struct Adapted {
   Outcome outcome = Outcome::complete;
   carreau_adaptation_report report{};

@@ -66,6 +66,7 @@ class Loop {
     return out;
   }
   [[nodiscard]] std::vector<Point2> pivots() const { return handle_.counted<2>(carreau_loop_pivots); }
+  /// The handle of the C interface; it stays this object's.
   [[nodiscard]] carreau_loop* get() const { return handle_.get(); }
 
  private:
@@ -113,6 +114,7 @@ class Annulus {
   void write_exr(const std::string& path, int width) const {
     handle_.done(carreau_annulus_write_exr(handle_.get(), path.c_str(), width));
   }
+  /// The handle of the C interface; it stays this object's.
   [[nodiscard]] carreau_annulus* get() const { return handle_.get(); }
 
  private:
@@ -187,6 +189,7 @@ class Atlas {
   }
   /// Adds the blended surface to a session, which does not need this object afterwards.
   void add_to(Session& session) const { session.done(carreau_add_atlas(session.get(), handle_.get())); }
+  /// The handle of the C interface; it stays this object's.
   [[nodiscard]] carreau_atlas* get() const { return handle_.get(); }
 
  private:

@@ -27,6 +27,7 @@ struct SurfaceRows {
 struct CurvePoint {
   Point2 c{}, ct{}, ctt{};
 };
+/// The parameters of a curve, a < b.
 struct Interval {
   double a, b;
 };
@@ -53,8 +54,11 @@ struct Prescription {
   std::int32_t kind = CARREAU_METRIC_NONE;
   std::array<double, 6> value{};
 
+  /// No answer.
   static Prescription none() { return {}; }
+  /// The same size in all directions, a model length.
   static Prescription size(double h) { return {CARREAU_METRIC_SIZE, {h}}; }
+  /// A positive definite tensor.
   static Prescription space(const Tensor3& metric) { return {CARREAU_METRIC_SPACE, metric}; }
   /// h1 along the direction, h2 across it.
   static Prescription tangent(double h1, double h2, const Point3& along) {

@@ -15,12 +15,15 @@
 
 namespace carreau {
 
+/// u, v, or x, y of the plane.
 using Point2 = std::array<double, 2>;
+/// x, y, z.
 using Point3 = std::array<double, 3>;
 /// xx, xy, xz, yy, yz, zz of a metric of space, in 1 / model length^2.
 using Tensor3 = std::array<double, 6>;
-/// Vertices of a triangle, or of an edge, from 0.
+/// Vertices of a triangle, from 0.
 using Triangle = std::array<std::int32_t, 3>;
+/// Vertices of an edge, from 0; also pairs of triangles.
 using Edge = std::array<std::int32_t, 2>;
 
 /// The version of the library that runs, "0.1.0", and major * 10000 + minor * 100 + patch.
@@ -29,6 +32,7 @@ inline int version_number() { return carreau_version_number(); }
 
 // ---- Errors ----
 
+/// carreau_status, without CARREAU_OK.
 enum class Status : std::int32_t {
   argument = CARREAU_ERR_ARGUMENT,
   model = CARREAU_ERR_MODEL,
@@ -51,6 +55,7 @@ class Error : public std::runtime_error {
   Error(carreau_status status, const std::string& sentence, const carreau_error_place& place = {})
       : std::runtime_error(sentence.empty() ? carreau_status_meaning(status) : sentence), status_(status), place_(place) {}
 
+  /// What kind of failure it was.
   [[nodiscard]] Status status() const { return Status{status_}; }
   /// "CARREAU_ERR_FILE"
   [[nodiscard]] std::string_view status_name() const { return carreau_status_name(status_); }

@@ -52,6 +52,7 @@ class Mesh {
   explicit Mesh(const MeshArrays& arrays) : Mesh() { from_arrays(arrays); }
   /// A handle of the C interface that `owner` keeps alive.
   Mesh(carreau_mesh* mesh, std::shared_ptr<void> owner) : mesh_(mesh), owner_(std::move(owner)) {}
+  /// A mesh that was moved from may be assigned to and destroyed alone.
   Mesh(Mesh&& other) noexcept : mesh_(std::exchange(other.mesh_, nullptr)), owner_(std::move(other.owner_)) {}
   Mesh& operator=(Mesh&& other) noexcept {
     std::swap(mesh_, other.mesh_);
@@ -83,8 +84,11 @@ class Mesh {
     done(carreau_mesh_from_arrays(mesh_, &in));
   }
 
+  /// Numbers of vertices, triangles and edges of curves.
   [[nodiscard]] std::int64_t vertex_count() const { return counts().vertices; }
+  /// See vertex_count.
   [[nodiscard]] std::int64_t triangle_count() const { return counts().triangles; }
+  /// See vertex_count.
   [[nodiscard]] std::int64_t edge_count() const { return counts().edges; }
   [[nodiscard]] int dimension() const {
     std::int32_t out = 0;
@@ -193,6 +197,7 @@ class Mesh {
     });
   }
 
+  /// @cond INTERNAL For the other headers of this interface.
   /// Throws what a status of a call on this mesh means.
   void done(carreau_status status) const {
     if (status != CARREAU_OK) detail::fail(status, carreau_mesh_last_error(mesh_));
@@ -204,6 +209,7 @@ class Mesh {
     if (n > 0) done(copy(mesh_, n, out.data()));
     return out;
   }
+  /// @endcond
 
  private:
   struct Counts {

@@ -9,17 +9,17 @@
 /// definite).
 namespace carreau::metric {
 
-/// Numbers of a metric.
-constexpr std::size_t tensor_of(int dimension) { return dimension == 2 ? 3 : 6; }
-
+/// Sizes of metrics along their axes.
 struct Axes {
   std::vector<double> sizes; ///< along each axis, the smallest first
   std::vector<double> axes;  ///< unit vectors, one after another
 };
+/// The simultaneous reduction of two metrics: their sizes along common directions.
 struct Reduction {
   std::vector<double> p_sizes, q_sizes;
   std::vector<double> directions; ///< orthogonal in both metrics, unit vectors
 };
+/// A curve cut into edges of equal length in its metric.
 struct CurveSplit {
   std::vector<double> abscissae; ///< usual lengths from the first point, one more than edges
   double length = 0;             ///< of the whole curve in the metric
@@ -29,6 +29,9 @@ namespace detail {
 
 using carreau::detail::count_of;
 using carreau::detail::data_or_null;
+
+/// Numbers of a metric.
+constexpr std::size_t tensor_of(int dimension) { return dimension == 2 ? 3 : 6; }
 
 /// The rows of an array, which must hold whole ones; and, with `wanted`, that many.
 inline std::size_t rows_of(std::span<const double> array, std::size_t width, std::optional<std::size_t> wanted = {}) {
@@ -43,7 +46,7 @@ inline std::size_t rows_of(std::span<const double> array, std::size_t width, std
 inline Axes sizes(int dimension, std::span<const double> metrics) {
   const Session session;
   const auto d = static_cast<std::size_t>(dimension);
-  const std::size_t n = detail::rows_of(metrics, tensor_of(dimension));
+  const std::size_t n = detail::rows_of(metrics, detail::tensor_of(dimension));
   Axes out{std::vector<double>(n * d), std::vector<double>(n * d * d)};
   session.done(carreau_metric_sizes(session.get(), dimension, detail::count_of(n), metrics.data(), out.sizes.data(), out.axes.data()));
   return out;
@@ -54,7 +57,7 @@ inline std::vector<double> of_sizes(int dimension, std::span<const double> sizes
   const auto d = static_cast<std::size_t>(dimension);
   const std::size_t n = detail::rows_of(sizes, d);
   detail::rows_of(axes, d * d, n);
-  std::vector<double> out(n * tensor_of(dimension));
+  std::vector<double> out(n * detail::tensor_of(dimension));
   session.done(carreau_metric_of_sizes(session.get(), dimension, detail::count_of(n), sizes.data(), axes.data(), out.data()));
   return out;
 }
@@ -63,8 +66,8 @@ inline std::vector<double> of_sizes(int dimension, std::span<const double> sizes
 inline std::vector<double> interpolate(int dimension, int law, std::span<const double> p, std::span<const double> q,
                                        std::span<const double> share) {
   const Session session;
-  const std::size_t n = detail::rows_of(p, tensor_of(dimension));
-  detail::rows_of(q, tensor_of(dimension), n);
+  const std::size_t n = detail::rows_of(p, detail::tensor_of(dimension));
+  detail::rows_of(q, detail::tensor_of(dimension), n);
   detail::rows_of(share, 1, n);
   std::vector<double> out(p.size());
   session.done(carreau_metric_interpolate(session.get(), dimension, law, detail::count_of(n), p.data(), q.data(), share.data(), out.data()));
@@ -74,8 +77,8 @@ inline std::vector<double> interpolate(int dimension, int law, std::span<const d
 /// `count` metrics at each of n places: rows of n x count. how: CARREAU_INTERSECT_...
 inline std::vector<double> intersect(int dimension, int how, std::size_t count, std::span<const double> metrics) {
   const Session session;
-  const std::size_t n = detail::rows_of(metrics, tensor_of(dimension) * std::max<std::size_t>(count, 1));
-  std::vector<double> out(n * tensor_of(dimension));
+  const std::size_t n = detail::rows_of(metrics, detail::tensor_of(dimension) * std::max<std::size_t>(count, 1));
+  std::vector<double> out(n * detail::tensor_of(dimension));
   session.done(
       carreau_metric_intersect(session.get(), dimension, how, detail::count_of(n), detail::count_of(count), metrics.data(), out.data()));
   return out;
@@ -84,8 +87,8 @@ inline std::vector<double> intersect(int dimension, int how, std::size_t count, 
 inline Reduction reduce(int dimension, std::span<const double> p, std::span<const double> q) {
   const Session session;
   const auto d = static_cast<std::size_t>(dimension);
-  const std::size_t n = detail::rows_of(p, tensor_of(dimension));
-  detail::rows_of(q, tensor_of(dimension), n);
+  const std::size_t n = detail::rows_of(p, detail::tensor_of(dimension));
+  detail::rows_of(q, detail::tensor_of(dimension), n);
   Reduction out{std::vector<double>(n * d), std::vector<double>(n * d), std::vector<double>(n * d * d)};
   session.done(carreau_metric_reduce(session.get(), dimension, detail::count_of(n), p.data(), q.data(), out.p_sizes.data(),
                                      out.q_sizes.data(), out.directions.data()));
@@ -96,7 +99,7 @@ inline Reduction reduce(int dimension, std::span<const double> p, std::span<cons
 inline std::vector<double> lengths(int dimension, int law, std::span<const double> edges, std::span<const double> metrics) {
   const Session session;
   const std::size_t n = detail::rows_of(edges, 2 * static_cast<std::size_t>(dimension));
-  detail::rows_of(metrics, 2 * tensor_of(dimension), n);
+  detail::rows_of(metrics, 2 * detail::tensor_of(dimension), n);
   std::vector<double> out(n);
   session.done(carreau_metric_lengths(session.get(), dimension, law, detail::count_of(n), edges.data(), metrics.data(), out.data()));
   return out;
@@ -107,7 +110,7 @@ inline CurveSplit curve_split(int dimension, std::span<const double> points, std
                               std::span<const double> metrics, int law = 1, double lss = 0) {
   const Session session;
   auto curve = carreau::detail::sized<carreau_curve>();
-  detail::rows_of(metrics, tensor_of(dimension), abscissae.size());
+  detail::rows_of(metrics, detail::tensor_of(dimension), abscissae.size());
   curve.dimension = dimension;
   curve.law = law;
   curve.point_count = detail::count_of(detail::rows_of(points, static_cast<std::size_t>(dimension)));

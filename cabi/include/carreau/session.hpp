@@ -19,13 +19,16 @@ struct Curve {
 
 /// The model of a session, as it is known: with the references that gluing found once a mesh has been made.
 struct Model {
+  /// As Session::add_face takes it.
   struct FaceRow {
     int ref, orientation;
   };
+  /// The reference of its face, and as Session::add_curve takes it.
   struct CurveRow {
     int face, type, ref;
     std::array<int, 2> ends;
   };
+  /// As Session::add_point takes it.
   struct PointRow {
     int face, ref;
     Point2 uv;
@@ -83,6 +86,10 @@ class Session {
   [[nodiscard]] carreau_session* get() const { return state_->session; }
   /// The sentence of the last call, "" after success. Of a partial mesh: what is missing.
   [[nodiscard]] std::string last_error() const { return carreau_last_error(get()); }
+  /// For libraries that work on a session of their caller: makes the last call one that has failed.
+  void set_error(Status status, const std::string& sentence) {
+    carreau_set_error(get(), static_cast<carreau_status>(status), sentence.c_str());
+  }
 
   // ---- Geometry ----
 
@@ -234,10 +241,7 @@ class Session {
 
   // ---- For the other headers of this interface, and for calls of the C interface beside it ----
 
-  /// For libraries that work on a session of their caller: makes the last call one that has failed.
-  void set_error(Status status, const std::string& sentence) {
-    carreau_set_error(get(), static_cast<carreau_status>(status), sentence.c_str());
-  }
+  /// @cond INTERNAL
   /// Throws what a status of a call on this session means, with the exception of a callback nested in it. What messages or progress
   /// have thrown too late to stop the call is thrown as it is.
   void done(carreau_status status) const {
@@ -273,6 +277,7 @@ class Session {
   }
   /// Where exceptions of callbacks are kept that run in calls of this session.
   [[nodiscard]] detail::Faults& faults() const { return *state_->faults; }
+  /// @endcond
 
  private:
   void read_faces(Model& out, std::int64_t n) {

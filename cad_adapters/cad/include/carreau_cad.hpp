@@ -44,11 +44,14 @@ class CadFile {
  public:
   using Progress = std::function<bool(double fraction)>; ///< returns true to go on, false to stop
 
+  /// Reads a file: see read.
   explicit CadFile(const std::string& path, const Progress& progress = {}, bool trap_faults = false) { read(path, progress, trap_faults); }
   /// Takes over a handle of the C interface.
   explicit CadFile(carreau_cad_file* made) : handle_(made) {}
+  /// The handle of the C interface; it stays this object's.
   [[nodiscard]] carreau_cad_file* get() const { return handle_.get(); }
 
+  /// Replaces what the file holds. trap_faults: signals of OpenCASCADE become errors, for programs that own their process.
   void read(const std::string& path, const Progress& progress = {}, bool trap_faults = false) {
     struct Held {
       const Progress& progress;
