@@ -18,11 +18,12 @@ GENERATE_XML = YES
 EXTRACT_ALL = NO
 HIDE_UNDOC_MEMBERS = NO
 HIDE_FRIEND_COMPOUNDS = YES
-EXCLUDE_SYMBOLS = carreau::detail carreau::detail::*
+EXCLUDE_SYMBOLS = carreau::detail carreau::detail::* carreau::metric::detail
 JAVADOC_AUTOBRIEF = YES
 MACRO_EXPANSION = YES
 WARN_AS_ERROR = NO
 QUIET = YES
+AUTOLINK_SUPPORT = NO
 """
 
 
@@ -70,8 +71,7 @@ def stage(site, headers, calls: Calls):
     xml = doxygen(headers, os.path.join(site.folder, "..", "doxygen"))
     lines = heading("C++") + ["``#include <carreau.hpp>``, and ``<carreau_cad.hpp>`` for files of CAD, whose library is linked besides. Headers alone, for C++20.", "",
                               "A function does what the function of the C interface does that it is named after, by its rules; structs of results are those "
-                              "of C.", "", ".. doxygennamespace:: carreau", "   :project: carreau", "   :members:", "", ".. doxygennamespace:: carreau::metric",
-                              "   :project: carreau", "   :members:", ""]
+                              "of C.", "", ".. doxygennamespace:: carreau", "   :project: carreau", "   :members:", ""]
     lines += heading("Examples", "-")
     for entity in entities(xml):
         example = calls.find(entity.name) if entity.kind == "function" else None
