@@ -25,6 +25,7 @@ PLAIN = {"carreau_status": "c_int32", "int32_t": "c_int32", "int64_t": "c_int64"
          "void": "None", "void*": "c_void_p", "char*": "c_char_p"}
 ARRAYS = {"double": "Doubles", "int32_t": "Int32s", "int64_t": "Int64s"}
 PYTHON = {"int32_t": "int", "int64_t": "int", "size_t": "int", "double": "float", "const char*": "str"}
+IGNORED = "  # type: ignore[assignment]"  # tuples have a method of that name
 NOTICE = '"""{}\n\nWritten by cabi/python/generate.py: not to be edited."""\n'
 
 
@@ -124,7 +125,7 @@ def records(interface):
     for struct, header in results(interface).items():
         said = header.comments.get(struct) or "What the C interface calls " + struct + "."
         members = [(c_type, name) for c_type, name in header.structs[struct] if name not in ("struct_size", "reserved")]
-        rows = "".join(f"    {name}: {python_type(c_type)}\n" for c_type, name in members)
+        rows = "".join(f"    {name}: {python_type(c_type)}{IGNORED if name == 'count' else ''}\n" for c_type, name in members)
         lines.append(f'\nclass {record_name(struct)}(NamedTuple):\n    """{said}"""\n\n{rows}')
         pairs.append(f"    c.{struct}: {record_name(struct)},")
     lines += ["\nRECORDS: dict[type, Any] = {", *pairs, "}"]

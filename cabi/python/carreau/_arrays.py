@@ -14,7 +14,7 @@ class _Argument(c_void_p):
     dtype: Any = None
 
     @classmethod
-    def from_param(cls, value: Optional[NDArray[Any]]) -> Optional[c_void_p]:
+    def from_param(cls, value: Optional[NDArray[Any]]) -> Any:
         if value is None:
             return None
         if not isinstance(value, np.ndarray) or value.dtype != cls.dtype or not value.flags.c_contiguous:

@@ -66,7 +66,8 @@ class Geometries:
         if not faces or not all(isinstance(each, Patch) for each in faces):
             raise ArgumentError("there is no patch to add, or something else among them")
         callbacks = PatchCallbacks(faces, self._host)
-        self._call(lib().geometry_begin, byref(callbacks.struct()))
+        given = callbacks.struct()
+        self._call(lib().geometry_begin, byref(given))
         try:
             for name, arguments in model_of(faces):
                 self._call(getattr(lib(), "model_" + name), *arguments)
@@ -74,7 +75,7 @@ class Geometries:
         except CarreauError:
             lib().geometry_cancel(self._handle)
             raise
-        self._kept.append(callbacks)
+        self._kept.append(given)
         callbacks.before = self.geometries[-1].first_face - 1
 
     def add_bezier(self, patches: Sequence[ArrayLike], side_refs: Optional[ArrayLike] = None) -> None:

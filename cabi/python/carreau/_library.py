@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import ctypes
-import ctypes.util
 import glob
 import os
 from functools import lru_cache
@@ -11,6 +10,7 @@ from typing import Any, Iterator
 
 from . import _declarations as c
 
+SOVERSION = 0  # of the C interface that this package speaks
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
@@ -18,16 +18,14 @@ def _candidates(name: str) -> Iterator[str]:
     """Files that may be lib<name>.so, the most likely first: what CARREAU_LIBRARY_PATH names, the wheel's own, what was
     installed beside this package, what the loader finds."""
     for folder in filter(None, os.environ.get("CARREAU_LIBRARY_PATH", "").split(os.pathsep)):
-        yield os.path.join(folder, f"lib{name}.so")
-    yield from glob.glob(os.path.join(HERE, "lib", f"lib{name}.so.*"))
+        yield os.path.join(folder, f"lib{name}.so.{SOVERSION}")
+    yield from glob.glob(os.path.join(HERE, "lib", f"lib{name}.so.{SOVERSION}"))
     # <prefix>/lib/python3/dist-packages/carreau, and whatever lies as deep below the same lib.
     folder = HERE
     for _ in range(4):
         folder = os.path.dirname(folder)
-        yield from glob.glob(os.path.join(folder, f"lib{name}.so.[0-9]*"))
-    found = ctypes.util.find_library(name)
-    if found:
-        yield found
+        yield from glob.glob(os.path.join(folder, f"lib{name}.so.{SOVERSION}"))
+    yield f"lib{name}.so.{SOVERSION}"  # where the loader looks
 
 
 def _load(name: str) -> ctypes.CDLL:

@@ -175,7 +175,7 @@ class Measure(NamedTuple):
     entity: int
     classes: int
     values: int
-    count: int
+    count: int  # type: ignore[assignment]
     mean: float
     min: float
     p1: float

@@ -39,7 +39,7 @@ class Host:
                 self.inside += 1
                 return body(*arguments) or 0
             except BaseException as error:
-                self.fail(error, {**where(*arguments), **getattr(error, "_carreau_place", {})})
+                self.fail(error, where(*arguments))
                 return 1
             finally:
                 self.inside -= 1
@@ -48,12 +48,15 @@ class Host:
     def take_error(self) -> Optional[BaseException]:
         """What the run is to raise in place of the library's own error."""
         error, self.error = self.error, None
-        if error is None or not isinstance(error, Exception):
-            return error
-        told = f"{place_text(self.where)}a callback has raised {type(error).__name__}: {error}"
-        made = CallbackError(told, **self.where)
-        made.__cause__ = error
-        return made
+        return callback_error(error, self.where) if isinstance(error, Exception) else error
+
+
+def callback_error(error: Exception, where: dict[str, Any]) -> CallbackError:
+    """From what a callback has raised; a function of single places has told its own."""
+    place = {**where, **getattr(error, "_carreau_place", {})}
+    made = CallbackError(f"{place_text(place)}a callback has raised {type(error).__name__}: {error}", **place)
+    made.__cause__ = error
+    return made
 
 
 def place_text(where: dict[str, Any]) -> str:

@@ -34,7 +34,7 @@ class CadFile:
 
         callback = c.carreau_cad_progress_fn(host.guarded(lambda *_: {}, on_progress))
         options = struct(c.carreau_cad_options, progress=callback)
-        require_cad(self._handle, run(host, lambda: cad_lib().cad_read(self._handle, file_name(path), byref(options))))
+        require_cad(self._handle, run(host, lambda: int(cad_lib().cad_read(self._handle, file_name(path), byref(options)))))
 
     def _call(self, function: Callable[..., int], *arguments: Any) -> None:
         require_cad(self._handle, function(self._handle, *arguments))

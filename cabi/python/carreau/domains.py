@@ -130,7 +130,7 @@ def ring(u: float, v: float, inner: float, outer: float) -> list[Curve]:
     return disc(u, v, outer) + [arc((u, v), inner, 0, -math.pi), arc((u, v), inner, -math.pi, -2 * math.pi)]
 
 
-SHAPES = {"box": (box, 4), "disc": (disc, 3), "ring": (ring, 4)}
+SHAPES: dict[str, tuple[Callable[..., list[Curve]], int]] = {"box": (box, 4), "disc": (disc, 3), "ring": (ring, 4)}
 
 
 def domain_of(given: Any) -> list[Curve]:

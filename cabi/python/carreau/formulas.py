@@ -104,6 +104,8 @@ class _Parser:
         if kind == 1:
             number = float(word)
             return lambda v: number
+        if kind == 3:
+            self.refuse(at, f"'{word}' is not expected here")
         return self.named(str(word), at)
 
     def named(self, word: str, at: int) -> Node:

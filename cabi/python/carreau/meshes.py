@@ -63,7 +63,8 @@ class Mesh:
         self._fill()
 
     def _own(self, handle: c_void_p) -> None:
-        self._handle, self.session, self._run = handle, None, 0
+        self._handle, self._run = handle, 0
+        self.session: Optional[Session] = None
         weakref.finalize(self, lib().mesh_free, handle)
 
     @classmethod
@@ -80,6 +81,8 @@ class Mesh:
         made = cls.__new__(cls)
         made._handle, made.session, made._run = handle, session, session._runs
         made._fill()
+        if any(each.kind == c.GEOMETRY_PLANE for each in session.geometries):
+            made.dimension = 2
         return made
 
     @classmethod
@@ -184,12 +187,14 @@ class Mesh:
     def normals(self) -> Reals:
         """Normals (m, 3) of the triangles, as long as twice their areas."""
         a, b, d = (self.vertices[self.triangles[:, i]] for i in range(3))
-        return np.cross(b - a, d - a)
+        normals: Reals = np.cross(b - a, d - a)
+        return normals
 
     @property
     def areas(self) -> Reals:
         """Areas (m) of the triangles, model length^2."""
-        return np.linalg.norm(self.normals, axis=1) / 2
+        areas: Reals = np.linalg.norm(self.normals, axis=1) / 2
+        return areas
 
     # ---- files and others ----
 

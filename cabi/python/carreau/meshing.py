@@ -266,7 +266,7 @@ def adapt(source: Any, values: Callable[..., Any], tolerance: float = 0.01, *, s
     chosen = Sizes(size=size, min=min, max=max, gradation=gradation, adapts=True)
     prepare(session, geometry, chosen, element=None, independent=False, sharp_angle=None, threads=threads, env=None, named=named)
     diagonal = geometry.diagonal(session)
-    bounds = {"hmin": length(min or "0.2%", "min", diagonal), "hmax": length(max or "20%", "max", diagonal)}
+    bounds: dict[str, Any] = {"hmin": length(min or "0.2%", "min", diagonal), "hmax": length(max or "20%", "max", diagonal)}
     made: Mesh = session.adapt(values, tolerance, shape=shape, iterations=iterations, progress=progress, **bounds, **loop)
     return made
 

@@ -50,7 +50,9 @@ class PlaneDomain:
             raise ArgumentError(f"rest is one of {', '.join(RESTS)}, not '{rest}'")
 
         def optional(values: Optional[ArrayLike], name: str, whole: bool, *shape: Optional[int]) -> OptionalArray:
-            return None if values is None else (int32s if whole else doubles)(values, name, *shape)
+            if values is None:
+                return None
+            return int32s(values, name, *shape) if whole else doubles(values, name, *shape)
 
         self._arrays: dict[str, OptionalArray] = {
             "points": self.points, "curve_starts": np.cumsum([0] + [len(line) for line in lines], dtype=np.int64),

@@ -88,7 +88,7 @@ def remesh(vertices: ArrayLike, triangles: ArrayLike, *, h_min: float, h_max: fl
                    element_components=0 if in_elements is None else in_elements.shape[1], curves=CURVES[curves],
                    error_source=ERRORS[error], **{name: address(array) for name, array in arrays.items()}, **options)
     summary = struct(c.carreau_remesh_summary)
-    mesh = Mesh._filled_by(lambda handle: lib().remesh(handle, byref(given), byref(summary)))
+    mesh = Mesh._filled_by(lambda handle: int(lib().remesh(handle, byref(given), byref(summary))))
     return Remeshed(mesh, record(summary), _carried(mesh, lib().remesh_nodal_values, len(mesh.vertices), nodal, at_nodes),
                     _carried(mesh, lib().remesh_element_values, len(mesh.triangles), elements, in_elements),
                     _carried(mesh, lib().remesh_damage, len(mesh.triangles), damage, arrays["damage"]))

@@ -58,7 +58,8 @@ def _shades(mesh: "Mesh", axes: Reals, colors: str) -> Reals:
         base = _palette(np.unique(mesh.face_ids, return_inverse=True)[1])
     else:
         raise ValueError(f"colors is face or quality, not '{colors}'")
-    return base * (0.45 + 0.55 * lit)[:, None]
+    shaded: Reals = base * (0.45 + 0.55 * lit)[:, None]
+    return shaded
 
 
 def _places(low: NDArray[np.int64], extent: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
@@ -115,7 +116,8 @@ class _Canvas:
     def pixels(self) -> NDArray[np.uint8]:
         """Means of the samples, the first row on top."""
         rows = self.color.reshape(self.height // SAMPLES, SAMPLES, self.width // SAMPLES, SAMPLES, 3).mean(axis=(1, 3))
-        return (np.clip(rows[::-1], 0, 1) * 255 + 0.5).astype(np.uint8)
+        values: NDArray[np.uint8] = (np.clip(rows[::-1], 0, 1) * 255 + 0.5).astype(np.uint8)
+        return values
 
 
 def png(pixels: NDArray[np.uint8]) -> bytes:

@@ -42,7 +42,7 @@ class Session(Geometries, Studies):
         self._close = weakref.finalize(self, lib().session_free, self._handle)
         self._host = Host(self._handle)
         self._kept: list[Any] = []  # callbacks of geometries, until the session is gone
-        self._sizes: Optional[SizeCallbacks] = None
+        self._sizes: Any = None
         self._runs = 0
         self.messages: list[tuple[int, str]] = []
         self._listen()
@@ -116,8 +116,8 @@ class Session(Geometries, Studies):
     def set_sizes(self, function: Optional[Callable[..., Any]] = None, *, face_sizes: Optional[Mapping[int, float]] = None,
                   on_curve: Optional[Callable[..., Any]] = None, at_point: Optional[Callable[..., Any]] = None) -> None:
         """Wants sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
-        sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point)
-        self._call(lib().set_metric_callbacks, byref(sizes.struct()))
+        sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point).struct()
+        self._call(lib().set_metric_callbacks, byref(sizes))
         self._sizes = sizes
 
     # ---- runs ----
@@ -131,7 +131,7 @@ class Session(Geometries, Studies):
             assert hears is not None
             return 1 if hears(fraction, PHASES[phase], entity) else 0
 
-        callback = c.carreau_progress_fn(self._host.guarded(lambda *_: {}, on_progress) if hears else 0)
+        callback = c.carreau_progress_fn(self._host.guarded(lambda *_: {}, on_progress)) if hears else c.carreau_progress_fn(0)
         self._call(lib().set_progress_callback, callback, None)
         try:
             status = run(self._host, lambda: function(self._handle, *arguments))

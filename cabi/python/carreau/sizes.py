@@ -19,7 +19,8 @@ KINDS = {1: c.METRIC_SIZE, 6: c.METRIC_SPACE, 5: c.METRIC_TANGENT}
 
 
 class SizeCallbacks:
-    """What a session asks at places of its surface, and perhaps on curves and at points. Whoever has the session keeps it.
+    """What a session asks at places of its surface, and perhaps on curves and at points. It has no callback: that would be
+    a cycle.
 
     function     of the place; names what it takes: x, y, z (n each), xyz (n, 3), u, v, uv, face. Gives n sizes, or rows:
                  6 numbers (xx xy xz yy yz zz) of metrics, 5 numbers (h1, h2, x, y, z) of sizes along a direction and
@@ -35,10 +36,10 @@ class SizeCallbacks:
         self.face_sizes = dict(face_sizes or {})
         self.on_curve = None if on_curve is None else Named(on_curve, ("t", "face", "ic"), 1, "t")
         self.at_point = None if at_point is None else Named(at_point, ("point",), 1, "point")
-        self.callbacks: list[Any] = []
         self.host = host
 
     def struct(self) -> Any:
+        """The callbacks, which live as long as this struct."""
         members = {}
         if self.function is not None or self.face_sizes:
             where = lambda face, n, uv, *_: {"face": face, "uv": tuple(view(uv, (2,), True).tolist())}  # noqa: E731
@@ -49,7 +50,6 @@ class SizeCallbacks:
         if self.at_point is not None:
             where_at = lambda point, *_: {"point": point}  # noqa: E731
             members["point_metric"] = c.carreau_point_metric_fn(self.host.guarded(where_at, self._point))
-        self.callbacks = list(members.values())
         return struct(c.carreau_metric_callbacks, **members)
 
     def _surface(self, face: int, n: int, uv: int, xyz: int, kind: int, value: int, _: Any) -> None:

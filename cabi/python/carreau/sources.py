@@ -2,12 +2,14 @@
 from __future__ import annotations
 
 import fnmatch
+import math
 import os
 import re
 from typing import Any, Iterable, Optional, Union
 
 import numpy as np
 
+from ._run import callback_error
 from .atlas import Atlas
 from .cad import CadFile
 from .errors import ArgumentError
@@ -63,11 +65,13 @@ class Source:
 
 
 def box_diagonal(points: np.ndarray) -> float:  # type: ignore[type-arg]
-    spread = points.max(axis=0) - points.min(axis=0)
-    diagonal = float(np.sqrt((spread * spread).sum()))
-    if not diagonal > 0:
+    """Rounded as std::hypot of the command: sizes that are shares of it are the same to the last bit."""
+    spread = (points.max(axis=0) - points.min(axis=0)).tolist()
+    largest = max(spread)
+    if not largest > 0:
         raise ArgumentError("the curves of the geometry have no extent in space")
-    return diagonal
+    x, y, z = (each / largest for each in spread)
+    return float(largest * math.sqrt(x * x + y * y + z * z))
 
 
 def curve_points(session: Session) -> np.ndarray:  # type: ignore[type-arg]
@@ -91,10 +95,17 @@ class PatchSource(Source):
     def diagonal(self, session: Session) -> float:
         samples = []
         for face, each in enumerate(self.patches, 1):
-            uv = [curve.at(curve.a + share * (curve.b - curve.a) if share < 1 else curve.b, 0, face, ic)
-                  for ic, curve in enumerate(each.curves, 1) for share in SHARES]
-            samples.append(each.surface(uv, face))
+            try:
+                samples.append(self._samples(face, each))
+            except Exception as error:
+                raise callback_error(error, {"face": face}) from error
         return box_diagonal(np.concatenate(samples))
+
+    @staticmethod
+    def _samples(face: int, each: Patch) -> np.ndarray:  # type: ignore[type-arg]
+        uv = [curve.at(curve.a + share * (curve.b - curve.a) if share < 1 else curve.b, 0, face, ic)
+              for ic, curve in enumerate(each.curves, 1) for share in SHARES]
+        return each.surface(uv, face)
 
 
 class CadSource(Source):

@@ -106,14 +106,11 @@ Patches = Union[Patch, Iterable[Patch]]
 
 
 class PatchCallbacks:
-    """The callbacks of patches, which are faces 1, 2, ... of their geometry. Whoever has the session keeps it."""
+    """What is asked of patches, which are faces 1, 2, ... of their geometry. It has no callback: that would be a cycle."""
 
     def __init__(self, patches: Sequence[Patch], host: Host) -> None:
-        self.patches = patches
+        self.patches, self.host = patches, host
         self.before = 0  # faces of the session that come before, for sentences
-        self.surface = c.carreau_surface_batch_fn(host.guarded(self._place, self._surface))
-        self.interval = c.carreau_interval_fn(host.guarded(self._curve_place, self._interval))
-        self.curve = c.carreau_curve_fn(host.guarded(self._curve_place, self._curve))
 
     def _place(self, face: int, n: int, uv: int, *_: Any) -> dict[str, Any]:
         return {"face": face + self.before, "uv": tuple(view(uv, (2,), True).tolist())}
@@ -122,10 +119,14 @@ class PatchCallbacks:
         return {"face": face + self.before, "ic": ic, "t": t if isinstance(t, float) else None}
 
     def struct(self) -> Any:
+        """The callbacks, which live as long as this struct."""
+        guarded = self.host.guarded
         orders = [each.surface.order for each in self.patches]
         curve_orders = [curve.order for each in self.patches for curve in each.curves]
-        return struct(c.carreau_cad, surface_order=min(orders), curve_order=min(curve_orders), surface_batch=self.surface,
-                      curve_interval=self.interval, curve=self.curve)
+        return struct(c.carreau_cad, surface_order=min(orders), curve_order=min(curve_orders),
+                      surface_batch=c.carreau_surface_batch_fn(guarded(self._place, self._surface)),
+                      curve_interval=c.carreau_interval_fn(guarded(self._curve_place, self._interval)),
+                      curve=c.carreau_curve_fn(guarded(self._curve_place, self._curve)))
 
     def _surface(self, face: int, n: int, uv: int, order: int, *results: Optional[int]) -> None:
         out = [None if each is None else view(each, (n, 3)) for each in results[:6]]
