@@ -86,6 +86,7 @@ if(CARREAU_COMMAND)
   carreau_option(CARREAU_MUPARSER "Formulas in carreau mesh --size-map" ${found}
     "formulas in --size-map" "muParser was not found (libmuparser-dev)")
 endif()
+include(${CMAKE_CURRENT_LIST_DIR}/CarreauPython.cmake)
 find_package(GTest QUIET)
 find_package(Python3 QUIET COMPONENTS Interpreter)
 if(GTest_FOUND AND Python3_Interpreter_FOUND AND CARREAU_OPENEXR AND CARREAU_TBB)

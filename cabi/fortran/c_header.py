@@ -3,6 +3,7 @@ import re
 
 COMMENT = re.compile(r"/\*.*?\*/", flags=re.S)
 FUNCTION = re.compile(r"CARREAU(?:_CAD)?_API\s+([\w\s\*]+?)\s*\b(carreau_\w+)\s*\(([^)]*)\)\s*;")
+CALLBACK = re.compile(r"typedef\s+([\w\s]+?\s*\*?)\s*\(\*(carreau_\w+_fn)\)\(([^)]*)\)\s*;")
 STRUCT = re.compile(r"typedef struct (\w+) \{(.*?)\}\s*\w+\s*;", flags=re.S)
 
 
@@ -20,16 +21,23 @@ def first_sentence(comment):
 
 
 class Header:
-    """functions: {name: (result, [(type, argument)])}; structs: {name: [(type, member)]}, in the order of the file;
+    """functions: {name: (result, [(type, argument)])}; structs: {name: [(type, member)]}, in the order of the file, with
+    pointers to functions of type "function", which member_functions[struct] has in full, as callback_types has those
+    with a name of their own;
     comments: {name: first sentence of the comment right before the declaration}; constants: {name: value}."""
 
     def __init__(self, path):
         with open(path, encoding="utf-8") as header:
             commented = header.read()
         text = without_comments(commented).replace("\\\n", " ")
-        self.callbacks = set(re.findall(r"\(\*(carreau_\w+_fn)\)", text))
+        self.callback_types = {name: (" ".join(result.split()), self._arguments(arguments))
+                               for result, name, arguments in CALLBACK.findall(text)}
+        self.callbacks = set(self.callback_types)
         self.functions = {name: (result.strip(), self._arguments(arguments))
                           for result, name, arguments in FUNCTION.findall(text)}
+        self.member_functions = {struct: {name: (result.strip(), self._arguments(arguments)) for result, name, arguments
+                                          in re.findall(r"(\w+\s*\*?)\s*\(\*(\w+)\)\(([^)]*)\)", body)}
+                                 for struct, body in STRUCT.findall(text)}
         self.structs = {name: self._members(body) for name, body in STRUCT.findall(text)}
         self.comments = self._comments(commented)
         self.constants = self._constants(text)

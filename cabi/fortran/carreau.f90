@@ -21,7 +21,7 @@ module carreau
   public :: carreau_surface_fn, carreau_surface_batch_fn, carreau_interval_fn, carreau_curve_fn
   public :: carreau_surface_value_fn, carreau_curve_value_fn, carreau_point_value_fn, carreau_failure_fn
   public :: carreau_release_fn
-  public :: carreau_surface_metric_fn, carreau_curve_metric_fn, carreau_point_metric_fn
+  public :: carreau_surface_metric_fn, carreau_surface_metric_batch_fn, carreau_curve_metric_fn, carreau_point_metric_fn
   public :: carreau_message_fn, carreau_progress_fn
   public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
@@ -368,6 +368,19 @@ module carreau
       integer(c_int32_t) :: status
     end function carreau_surface_metric_fn
 
+    !> The same at n points; xyz are the points in space.
+    function carreau_surface_metric_batch_fn(face, n, uv, xyz, kind, value, user) result(status) bind(c)
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      integer(c_int32_t), value :: face
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: uv(2, n), xyz(3, n)
+      integer(c_int32_t), intent(inout) :: kind(n)
+      real(c_double), intent(inout) :: value(6, n)
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_surface_metric_batch_fn
+
     function carreau_curve_metric_fn(face, ic, t, kind, value, user) result(status) bind(c)
       import :: c_double, c_int32_t, c_ptr
       implicit none
@@ -592,19 +605,22 @@ contains
   end subroutine carreau_set_error
 
   !> Those that are left out do not answer. Of either kind of geometry.
-  subroutine carreau_set_metric_callbacks(session, status, user, surface_metric, curve_metric, point_metric)
+  subroutine carreau_set_metric_callbacks(session, status, user, surface_metric, curve_metric, point_metric, &
+      surface_metric_batch)
     type(carreau_session), intent(in) :: session
     integer(c_int32_t), intent(out) :: status
     type(c_ptr), intent(in), optional :: user
     procedure(carreau_surface_metric_fn), optional :: surface_metric
     procedure(carreau_curve_metric_fn), optional :: curve_metric
     procedure(carreau_point_metric_fn), optional :: point_metric
+    procedure(carreau_surface_metric_batch_fn), optional :: surface_metric_batch
     type(c_metric_callbacks) :: callbacks
     callbacks%struct_size = size(transfer(callbacks, [c_null_char]))
     if (present(user)) callbacks%user = user
     if (present(surface_metric)) callbacks%surface_metric = c_funloc(surface_metric)
     if (present(curve_metric)) callbacks%curve_metric = c_funloc(curve_metric)
     if (present(point_metric)) callbacks%point_metric = c_funloc(point_metric)
+    if (present(surface_metric_batch)) callbacks%surface_metric_batch = c_funloc(surface_metric_batch)
     status = c_set_metric_callbacks(session%handle, callbacks)
   end subroutine carreau_set_metric_callbacks
 

@@ -35,7 +35,8 @@ module carreau_c
   type, bind(c) :: c_metric_callbacks
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: user = c_null_ptr
-    type(c_funptr) :: surface_metric = c_null_funptr, curve_metric = c_null_funptr, point_metric = c_null_funptr
+    type(c_funptr) :: surface_metric = c_null_funptr, curve_metric = c_null_funptr, point_metric = c_null_funptr, &
+      surface_metric_batch = c_null_funptr
   end type c_metric_callbacks
 
   type, bind(c) :: c_parameter

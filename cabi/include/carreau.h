@@ -258,6 +258,10 @@ typedef int32_t (*carreau_curve_metric_fn)(int32_t face, int32_t ic, double t, i
                                            void* user);
 typedef int32_t (*carreau_point_metric_fn)(int32_t point, int32_t* kind, double* value, void* user);
 
+/* Does the same at n > 0 points: uv is n x 2, xyz (the points in space) n x 3, kind n and value n x 6, row by row. */
+typedef int32_t (*carreau_surface_metric_batch_fn)(int32_t face, int64_t n, const double* uv, const double* xyz,
+                                                   int32_t* kind, double* value, void* user);
+
 /* Callbacks that want metrics, beside those of a geometry. */
 typedef struct carreau_metric_callbacks {
   size_t struct_size;
@@ -265,6 +269,7 @@ typedef struct carreau_metric_callbacks {
   carreau_surface_metric_fn surface_metric; /* all may be NULL: does not answer */
   carreau_curve_metric_fn curve_metric;
   carreau_point_metric_fn point_metric;
+  carreau_surface_metric_batch_fn surface_metric_batch; /* used in place of surface_metric when given */
 } carreau_metric_callbacks;
 
 /* Registers metric callbacks beside a geometry of either kind. If all are NULL there are none, as in a new session.

@@ -127,12 +127,18 @@ class StoppableMetrics final : public HostMetrics {
   StoppableMetrics(const carreau_metric_callbacks& callbacks, const Monitor& monitor)
       : HostMetrics(HostMetricTable{.user = callbacks.user,
                                     .surface_metric = callbacks.surface_metric,
+                                    .surface_metric_batch = callbacks.surface_metric_batch,
                                     .curve_metric = callbacks.curve_metric,
                                     .point_metric = callbacks.point_metric}),
         monitor_(monitor) {}
 
   Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override {
     return obeyed(HostMetrics::on_surface(face, uv, xyz));
+  }
+  void on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
+                         std::span<Prescription> out) override {
+    HostMetrics::on_surface_points(face, uv, xyz, out);
+    obey(monitor_);
   }
   Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override {
     return obeyed(HostMetrics::on_curve(face, ic, t, uv, xyz));
@@ -180,7 +186,8 @@ carreau_status carreau_set_cad(carreau_session* session, const carreau_cad* call
 carreau_status carreau_set_metric_callbacks(carreau_session* session, const carreau_metric_callbacks* callbacks) {
   return guarded(session, [&] {
     const carreau_metric_callbacks known = read_struct(callbacks, "carreau_metric_callbacks");
-    const bool any = known.surface_metric != nullptr || known.curve_metric != nullptr || known.point_metric != nullptr;
+    const bool any = known.surface_metric != nullptr || known.surface_metric_batch != nullptr ||
+                     known.curve_metric != nullptr || known.point_metric != nullptr;
     session->session.set_metric_callbacks(any ? std::make_shared<StoppableMetrics>(known, session->monitor) : nullptr);
   });
 }

@@ -1,17 +1,23 @@
 #include "cad/host_metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "cad/host_cad.h"
 #include "cad/host_exceptions.h"
 #include "metric/metric3_algebra.h"
 #include "support/format.h"
+#include "support/pieces.h"
 
 namespace carreau {
 
 namespace {
+
+/// Points of one batch: bounds the memory of the arrays that cross.
+constexpr std::size_t batch_size = 4096;
 
 /// What a callback does not write must not pass for a value.
 struct Answer {
@@ -56,13 +62,48 @@ Prescription prescription_of(std::int32_t status, const Answer& answer, const Wh
 
 }  // namespace
 
-Prescription HostMetrics::on_surface(int face, Vec2 uv, Vec3 /*xyz*/) {
+Prescription HostMetrics::on_surface(int face, Vec2 uv, Vec3 xyz) {
+  if (table_.surface_metric_batch != nullptr) {
+    Prescription answer;
+    ask_batch(face, {&uv, 1}, {&xyz, 1}, {&answer, 1});
+    return answer;
+  }
   if (table_.surface_metric == nullptr) return {};
   Answer a;
   const Where where{.face = face, .uv = uv};
   const std::int32_t status = ask_host(
       where, "surface_metric", [&] { return table_.surface_metric(face, uv.x(), uv.y(), &a.kind, a.value, table_.user); });
   return prescription_of(status, a, where, "surface_metric");
+}
+
+void HostMetrics::on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
+                                    std::span<Prescription> out) {
+  if (table_.surface_metric_batch == nullptr) return PrescriptionSource::on_surface_points(face, uv, xyz, out);
+  for_pieces(uv.size(), batch_size, [&](std::size_t first, std::size_t n) {
+    ask_batch(face, uv.subspan(first, n), xyz.subspan(first, n), out.subspan(first, n));
+  });
+}
+
+void HostMetrics::ask_batch(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
+                            std::span<Prescription> out) const {
+  constexpr const char* name = "surface_metric_batch";
+  const std::size_t n = uv.size();
+  std::vector<double> places(2 * n), points(3 * n), values(host_metric_values * n, Answer::nan);
+  std::vector<std::int32_t> kinds(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < 2; ++k) places[2 * i + k] = uv[i][Eigen::Index(k)];
+    for (std::size_t k = 0; k < 3; ++k) points[3 * i + k] = xyz[i][Eigen::Index(k)];
+  }
+  const Where first{.face = face, .uv = uv.front()};
+  const std::int32_t status = ask_host(first, name, [&] {
+    return table_.surface_metric_batch(face, static_cast<std::int64_t>(n), places.data(), points.data(), kinds.data(),
+                                       values.data(), table_.user);
+  });
+  for (std::size_t i = 0; i < n; ++i) {
+    Answer answer{.kind = kinds[i]};
+    std::copy_n(&values[host_metric_values * i], host_metric_values, answer.value);
+    out[i] = prescription_of(status, answer, {.face = face, .uv = uv[i]}, name);
+  }
 }
 
 Prescription HostMetrics::on_curve(int face, int ic, double t, Vec2 /*uv*/, Vec3 /*xyz*/) {

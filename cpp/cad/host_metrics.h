@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "metric/prescription.h"
 #include "support/error.h"
@@ -25,6 +26,10 @@ struct HostMetricTable {
   void* user = nullptr;
   std::int32_t (*surface_metric)(std::int32_t face, double u, double v, std::int32_t* kind, double* value,
                                  void* user) = nullptr;
+  /// The same at n points: uv is n x 2, xyz n x 3, kind n, value n x host_metric_values, row by row. Used in place of
+  /// `surface_metric` when given.
+  std::int32_t (*surface_metric_batch)(std::int32_t face, std::int64_t n, const double* uv, const double* xyz,
+                                       std::int32_t* kind, double* value, void* user) = nullptr;
   std::int32_t (*curve_metric)(std::int32_t face, std::int32_t ic, double t, std::int32_t* kind, double* value,
                                void* user) = nullptr;
   std::int32_t (*point_metric)(std::int32_t point, std::int32_t* kind, double* value, void* user) = nullptr;
@@ -38,12 +43,18 @@ class HostMetrics : public PrescriptionSource {
   explicit HostMetrics(const HostMetricTable& table) : table_(table) {}
 
   [[nodiscard]] std::string name() const override { return "the metric callback"; }
-  [[nodiscard]] bool needs_position() const noexcept override { return false; }
+  [[nodiscard]] bool needs_position() const noexcept override {
+    return table_.surface_metric_batch != nullptr;
+  }
   Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override;
+  void on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
+                         std::span<Prescription> out) override;
   Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override;
   Prescription at_point(int point, Vec3 xyz) override;
 
  private:
+  void ask_batch(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz, std::span<Prescription> out) const;
+
   HostMetricTable table_;
 };
 

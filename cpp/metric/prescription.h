@@ -66,6 +66,11 @@ class PrescriptionSource {
   [[nodiscard]] virtual std::vector<double> kinks_on_curve(int /*face*/, int /*ic*/) const { return {}; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
+  /// The same at several points of one face. All spans have one size.
+  virtual void on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
+                                 std::span<Prescription> out) {
+    for (std::size_t i = 0; i < uv.size(); ++i) out[i] = on_surface(face, uv[i], xyz[i]);
+  }
   /// On a curve (rank `ic` from 1 in that face) at t.
   virtual Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) = 0;
   /// At a point (its reference).

@@ -130,15 +130,30 @@ std::vector<double> SizeRules::kinks_on_curve(const CurveUse& use) const {
 
 // ---- what is answered ----
 
+/// What all sources say at points of a face, point by point: hosts that like batches get one.
+std::vector<Prescription> SizeRules::told_on_surface(int face, std::span<const Vec2> uv,
+                                                     std::span<const Vec3> xyz) const {
+  if (!asks_sources()) return {};
+  const std::size_t count = parameters_.sources.size();
+  std::vector<Prescription> told(count * uv.size()), of_source(uv.size());
+  for (std::size_t s = 0; s < count; ++s) {
+    parameters_.sources[s]->on_surface_points(model_.faces[static_cast<std::size_t>(face)].ref, uv, xyz, of_source);
+    for (std::size_t i = 0; i < uv.size(); ++i) told[count * i + s] = of_source[i];
+  }
+  return told;
+}
+
 SizeRules::Answers SizeRules::answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const {
+  return answers_on_surface(face, uv, told_on_surface(face, {&uv, 1}, {&xyz, 1}));
+}
+
+/// `told`: by the sources, at this point.
+SizeRules::Answers SizeRules::answers_on_surface(int face, const Vec2& uv, std::span<const Prescription> told) const {
   Answers answers;
   const int ref = model_.faces[static_cast<std::size_t>(face)].ref;
-  if (asks_sources()) {
-    for (PrescriptionSource* source : parameters_.sources) {
-      const Prescription p = source->on_surface(ref, uv, xyz);
-      check(p, *source, {.face = ref, .uv = uv});
-      if (p.kind != Prescription::Kind::none) answers.push_back(enlarged(p, parameters_.enlargement));
-    }
+  for (std::size_t s = 0; s < told.size(); ++s) {
+    check(told[s], *parameters_.sources[s], {.face = ref, .uv = uv});
+    if (told[s].kind != Prescription::Kind::none) answers.push_back(enlarged(told[s], parameters_.enlargement));
   }
   if (parameters_.physical == PhysicalSizes::asked) {
     if (const auto size = ask_surface(face, uv)) answers.push_back(Prescription::of_size(*size));
@@ -270,10 +285,15 @@ SurfaceJet SizeRules::surface_jet(int face, unsigned want, const Vec2& uv) const
 void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                                    const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
   const bool geometric = uses_curvature(), physical = parameters_.physical != PhysicalSizes::ignored;
+  std::vector<Vec3> xyz(uv.size(), Vec3::Zero());
+  if (needs_positions())
+    for (std::size_t i = 0; i < uv.size(); ++i) xyz[i] = jets[i].s;
+  const std::vector<Prescription> told = told_on_surface(face, uv, xyz);
+  const std::size_t sources = told.size() / std::max<std::size_t>(uv.size(), 1);
   const auto answers_at = [&](std::size_t i) {
     Answers answers;
     if (!physical) return answers;
-    answers = answers_on_surface(face, uv[i], jets[i].s);
+    answers = answers_on_surface(face, uv[i], std::span(told).subspan(sources * i, sources));
     if (answers.empty()) {
       const double usual = parameters_.physical == PhysicalSizes::uniform ? parameters_.hphydef : fallback(uv[i]);
       answers.push_back(Prescription::of_size(usual));

@@ -163,6 +163,48 @@ TEST_F(MetricCallbacks, WhatCannotBeUsedHasASentenceWithThePlaceAndTheMatrix) {
   EXPECT_TRUE(std::isfinite(place.uv[0]));
 }
 
+/// The size 0.1 + (u^2 + v^2) / 10, by u and v or by the point in space: z = (u^2 + v^2) / 2 on the paraboloid.
+struct Batches {
+  std::int64_t calls = 0, points = 0;
+  bool on_surface = true;  // xyz belongs to uv
+  std::int32_t status = 0;
+};
+std::int32_t graded(std::int32_t, double u, double v, std::int32_t* kind, double* value, void*) {
+  *kind = CARREAU_METRIC_SIZE, *value = 0.1 + (u * u + v * v) / 10;
+  return 0;
+}
+std::int32_t graded_batch(std::int32_t, std::int64_t n, const double* uv, const double* xyz, std::int32_t* kind,
+                          double* value, void* user) {
+  auto& batches = *static_cast<Batches*>(user);
+  ++batches.calls, batches.points += n;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const double S[2] = {uv[2 * i], uv[2 * i + 1]};
+    batches.on_surface = batches.on_surface && xyz[3 * i] == S[0] && xyz[3 * i + 1] == S[1];
+    graded(1, S[0], S[1], kind + i, value + 6 * i, nullptr);
+  }
+  return batches.status;
+}
+
+TEST_F(MetricCallbacks, BatchesMakeTheMeshOfSinglePoints) {
+  auto callbacks = sized<carreau_metric_callbacks>();
+  callbacks.surface_metric = graded;
+  ASSERT_EQ(carreau_set_metric_callbacks(session, &callbacks), CARREAU_OK);
+  ASSERT_EQ(carreau_set_real(session, "hphymin", 0.01), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  const auto single = data_of(mesh());
+  Batches batches;
+  callbacks.surface_metric_batch = graded_batch;
+  callbacks.user = &batches;
+  ASSERT_EQ(carreau_set_metric_callbacks(session, &callbacks), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  EXPECT_EQ(data_of(mesh()), single);
+  EXPECT_TRUE(batches.on_surface);
+  EXPECT_GT(batches.points, 3 * batches.calls);
+  batches.status = 9;
+  EXPECT_EQ(carreau_mesh_generate(session), CARREAU_ERR_CALLBACK);
+  EXPECT_NE(error().find("surface_metric_batch returned the status 9"), std::string::npos) << error();
+}
+
 TEST_F(MetricCallbacks, AreNotAskedWhenPhysicalSizesAreIgnored) {
   ASSERT_EQ(carreau_set_integer(session, "hphy_flag", 0), CARREAU_OK);
   ASSERT_EQ(carreau_set_integer(session, "hgeo_flag", 1), CARREAU_OK);

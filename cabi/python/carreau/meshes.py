@@ -1,0 +1,244 @@
+"""Meshes: arrays, quality, defects, files, pictures."""
+from __future__ import annotations
+
+import weakref
+from ctypes import byref, c_char_p, c_int32, c_int64, c_void_p
+from typing import TYPE_CHECKING, Any, Callable, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _declarations as c
+from ._arrays import doubles, int32s
+from ._calls import Path, address, asked, counted, created, file_name, require_mesh, struct, text_of
+from ._library import lib
+from ._records import CellQuality, Face, Quality
+from .errors import SequenceError
+
+if TYPE_CHECKING:
+    from .session import Session
+
+Reals = NDArray[np.float64]
+Ints = NDArray[np.int32]
+#: Kinds of elements by the names that meshio has for them, and numbers of nodes.
+CELLS = {"triangle": (c.CELL_TRIANGLE3, 3), "triangle6": (c.CELL_TRIANGLE6, 6), "quad": (c.CELL_QUAD4, 4), "quad8": (c.CELL_QUAD8, 8)}
+STATUS = {c.FACE_NOT_MESHED: "not meshed", c.FACE_MESHED: "meshed", c.FACE_MENDED: "mended", c.FACE_FAILED: "failed",
+          c.FACE_COLLAPSED: "collapsed"}
+
+
+class Mesh:
+    """A mesh of triangles in arrays, which the library has filled and nobody changes; indices count from 0.
+
+    vertices       (n, 3)     x y z, model length; elements of second order have nodes behind the corners
+    triangles      (m, 3)     vertices, counterclockwise in (u, v); of curved elements and quadrilaterals: between corners
+    edges          (k, 2)     vertices, along each curve
+    face_ids       (m)        reference of the face of each triangle
+    curve_ids      (k)        reference of the curve of each edge
+    vertex_ids     (n)        reference of the corner or imposed point, 0: made by the mesher
+    corner_uv      (m, 3, 2)  u v of each corner in its face; None: of a mesh that no session has made
+    corner_faces   (m, 3)     the face that corner_uv is of; None as above
+    sizes          (n)        prescribed sizes, model length; None as above
+    dimension      3, or 2: of the plane z = 0
+    session        that has made it; None: of a file or of arrays
+    """
+
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, edges: Optional[ArrayLike] = None,
+                 face_ids: Optional[ArrayLike] = None, curve_ids: Optional[ArrayLike] = None,
+                 vertex_ids: Optional[ArrayLike] = None, corner_uv: Optional[ArrayLike] = None) -> None:
+        """Of arrays, to be measured, checked, written: vertices (n, 2) or (n, 3), the rest as above. Raises ArgumentError."""
+        points = np.asarray(vertices, dtype=np.float64)
+        self.dimension = 2 if points.ndim == 2 and points.shape[1] == 2 else 3
+        points = doubles(points, "vertices", None, self.dimension)
+        corners = int32s(triangles, "triangles", None, 3)
+        lines = int32s(np.empty((0, 2)) if edges is None else edges, "edges", None, 2)
+        given = [("vertex_refs", vertex_ids, len(points)), ("triangle_refs", face_ids, len(corners)), ("edge_refs", curve_ids, len(lines))]
+        refs = {name: None if ids is None else int32s(ids, name, count) for name, ids, count in given}
+        uv = None if corner_uv is None else doubles(corner_uv, "corner_uv", len(corners), 3, 2)
+        self._own(created(lib().mesh_create))
+        arrays = struct(c.carreau_mesh_arrays, dimension=self.dimension, vertex_count=len(points), triangle_count=len(corners),
+                        edge_count=len(lines), vertices=address(points), triangles=address(corners),
+                        edges=address(lines) if len(lines) else None, corner_uv=address(uv),
+                        **{name: address(array) for name, array in refs.items()})
+        require_mesh(self._handle, lib().mesh_from_arrays(self._handle, byref(arrays)))
+        self._fill()
+
+    def _own(self, handle: c_void_p) -> None:
+        self._handle, self._run = handle, 0
+        self.session: Optional[Session] = None
+        weakref.finalize(self, lib().mesh_free, handle)
+
+    @classmethod
+    def _filled_by(cls, fill: Callable[[c_void_p], int]) -> "Mesh":
+        """Of what fill(handle) puts into a new mesh."""
+        made = cls.__new__(cls)
+        made._own(created(lib().mesh_create))
+        made._require(fill(made._handle))
+        made._fill()
+        return made
+
+    @classmethod
+    def _of_session(cls, session: "Session", handle: c_void_p) -> "Mesh":
+        made = cls.__new__(cls)
+        made._handle, made.session, made._run = handle, session, session._runs
+        made._fill()
+        if any(each.kind == c.GEOMETRY_PLANE for each in session.geometries):
+            made.dimension = 2
+        return made
+
+    @classmethod
+    def read(cls, path: Path) -> "Mesh":
+        """Of a file .mesh, .meshb, .vtu, .stl, .msh, .off, .obj or .ply. Raises FileError."""
+        return cls._filled_by(lambda handle: lib().mesh_read(handle, file_name(path)))  # type: ignore[no-any-return]
+
+    def _fill(self) -> None:
+        count = [c_int64(), c_int64(), c_int64()]
+        self._require(lib().mesh_count(self._handle, *map(byref, count), None))
+        n, m, k = (each.value for each in count)
+        self.vertices: Reals = self._array(lib().mesh_vertices, n, 3)
+        self.vertex_ids: Ints = self._array(lib().mesh_vertex_refs, n, dtype=np.int32)
+        self.triangles: Ints = self._array(lib().mesh_triangles, m, 3, dtype=np.int32)
+        self.face_ids: Ints = self._array(lib().mesh_triangle_refs, m, dtype=np.int32)
+        self.edges: Ints = self._array(lib().mesh_edges, k, 2, dtype=np.int32)
+        self.curve_ids: Ints = self._array(lib().mesh_edge_refs, k, dtype=np.int32)
+        self.corner_uv: Optional[Reals] = self._array_if_any(lib().mesh_corner_uv, m, 3, 2)
+        self.corner_faces: Optional[Ints] = self._array_if_any(lib().mesh_corner_faces, m, 3, dtype=np.int32)
+        self.sizes: Optional[Reals] = self._array_if_any(lib().mesh_vertex_sizes, n)
+        dimension = c_int32()
+        self._require(lib().mesh_dimension(self._handle, byref(dimension)))
+        self.dimension = dimension.value
+        self.faces: list[Face] = self._faces()
+        self.cells: dict[str, tuple[Ints, Ints]] = self._cells()
+
+    def _array(self, ask: Callable[..., int], rows: int, *columns: int, dtype: Any = np.float64) -> NDArray[Any]:
+        array: NDArray[Any] = np.empty((rows, *columns), dtype=dtype)
+        self._require(ask(self._handle, rows, array))
+        array.flags.writeable = False
+        return array
+
+    def _array_if_any(self, ask: Callable[..., int], rows: int, *columns: int, dtype: Any = np.float64) -> Optional[NDArray[Any]]:
+        try:
+            return self._array(ask, rows, *columns, dtype=dtype)
+        except SequenceError:
+            return None
+
+    def _faces(self) -> list[Face]:
+        count = counted(lambda out: self._require(lib().mesh_count(self._handle, None, None, None, out)))
+        return [asked(c.carreau_face, lambda out, k=k: self._require(lib().mesh_face(self._handle, k, out)))  # type: ignore[misc]
+                for k in range(count)]
+
+    def _cells(self) -> dict[str, tuple[Ints, Ints]]:
+        found = {}
+        for name, (kind, nodes) in CELLS.items():
+            count = counted(lambda out: self._require(lib().mesh_cell_count(self._handle, kind, out)))
+            if count == 0:
+                continue
+            rows, refs = np.empty((count, nodes), dtype=np.int32), np.empty(count, dtype=np.int32)
+            self._require(lib().mesh_cells(self._handle, kind, count, rows, refs))
+            found[name] = (rows, refs)
+        return found
+
+    def _require(self, status: int) -> None:
+        require_mesh(self._handle, status)
+
+    def _live(self) -> c_void_p:
+        """A handle with this content. That of a session shows its latest mesh: an earlier one lives on as a copy."""
+        session = self.session
+        if session is not None and not (session._close.alive and session._runs == self._run):
+            copy = Mesh(self.vertices[:, :self.dimension], self.triangles, edges=self.edges, face_ids=self.face_ids,
+                        curve_ids=self.curve_ids, vertex_ids=self.vertex_ids, corner_uv=self.corner_uv)
+            self._handle, self.session, self._copy = copy._handle, None, copy
+        return self._handle
+
+    # ---- what it is worth ----
+
+    @property
+    def failed(self) -> list[Face]:
+        """Faces that have no triangles, with the reason (why)."""
+        return [face for face in self.faces if face.status == c.FACE_FAILED]
+
+    @property
+    def quality(self) -> Quality:
+        """Shapes, angles (degrees), area and lengths of all triangles."""
+        handle = self._live()
+        return asked(c.carreau_quality, lambda out: self._require(lib().mesh_quality(handle, out)))  # type: ignore[no-any-return]
+
+    @property
+    def cell_quality(self) -> CellQuality:
+        """What elements are worth, curved ones and quadrilaterals too."""
+        handle = self._live()
+        return asked(c.carreau_cell_quality, lambda out: self._require(lib().mesh_cell_quality(handle, out)))  # type: ignore[no-any-return]
+
+    def check(self, closed: bool = False, limit: int = 100) -> list[str]:
+        """What makes the mesh unusable: at most `limit` sentences, none where all is well. closed: open edges count."""
+        handle, count, text = self._live(), c_int64(), c_char_p()
+        self._require(lib().mesh_defects(handle, int(closed), limit, byref(count), byref(text)))
+        return [line for line in (text_of(text.value) or "").splitlines() if line]
+
+    def crossings(self, threads: int = 0) -> tuple[Ints, Reals]:
+        """Pairs of triangles that cross (k, 2), and a place of each (k, 3)."""
+        handle = self._live()
+        count = counted(lambda out: self._require(lib().mesh_intersections(handle, threads, 0, out, None, None)))
+        pairs, places = np.empty((count, 2), dtype=np.int32), np.empty((count, 3))
+        if count:
+            self._require(lib().mesh_intersections(handle, threads, count, byref(c_int64()), pairs, places))
+        return pairs, places
+
+    @property
+    def normals(self) -> Reals:
+        """Normals (m, 3) of the triangles, as long as twice their areas."""
+        a, b, d = (self.vertices[self.triangles[:, i]] for i in range(3))
+        normals: Reals = np.cross(b - a, d - a)
+        return normals
+
+    @property
+    def areas(self) -> Reals:
+        """Areas (m) of the triangles, model length^2."""
+        areas: Reals = np.linalg.norm(self.normals, axis=1) / 2
+        return areas
+
+    # ---- files and others ----
+
+    def write(self, path: Path) -> None:
+        """Writes a file .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d or, of a session, .exr. Raises FileError."""
+        self._require(lib().mesh_write(self._live(), file_name(path)))
+
+    def add_field(self, name: str, values: ArrayLike) -> None:
+        """Adds a field for .vtu files: a row for each vertex, or for each triangle. The mesh parts from its session."""
+        rows = np.ascontiguousarray(values, dtype=np.float64)
+        if len(rows) not in (len(self.vertices), len(self.triangles)):
+            raise ValueError(f"the field has {len(rows)} rows; there are {len(self.vertices)} vertices and {len(self.triangles)} triangles")
+        self._run = -1  # fields belong to meshes of nobody
+        components = rows.size // max(len(rows), 1)
+        self._require(lib().mesh_add_field(self._live(), name.encode(), int(len(rows) == len(self.vertices)), components, rows))
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh, which shares the arrays: its cells are the elements, and edges of curves; cell_data["face"] has
+        the references. Raises ImportError without the package meshio."""
+        from .convert import to_meshio
+        return to_meshio(self)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData of the triangles; cell_data["face"] has the references. Raises ImportError without the
+        package pyvista."""
+        from .convert import to_pyvista
+        return to_pyvista(self)
+
+    def picture(self, path: Optional[Path] = None, **options: Any) -> bytes:
+        """A picture as PNG, written to a file where a path is given. options: width and height (pixels), view ("iso",
+        "top", "front", "right", or a direction from which to look), edges, colors ("face", "quality"); see carreau.render."""
+        from .render import picture
+        data = picture(self, **options)
+        if path is not None:
+            with open(path, "wb") as file:
+                file.write(data)
+        return data
+
+    def _repr_png_(self) -> bytes:
+        return self.picture()
+
+    def _repr_html_(self) -> str:
+        from .render import html
+        return html(self)
+
+    def __repr__(self) -> str:
+        return f"<carreau.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.edges)} edges on curves, {len(self.faces)} faces>"
