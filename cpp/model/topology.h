@@ -86,7 +86,7 @@ struct GlueReport {
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
 /// distance is below eps_glue plus what their traces may be off the curves. Two sides of one face become a seam when
-/// they agree a thousand times better (HDR's two tolerances), as far as the traces can tell. A curve that lies within
+/// they agree within eps_face (HDR's eps_1; 0: a thousand times better than eps_glue), as far as the traces can tell. A curve that lies within
 /// eps_glue of a point keeps a reference of its own; its ends become one. Internal points keep their references. Ends
 /// are numbered 2k - 1 and 2k for the k-th curve of the model, curves k; what is merged takes the smallest number (the
 /// numbering of RT-0232 sec. 6.1, HDR fig. 4.18). `remarks` (may be null) receives a sentence for each curve whose ends
@@ -100,7 +100,7 @@ struct GlueReport {
 /// ends become one, unless those of some curve would become one point (pieces that such a gap has cut off may). Short
 /// curves elsewhere limit eps_glue, not this.
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr,
-           GlueReport* report = nullptr, double eps_open = 0);
+           GlueReport* report = nullptr, double eps_open = 0, double eps_face = 0);
 
 /// Marks curves shorter than eps_collapse (model length) as collapsed, in all faces, and gives their two ends one
 /// reference, the smallest (RT-0232 sec. 3.3). The first curve of a reference decides. Internal curves are kept, and so

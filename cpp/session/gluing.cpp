@@ -99,7 +99,7 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
   for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
   }
   report = {};
-  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open);
+  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open, options.eps_face);
   tell(glued, report, count_curves(cut) - count_curves(model), monitor);
   return glued;
 }
@@ -112,7 +112,7 @@ void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& c
     ModelSupports own{.of_face = {}, .diag = supports.diag};
     for (const std::size_t face : part.faces) own.of_face.push_back(std::move(supports.of_face[face]));
     GlueReport found;
-    const Gluing each{.eps = options.eps, .eps_open = 0, .angle_smo = options.angle_smo};
+    const Gluing each{.eps = options.eps, .eps_open = 0, .eps_face = options.eps_face, .angle_smo = options.angle_smo};
     part.model = find_references(part.model, own, cad, each, remarks, found, monitor);
     put_back(part, geometry, model);
     for (std::size_t f = 0; f < part.faces.size(); ++f) supports.of_face[part.faces[f]] = std::move(own.of_face[f]);

@@ -18,6 +18,7 @@ PartCad::Parts parts_of(const Model& model);
 struct Gluing {
   double eps = 0;        ///< eps_glue, model length
   double eps_open = 0;   ///< eps_glue_open, model length; 0: none
+  double eps_face = 0;   ///< eps_glue_face, model length; 0: a thousandth of eps
   double angle_smo = 1;  ///< of supports, degrees
 };
 

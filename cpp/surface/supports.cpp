@@ -28,9 +28,13 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
   };
   run_each(model.faces.size(), !cad.reentrant(), threads, build_or_say_why, monitor);
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  for (const auto& of_face : supports.of_face)
-    for (const CurveSupport& support : of_face)
-      for (const Vec3& p : support.xyz) {
+  // Wires may reach anywhere beside the faces.
+  const bool wires_alone =
+      std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.is_wire(); });
+  for (std::size_t f = 0; f < supports.of_face.size(); ++f)
+    for (const CurveSupport& support : supports.of_face[f])
+      if (!model.faces[f].is_wire() || wires_alone)
+       for (const Vec3& p : support.xyz) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
       }

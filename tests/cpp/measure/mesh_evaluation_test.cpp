@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "grid_mesh.h"
-#include "measure/gauss.h"
+#include "support/gauss.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
 

@@ -1,4 +1,4 @@
-#include "measure/gauss.h"
+#include "support/gauss.h"
 
 #include <cmath>
 #include <utility>
