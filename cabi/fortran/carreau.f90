@@ -129,6 +129,7 @@ module carreau
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
     logical :: boundary = .false., glued = .false., degenerate = .false.
     real(c_double) :: gap = 0
+    logical :: loose = .false.
   end type carreau_interface
 
   type :: carreau_background_report
@@ -945,7 +946,7 @@ contains
     status = c_session_interface(session%handle, index - 1, c)
     if (status /= CARREAU_OK) return
     interface = carreau_interface(c%curve, c%uses, c%face, c%ic, c%other_face, c%other_ic, c%boundary /= 0, &
-      c%glued /= 0, c%degenerate /= 0, c%gap)
+      c%glued /= 0, c%degenerate /= 0, c%gap, c%loose /= 0)
   end subroutine carreau_session_interface
 
   ! ---- What was delivered ----

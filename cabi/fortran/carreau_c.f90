@@ -58,7 +58,7 @@ module carreau_c
   type, bind(c) :: c_interface
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0, boundary = 0, &
-      glued = 0, degenerate = 0, reserved = 0
+      glued = 0, degenerate = 0, loose = 0
     real(c_double) :: gap = 0
   end type c_interface
 

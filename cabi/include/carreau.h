@@ -499,7 +499,7 @@ typedef struct carreau_interface {
   int32_t boundary;   /* 1: on the boundary of a face; 0: inside faces only */
   int32_t glued;      /* 1: places were found to be one by comparing positions */
   int32_t degenerate; /* 1: a point of space */
-  int32_t reserved;
+  int32_t loose;      /* 1: of wires alone, without a face */
   double gap; /* largest distance found between the places, model length: at the ends and at some vertices, at all where
                  it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
 } carreau_interface;

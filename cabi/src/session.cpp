@@ -139,6 +139,7 @@ carreau_status carreau_session_interface(carreau_session* session, int64_t index
     result.boundary = entry.boundary ? 1 : 0;
     result.glued = entry.glued ? 1 : 0;
     result.degenerate = entry.degenerate ? 1 : 0;
+    result.loose = entry.loose ? 1 : 0;
     result.gap = entry.gap;
     write_struct(result, out_interface, "out_interface");
   });

@@ -141,6 +141,9 @@ std::vector<Interface> list_interfaces(const Model& model, const Topology& topol
                     .farthest = place(curve.uses[static_cast<std::size_t>(gaps[c].use)]),
                     .degenerate = curve.degenerate,
                     .gap = gaps[c].gap};
+    entry.loose = std::all_of(curve.uses.begin(), curve.uses.end(), [&](const CurveUse& use) {
+      return model.faces[static_cast<std::size_t>(use.face)].is_wire();
+    });
     for (const CurveUse& use : curve.uses)
       if (model.faces[static_cast<std::size_t>(use.face)].curves[static_cast<std::size_t>(use.curve)].type ==
           CurveType::boundary)
@@ -161,16 +164,18 @@ std::vector<Interface> list_interfaces(const Model& model, const Topology& topol
 }
 
 void tell_interfaces(const std::vector<Interface>& interfaces, Monitor& monitor) {
-  std::size_t open = 0, crowded = 0;
+  std::size_t open = 0, crowded = 0, loose = 0;
   const Interface* widest = nullptr;
   for (const Interface& entry : interfaces) {
     if (entry.degenerate) continue;
     open += entry.boundary && entry.uses == 1 ? 1 : 0;
     crowded += entry.uses > 2 ? 1 : 0;
+    loose += entry.loose ? 1 : 0;
     if (widest == nullptr || entry.gap > widest->gap) widest = &entry;
   }
   std::string sentence =
       count_of(interfaces.size(), "curve", "curves") + " in space, " + std::to_string(open) + " open";
+  if (loose > 0) sentence += ", " + std::to_string(loose) + " of no face";
   if (crowded > 0) sentence += ", " + std::to_string(crowded) + " with more than two uses";
   if (widest != nullptr && widest->gap > 0)
     sentence += "; the widest gap is " + short_number(widest->gap) + ", at curve " + std::to_string(widest->ref) +

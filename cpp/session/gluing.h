@@ -30,6 +30,7 @@ struct Interface {
   bool boundary = false;  ///< on one in a face at least
   bool glued = false;     ///< uses were found to be one by comparing them
   bool degenerate = false;
+  bool loose = false;  ///< of wires alone
   double gap = 0;  ///< model length: of vertices from the surface of `farthest`, or between curves that were glued
 };
 
