@@ -107,8 +107,8 @@ class CurvesOfModel {
       if (input_.whole_curve(ref_[i]) == number) pieces.push_back(ref_[i]);
     }
     if (!pieces.empty())
-      refuse(option, setting, "the curve is cut where faces bend; its pieces begin with number " +
-                                  std::to_string(pieces.front()));
+      refuse(option, setting,
+             "the curve is cut where faces bend; its pieces begin with number " + std::to_string(pieces.front()));
     refuse(option, setting,
            numbered ? "no curve has this number" : "curves of this file have no numbers yet: name one as FACE/RANK");
   }

@@ -35,7 +35,8 @@ std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTool
     const TopoDS_Vertex first = TopExp::FirstVertex(loose.edge), last = TopExp::LastVertex(loose.edge);
     if (first.IsNull() || last.IsNull()) continue;
     BRep_Tool::Range(loose.edge, loose.first, loose.last);
-    if (Precision::IsInfinite(loose.first) || Precision::IsInfinite(loose.last) || !(loose.first < loose.last)) continue;
+    if (Precision::IsInfinite(loose.first) || Precision::IsInfinite(loose.last) || !(loose.first < loose.last))
+      continue;
     loose.end1 = vertices.FindIndex(first), loose.end2 = vertices.FindIndex(last);
     found.push_back(std::move(loose));
   }

@@ -18,8 +18,8 @@ namespace carreau_occ {
 /// An edge of no face.
 struct LooseEdge {
   TopoDS_Edge edge;
-  int number = 0;           ///< in the map of edges, from 1
-  int end1 = 0, end2 = 0;   ///< numbers of its vertices where its parameter begins and ends
+  int number = 0;          ///< in the map of edges, from 1
+  int end1 = 0, end2 = 0;  ///< numbers of its vertices where its parameter begins and ends
   double first = 0, last = 1;
 };
 

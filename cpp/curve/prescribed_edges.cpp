@@ -52,8 +52,9 @@ int prescribing_use(const CurveModel& model, const Curve& curve) {
       found = static_cast<int>(u);
     } else if (const CurveUse& first = curve.uses[static_cast<std::size_t>(found)];
                !say_the_same(model, first, curve.uses[u])) {
-      refuse(model, curve.uses[u], "others are prescribed on curve " + std::to_string(first.curve + 1) + " of face " +
-                                       std::to_string(model.face_ref(first)) + ", which is the same curve of space");
+      refuse(model, curve.uses[u],
+             "others are prescribed on curve " + std::to_string(first.curve + 1) + " of face " +
+                 std::to_string(model.face_ref(first)) + ", which is the same curve of space");
     }
   }
   return found;
@@ -68,8 +69,9 @@ std::vector<double> given_parameters(const CurveModel& model, const CurveUse& us
   for (const double at : curve.edges->t) {
     if (curve.part_of != 0 && (at <= a || at >= b)) continue;  // of another part, or its end
     if (!(at > t.back() && at < b))
-      refuse(model, use, "its parameter " + format_number(at) + " does not lie between " + format_number(t.back()) +
-                             " and " + format_number(b));
+      refuse(model, use,
+             "its parameter " + format_number(at) + " does not lie between " + format_number(t.back()) + " and " +
+                 format_number(b));
     t.push_back(at);
   }
   t.push_back(b);
@@ -99,8 +101,7 @@ std::vector<double> progression_shares(const PrescribedEdges& told) {
   const auto share = [&](double k) {
     if (told.progression == Progression::equal || q == 1 || told.edges == 1) return k / n;
     // Lengths 1 + (q - 1) i / (n - 1), i < n: the sum of k of them over that of all.
-    if (told.progression == Progression::arithmetic)
-      return (2 * k + (q - 1) * k * (k - 1) / (n - 1)) / (n * (1 + q));
+    if (told.progression == Progression::arithmetic) return (2 * k + (q - 1) * k * (k - 1) / (n - 1)) / (n * (1 + q));
     // (q^k - 1) / (q^n - 1), without overflow.
     if (q > 1) return std::exp((k - n) * l) * (std::expm1(-k * l) / std::expm1(-n * l));
     return std::expm1(k * l) / std::expm1(n * l);
@@ -123,7 +124,7 @@ CurvePrescription prescription_of(const CurveModel& model, int index) {
   if (curve.degenerate || !(model.length(index) > 0)) refuse(model, use, "the curve is one point of space");
   CurvePrescription result{.use = found, .t = {}};
   result.t = face_curve(model, use).edges->progression == Progression::given ? given_parameters(model, use)
-                                                                            : parameters_of_progression(model, use);
+                                                                             : parameters_of_progression(model, use);
   if (curve.end1 == curve.end2 && std::ssize(result.t) <= least_closed)
     refuse(model, use, "a closed curve needs three edges or more");
   if (use.reversed) std::reverse(result.t.begin(), result.t.end());

@@ -31,13 +31,14 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
   // Wires may reach anywhere beside the faces.
   const bool wires_alone =
       std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.is_wire(); });
-  for (std::size_t f = 0; f < supports.of_face.size(); ++f)
+  for (std::size_t f = 0; f < supports.of_face.size(); ++f) {
+    if (model.faces[f].is_wire() && !wires_alone) continue;
     for (const CurveSupport& support : supports.of_face[f])
-      if (!model.faces[f].is_wire() || wires_alone)
-       for (const Vec3& p : support.xyz) {
+      for (const Vec3& p : support.xyz) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
       }
+  }
   supports.diag = low.x() <= high.x() ? norm(high - low) : 0;
   return supports;
 }

@@ -98,9 +98,9 @@ TEST(PrescribedEdges, OfALineAndACircleHaveTheLengthsOfTheirProgression) {
     Scene line;
     const CurveUse on_line = line.add_use(
         line.add_face(1, flat()), PlaneCurve{{0, 1}, [](double t) {
-                                        const Vec2 along{3, 4};
-                                        return CurveJet{(t + t * t) * along, (1 + 2 * t) * along, 2 * along};
-                                      }});
+                                               const Vec2 along{3, 4};
+                                               return CurveJet{(t + t * t) * along, (1 + 2 * t) * along, 2 * along};
+                                             }});
     line.add_curve({on_line});
     prescribe(line, on_line, told);
     line.build();
@@ -140,7 +140,8 @@ TEST(ExactArc, IsTheInverseOfItself) {
   // The parabola, slower and slower towards its ends.
   Scene s;
   const CurveUse use = s.add_use(s.add_face(1, paraboloid()), {{-1.5, 1.5}, [](double t) {
-                                                                 const double x = 2.5 * std::sin(t), v = 2.5 * std::cos(t);
+                                                                 const double x = 2.5 * std::sin(t),
+                                                                              v = 2.5 * std::cos(t);
                                                                  return CurveJet{{x, 0}, {v, 0}, {-x, 0}};
                                                                }});
   s.add_curve({use});

@@ -88,7 +88,8 @@ inline Scene interface_between_two_faces(bool same_pace) {
                            same_pace ? segment({2.5, -2.5}, {-2.5, -2.5})
                                      : plane_curve({0, 1},
                                                    [](double t) {
-                                                     const double w = t + 0.2 * std::sin(std::numbers::pi * t) * std::sin(std::numbers::pi * t);
+                                                     const double w = t + 0.2 * std::sin(std::numbers::pi * t) *
+                                                                              std::sin(std::numbers::pi * t);
                                                      return Vec2{2.5 - 5 * w, -2.5};
                                                    }),
                            true);

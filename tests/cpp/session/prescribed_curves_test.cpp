@@ -77,7 +77,8 @@ AnalyticCad two_squares() {
 }
 Model model_of_two_squares() {
   Model model;
-  Face a{.ref = 1, .orientation = 1, .curves = {}, .points = {}}, b{.ref = 2, .orientation = 1, .curves = {}, .points = {}};
+  Face a{.ref = 1, .orientation = 1, .curves = {}, .points = {}},
+      b{.ref = 2, .orientation = 1, .curves = {}, .points = {}};
   const auto curve = [](int ref, int end1, int end2) {
     return FaceCurve{.type = CurveType::boundary, .ref = ref, .end1 = end1, .end2 = end2};
   };
@@ -126,7 +127,9 @@ TEST(PrescribedCurves, OnASeamHoldOnBothOfItsSides) {
   Meshing run(cad, 0.3);
   Model model;
   Face face{.ref = 1, .orientation = 1, .curves = {}, .points = {}};
-  face.curves = {{.ref = 1, .end1 = 1, .end2 = 1}, {.ref = 2, .end1 = 1, .end2 = 2}, {.ref = 3, .end1 = 2, .end2 = 2},
+  face.curves = {{.ref = 1, .end1 = 1, .end2 = 1},
+                 {.ref = 2, .end1 = 1, .end2 = 2},
+                 {.ref = 3, .end1 = 2, .end2 = 2},
                  {.ref = 2, .end1 = 2, .end2 = 1, .edges = told(Progression::arithmetic, 6, 3)}};
   model.faces = {face};
   run.make(model);
@@ -195,14 +198,16 @@ TEST(PrescribedCurves, ThatCrossFailTheirFaceWithASentence) {
   Meshing run(cad, 0.2);
   Model model;
   Face face{.ref = 1, .orientation = 1, .curves = {}, .points = {}};
-  face.curves = {{.ref = 1, .end1 = 1, .end2 = 1, .edges = told(Progression::equal, 3)}, {.ref = 2, .end1 = 2, .end2 = 2}};
+  face.curves = {{.ref = 1, .end1 = 1, .end2 = 1, .edges = told(Progression::equal, 3)},
+                 {.ref = 2, .end1 = 2, .end2 = 2}};
   model.faces = {face};
   run.session.set_model(model);
   try {
     run.session.make_mesh();
     FAIL() << "it was meshed";
   } catch (const DomainError& error) {
-    EXPECT_NE(std::string(error.what()).find("the discretised boundary meets itself"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("the discretised boundary meets itself"), std::string::npos)
+        << error.what();
   }
   EXPECT_TRUE(run.monitor.says("the edges prescribed on it stay"));
 }
@@ -241,13 +246,18 @@ AnalyticCad with_wires() {
                     return SurfaceJet{{2 + c, 0, 1 + s}, {-s, 0, c}, {}, {-c, 0, -s}, {}, {}};
                   },
                   {along}};
-  cad.faces[8] = {[](Vec2 p) { return SurfaceJet{{1, 1, p.x()}, {0, 0, 1}, {}, {}, {}, {}}; },
-                  {{{0, 3}, [](double t) { return CurveJet{{t, 0}, {1, 0}, {}}; }}}};
+  cad.faces[8] = {[](Vec2 p) {
+                    return SurfaceJet{{1, 1, p.x()}, {0, 0, 1}, {}, {}, {}, {}};
+                  },
+                  {{{0, 3}, [](double t) {
+                      return CurveJet{{t, 0}, {1, 0}, {}};
+                    }}}};
   return cad;
 }
 Model model_with_wires() {
   Model model = model_of_two_squares();
-  Face circle{.ref = 7, .orientation = 0, .curves = {}, .points = {}}, line{.ref = 8, .orientation = 0, .curves = {}, .points = {}};
+  Face circle{.ref = 7, .orientation = 0, .curves = {}, .points = {}},
+      line{.ref = 8, .orientation = 0, .curves = {}, .points = {}};
   circle.curves = {{.type = CurveType::internal, .ref = 17, .end1 = 17, .end2 = 17}};
   line.curves = {{.type = CurveType::internal, .ref = 18, .end1 = 3, .end2 = 18}};
   model.faces.push_back(circle), model.faces.push_back(line);
@@ -306,6 +316,19 @@ TEST(Wires, TakePrescriptionsAndNodes) {
   }
   EXPECT_EQ(edges_of_reference(run.session.exported(), 17), 12);
   EXPECT_EQ(run.session.exported().edge_mids.size(), run.session.exported().edges.size());
+}
+
+TEST(Wires, HaveTheirSizesWhateverTheElements) {
+  for (const char* element : {"p1", "p2", "q1.0", "q1.1", "q2.1"}) {
+    Meshing run(with_wires(), 0.1);
+    run.session.parameters().set("element", element);
+    run.make(model_with_wires());
+    // Elements of second order are twice as long.
+    const double usual = 63 / (element[1] == '2' ? 2.0 : 1.0);
+    EXPECT_NEAR(double(run.lengths(17).size()), usual, 0.05 * usual) << element;
+    const FlatMesh flat = run.session.exported();
+    EXPECT_EQ(edges_of_reference(flat, 17), std::ssize(run.lengths(17))) << element;
+  }
 }
 
 TEST(Wires, AloneAreAMesh) {
