@@ -308,14 +308,14 @@ CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int
 enum { CARREAU_EQUAL = 0, CARREAU_ARITHMETIC = 1, CARREAU_GEOMETRIC = 2 };
 
 /* Prescribes the edges of curve number ic of a face, and so of all curves that are one with it in space, whatever sizes
- * say: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its parameter t. With
- * CARREAU_EQUAL all are the same (`ratio` means nothing); with CARREAU_ARITHMETIC they grow by the same length each
- * time, and the last is `ratio` times as long as the first; with CARREAU_GEOMETRIC each is `ratio` times as long as the
- * one before. edges = 0 takes prescriptions away. What would have such a curve finer or coarser (CheckCloseEdges,
- * geo_guarantee, narrow_faces, quadrilaterals without triangles) leaves it, or is told by a warning. Triangles beside
- * short edges grow as edge_gradation says (1.5 where it is 0). Two places of one curve must not contradict each other:
- * that ends a run with MODEL, as does a closed curve of less than three edges, and a curve that gluing cuts.
- * Errors: ARGUMENT (no such face or curve, ratio not positive, edges that would have no length). */
+ * say: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its parameter t.
+ * With CARREAU_EQUAL all are the same (`ratio` means nothing); with CARREAU_ARITHMETIC they grow by the same length
+ * each time, and the last is `ratio` times as long as the first; with CARREAU_GEOMETRIC each is `ratio` times as long
+ * as the one before. edges = 0 takes prescriptions away. What would have such a curve finer or coarser
+ * (CheckCloseEdges, geo_guarantee, narrow_faces, quadrilaterals without triangles) leaves it, or is told by a warning.
+ * Triangles beside short edges grow as edge_gradation says (1.5 where it is 0). Two places of one curve must not
+ * contradict each other: that ends a run with MODEL, as does a closed curve of less than three edges, and a curve that
+ * gluing cuts. Errors: ARGUMENT (no such face or curve, ratio not positive, edges that would have no length). */
 CARREAU_API carreau_status carreau_model_divide_curve(carreau_session* session, int32_t face_ref, int32_t ic,
                                                       int32_t edges, int32_t progression, double ratio);
 

@@ -37,8 +37,7 @@ void prescribe(Face& face, std::int32_t ic, const std::shared_ptr<const carreau:
   bool any = false;
   for (std::size_t c = 0; c < face.curves.size(); ++c)
     if (carreau::host_rank(face, c) == ic) face.curves[c].edges = edges, any = true;
-  if (!any)
-    throw InvalidArgument(carreau::Where{.face = face.ref, .curve_index = ic}, "the face has no such curve");
+  if (!any) throw InvalidArgument(carreau::Where{.face = face.ref, .curve_index = ic}, "the face has no such curve");
 }
 
 void put(std::int32_t* array, std::size_t index, std::int32_t value) {

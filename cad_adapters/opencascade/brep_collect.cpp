@@ -114,7 +114,7 @@ void BrepHost::State::collect_wires() {
 const LooseEdge* BrepHost::State::wire(int reference) const noexcept {
   const auto index = static_cast<std::size_t>(reference) - 1;
   return index >= host_faces.size() && index - host_faces.size() < wires.size() ? &wires[index - host_faces.size()]
-                                                                              : nullptr;
+                                                                                : nullptr;
 }
 
 void BrepHost::State::let_evaluate() {

@@ -35,8 +35,9 @@ struct DiscreteCurve {
 /// space exactly one. Throws what the host throws, LimitError.
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 
-/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. False, and nothing done, when the
-/// curve is one point of space, its edges are prescribed, or the segment cannot be divided in floating-point numbers.
+/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. False, and nothing done,
+/// when the curve is one point of space, its edges are prescribed, or the segment cannot be divided in floating-point
+/// numbers.
 bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model, double share = 0.5);
 
 /// Puts the vertices inside a curve at other fractions of its length, ascending, strictly between 0 and 1, in every

@@ -47,8 +47,9 @@ class Gluer {
         known_(!needs_gluing(model)),
         points_(2 * entries_.size()),
         curves_(entries_.size()),
-        eps_inside_(eps_face > 0 ? eps_face
-                                 : std::max(inside_share * eps, std::min(eps, rounding_of_files * traces_diagonal(traces)))) {
+        eps_inside_(eps_face > 0
+                        ? eps_face
+                        : std::max(inside_share * eps, std::min(eps, rounding_of_files * traces_diagonal(traces)))) {
     const std::vector<std::vector<char>> free = curves_to_glue(model);
     for (const Entry& entry : entries_) takes_part_.push_back(free[entry.face][entry.curve]);
   }

@@ -86,7 +86,8 @@ class ModelChecker {
     const Face& face = model_.faces[f];
     if (face.curves.empty()) add(face_place(f), "the wire (orientation 0) has no curve");
     if (!face.points.empty())
-      add(face_place(f), "a wire (orientation 0) has no area that points could lie in; its points are ends of its curves");
+      add(face_place(f),
+          "a wire (orientation 0) has no area that points could lie in; its points are ends of its curves");
     for (std::size_t c = 0; c < face.curves.size(); ++c)
       if (face.curves[c].type == CurveType::boundary)
         add(place_of(model_, f, c), "a wire (orientation 0) bounds nothing: its curves have type 2 (internal), not 1");

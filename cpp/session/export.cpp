@@ -311,8 +311,8 @@ void add_evaluation(FlatMesh& flat, const ExportSource& source, const FlatSource
 }
 
 FlatSources all_of(const SurfaceMesh& mesh) {
-  FlatSources sources{std::vector<std::int32_t>(mesh.vertices.size()),
-                      std::vector<std::int64_t>(mesh.triangle_count()), true};
+  FlatSources sources{std::vector<std::int32_t>(mesh.vertices.size()), std::vector<std::int64_t>(mesh.triangle_count()),
+                      true};
   std::iota(sources.vertex.begin(), sources.vertex.end(), 0);
   sources.vertex.resize(mesh.vertices.size() + mesh.mid_vertices.size(), -1);
   std::iota(sources.triangle.begin(), sources.triangle.end(), 0);

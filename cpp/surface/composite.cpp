@@ -74,7 +74,9 @@ void tell_prescribed(CompositeRun& run) {
   for (const DiscreteCurve& curve : run.curves) {
     if (!curve.prescribed) continue;
     const std::vector<std::int32_t>& chain = mesh.curves[static_cast<std::size_t>(curve.curve)].vertices;
-    const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) { return mesh.vertices[static_cast<std::size_t>(v)] == xyz; };
+    const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) {
+      return mesh.vertices[static_cast<std::size_t>(v)] == xyz;
+    };
     if (chain.empty() || std::equal(chain.begin(), chain.end(), curve.xyz.begin(), curve.xyz.end(), stays)) continue;
     run.say(Level::warning, Where{.curve = run.topology.curves[static_cast<std::size_t>(curve.curve)].ref}.prefix() +
                                 "the mesh has " + std::to_string(chain.size() - 1) + " edges on it, and not the " +

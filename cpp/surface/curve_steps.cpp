@@ -139,7 +139,8 @@ void refine_boundaries(CompositeRun& run) {
     if (sound.size() == run.between.size() || !run.narrow.vanishing.curve.empty()) break;
     run.narrow.strips.swap(sound);
   }
-  for (const int c : run.domains.kept) run.say_kept(c, "the checks of boundaries (edges that cross, are close or uneven)");
+  for (const int c : run.domains.kept)
+    run.say_kept(c, "the checks of boundaries (edges that cross, are close or uneven)");
   run.result.report.seconds_curves += seconds_since(start);
 }
 

@@ -28,7 +28,8 @@ std::vector<EdgeSizes::Source> short_edges(const CompositeRun& run, const FaceDo
   return edges;
 }
 
-// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked for.
+// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked
+// for.
 constexpr double usual_growth = 1.5;
 
 /// The faces at work, and the triangles that they may still have.

@@ -326,8 +326,8 @@ TopoDS_Shape box_and_wire() {
   const gp_Circ circle(gp_Ax2(gp_Pnt(4, 1, 1), gp_Dir(0, 0, 1), gp_Dir(-1, 0, 0)), 2);
   const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(gp_Pnt(1, 1, 1), gp_Pnt(2, 1, 1)).Edge();
   const TopoDS_Edge arc =
-      BRepBuilderAPI_MakeEdge(circle, TopExp::LastVertex(line),
-                              BRepBuilderAPI_MakeVertex(gp_Pnt(4, 3, 1)).Vertex()).Edge();
+      BRepBuilderAPI_MakeEdge(circle, TopExp::LastVertex(line), BRepBuilderAPI_MakeVertex(gp_Pnt(4, 3, 1)).Vertex())
+          .Edge();
   BRepBuilderAPI_MakeWire wire(line);
   wire.Add(arc);
   return together({box, wire.Wire()});

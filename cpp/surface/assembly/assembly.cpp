@@ -49,9 +49,8 @@ class Assembler {
       return model_.faces[use.face].is_wire() && model_.faces[use.face].left_out.empty();
     };
     const auto is_used = [&](const Curve& curve) {
-      return std::any_of(curve.uses.begin(), curve.uses.end(), [&](const CurveUse& use) {
-        return patches[use.face].has_value() || is_of_wire(use);
-      });
+      return std::any_of(curve.uses.begin(), curve.uses.end(),
+                         [&](const CurveUse& use) { return patches[use.face].has_value() || is_of_wire(use); });
     };
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       const Curve& shape = topology_.curves[c];
@@ -66,9 +65,8 @@ class Assembler {
         curve.part_of = model_.faces[shape.uses.front().face].curves[shape.uses.front().curve].shown_as;
       for (const CurveUse& use : shape.uses)
         curve.uses.push_back({use.face, model_.faces[use.face].curves[use.curve].type == CurveType::internal});
-      curve.loose = is_used(shape) && std::none_of(shape.uses.begin(), shape.uses.end(), [&](const CurveUse& use) {
-                      return patches[use.face].has_value();
-                    });
+      curve.loose = is_used(shape) && std::none_of(shape.uses.begin(), shape.uses.end(),
+                                                   [&](const CurveUse& use) { return patches[use.face].has_value(); });
       if (is_used(shape)) {
         curve.vertices.push_back(corner_vertex_[shape.end1]);
         if (!shape.degenerate) {

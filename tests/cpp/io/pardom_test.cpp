@@ -124,9 +124,9 @@ TEST(Pardom, PartsOfCurvesAreCommentsForOtherPrograms) {
   EXPECT_EQ(model.faces[0].curves[0].part_b, 1.25);
   EXPECT_EQ(model.faces[0].curves[1].part_of, 0);
   for (const char* wrong : {" 0 0.5 1.25", " 1 1.25 0.5", " 1 0.5", " x 0 1"})
-    EXPECT_EQ(error_of("1\n1\n1\n2\n1 1 1 2 ! part of curve" + std::string(wrong) + "\n1 2 2 1\n0\n")
-                  .find("x.pardom, line "),
-              0u)
+    EXPECT_EQ(
+        error_of("1\n1\n1\n2\n1 1 1 2 ! part of curve" + std::string(wrong) + "\n1 2 2 1\n0\n").find("x.pardom, line "),
+        0u)
         << wrong;
 }
 
