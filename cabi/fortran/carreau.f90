@@ -28,6 +28,7 @@ module carreau
   public :: carreau_set_error
   public :: carreau_set_cad_m, carreau_set_cad, carreau_set_metric_callbacks
   public :: carreau_model_clear, carreau_model_add_face, carreau_model_add_curve, carreau_model_add_point
+  public :: carreau_model_divide_curve, carreau_model_divide_curve_at
   public :: carreau_model_name_face, carreau_model_color_face, carreau_model_leave_out_face
   public :: carreau_model_part_of_face, carreau_model_part_of_curve
   public :: carreau_model_read_pardom, carreau_model_write_pardom, carreau_model_check, carreau_model_count
@@ -68,6 +69,7 @@ module carreau
   integer(c_int32_t), parameter, public :: CARREAU_METRIC_NONE = 0, CARREAU_METRIC_SIZE = 1, &
     CARREAU_METRIC_SPACE = 2, CARREAU_METRIC_TANGENT = 3
   integer(c_int32_t), parameter, public :: CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2
+  integer(c_int32_t), parameter, public :: CARREAU_EQUAL = 0, CARREAU_ARITHMETIC = 1, CARREAU_GEOMETRIC = 2
   integer(c_int32_t), parameter, public :: CARREAU_INTEGER = 1, CARREAU_REAL = 2, CARREAU_TEXT = 3
   integer(c_int32_t), parameter, public :: CARREAU_LEVEL_ERROR = 0, CARREAU_LEVEL_WARNING = 1, &
     CARREAU_LEVEL_SUMMARY = 10, CARREAU_LEVEL_DETAIL = 50, CARREAU_LEVEL_DEBUG = 100
@@ -127,6 +129,7 @@ module carreau
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0
     logical :: boundary = .false., glued = .false., degenerate = .false.
     real(c_double) :: gap = 0
+    logical :: loose = .false.
   end type carreau_interface
 
   type :: carreau_background_report
@@ -646,6 +649,24 @@ contains
     status = c_model_add_curve(session%handle, face_ref, type, ref, end1, end2)
   end subroutine carreau_model_add_curve
 
+  !> edges of curve ic, in a progression of their lengths along t; 0: by sizes again.
+  subroutine carreau_model_divide_curve(session, face_ref, ic, edges, progression, ratio, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, ic, edges, progression
+    real(c_double), intent(in) :: ratio
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_divide_curve(session%handle, face_ref, ic, edges, progression, ratio)
+  end subroutine carreau_model_divide_curve
+
+  !> t: the parameters of all vertices inside curve ic, increasing.
+  subroutine carreau_model_divide_curve_at(session, face_ref, ic, t, status)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: face_ref, ic
+    real(c_double), intent(in) :: t(:)
+    integer(c_int32_t), intent(out) :: status
+    status = c_model_divide_curve_at(session%handle, face_ref, ic, size(t, kind=c_int64_t), t)
+  end subroutine carreau_model_divide_curve_at
+
   subroutine carreau_model_add_point(session, face_ref, ref, u, v, status)
     type(carreau_session), intent(in) :: session
     integer(c_int32_t), intent(in) :: face_ref, ref
@@ -947,7 +968,7 @@ contains
     status = c_session_interface(session%handle, index - 1, c)
     if (status /= CARREAU_OK) return
     interface = carreau_interface(c%curve, c%uses, c%face, c%ic, c%other_face, c%other_ic, c%boundary /= 0, &
-      c%glued /= 0, c%degenerate /= 0, c%gap)
+      c%glued /= 0, c%degenerate /= 0, c%gap, c%loose /= 0)
   end subroutine carreau_session_interface
 
   ! ---- What was delivered ----

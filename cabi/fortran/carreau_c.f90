@@ -59,7 +59,7 @@ module carreau_c
   type, bind(c) :: c_interface
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: curve = 0, uses = 0, face = 0, ic = 0, other_face = 0, other_ic = 0, boundary = 0, &
-      glued = 0, degenerate = 0, reserved = 0
+      glued = 0, degenerate = 0, loose = 0
     real(c_double) :: gap = 0
   end type c_interface
 
@@ -313,6 +313,32 @@ module carreau_c
       integer(c_int32_t), value :: face_ref, type, ref, end1, end2
       integer(c_int32_t) :: status
     end function c_model_add_curve
+
+    !> Prescribes the edges of curve number ic of a face, and so of all curves that are one with it in space, whatever
+    !! sizes say: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its
+    !! parameter t.
+    function c_model_divide_curve(session, face_ref, ic, edges, progression, ratio) result(status) &
+        bind(c, name="carreau_model_divide_curve")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, ic, edges, progression
+      real(c_double), value :: ratio
+      integer(c_int32_t) :: status
+    end function c_model_divide_curve
+
+    !> Prescribes all vertices inside a curve by their parameters, strictly increasing, inside of its interval: n = 0
+    !! makes it one edge.
+    function c_model_divide_curve_at(session, face_ref, ic, n, t) result(status) &
+        bind(c, name="carreau_model_divide_curve_at")
+      import :: c_double, c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      integer(c_int32_t), value :: face_ref, ic
+      integer(c_int64_t), value :: n
+      real(c_double), intent(in) :: t(*)
+      integer(c_int32_t) :: status
+    end function c_model_divide_curve_at
 
     !> Imposes a vertex with reference `ref` at (u, v) inside face `face_ref`.
     function c_model_add_point(session, face_ref, ref, u, v) result(status) bind(c, name="carreau_model_add_point")

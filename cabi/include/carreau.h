@@ -292,7 +292,13 @@ enum { CARREAU_BOUNDARY = 1, CARREAU_INTERNAL = 2 };
 CARREAU_API carreau_status carreau_model_clear(carreau_session* session);
 
 /* Appends a face. Callbacks get the number `ref`, which differs from face to face. An orientation of +k (-k) says that
- * the domain lies on the left (right) of the face's k-th curve, which must be a boundary. Errors: ARGUMENT. */
+ * the domain lies on the left (right) of the face's k-th curve, which must be a boundary.
+ *
+ * An orientation of 0 makes it a wire: curves of space that lie in no face, all of type CARREAU_INTERNAL. They are cut
+ * by sizes and by their curvature like others, and the mesh has their edges, which no triangle has. Callbacks give them
+ * as those of faces, C(t) in a plane and S(u, v): with C(t) = (t, 0), say, S(t, 0) is the curve. S is asked on the
+ * curves, and within a step of finite differences beside them where its derivatives are not given. Ends that have the
+ * reference of a point of a face are its vertices. Results list no wire among the faces. Errors: ARGUMENT. */
 CARREAU_API carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation);
 
 /* Leaves a face out of what is meshed, for the reason `why`; NULL or "" takes it in again. The mesh holds the face as
@@ -308,6 +314,27 @@ CARREAU_API carreau_status carreau_model_leave_out_face(carreau_session* session
  * Errors: ARGUMENT (no such face, unknown type). */
 CARREAU_API carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_ref, int32_t type,
                                                    int32_t ref, int32_t end1, int32_t end2);
+
+/* How the lengths of edges follow one another. */
+enum { CARREAU_EQUAL = 0, CARREAU_ARITHMETIC = 1, CARREAU_GEOMETRIC = 2 };
+
+/* Prescribes the edges of curve number ic of a face, and so of all curves that are one with it in space, whatever sizes
+ * say: `edges` arcs, whose lengths along the curve in space follow one another in the direction of its parameter t.
+ * With CARREAU_EQUAL all are the same (`ratio` means nothing); with CARREAU_ARITHMETIC they grow by the same length
+ * each time, and the last is `ratio` times as long as the first; with CARREAU_GEOMETRIC each is `ratio` times as long
+ * as the one before. edges = 0 takes prescriptions away. What would have such a curve finer or coarser
+ * (CheckCloseEdges, geo_guarantee, narrow_faces, quadrilaterals without triangles) leaves it, or is told by a warning.
+ * Triangles beside short edges grow as edge_gradation says (1.5 where it is 0). Two places of one curve must not
+ * contradict each other: that ends a run with MODEL, as does a closed curve of less than three edges, and a curve that
+ * gluing cuts. Errors: ARGUMENT (no such face or curve, ratio not positive, edges that would have no length). */
+CARREAU_API carreau_status carreau_model_divide_curve(carreau_session* session, int32_t face_ref, int32_t ic,
+                                                      int32_t edges, int32_t progression, double ratio);
+
+/* Prescribes all vertices inside a curve by their parameters, strictly increasing, inside of its interval: n = 0 makes
+ * it one edge. They are kept as they are, also on the parts of a curve that gluing cuts. Errors: ARGUMENT (no such face
+ * or curve, parameters that do not increase); a run finds what lies outside of the interval (MODEL). */
+CARREAU_API carreau_status carreau_model_divide_curve_at(carreau_session* session, int32_t face_ref, int32_t ic,
+                                                         int64_t n, const double t[]);
 
 /* Imposes a vertex with reference `ref` at (u, v) inside face `face_ref`.
  * Errors: ARGUMENT (no such face, not finite). */
@@ -487,7 +514,7 @@ typedef struct carreau_interface {
   int32_t boundary;   /* 1: on the boundary of a face; 0: inside faces only */
   int32_t glued;      /* 1: places were found to be one by comparing positions */
   int32_t degenerate; /* 1: a point of space */
-  int32_t reserved;
+  int32_t loose;      /* 1: of wires alone, without a face */
   double gap; /* largest distance found between the places, model length: at the ends and at some vertices, at all where
                  it matters; of glued curves the Hausdorff distance of their polylines too. 0 when there is no other */
 } carreau_interface;

@@ -1,6 +1,10 @@
 #include "model/model.h"
 
+#include <cmath>
+#include <memory>
+
 #include "arguments.h"
+#include "curve/prescribed_edges.h"
 #include "guard.h"
 #include "io/files.h"
 #include "io/pardom.h"
@@ -28,6 +32,14 @@ std::size_t total(const Model& model, Member member) {
   return n;
 }
 
+// On a curve that gluing has cut since, on all of its parts.
+void prescribe(Face& face, std::int32_t ic, const std::shared_ptr<const carreau::PrescribedEdges>& edges) {
+  bool any = false;
+  for (std::size_t c = 0; c < face.curves.size(); ++c)
+    if (carreau::host_rank(face, c) == ic) face.curves[c].edges = edges, any = true;
+  if (!any) throw InvalidArgument(carreau::Where{.face = face.ref, .curve_index = ic}, "the face has no such curve");
+}
+
 void put(std::int32_t* array, std::size_t index, std::int32_t value) {
   if (array != nullptr) array[index] = value;
 }
@@ -48,8 +60,6 @@ carreau_status carreau_model_clear(carreau_session* session) {
 
 carreau_status carreau_model_add_face(carreau_session* session, int32_t ref, int32_t orientation) {
   return guarded(session, [&] {
-    if (orientation == 0)
-      throw InvalidArgument(carreau::Where{.face = ref}, "the orientation is 0; it is the rank of a boundary curve");
     Face face;
     face.ref = ref;
     face.orientation = orientation;
@@ -66,6 +76,41 @@ carreau_status carreau_model_add_curve(carreau_session* session, int32_t face_re
                                 "; it must be 1 (CARREAU_BOUNDARY) or 2 (CARREAU_INTERNAL)");
     face_of(session->edited_model(), face_ref)
         .curves.push_back({.type = carreau::CurveType(type), .ref = ref, .end1 = end1, .end2 = end2});
+  });
+}
+
+carreau_status carreau_model_divide_curve(carreau_session* session, int32_t face_ref, int32_t ic, int32_t edges,
+                                          int32_t progression, double ratio) {
+  return guarded(session, [&] {
+    if (progression < CARREAU_EQUAL || progression > CARREAU_GEOMETRIC)
+      throw InvalidArgument("the progression of edges is " + std::to_string(progression) +
+                            "; it must be 0 (CARREAU_EQUAL), 1 (CARREAU_ARITHMETIC) or 2 (CARREAU_GEOMETRIC)");
+    carreau::PrescribedEdges told;
+    told.progression = carreau::Progression(progression);
+    told.edges = edges;
+    if (told.progression != carreau::Progression::equal) told.ratio = ratio;
+    if (edges != 0) (void)carreau::progression_shares(told);
+    prescribe(face_of(session->edited_model(), face_ref), ic,
+              edges == 0 ? nullptr : std::make_shared<const carreau::PrescribedEdges>(std::move(told)));
+  });
+}
+
+carreau_status carreau_model_divide_curve_at(carreau_session* session, int32_t face_ref, int32_t ic, int64_t n,
+                                             const double t[]) {
+  return guarded(session, [&] {
+    if (n < 0 || (n > 0 && t == nullptr))
+      throw InvalidArgument("the vertices of a curve are n >= 0 parameters; n is " + std::to_string(n) +
+                            (t == nullptr ? " and t is NULL" : ""));
+    carreau::PrescribedEdges told;
+    told.progression = carreau::Progression::given;
+    told.edges = 0;
+    told.t.assign(t, t + n);
+    for (std::size_t k = 0; k < told.t.size(); ++k)
+      if (!std::isfinite(told.t[k]) || (k > 0 && !(told.t[k - 1] < told.t[k])))
+        throw InvalidArgument(carreau::Where{.face = face_ref, .curve_index = ic, .t = told.t[k]},
+                              "the parameters of the vertices must be finite and strictly increasing");
+    prescribe(face_of(session->edited_model(), face_ref), ic,
+              std::make_shared<const carreau::PrescribedEdges>(std::move(told)));
   });
 }
 

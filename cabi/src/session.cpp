@@ -11,14 +11,15 @@ using namespace carreau::abi;
 
 void carreau::abi::report_failed_faces(const carreau::Session& session) {
   const FaceMesh* first = nullptr;
-  std::size_t failed = 0;
+  std::size_t failed = 0, all = 0;
   for (const FaceMesh& face : session.mesh().faces) {
+    if (face.status != FaceStatus::wire) ++all;
     if (face.status != FaceStatus::failed) continue;
     if (first == nullptr) first = &face;
     ++failed;
   }
   if (first == nullptr) return;
-  throw StatusError(CARREAU_ERR_PARTIAL, std::to_string(failed) + " of " + std::to_string(session.mesh().faces.size()) +
+  throw StatusError(CARREAU_ERR_PARTIAL, std::to_string(failed) + " of " + std::to_string(all) +
                                              " faces could not be meshed; the first is " + std::to_string(first->ref) +
                                              ": " + first->why);
 }
@@ -138,6 +139,7 @@ carreau_status carreau_session_interface(carreau_session* session, int64_t index
     result.boundary = entry.boundary ? 1 : 0;
     result.glued = entry.glued ? 1 : 0;
     result.degenerate = entry.degenerate ? 1 : 0;
+    result.loose = entry.loose ? 1 : 0;
     result.gap = entry.gap;
     write_struct(result, out_interface, "out_interface");
   });

@@ -129,6 +129,7 @@ void print_report(const MeshReport& r, bool faces) {
     std::printf("  %s of %" PRId64 " edges, length %.6g, at %s\n", r.borders[i].closed ? "loop" : "chain",
                 r.borders[i].edges, r.borders[i].length, place_text(r.borders[i].place).c_str());
   if (r.borders.size() > listed) std::puts("  ...");
+  if (r.loose_edges > 0) std::printf("loose       %" PRId64 " edges of curves, of no triangle\n", r.loose_edges);
   std::printf("shared      %" PRId64 " edges of more than two triangles%s\n", r.shared_edges,
               places_text(r.shared_at, r.shared_edges).c_str());
   std::printf("turned over %" PRId64 " triangles%s\n", r.turned_triangles,
@@ -167,6 +168,7 @@ Json json_of(const MeshReport& r) {
           {"parts", r.parts},
           {"euler", r.euler},
           {"borders", borders},
+          {"loose_edges", r.loose_edges},
           {"shared_edges", {{"count", r.shared_edges}, {"at", r.shared_at}}},
           {"turned_triangles", {{"count", r.turned_triangles}, {"at", r.turned_at}}},
           {"folds", {{"count", r.folds}, {"at", r.fold_at}}},

@@ -40,6 +40,8 @@ struct MeshOptions : InputChoice {
   std::optional<double> sharp_angle;          ///< degrees
   double anisotropy = 0;                      ///< largest ratio of two sizes; 0: isotropic
   std::vector<std::string> face_sizes;        ///< "face=length", the face by number or name
+  std::vector<std::string> curve_edges;       ///< "curve=edges" or "curve=edges,progression:ratio"
+  std::vector<std::string> curve_vertices;    ///< "curve=t,t,..."
   std::vector<std::string> settings;          ///< "parameter=value"
   std::string dump_failed;                    ///< folder for what there is of faces that failed; empty: none
   int threads = 0;                            ///< 0: all cores

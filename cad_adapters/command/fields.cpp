@@ -7,6 +7,7 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "curve_edges.h"
 #include "json_output.h"
 #include "mesh_parameters.h"
 #include "output_files.h"
@@ -43,6 +44,8 @@ std::string mesh_option_of(const MeshOptions& m) {
                                                 {"--min", !m.minimum.empty()},
                                                 {"--max", !m.maximum.empty()},
                                                 {"--face-size", !m.face_sizes.empty()},
+                                                {"--curve-edges", !m.curve_edges.empty()},
+                                                {"--curve-vertices", !m.curve_vertices.empty()},
                                                 {"--env", !m.env.empty()},
                                                 {"--set", !m.settings.empty()}};
   for (const auto& [name, is_given] : given)
@@ -92,6 +95,7 @@ carreau_exr_options exr_options(const FieldsOptions& options) {
 carreau_status make_mesh(carreau_session* session, const FieldsOptions& options, CadInput& input, SizeMap& map) {
   set_parameters(session, options.mesh, input, map);
   require(session, input.give_to(session));
+  prescribe_curve_edges(session, options.mesh, input);
   if (options.raw) return CARREAU_OK;
   const carreau_status status = carreau_mesh_generate(session);
   if (!map.failure().empty()) throw Failure(map.failure());

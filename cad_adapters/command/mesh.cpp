@@ -5,6 +5,7 @@
 
 #include "cad_input.h"
 #include "commands.h"
+#include "curve_edges.h"
 #include "failed_faces.h"
 #include "mesh_parameters.h"
 #include "mesh_summary.h"
@@ -58,9 +59,10 @@ void refuse_elements(carreau_session* session, const std::vector<std::string>& o
 }
 
 /// Throws Failure when there is no mesh.
-void generate(carreau_session* session, CadInput& input, const SizeMap& map, Adaptation& adaptation,
-              FailedFaces& failed, Progress& progress) {
+void generate(carreau_session* session, const MeshOptions& options, CadInput& input, const SizeMap& map,
+              Adaptation& adaptation, FailedFaces& failed, Progress& progress) {
   require(session, input.give_to(session));
+  prescribe_curve_edges(session, options, input);
   const carreau_status status = adaptation.run(session, input.diagonal());
   const std::string sentence = in_terms_of_file(input, carreau_last_error(session));
   for (const std::string& failure : {map.failure(), adaptation.failure()})
@@ -90,7 +92,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   if (by_curvature != 0)
     for (const std::string& kink : input.kinks()) progress.warning(kink);
   const std::clock_t start = std::clock();
-  generate(run.session, input, map, adaptation, failed, progress);
+  generate(run.session, options, input, map, adaptation, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
   run.faces = faces_of(run.mesh);

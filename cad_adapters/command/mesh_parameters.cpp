@@ -7,6 +7,7 @@
 #include <set>
 #include <thread>
 
+#include "curve_edges.h"
 #include "lengths.h"
 #include "session_handle.h"
 #include "suggestions.h"
@@ -199,6 +200,7 @@ void check_words(const MeshOptions& options) {
   if (options.minimum.ends_with('%') == options.maximum.ends_with('%')) refuse_contradictions(options, lengths);
   for (const std::string& each : options.face_sizes)
     parse_length(parse_assignment(each, "--face-size").second, "--face-size");
+  check_curve_edges(options);
   if (options.settings.empty()) return;
   const SessionHandle session = make_session();
   for (const std::string& each : options.settings) check_setting(session.get(), each, "--set");

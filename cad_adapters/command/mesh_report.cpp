@@ -221,6 +221,11 @@ void look_at_edges(const MeshArrays& mesh, std::size_t listed, MeshReport& repor
     if (folds(mesh, first[0], first[1])) ++report.folds, add_place(report.fold_at, place, listed);
   });
   report.open_edges = static_cast<std::int64_t>(open.size());
+  std::vector<std::array<std::int32_t, 2>> of_triangles;
+  for (const Side& side : sides) of_triangles.push_back({side.low, side.high});
+  for (const auto& [a, b] : mesh.edges)
+    if (!std::binary_search(of_triangles.begin(), of_triangles.end(), std::array{std::min(a, b), std::max(a, b)}))
+      ++report.loose_edges;
   find_borders(mesh, open, report);
   find_turned(mesh, components, listed, report);
 }

@@ -40,6 +40,7 @@ struct MeshReport {
   std::vector<Border> borders;                           ///< longest first
   std::int64_t edges = 0;
   std::int64_t open_edges = 0;    ///< of one triangle
+  std::int64_t loose_edges = 0;   ///< of the mesh's curves, of no triangle
   std::int64_t shared_edges = 0;  ///< of more than two triangles
   std::vector<Point> shared_at;   ///< middles of some of them
   std::int64_t turned_triangles =

@@ -91,9 +91,11 @@ std::vector<std::string> gluing_lines(const CadInput& input, const std::vector<c
 
 /// How many faces meet at the curves; the library's own messages tell the widest gap.
 std::string interfaces_line(const std::vector<carreau_interface>& interfaces) {
-  std::int64_t shared = 0, seams = 0, open = 0, more = 0, points = 0;
+  std::int64_t shared = 0, seams = 0, open = 0, more = 0, points = 0, loose = 0;
   for (const carreau_interface& each : interfaces) {
-    if (each.degenerate != 0)
+    if (each.loose != 0)
+      ++loose;
+    else if (each.degenerate != 0)
       ++points;
     else if (is_open(each))
       ++open;
@@ -105,6 +107,7 @@ std::string interfaces_line(const std::vector<carreau_interface>& interfaces) {
   std::string line = text("interfaces %lld curves of two faces, %lld %s, %lld open", whole(shared), whole(seams),
                           seams == 1 ? "seam" : "seams", whole(open));
   if (more > 0) line += text(", %lld of more than two faces", whole(more));
+  if (loose > 0) line += text(", %lld of no face", whole(loose));
   if (points > 0) line += text(", %lld shrunk to a point", whole(points));
   return line;
 }
@@ -158,6 +161,7 @@ nlohmann::ordered_json interfaces_json(const CadInput& input, const std::vector<
                     {"open", is_open(each)},
                     {"glued", each.glued != 0},
                     {"degenerate", each.degenerate != 0},
+                    {"loose", each.loose != 0},
                     {"gap", each.gap}});
   return list;
 }

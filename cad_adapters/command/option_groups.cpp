@@ -73,6 +73,13 @@ void add_mesh_options(CLI::App* app, MeshOptions& options) {
   repeated(app->add_option("--face-size", options.face_sizes,
                            "Size on a face given by number, or on all faces of a name; may be repeated"))
       ->type_name("FACE=LENGTH");
+  repeated(app->add_option("--curve-edges", options.curve_edges,
+                           "Number of edges of a curve, equally long or in a progression of their lengths (8, "
+                           "8,arithmetic:3 or 8,geometric:1.2); may be repeated"))
+      ->type_name("CURVE=EDGES");
+  repeated(app->add_option("--curve-vertices", options.curve_vertices,
+                           "All vertices inside a curve, by their parameters; may be repeated"))
+      ->type_name("CURVE=T,...");
   app->add_option("--env", options.env, "Parameters from a blsurf.env, up to its first action; options win")
       ->check(not_empty)
       ->type_name(kind::file);

@@ -23,11 +23,14 @@ int32_t answer(double size, double* value) {
 }  // namespace
 
 int32_t BrepHost::State::surface_size(int32_t face, double, double, double* value, void* user) noexcept {
-  return answer(static_cast<State*>(user)->host_faces[static_cast<std::size_t>(face - 1)].size, value);
+  const auto& state = *static_cast<State*>(user);
+  if (state.wire(face) != nullptr) return CARREAU_NO_ANSWER;
+  return answer(state.host_faces[static_cast<std::size_t>(face - 1)].size, value);
 }
 
 int32_t BrepHost::State::curve_size(int32_t face, int32_t ic, double, double* value, void* user) noexcept {
   const auto& state = *static_cast<State*>(user);
+  if (state.wire(face) != nullptr) return CARREAU_NO_ANSWER;
   const int edge = state.host_faces[static_cast<std::size_t>(face - 1)].curves[static_cast<std::size_t>(ic - 1)].edge;
   return answer(state.edge_size[static_cast<std::size_t>(edge - 1)], value);
 }
@@ -86,6 +89,7 @@ const char* BrepHost::State::failure(int32_t face, void* user) noexcept {
 int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
                                        double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept {
   auto& state = *static_cast<State*>(user);
+  if (state.wire(face) != nullptr) return state.wire_batch(face, n, uv, order, S, Su, Sv, Suu, Suv, Svv);
   std::atomic<bool>& failed = state.surface_failed[static_cast<std::size_t>(face - 1)];
   if (failed) return 1;
   const auto evaluate = [&] {
@@ -111,7 +115,28 @@ int32_t BrepHost::State::surface_batch(int32_t face, int64_t n, const double* uv
   return state.answer_guarded(face, failed, evaluate);
 }
 
+// S(u, v) is the edge at t = u, whatever v; its curve is (t, 0).
+int32_t BrepHost::State::wire_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
+                                    double* Sv, double* Suu, double* Suv, double* Svv) noexcept {
+  std::atomic<bool>& failed = surface_failed[static_cast<std::size_t>(face - 1)];
+  if (failed) return 1;
+  return answer_guarded(face, failed, [&] {
+    const std::size_t edge = static_cast<std::size_t>(face - 1) - host_faces.size();
+    const gp_Vec none(0, 0, 0);
+    gp_Pnt p;
+    gp_Vec d1, d2;
+    for (int64_t i = 0; i < n; ++i) {
+      wire_curves.evaluate(edge, uv[2 * i], order, p, d1, d2);
+      store(p, S + 3 * i);
+      if (order >= 1) store(d1, Su + 3 * i), store(none, Sv + 3 * i);
+      if (order >= 2) store(d2, Suu + 3 * i), store(none, Suv + 3 * i), store(none, Svv + 3 * i);
+    }
+  });
+}
+
 int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept {
+  if (const LooseEdge* wire = static_cast<State*>(user)->wire(face); wire != nullptr)
+    return *a = wire->first, *b = wire->last, 0;
   const HostCurve& curve = static_cast<State*>(user)
                                ->host_faces[static_cast<std::size_t>(face - 1)]
                                .curves[static_cast<std::size_t>(ic - 1)];
@@ -122,6 +147,12 @@ int32_t BrepHost::State::interval(int32_t face, int32_t ic, double* a, double* b
 int32_t BrepHost::State::curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
                                void* user) noexcept {
   auto& state = *static_cast<State*>(user);
+  if (state.wire(face) != nullptr) {
+    C[0] = t, C[1] = 0;
+    if (order >= 1) Ct[0] = 1, Ct[1] = 0;
+    if (order >= 2) Ctt[0] = Ctt[1] = 0;
+    return 0;
+  }
   std::atomic<bool>& failed = state.curves_failed[static_cast<std::size_t>(face - 1)];
   if (failed) return 1;
   const auto evaluate = [&] {

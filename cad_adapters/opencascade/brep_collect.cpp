@@ -86,7 +86,6 @@ void BrepHost::State::collect() {
   TopExp::MapShapes(shape, TopAbs_FACE, faces);
   TopExp::MapShapes(shape, TopAbs_EDGE, edges);
   TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
-  if (faces.IsEmpty()) throw std::runtime_error("the shape has no face");
   uses.assign(static_cast<std::size_t>(edges.Extent()), 0);
   host_faces.resize(static_cast<std::size_t>(faces.Extent()));
   evaluators.resize(host_faces.size());
@@ -106,9 +105,21 @@ void BrepHost::State::collect() {
   close_torn_loops(host_faces, vertices);
 }
 
+void BrepHost::State::collect_wires() {
+  wires = find_loose_edges(shape, edges, vertices);
+  wire_curves.set(wires);
+  if (faces.IsEmpty() && wires.empty()) throw std::runtime_error("the shape has neither a face nor an edge");
+}
+
+const LooseEdge* BrepHost::State::wire(int reference) const noexcept {
+  const auto index = static_cast<std::size_t>(reference) - 1;
+  return index >= host_faces.size() && index - host_faces.size() < wires.size() ? &wires[index - host_faces.size()]
+                                                                                : nullptr;
+}
+
 void BrepHost::State::let_evaluate() {
   for (auto* failed : {&surface_failed, &curves_failed}) {
-    *failed = std::make_unique<std::atomic<bool>[]>(host_faces.size());
+    *failed = std::make_unique<std::atomic<bool>[]>(host_faces.size() + wires.size());
     for (std::size_t f = 0; f < host_faces.size(); ++f) (*failed)[f] = !host_faces[f].known;
   }
 }

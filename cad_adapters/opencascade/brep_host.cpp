@@ -26,6 +26,7 @@ BrepHost::BrepHost(const ShapeFile& file) : state_(std::make_shared<State>()) {
   try {
     guarded([&] { state_->collect(), state_->collect_names(file), state_->collect_doubts(file); });
     state_->cut_kinks();
+    guarded([&] { state_->collect_wires(); });
     state_->let_evaluate();
   } catch (const Standard_Failure& failure) {
     throw std::runtime_error(std::string("OpenCASCADE cannot read the topology: ") + failure.GetMessageString());
@@ -103,14 +104,24 @@ carreau_status BrepHost::add_faces(carreau_session* session) const {
   carreau_status status = CARREAU_OK;
   for (const std::size_t f : order)
     if (status == CARREAU_OK) status = add_face(session, f);
+  for (std::size_t w = 0; w < state_->wires.size(); ++w)
+    if (status == CARREAU_OK) status = add_wire(session, w);
   for (const auto& [piece, whole] : state_->whole_edge)
     if (status == CARREAU_OK) status = carreau_model_part_of_curve(session, piece, whole);
   return status;
 }
 
+carreau_status BrepHost::add_wire(carreau_session* session, std::size_t index) const {
+  const LooseEdge& wire = state_->wires[index];
+  const auto ref = static_cast<int32_t>(state_->host_faces.size() + index + 1);
+  const carreau_status status = carreau_model_add_face(session, ref, 0);
+  if (status != CARREAU_OK) return status;
+  return carreau_model_add_curve(session, ref, CARREAU_INTERNAL, wire.number, wire.end1, wire.end2);
+}
+
 carreau_status BrepHost::add_face(carreau_session* session, std::size_t index) const {
   const HostFace& face = state_->host_faces[index];
-  int32_t orientation = face.broken.empty() ? 0 : 1;
+  int32_t orientation = 1;  // 0 would make it a wire
   const auto ref = static_cast<int32_t>(index + 1);
   if (const int seed = face.broken.empty() ? seed_curve(ref) : 0; seed != 0) {
     const HostCurve& curve = face.curves[static_cast<std::size_t>(seed - 1)];
@@ -182,6 +193,7 @@ const std::string& BrepHost::face_name(int number) const {
 
 int BrepHost::face_colour(int number) const { return state_->host_faces[static_cast<std::size_t>(number - 1)].rgb; }
 int BrepHost::face_count() const noexcept { return state_->faces.Extent(); }
+int BrepHost::wire_count() const noexcept { return static_cast<int>(state_->wires.size()); }
 int BrepHost::reference_count() const noexcept { return static_cast<int>(state_->host_faces.size()); }
 int BrepHost::curve_count(int reference) const noexcept {
   return static_cast<int>(state_->host_faces[static_cast<std::size_t>(reference - 1)].curves.size());
@@ -234,6 +246,8 @@ double BrepHost::diagonal() const {
   builder.MakeCompound(good);
   for (int f = 1; f <= state_->faces.Extent(); ++f)
     if (state_->host_faces[static_cast<std::size_t>(f - 1)].broken.empty()) builder.Add(good, state_->faces(f));
+  if (state_->faces.IsEmpty())
+    for (const LooseEdge& wire : state_->wires) builder.Add(good, wire.edge);
   state_->diagonal = diagonal_of(good);
   return *state_->diagonal;
 }

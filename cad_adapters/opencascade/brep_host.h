@@ -16,11 +16,12 @@ namespace carreau_occ {
 /// are the references of faces, curves and points. Faces that bend inside (kinks.h) are cut there into parts, which
 /// have no bend: the first one keeps the number, the others, and edges and vertices that this makes, have numbers
 /// behind all others; in meshes all parts are the face, or edge, of the shape. A face that is reversed gets u and v
-/// exchanged, so that triangles, which are counterclockwise in (u, v), look outwards of a solid. Callbacks may come
-/// from several threads at a time.
+/// exchanged, so that triangles, which are counterclockwise in (u, v), look outwards of a solid. Edges of no face are
+/// wires of one curve each, with references of faces behind all others. Callbacks may come from several threads at a
+/// time.
 class BrepHost {
  public:
-  /// The shape and the names of its faces are kept. Throws std::runtime_error when it has no face.
+  /// The shape and the names of its faces are kept. Throws std::runtime_error when it has neither a face nor an edge.
   explicit BrepHost(const ShapeFile& file);
   ~BrepHost();
   BrepHost(const BrepHost&) = delete;
@@ -48,6 +49,8 @@ class BrepHost {
   /// 0xRRGGBB, -1: none. Numbers from 1.
   [[nodiscard]] int face_colour(int number) const;
   [[nodiscard]] int face_count() const noexcept;
+  /// Edges of no face that sessions get.
+  [[nodiscard]] int wire_count() const noexcept;
   /// Faces and parts of faces: references are from 1 to this.
   [[nodiscard]] int reference_count() const noexcept;
   /// Of a face or a part of one.
@@ -87,6 +90,7 @@ class BrepHost {
   /// Of a face, from 1.
   [[nodiscard]] int seed_curve(int number) const;
   carreau_status add_face(carreau_session* session, std::size_t index) const;
+  carreau_status add_wire(carreau_session* session, std::size_t index) const;
   carreau_status add_faces(carreau_session* session) const;
   carreau_status move_reasons(carreau_session* session) const;
 

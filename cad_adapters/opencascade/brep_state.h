@@ -15,6 +15,7 @@
 
 #include "brep_host.h"
 #include "evaluators.h"
+#include "loose_edges.h"
 
 namespace carreau_occ {
 
@@ -46,6 +47,8 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges, vertices;
   std::vector<HostFace> host_faces;  // face number - 1; behind all faces the parts of those that were cut
+  std::vector<LooseEdge> wires;      // edges of no face: their references are behind those of all faces and parts
+  LooseCurves wire_curves;
   std::vector<int> uses;             // of each edge, by its number - 1; behind all edges those of cuts
   int vertex_total = 0;              // those of the shape and of cuts
   std::map<int, int> whole_edge;     // of the numbers behind all edges that are pieces of one
@@ -70,11 +73,16 @@ struct BrepHost::State : std::enable_shared_from_this<State> {
   void collect_face(int number);
   /// Faces become parts that do not bend inside, where that can be done.
   void cut_kinks();
+  void collect_wires();
   /// Of faces that are known.
   void let_evaluate();
+  /// The edge of a reference that is that of a wire; nullptr: of a face.
+  [[nodiscard]] const LooseEdge* wire(int reference) const noexcept;
 
   static int32_t surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su,
                                double* Sv, double* Suu, double* Suv, double* Svv, void* user) noexcept;
+  int32_t wire_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su, double* Sv,
+                     double* Suu, double* Suv, double* Svv) noexcept;
   static int32_t interval(int32_t face, int32_t ic, double* a, double* b, void* user) noexcept;
   static int32_t curve(int32_t face, int32_t ic, double t, int32_t order, double* C, double* Ct, double* Ctt,
                        void* user) noexcept;

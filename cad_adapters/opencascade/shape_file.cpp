@@ -261,8 +261,8 @@ ShapeFile read_shape(const std::string& path, const ReadingProgress& progress) {
     refuse(path, std::string("OpenCASCADE cannot read it: ") + failure.GetMessageString());
   }
   if (indicator->stopped()) refuse(path, "was not read to its end: it was asked to stop");
-  if (file.shape.IsNull() || !TopExp_Explorer(file.shape, TopAbs_FACE).More())
-    refuse(path, std::string("holds no face") +
+  if (file.shape.IsNull() || !TopExp_Explorer(file.shape, TopAbs_EDGE).More())
+    refuse(path, std::string("holds no face and no edge") +
                      (file.losses.empty() ? "" : " that can be read (" + file.losses.front() + ")"));
   return file;
 }

@@ -168,7 +168,7 @@ class Inspector {
     TopExp::Vertices(edge, first, last);
     if (!first.IsNull() && first.IsSame(last)) ++report_.closed_edges;
     if (uses.empty())
-      add({"loose edge", 0, number, 0, "belongs to no face: it is not meshed"});
+      add({"loose edge", 0, number, 0, "belongs to no face: its mesh has edges alone"});
     else if (uses.size() == 1)
       add({"free edge", uses.front(), number, 1, "has one face only"});
     else if (uses.size() > 2)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "curve/prescribed_edges.h"
 #include "curve/unit_discretisation.h"
 
 namespace carreau {
@@ -57,20 +58,26 @@ void refine_vertex(DiscreteCurve& d, const CurveModel& model, std::size_t u, std
   note_gap(d, u, p.distance);
 }
 
+const CurveUse& owner_of(const DiscreteCurve& d, const CurveModel& model) {
+  return model.curve(d.curve).uses[static_cast<std::size_t>(d.owner)];
+}
+
 /// The interior vertices at which a use is probed: quarter points, and where the two supports disagree most (their
 /// polylines know it without a callback).
 std::vector<std::size_t> probes(const DiscreteCurve& d, const CurveModel& model, std::size_t u) {
   const std::size_t n = d.r.size() - 1;
   const auto& uses = model.curve(d.curve).uses;
-  const CurveSupport& first = model.support(uses.front());
+  const CurveUse& owner = owner_of(d, model);
+  const CurveSupport& first = model.support(owner);
   const CurveSupport& other = model.support(uses[u]);
   std::vector<std::size_t> chosen{n / 4, n / 2, n - n / 4};
   double worst = -1;
   std::size_t where = n / 2;
   for (std::size_t k = 1; k < n; ++k) {
-    const double r = uses[u].reversed ? 1 - d.r[k] : d.r[k];
-    const double apart =
-        norm(first.point_at_arc(d.r[k] * first.length()) - other.point_at_arc(r * other.length())) / d.size[k];
+    const auto place = [&](const CurveUse& use, const CurveSupport& support) {
+      return support.point_at_arc((use.reversed ? 1 - d.r[k] : d.r[k]) * support.length());
+    };
+    const double apart = norm(place(owner, first) - place(uses[u], other)) / d.size[k];
     if (apart > worst) {
       worst = apart;
       where = k;
@@ -110,8 +117,8 @@ void place_in_space(DiscreteCurve& d, const CurveModel& model) {
   const std::size_t inner = d.r.size() - 2;
   if (inner == 0) return;
   std::vector<SurfaceJet> jets(inner);
-  model.cad.surface(model.face_ref(model.curve(d.curve).uses.front()), want_position,
-                    {d.uv_of_use.front().data() + 1, inner}, jets);
+  model.cad.surface(model.face_ref(owner_of(d, model)), want_position,
+                    {d.uv_of_use[static_cast<std::size_t>(d.owner)].data() + 1, inner}, jets);
   for (std::size_t k = 0; k < inner; ++k) d.xyz[k + 1] = jets[k].s;
 }
 
@@ -140,17 +147,32 @@ std::vector<double> fractions(const DiscreteCurve& d, const Curve& curve, double
   return cuts;
 }
 
-/// Images of all vertices in all uses, and those inside in space.
-void carry(DiscreteCurve& d, const CurveModel& model, double tolerance) {
+/// Prescribed parameters as shares of the first use's length, as far as supports know them.
+std::vector<double> fractions(const CurveModel& model, const CurvePrescription& told, const Curve& curve) {
+  const CurveUse& use = curve.uses[static_cast<std::size_t>(told.use)];
+  const CurveSupport& support = model.support(use);
+  std::vector<double> r;
+  for (const double t : told.t) {
+    const double share = support.arc_at_t(t) / support.length();
+    r.push_back(use.reversed ? 1 - share : share);
+  }
+  r.front() = 0;
+  r.back() = 1;
+  return r;
+}
+
+/// Images of all vertices in all uses, and those inside in space. `told`: the owner's parameters, where they are known.
+void carry(DiscreteCurve& d, const CurveModel& model, double tolerance, const std::vector<double>& told = {}) {
   const std::vector<CurveUse>& uses = model.curve(d.curve).uses;
   carry_ends(d, model);
   for (std::size_t u = 0; u < uses.size(); ++u) {
-    for (std::size_t k = 1; k + 1 < d.r.size(); ++k) {
-      carry_vertex(d, model, u, k, parameter_at(model, uses[u], d.r[k]));
-    }
+    const bool known = !told.empty() && static_cast<int>(u) == d.owner;
+    for (std::size_t k = 1; k + 1 < d.r.size(); ++k)
+      carry_vertex(d, model, u, k, known ? told[k] : parameter_at(model, uses[u], d.r[k]));
   }
   place_in_space(d, model);
-  for (std::size_t u = 1; u < uses.size(); ++u) check_use(d, model, u, tolerance);
+  for (std::size_t u = 0; u < uses.size(); ++u)
+    if (static_cast<int>(u) != d.owner) check_use(d, model, u, tolerance);
 }
 
 }  // namespace
@@ -162,17 +184,23 @@ DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& ru
   d.curve = curve;
   d.indivisible = c.degenerate || !(length > 0);
   d.sizes = options.known != nullptr ? *options.known : sample_sizes(model, curve, rules, options);
-  d.r = d.indivisible ? std::vector<double>{0, 1} : fractions(d, c, length);
+  const CurvePrescription told = prescription_of(model, curve);
+  d.prescribed = told.use >= 0;
+  d.owner = std::max(told.use, 0);
+  if (d.prescribed)
+    d.r = fractions(model, told, c);
+  else
+    d.r = d.indivisible ? std::vector<double>{0, 1} : fractions(d, c, length);
   fill_sizes(d, c, rules, options.known == nullptr);
   d.xyz.resize(d.r.size());
   d.xyz.front() = corner(model, c.end1);
   d.xyz.back() = corner(model, c.end2);
-  carry(d, model, options.carry_tolerance);
+  carry(d, model, options.carry_tolerance, told.t);
   return d;
 }
 
 void place_vertices(DiscreteCurve& d, const std::vector<double>& inside, const CurveModel& model) {
-  if (d.indivisible) return;
+  if (d.indivisible || d.prescribed) return;
   const auto keep_ends = [&](auto& values) {
     const auto first = values.front(), last = values.back();
     values.assign(inside.size() + 2, first);
@@ -192,7 +220,7 @@ void place_vertices(DiscreteCurve& d, const std::vector<double>& inside, const C
 }
 
 bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model, double share) {
-  if (d.indivisible) return false;
+  if (d.indivisible || d.prescribed) return false;
   const auto k = static_cast<std::size_t>(segment);
   const auto& uses = model.curve(d.curve).uses;
   const bool halved = share == 0.5;  // the same sums as ever
@@ -220,9 +248,10 @@ bool split_segment(DiscreteCurve& d, int segment, const CurveModel& model, doubl
     d.uv_of_use[u].insert(d.uv_of_use[u].begin() + at, Vec2{});
     carry_vertex(d, model, u, k + 1, t[u]);
   }
-  d.xyz[k + 1] = surface_at(model.cad, model.face_ref(uses.front()), want_position, d.uv_of_use.front()[k + 1]).s;
-  for (std::size_t u = 1; u < uses.size(); ++u) {
-    if (d.refined[u] != 0) refine_vertex(d, model, u, k + 1);
+  const auto owner = static_cast<std::size_t>(d.owner);
+  d.xyz[k + 1] = surface_at(model.cad, model.face_ref(uses[owner]), want_position, d.uv_of_use[owner][k + 1]).s;
+  for (std::size_t u = 0; u < uses.size(); ++u) {
+    if (u != owner && d.refined[u] != 0) refine_vertex(d, model, u, k + 1);
   }
   return true;
 }

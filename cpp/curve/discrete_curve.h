@@ -12,8 +12,10 @@ namespace carreau {
 struct DiscreteCurve {
   int curve = 0;             ///< index in Topology::curves
   bool indivisible = false;  ///< one point of space: a single segment that is never split (HDR sec. 4.5.4)
+  bool prescribed = false;   ///< its edges are told (FaceCurve::edges): they are never split or moved
+  int owner = 0;             ///< the use on whose surface the vertices are; not 0 only where its edges are prescribed
   std::vector<double> r;     ///< fractions of the length in space, r.front() = 0, r.back() = 1
-  std::vector<Vec3> xyz;     ///< on the first use's surface; the two ends are the corner points
+  std::vector<Vec3> xyz;     ///< on the owner's surface; the two ends are the corner points
   /// [use][vertex]: descending where the use is reversed.
   std::vector<std::vector<double>> t_of_use;
   std::vector<std::vector<Vec2>> uv_of_use;  ///< [use][vertex], exact values of curv0
@@ -33,12 +35,13 @@ struct DiscreteCurve {
 /// space exactly one. Throws what the host throws, LimitError.
 DiscreteCurve discretise_curve(const CurveModel& model, int curve, SizeRules& rules, const CurveOptions& options = {});
 
-/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. False, and nothing done, when the
-/// curve is one point of space or the segment cannot be divided in floating-point numbers.
+/// Cuts segment k at `share` of its length in space, in every use: the new vertex is k + 1. False, and nothing done,
+/// when the curve is one point of space, its edges are prescribed, or the segment cannot be divided in floating-point
+/// numbers.
 bool split_segment(DiscreteCurve& discrete, int k, const CurveModel& model, double share = 0.5);
 
 /// Puts the vertices inside a curve at other fractions of its length, ascending, strictly between 0 and 1, in every
-/// use. Nothing is done to a curve that is one point of space.
+/// use. Nothing is done to a curve that is one point of space or whose edges are prescribed.
 void place_vertices(DiscreteCurve& discrete, const std::vector<double>& inside, const CurveModel& model);
 
 }  // namespace carreau

@@ -44,6 +44,7 @@ class FieldWriter {
     for (std::size_t f = 0; f < run.model.faces.size(); ++f) {
       first_triangle_.push_back(triangle);
       if (const FaceMesh* mesh = mesh_of(f)) triangle += static_cast<std::uint32_t>(mesh->triangles.size());
+      if (run.model.faces[f].is_wire()) continue;
       if (options.face == 0 || run.model.faces[f].ref == options.face) faces_.push_back(f);
     }
     if (faces_.empty())

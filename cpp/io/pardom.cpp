@@ -19,6 +19,9 @@ struct Item {
   int surface = 0, curve = 0, point = 0;
 };
 
+/// Begins a comment that only we read: the layout has no word for parts of curves.
+constexpr std::string_view part_words = "! part of curve";
+
 std::string described(const Item& item) {
   std::string text = item.name;
   if (item.curve > 0) text += " of curve " + std::to_string(item.curve);
@@ -55,6 +58,7 @@ class PardomReader {
   int count(const Item& item, const char* things, std::size_t words_each);
   Face face(int rank);
   FaceCurve curve(int surface, int rank);
+  void read_part(FaceCurve& curve, int surface, int rank);
   FacePoint point(int surface, int rank);
 
   std::string_view text_;
@@ -131,6 +135,20 @@ int PardomReader::count(const Item& item, const char* things, std::size_t words_
   return n;
 }
 
+/// What pardom_text() says behind a curve that is a part of the host's: its rank there, and the ends of the part.
+void PardomReader::read_part(FaceCurve& curve, int surface, int rank) {
+  const std::size_t comment = text_.find_first_not_of(" \t", pos_);
+  if (comment == text_.npos || !text_.substr(comment).starts_with(part_words)) return;
+  pos_ = comment + part_words.size();
+  const std::size_t end = std::min(text_.find_first_of("\r\n", pos_), text_.size());
+  curve.part_of = integer({"the rank of the whole curve", surface, rank});
+  curve.part_a = real({"the start of the part", surface, rank});
+  curve.part_b = real({"the end of the part", surface, rank});
+  if (pos_ > end || curve.part_of < 1 || !(curve.part_a < curve.part_b))
+    fail(described({"the part", surface, rank}) +
+         " should be the rank of a curve, from 1, and two parameters, the smaller first, on one line");
+}
+
 FaceCurve PardomReader::curve(int surface, int rank) {
   FaceCurve curve;
   const int type = integer({"typc", surface, rank});
@@ -141,6 +159,7 @@ FaceCurve PardomReader::curve(int surface, int rank) {
   curve.ref = integer({"refc", surface, rank});
   curve.end1 = integer({"refp1", surface, rank});
   curve.end2 = integer({"refp2", surface, rank});
+  read_part(curve, surface, rank);
   return curve;
 }
 
@@ -161,9 +180,10 @@ Face PardomReader::face(int rank) {
   const int orientation_line = line_;
   const int nc = count({"nc", rank}, "curves", 4);
   if (nc == 0) fail("surface " + std::to_string(rank) + " has no curve: nc is 0");
-  if (const std::int64_t ic = std::abs(std::int64_t{face.orientation}); ic < 1 || ic > nc)
+  if (const std::int64_t ic = std::abs(std::int64_t{face.orientation}); ic > nc)
     fail("orientation of surface " + std::to_string(rank) + " is " + std::to_string(face.orientation) +
-             ", but its absolute value should be the rank of a curve, from 1 to " + std::to_string(nc),
+             ", but its absolute value should be the rank of a curve, from 1 to " + std::to_string(nc) +
+             ", or 0 for a wire",
          orientation_line);
   for (int i = 1; i <= nc; ++i) face.curves.push_back(curve(rank, i));
   const int np = count({"np", rank}, "points", 3);
@@ -195,6 +215,16 @@ Model read_pardom(const std::string& path) {
   return read_pardom_text(read_file(path, limit), path);
 }
 
+namespace {
+
+std::string part_comment(const FaceCurve& curve) {
+  if (curve.part_of == 0) return {};
+  return " " + std::string(part_words) + " " + std::to_string(curve.part_of) + " " + format_number(curve.part_a) + " " +
+         format_number(curve.part_b);
+}
+
+}  // namespace
+
 std::string pardom_text(const Model& model) {
   std::string text;
   const auto line = [&text](std::initializer_list<int> numbers, const char* comment) {
@@ -216,8 +246,9 @@ std::string pardom_text(const Model& model) {
     line({size(face.curves)}, " ! nc (number of curves)");
     const char* comment = " ! typc refc refp1 refp2";
     for (const FaceCurve& curve : face.curves) {
-      line({static_cast<int>(curve.type), curve.ref, curve.end1, curve.end2}, comment);
-      comment = "";
+      const std::string part = part_comment(curve);
+      line({static_cast<int>(curve.type), curve.ref, curve.end1, curve.end2}, part.empty() ? comment : part.c_str());
+      if (part.empty()) comment = "";
     }
     line({size(face.points)}, " ! np (number of internal points)");
     comment = " ! refp u v\n";

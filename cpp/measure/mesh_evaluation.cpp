@@ -12,11 +12,11 @@
 #include "measure/degenerate_sides.h"
 #include "measure/element_evaluation.h"
 #include "measure/forced.h"
-#include "measure/gauss.h"
 #include "measure/thresholds.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
 #include "metric/field_length.h"
+#include "support/gauss.h"
 #include "support/infinity.h"
 
 namespace carreau {

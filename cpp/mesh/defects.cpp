@@ -129,7 +129,7 @@ class DefectFinder {
     for (const FaceMesh& face : mesh_.faces)
       for (const auto& t : face.triangles)
         for (const std::int32_t v : t) used[face.vertex[v]] = 1;
-    // A curve of faces that failed keeps its vertices: they are what a later attempt starts from.
+    // A curve of faces that failed keeps its vertices: they are what a later attempt starts from. Wires have edges.
     for (const CurveMesh& curve : mesh_.curves) {
       const bool lost = std::any_of(curve.uses.begin(), curve.uses.end(),
                                     [this](const CurveMeshUse& u) { return !meshed(mesh_.faces[u.face]); });

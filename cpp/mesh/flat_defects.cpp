@@ -68,7 +68,7 @@ class FlatDefectFinder {
   }
 
   void check_triangles() {
-    if (mesh_.triangles.empty()) add("there is no triangle");
+    if (mesh_.triangles.empty() && mesh_.edges.empty()) add("there is no triangle");
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       const auto [a, b, c] = mesh_.triangles[t];
       if (a == b || b == c || c == a)
@@ -99,6 +99,9 @@ class FlatDefectFinder {
     for (const Cell& cell : mesh_.cells)
       for (const std::int32_t v : cell.nodes)
         if (v >= 0 && std::size_t(v) < used.size()) used[v] = true;
+    for (const Key& edge : mesh_.edges) used[edge[0]] = used[edge[1]] = true;  // curves of space may have no triangle
+    for (const std::int32_t v : mesh_.edge_mids)
+      if (v >= 0 && std::size_t(v) < used.size()) used[v] = true;
     for (std::size_t v = 0; v < used.size(); ++v)
       if (!used[v]) add("vertex " + std::to_string(v) + ": it belongs to no triangle");
   }

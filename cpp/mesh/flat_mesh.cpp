@@ -29,6 +29,7 @@ int weight(FaceStatus status) {
 std::vector<WholeFace> whole_faces(const SurfaceMesh& mesh) {
   std::vector<WholeFace> all;
   for (const FaceMesh& face : mesh.faces) {
+    if (face.status == FaceStatus::wire) continue;
     if (face.part_of == 0 || all.empty() || all.back().face.ref != face.part_of) {
       all.push_back({flat_face(face), face.triangles.size()});
       continue;
@@ -66,9 +67,9 @@ FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges) {
     flat.triangle_refs.resize(flat.triangles.size(), face.shown_ref());
   }
   for (WholeFace& whole : whole_faces(mesh)) flat.faces.push_back(std::move(whole.face));
-  if (!with_edges) return flat;
-  flat.edges.reserve(mesh.edge_count());
+  flat.edges.reserve(with_edges ? mesh.edge_count() : mesh.loose_edge_count());
   for (const CurveMesh& curve : mesh.curves) {
+    if (!with_edges && !curve.loose) continue;
     for (std::size_t i = 1; i < curve.vertices.size(); ++i)
       flat.edges.push_back({curve.vertices[i - 1], curve.vertices[i]});
     for (const std::int32_t mid : curve.mid)

@@ -58,10 +58,11 @@ struct WholeFace {
   std::size_t triangles = 0;  ///< of all parts
 };
 
-/// In order; parts of one face are one.
+/// In order; parts of one face are one, and wires are none.
 std::vector<WholeFace> whole_faces(const SurfaceMesh& mesh);
 
-/// The whole mesh in space, faces in order, parts of one face as one; with_edges: the edges of the curves too.
+/// The whole mesh in space, faces in order, parts of one face as one; with_edges: the edges of all curves too, else of
+/// loose ones alone, which no triangle shows.
 FlatMesh flatten(const SurfaceMesh& mesh, bool with_edges);
 
 }  // namespace carreau

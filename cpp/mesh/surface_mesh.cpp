@@ -21,6 +21,13 @@ bool SurfaceMesh::cells_are_not_triangles() const noexcept {
          std::any_of(faces.begin(), faces.end(), [](const FaceMesh& face) { return face.quads > 0; });
 }
 
+std::size_t SurfaceMesh::loose_edge_count() const noexcept {
+  std::size_t count = 0;
+  for (const CurveMesh& curve : curves)
+    if (curve.loose && !curve.vertices.empty()) count += curve.vertices.size() - 1;
+  return count;
+}
+
 std::size_t SurfaceMesh::edge_count() const noexcept {
   std::size_t count = 0;
   for (const CurveMesh& curve : curves)

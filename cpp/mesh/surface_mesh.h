@@ -13,7 +13,8 @@
 namespace carreau {
 
 /// Status of a face. Values are part of the C ABI. `collapsed`: a narrow face that has vanished between its neighbours.
-enum class FaceStatus : int { not_meshed = 0, meshed = 1, mended = 2, failed = 3, collapsed = 4 };
+/// `wire`: curves of space without area, which results do not list among faces.
+enum class FaceStatus : int { not_meshed = 0, meshed = 1, mended = 2, failed = 3, collapsed = 4, wire = 5 };
 
 /// The part of the mesh that lies on one face. Local vertices carry (u, v): a vertex of space on a seam or at a pole
 /// has several.
@@ -66,6 +67,7 @@ struct CurveMesh {
   std::vector<CurveMeshUse> uses;
   std::vector<std::int32_t> mid = {};  ///< node of each edge, index in SurfaceMesh::mid_vertices; empty: first order
   int part_of = 0;  ///< reference of the curve that results speak of in its place; 0: none
+  bool loose = false;  ///< of wires alone: no triangle has its edges
 
   [[nodiscard]] int shown_ref() const noexcept { return part_of != 0 ? part_of : ref; }
 };
@@ -81,7 +83,8 @@ struct SurfaceMesh {
   bool independent = false;
 
   [[nodiscard]] std::size_t triangle_count() const noexcept;
-  [[nodiscard]] std::size_t edge_count() const noexcept;
+  [[nodiscard]] std::size_t edge_count() const noexcept;        ///< of all curves
+  [[nodiscard]] std::size_t loose_edge_count() const noexcept;  ///< of those that are loose
   [[nodiscard]] std::size_t cell_count() const noexcept;
   /// Some elements are quadrilaterals or of second order.
   [[nodiscard]] bool cells_are_not_triangles() const noexcept;

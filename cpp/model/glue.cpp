@@ -18,8 +18,8 @@ namespace carreau {
 
 namespace {
 
-// Tolerance inside one face against tolerance between faces: HDR sec. 4.5.1 recommends 1e-5 and 1e-2. The opposite
-// sides of a narrow face must not become one; a seam is exact.
+// Tolerance inside one face (eps_glue_face) against tolerance between faces: HDR sec. 4.5.1 recommends eps_1 = 1e-5 and
+// eps_2 = 1e-2. The opposite sides of a narrow face must not become one; a seam is exact.
 constexpr double inside_share = 1e-3;
 // ... as far as a file says it: numbers of ten digits, as a share of the model's diagonal.
 constexpr double rounding_of_files = 1e-9;
@@ -36,8 +36,8 @@ struct Entry {
 
 class Gluer {
  public:
-  Gluer(const Model& model, const CurveTraces& traces, double eps, double eps_open, std::vector<std::string>* remarks,
-        GlueReport* report)
+  Gluer(const Model& model, const CurveTraces& traces, double eps, double eps_open, double eps_face,
+        std::vector<std::string>* remarks, GlueReport* report)
       : model_(model),
         eps_(eps),
         eps_open_(eps_open),
@@ -47,7 +47,9 @@ class Gluer {
         known_(!needs_gluing(model)),
         points_(2 * entries_.size()),
         curves_(entries_.size()),
-        eps_inside_(std::max(inside_share * eps, std::min(eps, rounding_of_files * traces_diagonal(traces)))) {
+        eps_inside_(eps_face > 0
+                        ? eps_face
+                        : std::max(inside_share * eps, std::min(eps, rounding_of_files * traces_diagonal(traces)))) {
     const std::vector<std::vector<char>> free = curves_to_glue(model);
     for (const Entry& entry : entries_) takes_part_.push_back(free[entry.face][entry.curve]);
   }
@@ -360,13 +362,15 @@ std::vector<std::vector<char>> curves_to_glue(const Model& model) {
 }
 
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks,
-           GlueReport* report, double eps_open) {
+           GlueReport* report, double eps_open, double eps_face) {
   if (!(eps_glue > 0) || !std::isfinite(eps_glue))
     throw InvalidArgument("eps_glue must be positive to find references; it is " + format_number(eps_glue));
   if (!(eps_open >= 0) || !std::isfinite(eps_open))
     throw InvalidArgument("eps_glue_open must not be negative; it is " + format_number(eps_open));
+  if (!(eps_face >= 0) || !std::isfinite(eps_face))
+    throw InvalidArgument("eps_glue_face must not be negative; it is " + format_number(eps_face));
   check_traces(model, traces);
-  return Gluer(model, traces, eps_glue, eps_open, remarks, report).run();
+  return Gluer(model, traces, eps_glue, eps_open, eps_face, remarks, report).run();
 }
 
 }  // namespace carreau

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,20 @@ struct FacePoint {
 };
 
 enum class CurveType : int { boundary = 1, internal = 2 };
+
+/// How the lengths of prescribed edges follow one another. Values are part of the C ABI.
+enum class Progression : int { equal = 0, arithmetic = 1, geometric = 2, given = 3 };
+
+/// The edges of a curve, told in place of sizes (HDR sec. 2.1, 2.3). Lengths are those of the curve's arcs in space, in
+/// the direction of the parameter t of the FaceCurve that they are prescribed on.
+struct PrescribedEdges {
+  Progression progression = Progression::equal;
+  int edges = 1;          ///< their number, not of `given`
+  double ratio = 1;       ///< > 0: of the last length to the first (arithmetic), of each to the one before (geometric)
+  std::vector<double> t;  ///< of `given`: the parameters of the vertices inside, strictly increasing; whole curve
+
+  friend bool operator==(const PrescribedEdges&, const PrescribedEdges&) = default;
+};
 
 /// A curve as one face sees it; its rank `ic` (from 1) is its index in Face::curves + 1.
 /// Gluing cuts curves where curves of other faces end (HDR sec. 4.5.1): the first part of a curve keeps its rank, the
@@ -36,12 +51,14 @@ struct FaceCurve {
   double part_a = 0, part_b = 0;
   /// Reference of the curve that results speak of in place of this one, which is a part of it; 0: none.
   int shown_as = 0;
+  /// Its edges, whatever sizes say; null: by sizes.
+  std::shared_ptr<const PrescribedEdges> edges = {};
 };
 
 struct Face {
   int ref = 0;
   /// |orientation| is the rank of a boundary curve; the surface lies on its left when positive, on its right when
-  /// negative.
+  /// negative. 0: a wire, curves of space without area, which only its curves are asked on.
   int orientation = 1;
   std::vector<FaceCurve> curves;
   std::vector<FacePoint> points;
@@ -54,6 +71,8 @@ struct Face {
   int geometry = 0;
   /// Why the face is not meshed: nothing is asked of its geometry, and its curves may break any rule; empty: it is.
   std::string left_out = {};
+
+  [[nodiscard]] bool is_wire() const noexcept { return orientation == 0; }
 };
 
 /// The rank by which the host knows a curve (index in Face::curves).

@@ -24,7 +24,10 @@ class ModelChecker {
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       check_face(f);
       if (!model_.faces[f].left_out.empty() || model_.discrete) continue;
-      check_orientation(f);
+      if (model_.faces[f].is_wire())
+        check_wire(f);
+      else
+        check_orientation(f);
       const bool gluing = gluing_[static_cast<std::size_t>(model_.faces[f].geometry)];
       for (std::size_t c = 0; c < model_.faces[f].curves.size(); ++c) {
         check_type(f, c);
@@ -76,6 +79,18 @@ class ModelChecker {
     else if (const FaceCurve& curve = face.curves[static_cast<std::size_t>(ic) - 1]; curve.type != CurveType::boundary)
       add(face_place(f),
           name + " names curve " + std::to_string(ic) + of_line(curve.line) + ", which is not of type 1 (boundary)");
+  }
+
+  // Curves of space: nothing lies beside them.
+  void check_wire(std::size_t f) {
+    const Face& face = model_.faces[f];
+    if (face.curves.empty()) add(face_place(f), "the wire (orientation 0) has no curve");
+    if (!face.points.empty())
+      add(face_place(f),
+          "a wire (orientation 0) has no area that points could lie in; its points are ends of its curves");
+    for (std::size_t c = 0; c < face.curves.size(); ++c)
+      if (face.curves[c].type == CurveType::boundary)
+        add(place_of(model_, f, c), "a wire (orientation 0) bounds nothing: its curves have type 2 (internal), not 1");
   }
 
   void check_type(std::size_t f, std::size_t c) {

@@ -86,21 +86,21 @@ struct GlueReport {
 /// Gives references to all curves and points by comparing them in space (RT-0232 sec. 3.2, HDR sec. 4.5.1): points
 /// nearer than eps_glue (model length) are one; curves are one when their ends are and their two-sided Hausdorff
 /// distance is below eps_glue plus what their traces may be off the curves. Two sides of one face become a seam when
-/// they agree a thousand times better (HDR's two tolerances), as far as the traces can tell. A curve that lies within
-/// eps_glue of a point keeps a reference of its own; its ends become one. Internal points keep their references. Ends
-/// are numbered 2k - 1 and 2k for the k-th curve of the model, curves k; what is merged takes the smallest number (the
-/// numbering of RT-0232 sec. 6.1, HDR fig. 4.18). `remarks` (may be null) receives a sentence for each curve whose ends
-/// are merged although they differ by more than rounding; `report` (may be null) what was found. Curves that overlap in
-/// part only are one when they have been cut first (model/splits.h). References that the model has are kept: only what
-/// curves_to_glue() tells is compared, and what becomes one takes the reference of its first curve or end. Throws
-/// InvalidArgument when eps_glue is not positive or traces are missing.
+/// they agree within eps_face (HDR's eps_1; 0: a thousand times better than eps_glue), as far as the traces can tell. A
+/// curve that lies within eps_glue of a point keeps a reference of its own; its ends become one. Internal points keep
+/// their references. Ends are numbered 2k - 1 and 2k for the k-th curve of the model, curves k; what is merged takes
+/// the smallest number (the numbering of RT-0232 sec. 6.1, HDR fig. 4.18). `remarks` (may be null) receives a sentence
+/// for each curve whose ends are merged although they differ by more than rounding; `report` (may be null) what was
+/// found. Curves that overlap in part only are one when they have been cut first (model/splits.h). References that the
+/// model has are kept: only what curves_to_glue() tells is compared, and what becomes one takes the reference of its
+/// first curve or end. Throws InvalidArgument when eps_glue is not positive or traces are missing.
 ///
 /// With `eps_open` (model length) above eps_glue, curves that are open then are one with the nearest open curve of
 /// another face whose ends and whose two-sided distance are within eps_open and a tenth of the lengths of both; their
 /// ends become one, unless those of some curve would become one point (pieces that such a gap has cut off may). Short
 /// curves elsewhere limit eps_glue, not this.
 Model glue(const Model& model, const CurveTraces& traces, double eps_glue, std::vector<std::string>* remarks = nullptr,
-           GlueReport* report = nullptr, double eps_open = 0);
+           GlueReport* report = nullptr, double eps_open = 0, double eps_face = 0);
 
 /// Marks curves shorter than eps_collapse (model length) as collapsed, in all faces, and gives their two ends one
 /// reference, the smallest (RT-0232 sec. 3.3). The first curve of a reference decides. Internal curves are kept, and so

@@ -39,6 +39,7 @@ std::vector<CurveEdge> edges_of_curves(const SurfaceMesh& mesh) {
 struct FlatSources {
   std::vector<std::int32_t> vertex;
   std::vector<std::int64_t> triangle;
+  bool whole = false;  // all of the surface mesh, in its order
 };
 
 // Appends one face, in space or in its parameter plane, with its own vertices only.
@@ -78,7 +79,7 @@ class FaceAppender {
   }
 
   FlatMesh take() { return std::move(flat_); }
-  [[nodiscard]] FlatSources sources() const { return {source_, triangle_source_}; }
+  [[nodiscard]] FlatSources sources() const { return {source_, triangle_source_, false}; }
 
  private:
   [[nodiscard]] FlatFace whole_of(int ref) const {
@@ -150,7 +151,7 @@ class FaceAppender {
 std::vector<std::size_t> faces_of_reference(const SurfaceMesh& mesh, int ref) {
   std::vector<std::size_t> found;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    if (mesh.faces[f].shown_ref() == ref) found.push_back(f);
+    if (mesh.faces[f].shown_ref() == ref && mesh.faces[f].status != FaceStatus::wire) found.push_back(f);
   if (found.empty())
     throw InvalidArgument("export: no face has the reference " + std::to_string(ref) + " (parameter refs)");
   return found;
@@ -266,6 +267,13 @@ std::vector<FlatEdge> add_all_edges(FlatMesh& flat, const SurfaceMesh& mesh, con
   flat.edges.clear();
   flat.edge_refs.clear();
   flat.edge_mids.clear();
+  for (const CurveMesh& curve : mesh.curves) {
+    if (!curve.loose || !sources.whole) continue;
+    for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
+      flat.edges.push_back({curve.vertices[i - 1], curve.vertices[i]});
+      flat.edge_refs.push_back(curve.shown_ref());
+    }
+  }
   for (const FlatEdge& each : all) {
     const std::int32_t segment = delivered.edges.segment[each.edge];
     flat.edges.push_back(each.vertices);
@@ -294,15 +302,17 @@ void add_evaluation(FlatMesh& flat, const ExportSource& source, const FlatSource
     if (row.entity == EvaluationEntity::triangle)
       for (const std::int64_t t : sources.triangle)
         field.values.push_back(t < 0 ? std::numeric_limits<double>::quiet_NaN() : values[t]);
-    if (row.entity == EvaluationEntity::edge)
+    if (row.entity == EvaluationEntity::edge) {
+      field.edge_values.assign(flat.edges.size() - edges.size(), std::numeric_limits<double>::quiet_NaN());  // loose
       for (const FlatEdge& each : edges) field.edge_values.push_back(values[each.edge]);
+    }
     flat.fields.push_back(std::move(field));
   }
 }
 
 FlatSources all_of(const SurfaceMesh& mesh) {
-  FlatSources sources{std::vector<std::int32_t>(mesh.vertices.size()),
-                      std::vector<std::int64_t>(mesh.triangle_count())};
+  FlatSources sources{std::vector<std::int32_t>(mesh.vertices.size()), std::vector<std::int64_t>(mesh.triangle_count()),
+                      true};
   std::iota(sources.vertex.begin(), sources.vertex.end(), 0);
   sources.vertex.resize(mesh.vertices.size() + mesh.mid_vertices.size(), -1);
   std::iota(sources.triangle.begin(), sources.triangle.end(), 0);

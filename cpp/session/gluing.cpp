@@ -99,7 +99,7 @@ Model find_references(const Model& model, ModelSupports& supports, Cad& cad, con
   for (int round = 0; round < most_rounds && cut_once(cut, supports, cad, options, monitor); ++round) {
   }
   report = {};
-  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open);
+  Model glued = glue(cut, traces_of(supports), options.eps, &remarks, &report, options.eps_open, options.eps_face);
   tell(glued, report, count_curves(cut) - count_curves(model), monitor);
   return glued;
 }
@@ -112,7 +112,7 @@ void find_references_of_geometries(Model& model, ModelSupports& supports, Cad& c
     ModelSupports own{.of_face = {}, .diag = supports.diag};
     for (const std::size_t face : part.faces) own.of_face.push_back(std::move(supports.of_face[face]));
     GlueReport found;
-    const Gluing each{.eps = options.eps, .eps_open = 0, .angle_smo = options.angle_smo};
+    const Gluing each{.eps = options.eps, .eps_open = 0, .eps_face = options.eps_face, .angle_smo = options.angle_smo};
     part.model = find_references(part.model, own, cad, each, remarks, found, monitor);
     put_back(part, geometry, model);
     for (std::size_t f = 0; f < part.faces.size(); ++f) supports.of_face[part.faces[f]] = std::move(own.of_face[f]);
@@ -141,6 +141,9 @@ std::vector<Interface> list_interfaces(const Model& model, const Topology& topol
                     .farthest = place(curve.uses[static_cast<std::size_t>(gaps[c].use)]),
                     .degenerate = curve.degenerate,
                     .gap = gaps[c].gap};
+    entry.loose = std::all_of(curve.uses.begin(), curve.uses.end(), [&](const CurveUse& use) {
+      return model.faces[static_cast<std::size_t>(use.face)].is_wire();
+    });
     for (const CurveUse& use : curve.uses)
       if (model.faces[static_cast<std::size_t>(use.face)].curves[static_cast<std::size_t>(use.curve)].type ==
           CurveType::boundary)
@@ -161,16 +164,18 @@ std::vector<Interface> list_interfaces(const Model& model, const Topology& topol
 }
 
 void tell_interfaces(const std::vector<Interface>& interfaces, Monitor& monitor) {
-  std::size_t open = 0, crowded = 0;
+  std::size_t open = 0, crowded = 0, loose = 0;
   const Interface* widest = nullptr;
   for (const Interface& entry : interfaces) {
     if (entry.degenerate) continue;
     open += entry.boundary && entry.uses == 1 ? 1 : 0;
     crowded += entry.uses > 2 ? 1 : 0;
+    loose += entry.loose ? 1 : 0;
     if (widest == nullptr || entry.gap > widest->gap) widest = &entry;
   }
   std::string sentence =
       count_of(interfaces.size(), "curve", "curves") + " in space, " + std::to_string(open) + " open";
+  if (loose > 0) sentence += ", " + std::to_string(loose) + " of no face";
   if (crowded > 0) sentence += ", " + std::to_string(crowded) + " with more than two uses";
   if (widest != nullptr && widest->gap > 0)
     sentence += "; the widest gap is " + short_number(widest->gap) + ", at curve " + std::to_string(widest->ref) +

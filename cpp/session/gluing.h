@@ -18,6 +18,7 @@ PartCad::Parts parts_of(const Model& model);
 struct Gluing {
   double eps = 0;        ///< eps_glue, model length
   double eps_open = 0;   ///< eps_glue_open, model length; 0: none
+  double eps_face = 0;   ///< eps_glue_face, model length; 0: a thousandth of eps
   double angle_smo = 1;  ///< of supports, degrees
 };
 
@@ -29,6 +30,7 @@ struct Interface {
   bool boundary = false;  ///< on one in a face at least
   bool glued = false;     ///< uses were found to be one by comparing them
   bool degenerate = false;
+  bool loose = false;  ///< of wires alone
   double gap = 0;  ///< model length: of vertices from the surface of `farthest`, or between curves that were glued
 };
 

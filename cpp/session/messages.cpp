@@ -41,10 +41,13 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
   if (const auto n = count(FaceStatus::mended); n > 0) faces += ", " + whole(n) + " of them mended";
   if (const auto n = count(FaceStatus::collapsed); n > 0) faces += ", " + whole(n) + " of them collapsed";
   if (const auto n = count(FaceStatus::failed); n > 0) faces += ", " + whole(n) + " FAILED";
-  monitor.message(Level::summary, faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) +
-                                      " vertices, " + whole(static_cast<std::int64_t>(mesh.triangle_count())) +
-                                      " triangles, " + whole(static_cast<std::int64_t>(mesh.edge_count())) +
-                                      " edges on curves");
+  monitor.message(Level::summary,
+                  faces + ": " + whole(static_cast<std::int64_t>(mesh.vertices.size())) + " vertices, " +
+                      whole(static_cast<std::int64_t>(mesh.triangle_count())) + " triangles, " +
+                      whole(static_cast<std::int64_t>(mesh.edge_count())) + " edges on curves" +
+                      (mesh.loose_edge_count() > 0 ? ", " + whole(static_cast<std::int64_t>(mesh.loose_edge_count())) +
+                                                         " of them on curves of no face"
+                                                   : ""));
   const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
   const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
   // Parts of a micrometre have a diagonal, and slivers a quality.

@@ -86,6 +86,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.eps_ends = parameters.real("eps_ends", diag);
   options.check_close_edges = parameters.integer("CheckCloseEdges");
   options.check_adjacent_edges = parameters.integer("CheckAdjacentEdges");
+  options.adjacent_ratio = parameters.real("adjacent_ratio");
   options.check_well_defined = parameters.integer("CheckWellDefined");
   options.coef_rectangle = parameters.real("CoefRectangle");
   options.narrow_faces = narrow_faces_of(parameters.text("narrow_faces"));

@@ -43,22 +43,14 @@ struct Meshed {
   CompositeOptions options;
 };
 
-// x.pardom.new (RT-0232 sec. 3.2). Its layout knows whole curves only.
+// x.pardom.new (RT-0232 sec. 3.2).
 void write_glued(const Model& model, std::vector<std::string>& remarks) {
-  const bool has_parts = std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) {
-    return std::any_of(face.curves.begin(), face.curves.end(), [](const FaceCurve& c) { return c.part_of != 0; });
-  });
   const bool whole =
       std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.left_out.empty(); });
-  if (!whole) {
-    remarks.push_back(model.source + ".new is not written: a face was left out");
-  } else if (has_parts) {
-    remarks.push_back(model.source +
-                      ".new is not written: curves were cut where others end, which its layout cannot "
-                      "say; keep the file without references");
-  } else {
+  if (whole)
     write_file(model.source + ".new", pardom_text(model));
-  }
+  else
+    remarks.push_back(model.source + ".new is not written: a face was left out");
 }
 
 }  // namespace
@@ -102,6 +94,7 @@ struct Session::State {
     const Gluing options{.eps = parameters.real("eps_glue", supports.diag),
                          // Farther apart, curves of one reference are an error of the model (build_topology).
                          .eps_open = std::min(parameters.real("eps_glue_open"), supports.diag / 100),
+                         .eps_face = parameters.real("eps_glue_face"),
                          .angle_smo = std::min(parameters.real("angle_smo"), parameters.real("angle_mesh"))};
     GlueReport found;
     bool any = is_mixed(known) && !geometries_to_glue(known).empty();
@@ -299,7 +292,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 
   CompositeResult result = mesh_composite(model, topology, supports, cad, options, making);
-  if (result.mesh.triangle_count() == 0) {
+  if (result.mesh.triangle_count() == 0 && result.mesh.loose_edge_count() == 0) {
     const auto failed = std::find_if(result.mesh.faces.begin(), result.mesh.faces.end(),
                                      [](const FaceMesh& face) { return !face.why.empty(); });
     throw DomainError("no face could be meshed: " +

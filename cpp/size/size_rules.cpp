@@ -355,6 +355,7 @@ std::optional<double> SizeRules::radius_in_face(int face, const Vec2& uv, const 
 /// Radius of the surface beside a curve; at a pole, that of a point a little way towards the curve's middle.
 /// `jet` is the surface's at t when known, else nullptr.
 std::optional<double> SizeRules::radius_beside(const CurveUse& use, double t, const SurfaceJet* jet) {
+  if (model_.faces[static_cast<std::size_t>(use.face)].is_wire()) return {};  // there is no surface
   const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
   const auto uv_at = [&](double at) { return cad_.curve(ref, use.curve + 1, want_position, at).c; };
   if (const auto radius = radius_in_face(use.face, uv_at(t), jet)) return radius;

@@ -62,9 +62,31 @@ void place_on_curves(CompositeRun& run) {
     if (chain.size() < 2 || chain.size() != curve.xyz.size()) continue;
     const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) { return mesh.vertices[v] == xyz; };
     if (!std::equal(chain.begin(), chain.end(), curve.xyz.begin(), stays)) continue;
-    const CurveUse& use = run.topology.curves[c].uses.front();
-    run.result.curve_parameters[c] = {run.curve_model.face_ref(use), use.curve + 1, curve.t_of_use.front()};
+    const auto owner = static_cast<std::size_t>(curve.owner);
+    const CurveUse& use = run.topology.curves[c].uses[owner];
+    run.result.curve_parameters[c] = {run.curve_model.face_ref(use), use.curve + 1, curve.t_of_use[owner]};
   }
+}
+
+// Elements that are halved, and faces that vanish, change edges of curves: not without a word where these were told.
+void tell_prescribed(CompositeRun& run) {
+  const SurfaceMesh& mesh = run.result.mesh;
+  for (const DiscreteCurve& curve : run.curves) {
+    if (!curve.prescribed) continue;
+    const std::vector<std::int32_t>& chain = mesh.curves[static_cast<std::size_t>(curve.curve)].vertices;
+    const auto stays = [&mesh](std::int32_t v, const Vec3& xyz) {
+      return mesh.vertices[static_cast<std::size_t>(v)] == xyz;
+    };
+    if (chain.empty() || std::equal(chain.begin(), chain.end(), curve.xyz.begin(), curve.xyz.end(), stays)) continue;
+    run.say(Level::warning, Where{.curve = run.topology.curves[static_cast<std::size_t>(curve.curve)].ref}.prefix() +
+                                "the mesh has " + std::to_string(chain.size() - 1) + " edges on it, and not the " +
+                                std::to_string(curve.segments()) +
+                                " that are prescribed: its elements or narrow faces need others");
+  }
+}
+
+bool any_prescribed(const CompositeRun& run) {
+  return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
 
 }  // namespace
@@ -89,10 +111,13 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   part_crossing_triangles(run, mesh);
   if (options.independent && run.rules.uses_metrics())
     run.say(Level::warning, "the mesh stays as its patches made it: sizes may differ by direction");
+  else if (options.independent && any_prescribed(run))
+    run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
   else if (options.independent)
     free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
   make_elements(run, mesh);
   place_on_curves(run);
+  tell_prescribed(run);
   if (options.cracks) open_cracks(run.result);
   run.result.report.calls = cad.counts();
   run.result.report.seconds_total = seconds_since(start);

@@ -35,20 +35,35 @@ void keep_to_curves(CompositeRun& run) {
   for (DiscreteCurve& curve : run.curves) {
     if (curve.indivisible) continue;
     run.monitor.checkpoint();
-    const CurveUse& use = run.curve_model.curve(curve.curve).uses.front();
+    const auto owner = static_cast<std::size_t>(curve.owner);
+    const CurveUse& use = run.curve_model.curve(curve.curve).uses[owner];
     const auto is_off = [&](int k) {
       const std::array<Vec3, 2> ends{curve.xyz[k], curve.xyz[k + 1]};
       if (norm(ends[1] - ends[0]) <= limits.shortest_divided) return false;
-      const std::vector<double>& t = curve.t_of_use.front();
+      const std::vector<double>& t = curve.t_of_use[owner];
       const EdgeAccuracy found = edge_accuracy(run.cad, run.curve_model.face_ref(use), use.curve + 1, t[k], t[k + 1], ends);
       return found.angle_deg > limits.edge_angle_deg || found.deviation > limits.deviation;
     };
     for (int round = 0; round < most_curve_halvings; ++round) {
       bool any = false;
-      for (int k = curve.segments() - 1; k >= 0; --k) any = (is_off(k) && split_segment(curve, k, run.curve_model)) || any;
+      for (int k = curve.segments() - 1; k >= 0; --k) {
+        const bool off = is_off(k);
+        if (off && curve.prescribed) run.say_kept(curve.curve, "geo_guarantee");
+        any = (off && split_segment(curve, k, run.curve_model)) || any;
+      }
       if (!any) break;
     }
   }
+}
+
+// Matched sides have vertices at the same places, which those of prescribed edges need not be.
+bool keeps_prescribed(CompositeRun& run, int face) {
+  for (const int c : run.topology.curve_of[face]) {
+    if (!run.curves[c].prescribed) continue;
+    run.say_kept(c, "narrow_faces");
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -98,8 +113,10 @@ void find_narrow(CompositeRun& run) {
   if (run.options.narrow_faces == NarrowFaces::keep) return;
   const auto start = std::chrono::steady_clock::now();
   const bool collapse = run.options.narrow_faces == NarrowFaces::collapse;
-  for (NarrowFace& face : find_narrow_faces(run.curve_model, run.curves, run.options.narrow_ratio))
+  for (NarrowFace& face : find_narrow_faces(run.curve_model, run.curves, run.options.narrow_ratio)) {
+    if (keeps_prescribed(run, face.face)) continue;
     if (!face.point || collapse) (face.point ? narrow.points : narrow.strips).push_back(std::move(face));
+  }
   if (collapse) keep_thin_bodies(run.curve_model, run.curves, narrow);
   if (!narrow.empty()) {
     if (collapse) let_end_caps_vanish(run.curve_model, narrow);
@@ -122,6 +139,8 @@ void refine_boundaries(CompositeRun& run) {
     if (sound.size() == run.between.size() || !run.narrow.vanishing.curve.empty()) break;
     run.narrow.strips.swap(sound);
   }
+  for (const int c : run.domains.kept)
+    run.say_kept(c, "the checks of boundaries (edges that cross, are close or uneven)");
   run.result.report.seconds_curves += seconds_since(start);
 }
 

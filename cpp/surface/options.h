@@ -23,6 +23,7 @@ struct CompositeOptions {
   double eps_ends = 0;  ///< model length; shorter curves are reported
   int check_close_edges = 0, check_adjacent_edges = 0, check_well_defined = 0;  ///< iterations
   double coef_rectangle = 0.25;
+  double adjacent_ratio = 2;  ///< >= 2: largest of lengths of adjacent edges that check_adjacent_edges leaves
   /// What becomes of faces narrower than narrow_ratio times the size prescribed on their curves.
   NarrowFaces narrow_faces = NarrowFaces::keep;
   double narrow_ratio = 0.1;

@@ -14,9 +14,12 @@ namespace {
 
 using namespace thresholds::patches;
 
-std::vector<EdgeSizes::Source> short_edges(const FaceDomain& domain, const std::vector<Vec3>& xyz) {
+// Of all curves, or of those whose edges are prescribed.
+std::vector<EdgeSizes::Source> short_edges(const CompositeRun& run, const FaceDomain& domain,
+                                           const std::vector<Vec3>& xyz, bool of_all) {
   std::vector<EdgeSizes::Source> edges;
   for (const PlaneEdge& e : domain.plane.edges) {
+    if (!of_all && (e.curve < 0 || !run.curves[static_cast<std::size_t>(e.curve)].prescribed)) continue;
     if (e.kind == PlaneEdgeKind::degenerate || static_cast<std::size_t>(std::max(e.a, e.b)) >= xyz.size()) continue;
     const double length = norm(xyz[e.b] - xyz[e.a]);
     if (length > 0 && length < short_share * std::min(domain.size[e.a], domain.size[e.b]))
@@ -25,7 +28,8 @@ std::vector<EdgeSizes::Source> short_edges(const FaceDomain& domain, const std::
   return edges;
 }
 
-// Ratio by which sizes grow from triangles that are to be smaller, where no growth is asked for.
+// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked
+// for.
 constexpr double usual_growth = 1.5;
 
 /// The faces at work, and the triangles that they may still have.
@@ -43,7 +47,7 @@ struct PatchJobs {
 EdgeSizes edges_to_grow_from(const CompositeRun& run, std::size_t f, const std::vector<Vec3>& on_curves) {
   const double asked = run.options.edge_gradation;
   std::vector<EdgeSizes::Source> sources;
-  if (asked > 0 && !run.rules.uses_metrics()) sources = short_edges(*run.domains.domain[f], on_curves);
+  if (!run.rules.uses_metrics()) sources = short_edges(run, *run.domains.domain[f], on_curves, asked > 0);
   if (!run.finer.empty()) sources.insert(sources.end(), run.finer[f].begin(), run.finer[f].end());
   return {std::move(sources), slope_of_gradation(asked > 0 ? asked : usual_growth)};
 }
@@ -138,6 +142,7 @@ void start_result(CompositeRun& run) {
     mesh.part_of = face.part_of;
     mesh.name = face.name;
     mesh.rgb = face.rgb;
+    if (face.is_wire()) mesh.status = FaceStatus::wire;
   }
 }
 

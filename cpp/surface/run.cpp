@@ -49,6 +49,11 @@ void CompositeRun::fail(std::size_t face, const std::string& why) {
   say(Level::error, why);
 }
 
+void CompositeRun::say_kept(int curve, const std::string& what_wants_others) {
+  say(Level::warning, Where{.curve = topology.curves[static_cast<std::size_t>(curve)].ref}.prefix() +
+                          "the edges prescribed on it stay, although " + what_wants_others + " would have others");
+}
+
 void CompositeRun::say(Level level, const std::string& what) {
   if (!trying && told.insert(what).second) monitor.message(level, what);
 }

@@ -31,6 +31,8 @@ struct CompositeRun {
   void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
   /// Says something once; nothing while a mesh is tried that may be given up.
   void say(Level level, const std::string& what);
+  /// Says that the prescribed edges of a curve stay although something wants others.
+  void say_kept(int curve, const std::string& what_wants_others);
   /// The face has no mesh; others go on.
   void fail(std::size_t face, const std::string& why);
 

@@ -28,12 +28,17 @@ ModelSupports build_supports(const Model& model, Cad& cad, double angle_smo, int
   };
   run_each(model.faces.size(), !cad.reentrant(), threads, build_or_say_why, monitor);
   Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  for (const auto& of_face : supports.of_face)
-    for (const CurveSupport& support : of_face)
+  // Wires may reach anywhere beside the faces.
+  const bool wires_alone =
+      std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.is_wire(); });
+  for (std::size_t f = 0; f < supports.of_face.size(); ++f) {
+    if (model.faces[f].is_wire() && !wires_alone) continue;
+    for (const CurveSupport& support : supports.of_face[f])
       for (const Vec3& p : support.xyz) {
         low = low.cwiseMin(p);
         high = high.cwiseMax(p);
       }
+  }
   supports.diag = low.x() <= high.x() ? norm(high - low) : 0;
   return supports;
 }

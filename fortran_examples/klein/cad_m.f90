@@ -121,10 +121,12 @@ contains
     Ctt = 0.d0
   end subroutine curv2
 
+  !> Sizes in a spiral (fig. 2), from 0.2 on its two strands to 1.4 between them. Both go on over the sides u = 0 and
+  !! u = 2 pi, where v meets pi - v.
   subroutine cad_hphys(refs, uv, h)
     integer :: refs
     double precision :: uv(2), h
-    ! h is left untouched: no answer
+    if (refs >= 1) h = 0.2d0 + 1.2d0*sin(uv(2) + 2*uv(1))**2
   end subroutine cad_hphys
 
   subroutine cad_hphyc(refs, ic, t, h)

@@ -4,6 +4,8 @@
 
 #include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepToIGES_BREntity.hxx>
@@ -28,10 +30,13 @@
 #include <fstream>
 #include <gp_Ax1.hxx>
 #include <gp_Ax2.hxx>
+#include <gp_Circ.hxx>
 #include <gp_Trsf.hxx>
 #include <gp_XYZ.hxx>
 #include <iterator>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "measured_mesh.h"
 
@@ -47,6 +52,16 @@ TopoDS_Compound together(const std::vector<TopoDS_Shape>& parts) {
   builder.MakeCompound(all);
   for (const TopoDS_Shape& part : parts) builder.Add(all, part);
   return all;
+}
+
+double length_of_curve(const adapters::MeasuredMesh& mesh, std::int32_t ref) {
+  double length = 0;
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (mesh.edge_refs[e] != ref) continue;
+    const auto &a = mesh.vertices[mesh.edges[e][0]], &b = mesh.vertices[mesh.edges[e][1]];
+    length += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  }
+  return length;
 }
 
 TopoDS_Shape placed(const TopoDS_Shape& shape, const gp_Trsf& place) {
@@ -290,8 +305,8 @@ TEST(Placements, ThatScaleAreToldOfStep) {
   EXPECT_EQ(read.mesh.trouble(true), "");
 }
 
-// What no face holds is not meshed, and shares of the diagonal do not count it.
-TEST(Placements, EdgesOfNoFaceChangeNothing) {
+// What no face holds has edges of its own, and shares of the diagonal do not count it.
+TEST(Placements, EdgesOfNoFaceChangeNoFace) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
   const TopoDS_Shape far = BRepBuilderAPI_MakeEdge(gp_Pnt(5, 5, 5), gp_Pnt(90, 90, 90)).Edge();
   const std::string path = path_of("loose.brep");
@@ -302,6 +317,74 @@ TEST(Placements, EdgesOfNoFaceChangeNothing) {
   const Read read = read_and_mesh(path, 0.25);
   EXPECT_EQ(read.mesh.trouble(true), "");
   EXPECT_NEAR(read.mesh.quality.area, 6, 1e-12);
+  EXPECT_NEAR(length_of_curve(read.mesh, 13), 85 * std::sqrt(3.0), 1e-9);
+}
+
+/// A box and, beside it, a wire of a line, from the corner (1, 1, 1), and three quarters of a circle of radius 2.
+TopoDS_Shape box_and_wire() {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  const gp_Circ circle(gp_Ax2(gp_Pnt(4, 1, 1), gp_Dir(0, 0, 1), gp_Dir(-1, 0, 0)), 2);
+  const TopoDS_Edge line = BRepBuilderAPI_MakeEdge(gp_Pnt(1, 1, 1), gp_Pnt(2, 1, 1)).Edge();
+  const TopoDS_Edge arc =
+      BRepBuilderAPI_MakeEdge(circle, TopExp::LastVertex(line), BRepBuilderAPI_MakeVertex(gp_Pnt(4, 3, 1)).Vertex())
+          .Edge();
+  BRepBuilderAPI_MakeWire wire(line);
+  wire.Add(arc);
+  return together({box, wire.Wire()});
+}
+
+std::string written_as_step(const TopoDS_Shape& shape, const std::string& name) {
+  STEPControl_Writer writer;
+  EXPECT_EQ(writer.Transfer(shape, STEPControl_AsIs), IFSelect_RetDone);
+  EXPECT_EQ(writer.Write(path_of(name).c_str()), IFSelect_RetDone);
+  return path_of(name);
+}
+
+// A STEP file with a wire beside a box: all edges of the wire are in the mesh, and meet where the file's edges meet.
+TEST(Placements, AWireBesideABoxOfAStepFileIsMeshed) {
+  const std::string path = written_as_step(box_and_wire(), "wire.step");
+  const carreau_occ::ShapeFile file = carreau_occ::read_shape(path);
+  EXPECT_EQ(carreau_occ::BrepHost(file).wire_count(), 2);
+  const Read read = read_and_mesh(path, 0.1);
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  EXPECT_EQ(read.mesh.faces, 6);
+  EXPECT_NEAR(read.mesh.quality.area, 6, 1e-12);
+  std::map<int, double> lengths;  // of what lies beyond the box
+  std::map<std::int32_t, int> ends;
+  for (std::size_t e = 0; e < read.mesh.edges.size(); ++e) {
+    const auto &a = read.mesh.vertices[read.mesh.edges[e][0]], &b = read.mesh.vertices[read.mesh.edges[e][1]];
+    if (std::max(a[0], b[0]) <= 1 + 1e-9) continue;
+    lengths[read.mesh.edge_refs[e]] += std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+    for (const std::int32_t v : read.mesh.edges[e]) ++ends[v];
+    for (const auto& p : {a, b})
+      EXPECT_TRUE(std::abs(std::hypot(p[0] - 4, p[1] - 1) - 2) < 1e-9 || std::abs(p[1] - 1) < 1e-9);
+  }
+  ASSERT_EQ(lengths.size(), 2U);
+  const auto [line, arc] = std::minmax(lengths.begin()->second, lengths.rbegin()->second);
+  EXPECT_NEAR(line, 1, 1e-9);
+  EXPECT_TRUE(std::abs(arc - std::numbers::pi) < 2e-3 || std::abs(arc - 3 * std::numbers::pi) < 6e-3) << arc;
+  // One chain: two ends.
+  EXPECT_EQ(std::count_if(ends.begin(), ends.end(), [](const auto& end) { return end.second == 1; }), 2);
+}
+
+// In a BREP file edges and faces may have vertices in common: the mesh has one vertex there.
+TEST(Placements, AnEdgeFromACornerOfABoxStartsAtTheBoxsVertex) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(1, 1, 1).Shape();
+  TopTools_IndexedMapOfShape corners;
+  TopExp::MapShapes(box, TopAbs_VERTEX, corners);
+  const TopoDS_Vertex far = BRepBuilderAPI_MakeVertex(gp_Pnt(7, 8, 9)).Vertex();
+  const TopoDS_Edge edge = BRepBuilderAPI_MakeEdge(TopoDS::Vertex(corners(1)), far).Edge();
+  const std::string path = path_of("corner.brep");
+  ASSERT_TRUE(BRepTools::Write(together({box, edge}), path.c_str()));
+  const Read read = read_and_mesh(path, 0.25);
+  EXPECT_EQ(read.mesh.trouble(true), "");
+  std::set<std::int32_t> on_faces, on_edge;
+  for (const auto& t : read.mesh.triangles) on_faces.insert(t.begin(), t.end());
+  for (std::size_t e = 0; e < read.mesh.edges.size(); ++e)
+    if (read.mesh.edge_refs[e] == 13) on_edge.insert(read.mesh.edges[e].begin(), read.mesh.edges[e].end());
+  EXPECT_EQ(std::count_if(on_edge.begin(), on_edge.end(), [&](std::int32_t v) { return on_faces.contains(v); }), 1);
+  const double l = std::hypot(7, 8, 9);
+  EXPECT_TRUE(std::abs(length_of_curve(read.mesh, 13) - l) < 2) << length_of_curve(read.mesh, 13);
 }
 
 }  // namespace

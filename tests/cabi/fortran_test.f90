@@ -160,6 +160,7 @@ program fortran_test
   call test_versions_and_parameters
   call test_same_mesh_as_in_c
   call test_callbacks_by_value_and_files
+  call test_divided_curves
   call test_elements
   call test_curve
   call test_adaptation
@@ -315,6 +316,34 @@ contains
       all(curve_refs == [1, 2, 3, 4]), 'model_curves')
     call carreau_session_free(session)
   end subroutine test_same_mesh_as_in_c
+
+  ! Curve 1 in three edges by a progression, curve 2 by its parameters, curve 3 as at first.
+  subroutine test_divided_curves
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    integer(c_int32_t), allocatable :: edge_refs(:)
+    integer(c_int32_t) :: status
+    call carreau_session_create(session, status)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status, surf1=surf1, surf2=surf2, curv1=curv1, curv2=curv2)
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', 0.5d0, status)
+    call carreau_set_integer(session, 'flag', 1, status)
+    call carreau_model_divide_curve(session, 1, 1, 3, CARREAU_GEOMETRIC, 1.5d0, status)
+    call expect_ok(status, session, 'divide_curve')
+    call carreau_model_divide_curve_at(session, 1, 2, [0.25d0, 0.5d0, 0.75d0, 0.875d0], status)
+    call expect_ok(status, session, 'divide_curve_at')
+    call carreau_model_divide_curve(session, 1, 3, 2, CARREAU_EQUAL, 1.d0, status)
+    call carreau_model_divide_curve(session, 1, 3, 0, CARREAU_EQUAL, 1.d0, status)
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'generate')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_edge_refs(mesh, edge_refs, status)
+    call expect(count(edge_refs == 1) == 3 .and. count(edge_refs == 2) == 5 .and. &
+      count(edge_refs == 3) == count(edge_refs == 4), 'divided curves')
+    call carreau_model_divide_curve(session, 1, 9, 3, CARREAU_EQUAL, 1.d0, status)
+    call expect(status == CARREAU_ERR_ARGUMENT, 'no such curve')
+    call carreau_session_free(session)
+  end subroutine test_divided_curves
 
   ! Curved triangles: nodes from 1, on the paraboloid, corners those of the triangles.
   subroutine test_elements

@@ -255,6 +255,36 @@ class Sizes(Folder):
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1", sentence="NAME=VALUE")
         self.refused(self.two, "-o", "a.mesh", "--face-size", "1=x", sentence="'x' is no length")
 
+    def test_edges_of_a_curve_can_be_told(self):
+        # Curve 2 of the first square is the first side of the second one, from (1, -1) to (1, 1) or back.
+        def between(*options):
+            mesh = self.mesh(self.two, "--size", "0.5", *options)
+            ends = sorted({mesh.vertices[v][1] for i, j, _ in mesh.edges for v in (i, j)
+                           if mesh.vertices[i][0] == mesh.vertices[j][0] == 1})
+            return [b - a for a, b in zip(ends, ends[1:])]
+        for told in (7 * [2 / 7], 3 * [2 / 3]):
+            for face in ("1/2", "1/3", "1/4", "1/1"):
+                if len(lengths := between("--curve-edges", f"{face}={len(told)}")) == len(told) != 4:
+                    break
+            self.assertEqual(len(lengths), len(told))
+            for length, expected in zip(lengths, told):
+                self.assertAlmostEqual(length, expected, delta=1e-10)
+        for progression, ratios in (("geometric:1.5", [1.5] * 5), ("arithmetic:3", [7 / 5, 9 / 7, 11 / 9, 13 / 11, 15 / 13])):
+            lengths = between("--curve-edges", f"{face}=6,{progression}")
+            lengths = lengths if lengths[0] < lengths[-1] else lengths[::-1]
+            self.assertEqual(len(lengths), 6)
+            for a, b, ratio in zip(lengths, lengths[1:], ratios):
+                self.assertAlmostEqual(b / a, ratio, delta=1e-9)
+        lengths = sorted(between("--curve-vertices", f"{face}=0.125,0.5"))
+        self.assertEqual(lengths, [0.25, 0.75, 1])
+        for wrong, sentence in ((("--curve-edges", "1/2=0"), "a number of edges"), (("--curve-edges", "1/2=5,cubic:2"), "geometric:RATIO"),
+                                (("--curve-edges", "1/9=5"), "the face has no such curve"), (("--curve-edges", "x=5"), "FACE/RANK"),
+                                (("--curve-edges", "3=5"), "no numbers yet"), (("--curve-edges", "1/2=5,geometric:-1"), "geometric:RATIO"),
+                                (("--curve-vertices", "1/2=0.5,0.2"), "increasing parameters"),
+                                (("--curve-vertices", "1/2=0.5,2"), "does not lie between")):
+            with self.subTest(wrong=wrong):
+                self.refused(self.two, "-o", "a.mesh", *wrong, sentence=sentence)
+
     def test_empty_words_are_refused(self):
         self.refused("", "-o", "a.mesh", sentence="The name of the input is empty")
         for option in ("--size", "--size-map", "--env"):

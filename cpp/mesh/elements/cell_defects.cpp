@@ -24,6 +24,9 @@ class CellDefects {
     if (!defects_.empty()) return std::move(defects_);  // what follows needs sound indices
     used_.assign(mesh_.mid_vertices.size(), 0);
     for (const FaceMesh& face : mesh_.faces) check_face(face);
+    for (const CurveMesh& curve : mesh_.curves)
+      for (std::size_t k = 0; curve.loose && k < curve.mid.size(); ++k)
+        used_[static_cast<std::size_t>(curve.mid[k])] = 1;
     for (std::size_t v = 0; v < used_.size(); ++v)
       if (used_[v] == 0) add("node " + std::to_string(v) + " of the edges: belongs to no element");
     return std::move(defects_);

@@ -43,11 +43,14 @@ class Assembler {
     return vertex;
   }
 
-  // Corners come first, in the order of the model; only what a meshed face holds becomes a vertex.
+  // Corners come first, in the order of the model; only what a meshed face or a wire holds becomes a vertex.
   void add_curves(const std::vector<std::optional<PatchMesh>>& patches) {
+    const auto is_of_wire = [&](const CurveUse& use) {
+      return model_.faces[use.face].is_wire() && model_.faces[use.face].left_out.empty();
+    };
     const auto is_used = [&](const Curve& curve) {
       return std::any_of(curve.uses.begin(), curve.uses.end(),
-                         [&](const CurveUse& use) { return patches[use.face].has_value(); });
+                         [&](const CurveUse& use) { return patches[use.face].has_value() || is_of_wire(use); });
     };
     for (std::size_t c = 0; c < topology_.curves.size(); ++c) {
       const Curve& shape = topology_.curves[c];
@@ -62,6 +65,8 @@ class Assembler {
         curve.part_of = model_.faces[shape.uses.front().face].curves[shape.uses.front().curve].shown_as;
       for (const CurveUse& use : shape.uses)
         curve.uses.push_back({use.face, model_.faces[use.face].curves[use.curve].type == CurveType::internal});
+      curve.loose = is_used(shape) && std::none_of(shape.uses.begin(), shape.uses.end(),
+                                                   [&](const CurveUse& use) { return patches[use.face].has_value(); });
       if (is_used(shape)) {
         curve.vertices.push_back(corner_vertex_[shape.end1]);
         if (!shape.degenerate) {

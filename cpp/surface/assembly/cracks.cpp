@@ -27,7 +27,10 @@ class CrackOpener {
   void run() {
     for (std::size_t c = 0; c < mesh_.curves.size(); ++c) {
       const CurveMesh& curve = mesh_.curves[c];
-      if (!std::ranges::any_of(curve.uses, [](const CurveMeshUse& use) { return use.internal; })) continue;
+      const auto inside = [&](const CurveMeshUse& use) {
+        return use.internal && mesh_.faces[use.face].status != FaceStatus::wire;
+      };
+      if (!std::ranges::any_of(curve.uses, inside)) continue;
       cracks_.push_back(c);
       for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k)
         crack_.insert(std::minmax(curve.vertices[k], curve.vertices[k + 1]));

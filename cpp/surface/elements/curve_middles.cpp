@@ -79,6 +79,7 @@ std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t c
       metric_middle(1 / sizes.size_at(left), 1 / sizes.size_at((left + right) / 2), 1 / sizes.size_at(right));
   DiscreteCurve piece;
   piece.curve = d.curve;
+  piece.owner = d.owner;  // a node between vertices that are prescribed is none of them
   piece.refined = d.refined;
   piece.sizes = {{0, 1}, {1, 1}, {1, 1}};
   piece.r = {left, right};

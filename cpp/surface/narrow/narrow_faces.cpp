@@ -246,7 +246,7 @@ std::vector<int> find_folded_faces(const CurveModel& model, const std::vector<Di
   std::vector<int> folded;
   for (int f = 0; f < static_cast<int>(model.model.faces.size()); ++f) {
     const std::vector<int>& curve_of = model.topology.curve_of[f];
-    if (!model.model.faces[f].left_out.empty()) continue;
+    if (!model.model.faces[f].left_out.empty() || model.model.faces[f].is_wire()) continue;
     bool is_folded = false;
     for (const int c : curve_of) {
       const Curve& curve = model.curve(c);

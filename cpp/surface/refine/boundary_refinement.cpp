@@ -54,6 +54,8 @@ class Refiner {
       result_.failure[f] = model_.faces[f].left_out;
       if (!result_.failure[f].empty()) left_out_[f] = 1;
     }
+    for (std::size_t f = 0; f < n; ++f)
+      if (model_.faces[f].is_wire()) left_out_[f] = 1;
     for (const NarrowFace& face : narrow_.strips) left_out_[face.face] = 1;
     for (const int f : narrow_.folded) left_out_[f] = 1;
     if (!narrow_.vanishing.curve.empty())
@@ -83,7 +85,7 @@ class Refiner {
         [this](int f, Found& found, Monitor& monitor) {
           if (!found.ask_metric) return;
           const PlaneDomain& plane = result_.domain[f]->plane;
-          found.edges = edges_to_split_for_balance(plane, space_of(f, monitor));
+          found.edges = edges_to_split_for_balance(plane, space_of(f, monitor), options_.adjacent_ratio);
           if (!finest_) return;
           std::erase_if(found.edges, [&](int e) {
             return finest_->reached_by(curves_[plane.edges[e].curve], plane.edges[e].segment);
@@ -171,6 +173,10 @@ class Refiner {
       for (const int e : found[i].edges) {
         const PlaneEdge& edge = result_.domain[f]->plane.edges[e];
         if (topology_.curves[edge.curve].degenerate) continue;
+        if (curves_[edge.curve].prescribed) {
+          result_.kept.insert(edge.curve);
+          continue;
+        }
         if (splits[edge.curve].insert(edge.segment).second) result_.mended[f] = 1;
       }
     }
@@ -196,7 +202,7 @@ class Refiner {
       double worst = 0;
       for (const int curve : topology_.curve_of[face]) {
         const DiscreteCurve& discrete = curves_[curve];
-        if (discrete.indivisible) continue;
+        if (discrete.indivisible || discrete.prescribed) continue;
         for (int k = 0; k < discrete.segments(); ++k) {
           candidates.push_back({curve, k, deviation(face, discrete, k)});
           worst = std::max(worst, candidates.back().deviation);
@@ -406,9 +412,20 @@ void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCur
     const Curve& shape = model.curve(c);
     if (!shape.degenerate && curves[c].segments() == 1) by_ends[std::minmax(shape.end1, shape.end2)].push_back(c);
   }
-  for (const auto& [ends, same] : by_ends)
-    if (same.size() > 1)
-      for (const int c : same) split_segment(curves[c], 0, model);
+  for (const auto& [ends, same] : by_ends) {
+    if (same.size() < 2) continue;
+    int prescribed = -1;
+    for (const int c : same) {
+      if (!curves[c].prescribed) split_segment(curves[c], 0, model);
+      if (!curves[c].prescribed) continue;
+      if (prescribed >= 0)
+        throw InvalidModel(Where{.curve = model.curve(c).ref},
+                           "one edge is prescribed on the curve, and on curve " +
+                               std::to_string(model.curve(prescribed).ref) +
+                               ", which has the same ends: the two edges would be one");
+      prescribed = c;
+    }
+  }
 }
 
 }  // namespace carreau

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct RefinedDomains {
   std::vector<std::optional<FaceDomain>> domain;  ///< by face index
   std::vector<std::string> failure;               ///< by face index; empty when there is a domain
   std::vector<char> mended;                       ///< by face index: a curve was refined for it
+  std::set<int> kept;  ///< curves whose prescribed edges should have been split, and were not
 };
 
 /// Splits segments of `curves` (in every face that holds them) until no discretised boundary crosses itself; then, as
@@ -28,7 +30,8 @@ RefinedDomains refine_domains(const CurveModel& model, const SizeRules& rules, c
                               const SizeLimits& limits, const NarrowModel& narrow, std::vector<DiscreteCurve>& curves,
                               Monitor& monitor);
 
-/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more.
+/// Curves whose edges would coincide in space (same ends, one edge each) get a vertex more. Throws InvalidModel where
+/// more than one of them is prescribed to have one edge.
 void separate_coincident_curves(const CurveModel& model, std::vector<DiscreteCurve>& curves);
 
 }  // namespace carreau

@@ -101,7 +101,8 @@ std::vector<char> movable_curves(const CurveModel& model, const std::vector<Disc
                                  std::span<const std::optional<FaceDomain>> domains) {
   std::vector<char> may;
   for (const DiscreteCurve& c : curves)
-    may.push_back(!c.indivisible && !model.curve(c.curve).degenerate && c.segments() >= fewest_segments ? 1 : 0);
+    may.push_back(
+        !c.indivisible && !c.prescribed && !model.curve(c.curve).degenerate && c.segments() >= fewest_segments ? 1 : 0);
   for (const auto& domain : domains) {
     if (!domain) continue;
     const std::vector<Vec3> xyz = positions_on_curves(*domain, curves, model.topology);

@@ -28,6 +28,9 @@ void expect_same_model(const Model& a, const Model& b) {
       EXPECT_EQ(f.curves[k].ref, g.curves[k].ref);
       EXPECT_EQ(f.curves[k].end1, g.curves[k].end1);
       EXPECT_EQ(f.curves[k].end2, g.curves[k].end2);
+      EXPECT_EQ(f.curves[k].part_of, g.curves[k].part_of);
+      EXPECT_EQ(f.curves[k].part_a, g.curves[k].part_a);
+      EXPECT_EQ(f.curves[k].part_b, g.curves[k].part_b);
     }
     for (std::size_t k = 0; k < f.points.size(); ++k) {
       EXPECT_EQ(f.points[k].ref, g.points[k].ref);
@@ -95,8 +98,14 @@ TEST(Pardom, RandomModelsReadBackAsWritten) {
     for (std::size_t i = 1 + random() % 5; i > 0; --i) {
       Face face;
       face.ref = ref();
-      for (std::size_t k = 1 + random() % 6; k > 0; --k)
+      for (std::size_t k = 1 + random() % 6; k > 0; --k) {
         face.curves.push_back({static_cast<CurveType>(1 + random() % 2), ref(), ref(), ref()});
+        if (random() % 3 != 0) continue;
+        FaceCurve& part = face.curves.back();
+        part.part_of = 1 + static_cast<int>(random() % 9);
+        part.part_a = random_double(random), part.part_b = random_double(random);
+        if (part.part_a > part.part_b) std::swap(part.part_a, part.part_b);
+      }
       for (std::size_t k = random() % 4; k > 0; --k)
         face.points.push_back({ref(), {random_double(random), random_double(random)}});
       const int ic = 1 + static_cast<int>(random() % face.curves.size());
@@ -105,6 +114,20 @@ TEST(Pardom, RandomModelsReadBackAsWritten) {
     }
     expect_same_model(read_pardom_text(pardom_text(model), "p"), model);
   }
+}
+
+TEST(Pardom, PartsOfCurvesAreCommentsForOtherPrograms) {
+  const std::string text = "1\n1\n1\n2\n1 1 1 2 ! part of curve 1 0.5 1.25\n1 2 2 1 ! part of the house\n0\n";
+  const Model model = read_pardom_text(text, "x.pardom");
+  EXPECT_EQ(model.faces[0].curves[0].part_of, 1);
+  EXPECT_EQ(model.faces[0].curves[0].part_a, 0.5);
+  EXPECT_EQ(model.faces[0].curves[0].part_b, 1.25);
+  EXPECT_EQ(model.faces[0].curves[1].part_of, 0);
+  for (const char* wrong : {" 0 0.5 1.25", " 1 1.25 0.5", " 1 0.5", " x 0 1"})
+    EXPECT_EQ(
+        error_of("1\n1\n1\n2\n1 1 1 2 ! part of curve" + std::string(wrong) + "\n1 2 2 1\n0\n").find("x.pardom, line "),
+        0u)
+        << wrong;
 }
 
 TEST(Pardom, EveryTruncationIsAnErrorThatNamesWhatWasExpected) {
@@ -157,10 +180,10 @@ TEST(Pardom, NamesTheLineOfEveryViolation) {
   EXPECT_EQ(with("1 ! ns", "2000000000 ! ns").find("x.pardom, line 1: ns is 2000000000, but the rest"), 0u);
   EXPECT_EQ(with("1 ! ns", "-1 ! ns"), "x.pardom, line 1: ns is negative: -1");
   EXPECT_EQ(with("1 ! ns", "0 ! ns"), "x.pardom, line 1: the file describes no surface: ns is 0");
-  for (const char* orientation : {"0", "5", "-5", "-2147483648"})
+  for (const char* orientation : {"5", "-5", "-2147483648"})
     EXPECT_EQ(with("1 ! orientation", orientation),
               "x.pardom, line 3: orientation of surface 1 is " + std::string(orientation) +
-                  ", but its absolute value should be the rank of a curve, from 1 to 4");
+                  ", but its absolute value should be the rank of a curve, from 1 to 4, or 0 for a wire");
   EXPECT_EQ(with("0 ! np", "1 1 nan 0 ! np"), "x.pardom, line 9: u of point 1 of surface 1 is not finite: 'nan'");
   EXPECT_EQ(with("0 ! np", "1 1 0 a ! np"), "x.pardom, line 9: v of point 1 of surface 1 should be a number, not 'a'");
   EXPECT_EQ(with("0 ! np", "0 1"),

@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "grid_mesh.h"
-#include "measure/gauss.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
+#include "support/gauss.h"
 
 namespace carreau {
 namespace {

@@ -64,7 +64,7 @@ TEST(FindModelDefects, WantsFacesWithPositiveAndDistinctReferences) {
 }
 
 TEST(FindModelDefects, WantsAnOrientationThatNamesABoundaryCurve) {
-  for (const int orientation : {0, 5, -5, INT_MAX, INT_MIN})
+  for (const int orientation : {5, -5, INT_MAX, INT_MIN})
     EXPECT_EQ(defects_after([&](Model& m) { m.faces[0].orientation = orientation; }),
               Sentences{"x.pardom, line 2, face 1: orientation " + std::to_string(orientation) +
                         " names no curve of the face, which has 4"});
@@ -75,6 +75,20 @@ TEST(FindModelDefects, WantsAnOrientationThatNamesABoundaryCurve) {
   EXPECT_EQ(
       found,
       Sentences{"x.pardom, line 2, face 1: orientation -5 names curve 5 (line 77), which is not of type 1 (boundary)"});
+}
+
+TEST(FindModelDefects, WantsWiresWithoutBorders) {
+  const std::string of_wire = ": a wire (orientation 0) bounds nothing: its curves have type 2 (internal), not 1";
+  const Sentences found = defects_after([](Model& m) { m.faces[0].orientation = 0; });
+  ASSERT_EQ(found.size(), 5U);
+  EXPECT_TRUE(found[0].ends_with("has no area that points could lie in; its points are ends of its curves"));
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_TRUE(found[i].ends_with(of_wire)) << found[i];
+  EXPECT_EQ(defects_after([](Model& m) {
+              m.faces[0].orientation = 0;
+              m.faces[0].points.clear();
+              for (FaceCurve& curve : m.faces[0].curves) curve.type = CurveType::internal;
+            }),
+            Sentences{});
 }
 
 TEST(FindModelDefects, WantsABoundary) {

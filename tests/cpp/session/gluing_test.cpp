@@ -8,6 +8,7 @@
 #include <memory>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "common/analytic_cad.h"
 #include "model/splits.h"
@@ -258,11 +259,12 @@ TEST(Gluing, TheReferenceOfTheFirstCurveDecides) {
   EXPECT_TRUE(said_of_others);
 }
 
-TEST(Gluing, SaysThatTheManualsFileCannotHoldParts) {
+// RT-0232 sec. 3.2: x.pardom.new "can be used again", also where curves were cut.
+TEST(Gluing, WritesPartsIntoTheManualsFileWhichGivesTheSameMesh) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "carreau gluing";
   std::filesystem::create_directories(folder);
-  const std::filesystem::path file = folder / "x.pardom";
-  std::filesystem::remove(file.string() + ".new");
+  const std::filesystem::path file = folder / "x.pardom", glued = file.string() + ".new";
+  std::filesystem::remove(glued);
   Patches run(three_patches(0), 0.2, 0.01);
   {
     std::ofstream out(file);
@@ -275,9 +277,45 @@ TEST(Gluing, SaysThatTheManualsFileCannotHoldParts) {
   }
   run.session.load_pardom(file.string());
   run.session.make_mesh();
-  EXPECT_FALSE(std::filesystem::exists(file.string() + ".new"));
-  EXPECT_TRUE(run.monitor.says("x.pardom.new is not written"));
+  ASSERT_TRUE(std::filesystem::exists(glued));
   EXPECT_EQ(run.euler(), 1);
+
+  Patches again(three_patches(0), 0.2, 0.01);
+  again.session.load_pardom(glued.string());
+  const std::vector<Face>& before = run.session.model().faces;
+  const std::vector<Face>& read = again.session.model().faces;
+  std::size_t parts = 0;
+  for (std::size_t f = 0; f < before.size(); ++f) {
+    ASSERT_EQ(read[f].curves.size(), before[f].curves.size());
+    for (std::size_t c = 0; c < before[f].curves.size(); ++c) {
+      const FaceCurve &p = before[f].curves[c], &q = read[f].curves[c];
+      EXPECT_EQ(std::tie(p.ref, p.end1, p.end2, p.part_of, p.part_a, p.part_b),
+                std::tie(q.ref, q.end1, q.end2, q.part_of, q.part_a, q.part_b));
+      parts += p.part_of != 0 ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(parts, 4U);  // of the upper side of the rectangle
+  again.session.make_mesh();
+  EXPECT_EQ(again.session.mesh().vertices, run.session.mesh().vertices);
+  for (std::size_t f = 0; f < 3; ++f)
+    EXPECT_EQ(again.session.mesh().faces[f].triangles, run.session.mesh().faces[f].triangles);
+}
+
+// Two long sides of one face, 0.002 apart: a thousandth of eps_glue keeps them, eps_glue_face = 0.005 makes a seam.
+TEST(Gluing, SidesOfOneFaceAreASeamWithinEpsGlueFace) {
+  AnalyticCad cad;
+  const auto bent = [](Vec2 p) {
+    const double a = p.x(), c = std::cos(a), s = std::sin(a);
+    return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
+  };
+  cad.faces[1] = {bent, testing::rectangle({0, 0}, {2 * std::numbers::pi - 0.002, 2})};
+  for (const double eps : {0.0, 0.001, 0.005}) {
+    Patches run(cad, 0.2, 0.05);
+    run.session.parameters().set("eps_glue_face", eps);
+    run.session.make_mesh();
+    const std::vector<FaceCurve>& curves = run.session.model().faces[0].curves;
+    EXPECT_EQ(curves[1].ref == curves[3].ref, eps == 0.005) << eps;
+  }
 }
 
 TEST(Splits, NeedAnEndOfAnotherFaceAwayFromTheEndsOfTheCurve) {

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
+#include <vector>
 
 #include "mesh/quality.h"
 #include "session_of_size.h"
@@ -55,6 +57,33 @@ Shapes shapes_of(const SurfaceMesh& mesh) {
     }
   s.mean /= static_cast<double>(s.count);
   return s;
+}
+
+// HDR sec. 3.3.3. The lower side has edges of 0.1, the others of 2: halvings bring the ratio below adjacent_ratio.
+TEST(ShortEdges, AdjacentRatioLimitsTheRatioOfNeighbours) {
+  double before = 1;
+  for (const double ratio : {2.0, 4.0, 1e6}) {
+    Monitor monitor;
+    const auto session = testing::session_of_size(comb(flat, 100), 2, monitor);
+    session->parameters().set("CheckAdjacentEdges", 20);
+    session->parameters().set("adjacent_ratio", ratio);
+    session->make_mesh();
+    const SurfaceMesh& mesh = session->mesh();
+    std::map<std::int32_t, std::vector<double>> at;  // by vertex, lengths of edges of curves
+    for (const CurveMesh& curve : mesh.curves)
+      for (std::size_t k = 1; k < curve.vertices.size(); ++k)
+        for (const std::int32_t v : {curve.vertices[k - 1], curve.vertices[k]})
+          at[v].push_back(norm(mesh.vertices[curve.vertices[k]] - mesh.vertices[curve.vertices[k - 1]]));
+    double largest = 1;
+    for (const auto& [v, lengths] : at) {
+      const auto [low, high] = std::minmax_element(lengths.begin(), lengths.end());
+      largest = std::max(largest, *high / *low);
+    }
+    EXPECT_LE(largest, ratio * (1 + 1e-8));
+    EXPECT_GT(largest, before * (1 + 1e-8)) << "the parameter does nothing";
+    before = largest;
+  }
+  EXPECT_NEAR(before, 20, 1e-9);
 }
 
 TEST(ShortEdges, LetTrianglesGrow) {

@@ -1,9 +1,9 @@
-#include "measure/gauss.h"
+#include "support/gauss.h"
 
 #include <cmath>
-#include <utility>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "support/error.h"
 
