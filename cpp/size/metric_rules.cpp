@@ -97,6 +97,11 @@ double SizeRules::source_accuracy() const noexcept {
   return accuracy;
 }
 
+bool SizeRules::asks_curves_only() const noexcept {
+  return asks_sources() && std::any_of(parameters_.sources.begin(), parameters_.sources.end(),
+                                       [](const PrescriptionSource* s) { return s->curves_only(); });
+}
+
 std::vector<Vec2> SizeRules::steep_places(int face) const {
   std::vector<Vec2> places;
   if (!asks_sources()) return places;
@@ -270,12 +275,13 @@ SurfaceJet SizeRules::surface_jet(int face, unsigned want, const Vec2& uv) const
 void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                                    const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
   const bool geometric = uses_curvature(), physical = parameters_.physical != PhysicalSizes::ignored;
+  const bool by_boundary = parameters_.physical == PhysicalSizes::asked || asks_curves_only();
   const auto answers_at = [&](std::size_t i) {
     Answers answers;
     if (!physical) return answers;
     answers = answers_on_surface(face, uv[i], jets[i].s);
     if (answers.empty()) {
-      const double usual = parameters_.physical == PhysicalSizes::uniform ? parameters_.hphydef : fallback(uv[i]);
+      const double usual = by_boundary ? fallback(uv[i]) : parameters_.hphydef;
       answers.push_back(Prescription::of_size(usual));
     }
     return answers;

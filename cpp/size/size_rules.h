@@ -208,6 +208,7 @@ class SizeRules {
   struct CurvePlace;
   struct AlongCurve;
   [[nodiscard]] bool needs_positions() const noexcept;
+  [[nodiscard]] bool asks_curves_only() const noexcept;
   Answers answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const;
   Answers answers_on_curve(int curve, std::span<const double> t);
   Answers answers_at_point(int point);
