@@ -88,7 +88,9 @@ module carreau
     CARREAU_FACE_MENDED = 2, CARREAU_FACE_FAILED = 3, CARREAU_FACE_COLLAPSED = 4
   integer(c_int32_t), parameter, public :: CARREAU_EXR_SIZE = 1, CARREAU_EXR_INDUCED = 2, CARREAU_EXR_TARGET = 4, &
     CARREAU_EXR_CURVATURE = 8, CARREAU_EXR_POSITION = 16, CARREAU_EXR_NORMAL = 32, CARREAU_EXR_DEVIATION = 64, &
-    CARREAU_EXR_TRIANGLE = 128, CARREAU_EXR_MASK = 256, CARREAU_EXR_PREVIEW = 512
+    CARREAU_EXR_TRIANGLE = 128, CARREAU_EXR_MASK = 256, CARREAU_EXR_PREVIEW = 512, CARREAU_EXR_GOVERNS = 1024
+  integer(c_int32_t), parameter, public :: CARREAU_GOVERNS_PHYSICAL = 0, CARREAU_GOVERNS_GEOMETRIC = 1, &
+    CARREAU_GOVERNS_BOUNDS = 2, CARREAU_GOVERNS_GRADATION = 3
   integer(c_int32_t), parameter, public :: CARREAU_EXR_ZIP = 0, CARREAU_EXR_PIZ = 1
 
   integer(c_int32_t), parameter, public :: CARREAU_HESSIAN = 0, CARREAU_CURVATURE = 1, CARREAU_DEFORMATION = 2
@@ -1655,19 +1657,27 @@ contains
   end subroutine carreau_transfer_files
 
   !> vertices(2 or 3, n), triangles(3, m); faces(m): references, in two dimensions only; either sizes(n) or metrics:
-  !> (6, n) xx xy xz yy yz zz, or in two dimensions (3, n) uu uv vv.
-  subroutine carreau_set_background(session, vertices, triangles, status, faces, sizes, metrics)
+  !> (6, n) xx xy xz yy yz zz, or in two dimensions (3, n) uu uv vv. Beside the triangles, of which there may be none
+  !> (3, 0), or in their place: tetrahedra(4, :) of space, edges(2, :) of curves.
+  subroutine carreau_set_background(session, vertices, triangles, status, faces, sizes, metrics, tetrahedra, edges)
     type(carreau_session), intent(in) :: session
     real(c_double), intent(in) :: vertices(:, :)
     integer(c_int32_t), intent(in) :: triangles(:, :)
     integer(c_int32_t), intent(out) :: status
     integer(c_int32_t), intent(in), optional :: faces(:)
     real(c_double), intent(in), optional :: sizes(:), metrics(:, :)
+    integer(c_int32_t), intent(in), optional :: tetrahedra(:, :), edges(:, :)
     real(c_double), allocatable, target :: p(:), h(:), m(:)
-    integer(c_int32_t), allocatable, target :: t(:), f(:)
+    integer(c_int32_t), allocatable, target :: t(:), f(:), solids(:), lines(:)
     type(c_background) :: c
     status = CARREAU_ERR_ARGUMENT
     if (size(triangles, 1) /= 3) return
+    if (present(tetrahedra)) then
+      if (size(tetrahedra, 1) /= 4) return
+    end if
+    if (present(edges)) then
+      if (size(edges, 1) /= 2) return
+    end if
     if (present(faces)) then
       if (size(faces) /= size(triangles, 2)) return
     end if
@@ -1686,6 +1696,18 @@ contains
     t(:size(triangles)) = reshape(triangles, [size(triangles)]) - 1
     c%vertices = c_loc(p(1))
     c%triangles = c_loc(t(1))
+    if (present(tetrahedra)) then
+      c%tetrahedron_count = size(tetrahedra, 2)
+      allocate (solids(size(tetrahedra) + 1))
+      solids(:size(tetrahedra)) = reshape(tetrahedra, [size(tetrahedra)]) - 1
+      c%tetrahedra = c_loc(solids(1))
+    end if
+    if (present(edges)) then
+      c%edge_count = size(edges, 2)
+      allocate (lines(size(edges) + 1))
+      lines(:size(edges)) = reshape(edges, [size(edges)]) - 1
+      c%edges = c_loc(lines(1))
+    end if
     if (present(faces)) then
       allocate (f(size(faces) + 1))
       f(:size(faces)) = faces

@@ -69,6 +69,8 @@ module carreau_c
     integer(c_int64_t) :: vertex_count = 0, triangle_count = 0
     type(c_ptr) :: vertices = c_null_ptr, triangles = c_null_ptr, faces = c_null_ptr, sizes = c_null_ptr, &
       metrics = c_null_ptr
+    integer(c_int64_t) :: tetrahedron_count = 0, edge_count = 0
+    type(c_ptr) :: tetrahedra = c_null_ptr, edges = c_null_ptr
   end type c_background
 
   !> How the last mesh has used its background mesh.
@@ -633,8 +635,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_interface
 
-    !> Reads files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each
-    !! vertex.
+    !> Reads files: .mesh or .meshb (.vtu and .msh, too), and .sol or .solb with a scalar (size) or a symmetric tensor
+    !! (metric) at each vertex.
     function c_set_background_mesh(session, mesh_path, sol_path) result(status) &
         bind(c, name="carreau_set_background_mesh")
       import :: c_char, c_int32_t, c_ptr

@@ -528,16 +528,18 @@ CARREAU_API carreau_status carreau_session_interface(carreau_session* session, i
 /* ---- Background meshes: wanted sizes at the vertices of a mesh ---- */
 
 /* The next meshes take their sizes from a background mesh, unless hphy_flag = 0. The library looks up the nearest point
- * of a surface in space, or the triangle that holds (u, v) in a parameter plane. Outside of it the nearest value holds,
- * and the point is counted. Between vertices sizes, or the sizes along common directions of metrics, vary by
+ * of a surface in space, the tetrahedron that holds a point of space, or the triangle that holds (u, v) in a parameter
+ * plane. Outside of it the nearest value holds, and the point is counted. Edges alone (of curves, RR-2818 sec. 4.1) hold
+ * on curves and points; inside faces sizes are then interpolated from those of their boundaries, as by hphy_flag = 2. Between vertices sizes, or the sizes along common directions of metrics, vary by
  * hinterpol_flag. Sizes are clamped to [hphymin, hphymax], whose defaults (diag / 500, diag / 5) may be too narrow.
  * Where callbacks answer too, the smaller size, or the intersection, holds. Each of the four calls replaces what the
  * others have set, and copies it. On an error the old background mesh stays. Errors: ARGUMENT (sizes not positive,
- * metrics not positive definite, numbers not finite, no triangle, numbers of vertices that do not fit), FILE, SEQUENCE.
+ * metrics not positive definite, numbers not finite, no element, numbers of vertices that do not fit), FILE, SEQUENCE.
  */
 
-/* Reads files: .mesh or .meshb, and .sol or .solb with a scalar (size) or a symmetric tensor (metric) at each vertex. A
- * mesh of dimension 3 is a surface in space. One of dimension 2 lies in the parameter planes of the faces that the
+/* Reads files: .mesh or .meshb (.vtu and .msh, too), and .sol or .solb with a scalar (size) or a symmetric tensor
+ * (metric) at each vertex. A mesh of dimension 3 has triangles in space, tetrahedra, or edges, and a place takes what the
+ * nearest of them says. One of dimension 2 lies in the parameter planes of the faces that the
  * references of its triangles name (0: any other face), and its metrics are those of the parameter plane. The
  * parameters background_mesh and background_sol name files, too, and come before what these calls set. */
 CARREAU_API carreau_status carreau_set_background_mesh(carreau_session* session, const char* mesh_path,
@@ -546,14 +548,17 @@ CARREAU_API carreau_status carreau_set_background_mesh(carreau_session* session,
 /* A background mesh in arrays of the caller. */
 typedef struct carreau_background {
   size_t struct_size;
-  int32_t dimension; /* 3: a surface in space; 2: in parameter planes */
+  int32_t dimension; /* 3: in space; 2: in parameter planes */
   int32_t reserved;
   int64_t vertex_count, triangle_count;
   const double* vertices;   /* vertex_count x dimension */
-  const int32_t* triangles; /* triangle_count x 3 */
+  const int32_t* triangles; /* triangle_count x 3; NULL when that is 0 */
   const int32_t* faces;     /* triangle_count, dimension 2: reference of the face; 0, or NULL: any other face */
   const double* sizes;      /* vertex_count, model lengths; or NULL */
   const double* metrics;    /* vertex_count x 6 (xx xy xz yy yz zz), dimension 2: x 3 (uu uv vv); or NULL */
+  int64_t tetrahedron_count, edge_count;
+  const int32_t* tetrahedra; /* tetrahedron_count x 4, dimension 3; NULL when that is 0 */
+  const int32_t* edges;      /* edge_count x 2; NULL when that is 0 */
 } carreau_background;
 /* Takes arrays in place of files. */
 CARREAU_API carreau_status carreau_set_background(carreau_session* session, const carreau_background* background);
@@ -575,7 +580,7 @@ CARREAU_API carreau_status carreau_mesh_read_metrics(carreau_mesh* mesh, const c
 typedef struct carreau_background_report {
   size_t struct_size;
   int64_t asked;   /* points looked up */
-  int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest triangle */
+  int64_t outside; /* of them farther away than 1/8 of the longest edge of the nearest element */
   double farthest; /* distance of the farthest one; model length, or parameter length */
 } carreau_background_report;
 /* Tells how. Errors: ARGUMENT, SEQUENCE (no mesh yet). */
@@ -873,6 +878,10 @@ CARREAU_API carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_
  *   PREVIEW     R G B A                      16-bit reals of linear light: size in false colours, from red, the
  *                                            smallest of the face, to blue, the largest, on a logarithmic scale;
  *                                            sides of triangles and curves dark; purple: there is no size
+ *   GOVERNS     physical.h .h1 .h2 .angle    the physical size by itself, within its bounds; as size.h ... size.angle
+ *               geometric.h .h1 .h2 .angle   the geometric one; NaN where it is ignored (hgeo_flag = 0), as is the
+ *                                            physical one by hphy_flag = 0
+ *               governs                      unsigned integer: CARREAU_GOVERNS_...; 4294967295: not known
  * A pixel stands for the point of the parameter plane at its centre. What is not known there is NaN: outside the domain
  * all but the mask and the preview, and inside it whatever the host fails to give. */
 enum {
@@ -885,7 +894,16 @@ enum {
   CARREAU_EXR_DEVIATION = 64,
   CARREAU_EXR_TRIANGLE = 128,
   CARREAU_EXR_MASK = 256,
-  CARREAU_EXR_PREVIEW = 512
+  CARREAU_EXR_PREVIEW = 512,
+  CARREAU_EXR_GOVERNS = 1024
+};
+/* What makes the least size of a place what it is: the physical size; the geometric one; the smaller of both, moved by
+ * hphymin, hphymax, hgeomin or hgeomax; or the gradation, from a place beside. */
+enum {
+  CARREAU_GOVERNS_PHYSICAL = 0,
+  CARREAU_GOVERNS_GEOMETRIC = 1,
+  CARREAU_GOVERNS_BOUNDS = 2,
+  CARREAU_GOVERNS_GRADATION = 3
 };
 /* Both compress without loss. */
 enum { CARREAU_EXR_ZIP = 0, CARREAU_EXR_PIZ = 1 };

@@ -65,6 +65,17 @@ std::size_t checked_count(std::int64_t n, const char* name) {
                         std::to_string(most));
 }
 
+/// `count` rows of N indices, member `name` of the struct.
+template <std::size_t N>
+std::vector<std::array<std::int32_t, N>> elements_of(const std::int32_t* rows, std::int64_t count, const char* each,
+                                                     const char* name) {
+  const std::size_t n = checked_count(count, (std::string("background->") + each + "_count").c_str());
+  if (n > 0) required(rows, (std::string("background->") + name).c_str());
+  std::vector<std::array<std::int32_t, N>> elements(n);
+  for (std::size_t i = 0; i < n; ++i) std::copy_n(rows + N * i, N, elements[i].begin());
+  return elements;
+}
+
 carreau::BackgroundMesh background_mesh(const carreau_background& given) {
   carreau::BackgroundMesh mesh;
   mesh.dimension = given.dimension;
@@ -72,19 +83,19 @@ carreau::BackgroundMesh background_mesh(const carreau_background& given) {
     throw InvalidArgument("background->dimension is " + std::to_string(given.dimension) + "; it must be 2 or 3");
   const std::size_t n = checked_count(given.vertex_count, "background->vertex_count");
   const std::size_t m = checked_count(given.triangle_count, "background->triangle_count");
+  mesh.triangles = elements_of<3>(given.triangles, given.triangle_count, "triangle", "triangles");
+  mesh.tetrahedra = elements_of<4>(given.tetrahedra, given.tetrahedron_count, "tetrahedron", "tetrahedra");
+  mesh.edges = elements_of<2>(given.edges, given.edge_count, "edge", "edges");
   if ((given.sizes != nullptr) == (given.metrics != nullptr))
     throw InvalidArgument(
         "a background mesh has either sizes or metrics: one of background->sizes and "
         "background->metrics must be NULL, the other not");
   if (n > 0) required(given.vertices, "background->vertices");
-  if (m > 0) required(given.triangles, "background->triangles");
   const auto width = static_cast<std::size_t>(given.dimension);
   for (std::size_t i = 0; i < n; ++i) {
     const double* p = given.vertices + width * i;
     mesh.vertices.push_back({p[0], p[1], width == 3 ? p[2] : 0});
   }
-  for (std::size_t i = 0; i < m; ++i)
-    mesh.triangles.push_back({given.triangles[3 * i], given.triangles[3 * i + 1], given.triangles[3 * i + 2]});
   if (given.faces != nullptr) {
     if (width == 3) throw InvalidArgument("background->faces is for meshes of dimension 2 only");
     mesh.faces.assign(given.faces, given.faces + m);

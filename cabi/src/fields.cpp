@@ -15,6 +15,11 @@ static_assert(int(carreau::field_deviation) == int(CARREAU_EXR_DEVIATION) &&
               int(carreau::field_triangle) == int(CARREAU_EXR_TRIANGLE));
 static_assert(int(carreau::field_mask) == int(CARREAU_EXR_MASK) &&
               int(carreau::field_preview) == int(CARREAU_EXR_PREVIEW));
+static_assert(int(carreau::field_governs) == int(CARREAU_EXR_GOVERNS));
+static_assert(int(carreau::SizeOrigin::physical) == int(CARREAU_GOVERNS_PHYSICAL) &&
+              int(carreau::SizeOrigin::geometric) == int(CARREAU_GOVERNS_GEOMETRIC));
+static_assert(int(carreau::SizeOrigin::bounds) == int(CARREAU_GOVERNS_BOUNDS) &&
+              int(carreau::SizeOrigin::gradation) == int(CARREAU_GOVERNS_GRADATION));
 
 namespace {
 

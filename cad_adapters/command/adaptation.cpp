@@ -72,6 +72,9 @@ Adaptation::Adaptation(const AdaptChoice& choice) : choice_(choice) {
                              "--formula.");
   if (by_files && choice.sol.empty()) throw Failure("--mesh wants --sol: values, sizes or metrics at its vertices.");
   if (by_files && choice.mesh.empty()) throw Failure("--sol wants --mesh: the mesh that it belongs to.");
+  if (by_files && (choice.differences || choice.convergence > 0))
+    throw Failure(std::string(choice.differences ? "--differences" : "--convergence") +
+                  " is about the loop of --formula: it does not go with --mesh and --sol.");
   if (!by_files && !choice.transfer.empty()) throw Failure("--transfer wants --mesh: the mesh that its fields are on.");
   require_file("--mesh", choice.mesh);
   require_file("--sol", choice.sol);
@@ -117,6 +120,8 @@ carreau_status Adaptation::run_formula(carreau_session* session, double diagonal
   adaptation.field = field_at;
   adaptation.user = this;
   adaptation.iterations = choice_.iterations;
+  adaptation.differences = choice_.differences ? 1 : 0;
+  adaptation.convergence = choice_.convergence;
   return carreau_adapt(session, &adaptation, nullptr);
 }
 

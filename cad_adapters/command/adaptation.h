@@ -22,6 +22,8 @@ struct AdaptChoice {
   std::string formula;             ///< of a field, in place of `mesh` and `sol`
   std::vector<std::string> names;  ///< parameters adapt_* that options stand for, "name=value"
   int iterations = 5;              ///< by a formula
+  bool differences = false;        ///< derivatives of the formula itself, not of its values at vertices
+  double convergence = 0;          ///< share of triangles; 0: all iterations
 };
 
 /// Whether a name is that of a file of values at vertices.

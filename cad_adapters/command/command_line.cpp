@@ -156,6 +156,12 @@ void CommandLine::add_adapt() {
       ->check(CLI::Range(1, 1000))
       ->type_name(kind::number)
       ->capture_default_str();
+  adapt->add_flag("--differences", adapt_.adapt.differences,
+                  "Of --formula: derivatives by differences of the formula itself, in the plane");
+  adapt->add_option("--convergence", adapt_.adapt.convergence,
+                    "Of --formula: end when the number of triangles changes by a smaller share; 0: all iterations")
+      ->check(CLI::Range(0.0, 1.0))
+      ->type_name("SHARE");
   repeated(adapt->add_option("-o,--output", adapt_.outputs,
                              "File to write: the mesh as .mesh, .meshb, .bl2d, .vtu, .stl, .msh, .msh2 or .exr, the "
                              "fields on it as .sol or .solb (beside the mesh when not named); may be repeated"))
@@ -261,7 +267,8 @@ void CommandLine::add_picture() {
                     "Draw the sides of triangles or not; they are by default");
   picture
       ->add_option("--metric", picture_.metrics,
-                   "Sizes or metrics at the vertices, .sol, .solb or BL2D's .h: their ellipses are drawn")
+                   "Sizes or metrics at the vertices, .sol, .solb or BL2D's .h, whose ellipses are drawn; mesh: those "
+                   "in which the triangles around each vertex are equilateral")
       ->check(not_empty)
       ->type_name(kind::file);
   picture
@@ -270,6 +277,12 @@ void CommandLine::add_picture() {
       ->check(CLI::Range(1e-3, 10.0))
       ->type_name("SCALE")
       ->capture_default_str();
+  picture
+      ->add_option("--around", around_,
+                   "Place x, y, z and the radius around it that fill the picture; what is beside the eye is left out")
+      ->delimiter(',')
+      ->expected(4)
+      ->type_name("X,Y,Z,RADIUS");
   picture->add_option("--label", label_, "faces: their numbers are drawn where they are seen")
       ->check(CLI::IsMember({"faces"}))
       ->type_name("WHAT");
@@ -380,6 +393,8 @@ int CommandLine::run_command() {
                            : paint_ == "size"      ? Paint::size
                                                    : Paint::none;
     picture_.labels = !label_.empty();
+    if (around_.size() == 4) picture_.scene.around = {around_[0], around_[1], around_[2], around_[3]};
+    if (picture_.scene.around && !(around_[3] > 0)) throw Failure("--around wants a radius above 0 as its fourth number.");
     return picture(picture_);
   }
   if (app_.got_subcommand("fields")) {

@@ -45,6 +45,7 @@ class CommandLine {
   AreasOptions areas_;
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
+  std::vector<double> around_;
   CheckOptions check_;
   FieldsOptions fields_;
   std::string field_size_ = "1024", shell_;

@@ -15,7 +15,7 @@ namespace command {
 struct PictureOptions {
   std::string mesh, out;
   int width = 1200, height = 900, samples = 3;
-  std::string metrics;             ///< file of sizes or metrics whose ellipses are drawn; empty: none
+  std::string metrics;             ///< file of sizes or metrics whose ellipses are drawn, "mesh": the mesh's own; empty: none
   std::vector<std::string> views;  ///< side by side; none: iso, or top for a plane mesh
   SceneOptions scene;
   bool labels = false;  ///< numbers of faces

@@ -37,6 +37,12 @@ std::vector<Point> normals_of(const MeshArrays& mesh, std::vector<char>& used) {
   return normals;
 }
 
+struct Frame {
+  Point e1, e2;  ///< unit vectors across `n`
+  explicit Frame(const Point& n)
+      : e1(unit(std::abs(n[0]) < 0.9 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0}))), e2(cross(n, e1)) {}
+};
+
 struct Ellipse {
   Point major{}, minor{};  ///< half axes
 };
@@ -79,6 +85,35 @@ VertexMetrics read_metrics(carreau_mesh* mesh, std::size_t vertices, const std::
   return metrics;
 }
 
+VertexMetrics metrics_of_triangles(const MeshArrays& mesh) {
+  std::vector<char> used;
+  const std::vector<Point> normals = normals_of(mesh, used);
+  // Of each vertex the sum of (x^2, xy, y^2) over the sides of the triangles around, in its own frame, and their number.
+  std::vector<std::array<double, 4>> sums(mesh.vertices.size());
+  for (const auto& t : mesh.triangles)
+    for (const std::int32_t v : t) {
+      const Frame frame(unit(normals[v]));
+      for (int k = 0; k < 3; ++k) {
+        const Point side = minus(mesh.vertices[t[(k + 1) % 3]], mesh.vertices[t[k]]);
+        const double x = dot(side, frame.e1), y = dot(side, frame.e2);
+        sums[v][0] += x * x, sums[v][1] += x * y, sums[v][2] += y * y;
+      }
+      ++sums[v][3];
+    }
+  VertexMetrics metrics(mesh.vertices.size(), {1, 0, 0, 1, 0, 1});
+  for (std::size_t v = 0; v < metrics.size(); ++v) {
+    const auto& [xx, xy, yy, n] = sums[v];
+    const double k = 1.5 * n / (xx * yy - xy * xy);  // of the inverse of 2/3 of the mean
+    if (!(n > 0) || !std::isfinite(k)) continue;
+    const auto [e1, e2] = Frame(unit(normals[v]));
+    const auto entry = [&](int i, int j) {
+      return k * (yy * e1[i] * e1[j] - xy * (e1[i] * e2[j] + e2[i] * e1[j]) + xx * e2[i] * e2[j]);
+    };
+    metrics[v] = {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+  }
+  return metrics;
+}
+
 void add_ellipses(const MeshArrays& mesh, const VertexMetrics& metrics, double scale, const Projection& projection,
                   std::vector<ScreenTriangle>& triangles) {
   std::vector<char> used;
@@ -87,8 +122,8 @@ void add_ellipses(const MeshArrays& mesh, const VertexMetrics& metrics, double s
     if (used[v] == 0) continue;
     Point n = unit(normals[v]);
     if (projection.in_camera(n)[2] < projection.in_camera({0, 0, 0})[2]) n = {-n[0], -n[1], -n[2]};
-    const Point e1 = unit(std::abs(n[0]) < 0.9 ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0})), e2 = cross(n, e1);
-    const Ellipse ellipse = ellipse_in(e1, e2, metrics[v]);
+    const Frame frame(n);
+    const Ellipse ellipse = ellipse_in(frame.e1, frame.e2, metrics[v]);
     const double lift = above * scale * std::sqrt(dot(ellipse.minor, ellipse.minor));
     const auto at = [&](int i) {
       const double angle = 2 * std::numbers::pi * i / sides;

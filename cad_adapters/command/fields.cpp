@@ -28,7 +28,8 @@ constexpr std::array groups{Group{"size", CARREAU_EXR_SIZE},           Group{"in
                             Group{"target", CARREAU_EXR_TARGET},       Group{"curvature", CARREAU_EXR_CURVATURE},
                             Group{"position", CARREAU_EXR_POSITION},   Group{"normal", CARREAU_EXR_NORMAL},
                             Group{"deviation", CARREAU_EXR_DEVIATION}, Group{"triangle", CARREAU_EXR_TRIANGLE},
-                            Group{"mask", CARREAU_EXR_MASK},           Group{"preview", CARREAU_EXR_PREVIEW}};
+                            Group{"mask", CARREAU_EXR_MASK},           Group{"preview", CARREAU_EXR_PREVIEW},
+                            Group{"governs", CARREAU_EXR_GOVERNS}};
 
 bool is_env(const FieldsOptions& options) { return suffix_of(options.mesh.input) == ".env"; }
 bool is_picture(const std::string& path) { return suffix_of(path) == ".png"; }

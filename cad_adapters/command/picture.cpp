@@ -13,6 +13,8 @@ namespace command {
 
 namespace {
 
+constexpr const char* own_metrics = "mesh";  // in the place of a file
+
 void print_as_json(const PictureOptions& options, const std::vector<std::string>& views,
                    const std::vector<Label>& labels) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -39,7 +41,13 @@ int picture(const PictureOptions& options) {
   if (views.empty()) views.emplace_back(mesh.dimension == 2 ? "top" : "iso");
 
   SceneOptions scene = options.scene;
-  if (!options.metrics.empty()) scene.metrics = read_metrics(handle.get(), mesh.vertices.size(), options.metrics);
+  if (scene.around && views.size() > 1) throw Failure("--around shows one view: --view comes once with it.");
+  if (options.metrics == own_metrics) {
+    if (mesh.triangles.empty()) throw Failure("--metric mesh wants triangles; the mesh '" + options.mesh + "' has none.");
+    scene.metrics = metrics_of_triangles(mesh);
+  } else if (!options.metrics.empty()) {
+    scene.metrics = read_metrics(handle.get(), mesh.vertices.size(), options.metrics);
+  }
 
   // A grid of views, as square as the picture is.
   const int count = static_cast<int>(views.size());

@@ -214,6 +214,7 @@ class Painter {
     Point normal = cross(minus(projection_.in_camera(p[1]), a), minus(projection_.in_camera(p[2]), a));
     const double length = std::sqrt(dot(normal, normal));
     if (!(length > 0)) return;
+    if (!std::all_of(p.begin(), p.end(), [&](const Point& each) { return projection_.is_before_eye(each); })) return;
     for (double& c : normal) c /= length;
     ScreenTriangle s{
         {projection_(p[0]), projection_(p[1]), projection_(p[2])}, shaded(colour, normal), {}, of.ref, of.dark};
@@ -262,9 +263,18 @@ double shape_quality(const Point& a, const Point& b, const Point& c) {
   return squares > 0 ? 2 * std::sqrt(3.0) * std::sqrt(dot(n, n)) / squares : 0;
 }
 
-std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, const SceneOptions& options, double x0,
-                                    double y0, double width, double height) {
+namespace {
+
+/// What the picture has to hold: the ends of the axes of a ball, or the mesh.
+std::vector<Point> shown_points(const MeshArrays& mesh, const View& view, const SceneOptions& options) {
   std::vector<Point> used;
+  if (options.around) {
+    const auto& [x, y, z, radius] = *options.around;
+    for (const Point& axis : {view.right, view.up})
+      for (const double sign : {-radius, radius})
+        used.push_back({x + sign * axis[0], y + sign * axis[1], z + sign * axis[2]});
+    return used;
+  }
   for (const auto& t : mesh.triangles)
     for (const std::int32_t v : t)
       if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
@@ -272,7 +282,14 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
     for (const auto& edge : mesh.edges)
       for (const std::int32_t v : edge)
         if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
-  const Projection projection(view, used, x0, y0, width, height);
+  return used;
+}
+
+}  // namespace
+
+std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, const SceneOptions& options, double x0,
+                                    double y0, double width, double height) {
+  const Projection projection(view, shown_points(mesh, view, options), x0, y0, width, height);
   if (mesh.triangles.empty()) {
     std::vector<ScreenTriangle> lines = lines_of(mesh, projection);
     if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, lines);

@@ -1,6 +1,8 @@
 // From a mesh to shaded triangles on a picture.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct SceneOptions {
   bool edges = true;  ///< lines along the sides of triangles; those along curves are always drawn
   VertexMetrics metrics;      ///< whose ellipses are drawn at the vertices; empty: none
   double ellipse_scale = 0.5;  ///< of their half axes
+  std::optional<std::array<double, 4>> around;  ///< x, y, z and the radius of what fills the picture; none: the whole mesh
 };
 
 /// 4 sqrt(3) area / sum of squared edges (Q2 of HDR eq. 1.6): 1 for an equilateral triangle, 0 for a flat one.

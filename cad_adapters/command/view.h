@@ -27,6 +27,8 @@ class Projection {
 
   /// {x, y, depth}.
   [[nodiscard]] Point operator()(const Point& p) const;
+  /// False for what is beside or behind the eye, or nearly so: only where the picture does not hold the whole mesh.
+  [[nodiscard]] bool is_before_eye(const Point& p) const { return in_camera(p)[2] < 0.9 * distance_; }
   /// The point in the frame of the camera: right, up, toward the eye.
   [[nodiscard]] Point in_camera(const Point& p) const;
 

@@ -35,6 +35,7 @@ class FieldWriter {
       : run_(run), options_(options), cad_(cad), monitor_(monitor) {
     try {
       rules_.emplace(run.model, run.topology, cad, run.size);
+      if ((options.groups & field_governs) != 0) origin_rules_.emplace(run.model, run.topology, cad, run.size);
     } catch (const InvalidArgument& error) {
       // Parameters that contradict one another are why there is no mesh; the geometry can be shown all the same.
       if (run.result != nullptr) throw;
@@ -88,6 +89,7 @@ class FieldWriter {
   void write_file(const std::string& path, std::span<const std::size_t> faces) {
     std::deque<FieldSource> sources;
     std::deque<FaceMetric> prescribed;
+    std::deque<SizeOrigins> origins;
     std::deque<FieldImage> images;
     std::deque<PartMonitor> part_of_run;
     std::vector<ExrPart> parts;
@@ -96,6 +98,10 @@ class FieldWriter {
       if (rules_) {
         prescribed.emplace_back(static_cast<int>(f), *rules_, interfaces_of(f), monitor_, limits());
         sources.back().prescribed = &prescribed.back();
+      }
+      if (origin_rules_) {
+        origins.emplace_back(static_cast<int>(f), *origin_rules_, interfaces_of(f), monitor_);
+        sources.back().origins = &origins.back();
       }
       const auto all = static_cast<double>(faces_.size()), before = static_cast<double>(begun_ + images.size());
       part_of_run.emplace_back(monitor_, before / all, (before + 1) / all);
@@ -172,6 +178,7 @@ class FieldWriter {
   Cad& cad_;
   Monitor& monitor_;
   std::optional<SizeRules> rules_;
+  std::optional<OriginRules> origin_rules_;
   std::vector<std::size_t> faces_;             // to be written
   std::vector<std::uint32_t> first_triangle_;  // by face
   const MeshEvaluation* evaluation_ = nullptr;

@@ -53,6 +53,15 @@ constexpr std::array channels{Channel{"size.h", field_size},
                               Channel{"deviation.a1", field_deviation},
                               Channel{"triangle", field_triangle, ExrType::integer},
                               Channel{"mask", field_mask},
+                              Channel{"physical.h", field_governs},
+                              Channel{"physical.h1", field_governs},
+                              Channel{"physical.h2", field_governs},
+                              Channel{"physical.angle", field_governs},
+                              Channel{"geometric.h", field_governs},
+                              Channel{"geometric.h1", field_governs},
+                              Channel{"geometric.h2", field_governs},
+                              Channel{"geometric.angle", field_governs},
+                              Channel{"governs", field_governs, ExrType::integer},
                               Channel{"R", field_preview, ExrType::half},
                               Channel{"G", field_preview, ExrType::half},
                               Channel{"B", field_preview, ExrType::half},
@@ -77,13 +86,14 @@ struct Block {
   std::vector<Vec2> uv;
   std::vector<SurfaceJet> jets;
   std::vector<Metric2> prescribed;
+  std::vector<OriginsAt> origins;  // or empty
   FieldDeviations deviations;
 };
 
 unsigned wants_of(unsigned groups) {
   unsigned want = 0;
   if ((groups & field_position) != 0) want |= want_position;
-  if ((groups & (field_size | field_induced | field_normal | field_preview)) != 0) want |= want_first;
+  if ((groups & (field_size | field_induced | field_normal | field_preview | field_governs)) != 0) want |= want_first;
   if ((groups & field_curvature) != 0) want |= want_first | want_second;
   return want;
 }
@@ -107,7 +117,7 @@ class Painter {
       std::fill(planes_[c]->begin(), planes_[c]->end(), empty);
     }
     for (const unsigned group : {field_size, field_induced, field_target, field_curvature, field_position, field_normal,
-                                 field_deviation, field_triangle, field_mask, field_preview})
+                                 field_deviation, field_triangle, field_mask, field_preview, field_governs})
       first_[std::countr_zero(group)] = static_cast<std::size_t>(
           std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.group == group; }) -
           channels.begin());
@@ -118,13 +128,14 @@ class Painter {
     std::size_t c = first_[std::countr_zero(static_cast<unsigned>(group))];
     for (const double value : values) (*planes_[c++])[pixel] = std::bit_cast<std::uint32_t>(static_cast<float>(value));
   }
-  void put_triangle(std::uint32_t pixel, std::uint32_t triangle) const {
-    (*planes_[first_[std::countr_zero(static_cast<unsigned>(field_triangle))]])[pixel] = triangle;
+  /// A whole number in the channel of this rank in its group.
+  void put_number(FieldGroup group, std::size_t rank, std::uint32_t pixel, std::uint32_t number) const {
+    (*planes_[first_[std::countr_zero(static_cast<unsigned>(group))] + rank])[pixel] = number;
   }
 
  private:
   std::array<ExrPlane*, channels.size()> planes_{};
-  std::array<std::size_t, 10> first_{};
+  std::array<std::size_t, 11> first_{};
 };
 
 // How dark the sides of a triangle make a pixel, 0 to 1.
@@ -137,6 +148,12 @@ double ink_of_triangle(const std::array<Vec2, 3>& corner, const Vec2& pixel) {
   const double height = std::abs(cross(corner[1] - corner[0], corner[2] - corner[0])) / longest;
   const double visible = std::clamp((height - hidden_height) / (visible_height - hidden_height), 0.0, 1.0);
   return 0.8 * visible * std::clamp(edge_width / 2 + 0.5 - nearest, 0.0, 1.0);
+}
+
+void paint_origins(const Painter& painter, const OriginsAt& at, std::uint32_t pixel) {
+  const TangentSizes &p = at.physical, &g = at.geometric;
+  painter.put(field_governs, pixel, {p.h, p.h1, p.h2, p.angle, g.h, g.h1, g.h2, g.angle});
+  if (at.governs) painter.put_number(field_governs, 8, pixel, static_cast<std::uint32_t>(*at.governs));
 }
 
 // Relief: surfaces that face this direction, or turn their back to it, are lightest.
@@ -156,7 +173,7 @@ struct FieldImage::State {
         cad(geometry),
         monitor(who),
         sampler(what.ref, wants_of(how.groups),
-                (how.groups & (field_size | field_preview)) != 0 ? what.prescribed : nullptr, geometry, who) {}
+                (how.groups & (field_size | field_preview | field_governs)) != 0 ? what.prescribed : nullptr, geometry, who) {}
 
   void probe();
   void choose_grid(double length_u, double length_v);
@@ -267,6 +284,10 @@ std::shared_ptr<Block> FieldImage::State::sample(int first, int rows) {
   block->jets.resize(block->uv.size());
   block->prescribed.resize(block->uv.size());
   sampler.sample(block->uv, block->jets, block->prescribed);
+  if (has(field_governs) && source.origins != nullptr) {
+    block->origins.resize(block->uv.size());
+    source.origins->at(block->uv, block->jets, block->prescribed, block->origins);
+  }
   if (has(field_deviation) && triangles && deviations) block->deviations = deviations();
   return block;
 }
@@ -301,6 +322,7 @@ void FieldImage::State::paint_point(const Painter& painter, const Block& block, 
     if (const auto frame = principal_frame(jet)) painter.put(field_curvature, pixel, {frame->k1, frame->k2});
   if (has(field_position)) painter.put(field_position, pixel, {jet.s.x(), jet.s.y(), jet.s.z()});
   if (has(field_mask)) painter.put(field_mask, pixel, {1});
+  if (!block.origins.empty()) paint_origins(painter, block.origins[i], pixel);
 }
 
 void FieldImage::State::paint(const Block& block, std::span<ExrPlane> planes) const {
@@ -327,7 +349,7 @@ void FieldImage::State::paint(const Block& block, std::span<ExrPlane> planes) co
     }
     if (triangle[pixel] == TriangleRaster::none) continue;
     const std::uint32_t number = source.first_triangle + triangle[pixel];
-    if (has(field_triangle)) painter.put_triangle(pixel, number);
+    if (has(field_triangle)) painter.put_number(field_triangle, 0, pixel, number);
     if (has(field_deviation) && number < block.deviations.a0.size())
       painter.put(field_deviation, pixel, {block.deviations.a0[number], block.deviations.a1[number]});
   }

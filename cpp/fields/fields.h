@@ -10,6 +10,7 @@
 #include "cad/cad.h"
 #include "control_space/control_space.h"
 #include "fields/field_shape.h"
+#include "fields/size_origins.h"
 #include "io/exr.h"
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
@@ -29,10 +30,13 @@ enum FieldGroup : unsigned {
   field_triangle = 128,  ///< triangle: number of the pixel's triangle in the mesh
   field_mask = 256,      ///< mask: 1 in the domain, 0 outside
   field_preview = 512,   ///< R G B A
-  all_fields = 1023,
+  /// physical.h .h1 .h2 .angle, geometric.h .h1 .h2 .angle: each by itself, clamped; model length, degrees; governs: a
+  /// SizeOrigin
+  field_governs = 1024,
+  all_fields = 2047,
 };
 
-/// In the channel `triangle` where there is no triangle.
+/// In the channel `triangle` where there is no triangle, in `governs` where nothing is known.
 constexpr std::uint32_t no_triangle = 0xFFFFFFFF;
 
 struct FieldOptions {
@@ -54,6 +58,7 @@ struct FieldSource {
   std::uint32_t first_triangle = 0;      ///< number of its first triangle in the whole mesh
   std::span<const double> vertex_size;   ///< of the whole mesh
   FaceMetric* prescribed = nullptr;      ///< asked from the caller's thread only
+  SizeOrigins* origins = nullptr;        ///< likewise; not without `prescribed`
   const ControlSpace* space = nullptr;   ///< that of the mesher
   std::vector<ExrAttribute> attributes;  ///< besides those of the image
 };

@@ -41,13 +41,13 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 FlatMesh read_mesh(const std::string& path);
 /// Medit ASCII (versions 0 to 4) or binary (GMF versions 1 to 4, either byte order); read_mesh() tells them apart by
 /// the content. Quadrilaterals and elements of second order are taken, quadrilaterals of nine nodes when the ninth is
-/// where the eight others put the centre; mixed orders are errors, as are a word that is no section of the format
+/// where the eight others put the centre, and straight tetrahedra; mixed orders are errors, as are a word that is no section of the format
 /// (ASCII), a section that comes twice, and a missing End. Other sections are skipped.
 FlatMesh read_mesh_text(std::string_view text, const std::string& name);
 FlatMesh read_mesh_binary(std::string_view bytes, const std::string& name);
 /// Gmsh, versions 4.1 and 2.2, ASCII and binary (either byte order). References are the numbers of entities (not of
 /// physical groups, unless an element has no other), names those of physical groups. Vertices have the order of their
-/// numbers. Solids are skipped; elements of surfaces are triangles and quadrilaterals of order 1 or 2 (types 2, 3, 9,
+/// numbers. Straight tetrahedra (type 4) are kept, other solids skipped; elements of surfaces are triangles and quadrilaterals of order 1 or 2 (types 2, 3, 9,
 /// 16), others and mixed orders are errors.
 FlatMesh read_mesh_msh(std::string_view content, const std::string& name);
 /// STL, text or binary: corners of equal coordinates become one vertex. Solids of the text form are faces.
@@ -60,7 +60,7 @@ FlatMesh read_mesh_ply(std::string_view content, const std::string& name);
 /// BL2D: vertices, edges and triangles of the plane, with references.
 FlatMesh read_mesh_bl2d(std::string_view text, const std::string& name);
 /// VTK XML: one piece, arrays as text, base64 or raw bytes, not compressed. Cells are triangles and quadrilaterals of
-/// order 1 or 2 (5, 9, 22, 23) and lines; points and solids are skipped, others and mixed orders are errors.
+/// order 1 or 2 (5, 9, 22, 23), lines and straight tetrahedra (10); points and other solids are skipped, others and mixed orders are errors.
 FlatMesh read_mesh_vtu(std::string_view content, const std::string& name);
 
 }  // namespace carreau

@@ -43,6 +43,8 @@ struct FlatMesh {
   /// Empty: the triangles are the elements.
   std::vector<Cell> cells = {};
   std::vector<std::int32_t> edge_mids = {};  ///< node of each edge, index in vertices; empty: edges are straight
+  /// Straight solids of a volume mesh, indices from 0: read for background meshes, never written.
+  std::vector<std::array<std::int32_t, 4>> tetrahedra = {};
 
   [[nodiscard]] bool is_quadratic() const noexcept {
     return !cells.empty() && carreau::is_quadratic(cells.front().kind);

@@ -64,6 +64,8 @@ class PrescriptionSource {
   /// Parameters of a curve at which the field along it has a kink, and between which it is as exact as its law: it is then
   /// sampled at these, and finely between. Empty: nothing is known.
   [[nodiscard]] virtual std::vector<double> kinks_on_curve(int /*face*/, int /*ic*/) const { return {}; }
+  /// True: the source speaks of curves and points alone, and each face takes what its boundary has, by interpolation.
+  [[nodiscard]] virtual bool curves_only() const noexcept { return false; }
   /// Inside a face (its reference) at (u, v), whose image is `xyz`.
   virtual Prescription on_surface(int face, Vec2 uv, Vec3 xyz) = 0;
   /// The same at several points of one face. All spans have one size.

@@ -12,6 +12,7 @@
 #include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
 #include "io/plane/plane_files.h"
+#include "mesh/simplex_search.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
 #include "session/adaptation.h"
@@ -115,9 +116,29 @@ void check_count(const Solution& solution, const std::string& path, std::size_t 
                                         " has " + std::to_string(vertices));
 }
 
+void check_elements(const FlatMesh& mesh, const std::string& path) {
+  if (mesh.triangles.empty() && mesh.tetrahedra.empty() && mesh.edges.empty())
+    throw FileError({.file = path}, "a background mesh needs triangles, tetrahedra or edges; it has none");
+}
+
+/// A mesh that carries fields: of a volume mesh its surface, the triangles of the file or the faces of one tetrahedron.
+FlatMesh read_carrier(const std::string& path) {
+  FlatMesh mesh = read_mesh(path);
+  if (!mesh.triangles.empty() || mesh.tetrahedra.empty()) return mesh;
+  mesh.triangles = boundary_of(mesh.vertices, mesh.tetrahedra);
+  mesh.triangle_refs.assign(mesh.triangles.size(), 0);
+  return mesh;
+}
+
+/// What is estimated, is estimated on triangles.
+void keep_triangles(FlatMesh& mesh) {
+  mesh.tetrahedra.clear();
+  mesh.edges.clear();
+}
+
 /// Fields of a file at the vertices of a mesh.
 Solution read_fields(const std::string& path, const FlatMesh& mesh, const std::string& mesh_name) {
-  if (mesh.triangles.empty()) throw FileError({.file = mesh_name}, "a mesh with a field needs triangles; it has none");
+  if (mesh.triangles.empty()) throw FileError({.file = mesh_name}, "a mesh with a field needs triangles or tetrahedra; it has none");
   Solution fields = read_solution(path, SolutionUse::fields);
   check_count(fields, path, mesh.vertices.size(), mesh_name);
   return fields;
@@ -146,7 +167,8 @@ std::shared_ptr<BackgroundField> field_of(const FlatMesh& mesh, bool one_plane, 
   const bool by_face = mesh.dimension == 2 && !one_plane;
   return std::make_shared<BackgroundField>(
       BackgroundMesh{mesh.dimension, mesh.vertices, mesh.triangles,
-                     by_face ? mesh.triangle_refs : std::vector<std::int32_t>{}, std::move(values)});
+                     by_face ? mesh.triangle_refs : std::vector<std::int32_t>{}, std::move(values), mesh.tetrahedra,
+                     mesh.edges});
 }
 
 /// Metrics of a file of fields, checked as prescriptions are. Throws FileError with the line.
@@ -215,36 +237,30 @@ std::vector<Metric3> read_metrics(const std::string& sol_path, std::size_t verti
 
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
                                                  bool one_plane) {
-  FlatMesh flat = read_mesh(mesh_path);
+  const FlatMesh flat = read_mesh(mesh_path);
   const Solution solution = read_prescription(sol_path);
-  if (flat.triangles.empty()) throw FileError({.file = mesh_path}, "a background mesh needs triangles; it has none");
+  check_elements(flat, mesh_path);
   if (solution.dimension != flat.dimension)
     throw FileError({.file = sol_path}, "its dimension is " + std::to_string(solution.dimension) + ", but that of " +
                                             mesh_path + " is " + std::to_string(flat.dimension));
   check_count(solution, sol_path, flat.vertices.size(), mesh_path);
-  BackgroundMesh mesh;
-  mesh.dimension = flat.dimension;
-  mesh.vertices = std::move(flat.vertices);
-  mesh.triangles = std::move(flat.triangles);
-  if (flat.dimension == 2 && !one_plane) mesh.faces = std::move(flat.triangle_refs);
-  mesh.values = values_of(solution);
-  return std::make_shared<BackgroundField>(mesh);
+  return field_of(flat, one_plane, values_of(solution));
 }
 
 std::shared_ptr<BackgroundField> background_of_fields(Session& session, const std::string& mesh_path,
                                                       const std::string& sol_path) {
-  const FlatMesh mesh = read_mesh(mesh_path);
+  FlatMesh mesh = read_carrier(mesh_path);
   const bool one_plane = session.model().plane;
   const Solution fields = read_fields(sol_path, mesh, mesh_path);
-  return field_of(mesh, one_plane,
-                  is_metric(fields)
-                      ? metrics_of(sol_path, mesh.dimension, mesh_path)
-                      : values_on(mesh.dimension, estimate_fields(session, mesh, fields, sol_path)));
+  if (is_metric(fields)) return field_of(mesh, one_plane, metrics_of(sol_path, mesh.dimension, mesh_path));
+  VertexValues values = values_on(mesh.dimension, estimate_fields(session, mesh, fields, sol_path));
+  keep_triangles(mesh);
+  return field_of(mesh, one_plane, std::move(values));
 }
 
 std::int64_t transfer_files(const Session& session, const std::string& mesh_path, const std::string& sol_path,
                             const std::string& out_path) {
-  const FlatMesh mesh = read_mesh(mesh_path);
+  const FlatMesh mesh = read_carrier(mesh_path);
   const Solution fields = read_fields(sol_path, mesh, mesh_path);
   return write_transferred(session, surface_of(mesh, session.model()), fields, sol_path, out_path);
 }
@@ -270,12 +286,13 @@ Start start_of(Session& session) {
   if (mesh_path.empty() && !session.has_mesh())
     throw InvalidArgument("call adapt needs a mesh: none was made yet, and the parameter adapt_mesh names no file");
   start.own = mesh_path.empty();
-  start.mesh = start.own ? flatten(session.mesh(), false) : read_mesh(mesh_path);
+  start.mesh = start.own ? flatten(session.mesh(), false) : read_carrier(mesh_path);
   if (start.mesh.is_quadratic())
     throw InvalidArgument(
         "call adapt: the mesh of the field has elements of second order; a field belongs to the vertices of straight "
         "ones (element p1, q1.0 or q1.1)");
   start.fields = read_fields(start.sol_path, start.mesh, start.own ? "the mesh made last" : mesh_path);
+  if (!is_metric(start.fields)) keep_triangles(start.mesh);
   return start;
 }
 

@@ -11,8 +11,8 @@
 
 namespace carreau {
 
-/// A mesh file (`.mesh`, `.meshb`, ...) with a file of sizes or metrics (`.sol`, `.solb`; BL2D's `.h`). A mesh of dimension 3 is
-/// a surface in space; the triangles of one of dimension 2 lie in the parameter planes of the faces that their
+/// A mesh file (`.mesh`, `.meshb`, ...) with a file of sizes or metrics (`.sol`, `.solb`; BL2D's `.h`). A mesh of dimension 3
+/// is one of space, of triangles, tetrahedra or edges of curves; the triangles of one of dimension 2 lie in the parameter planes of the faces that their
 /// references name (0: any); with `one_plane` all faces lie in one, whatever references say. Throws FileError; names the
 /// file, and the line or byte where there is one.
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
@@ -22,7 +22,7 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
 /// size across. Throws FileError.
 std::vector<Metric3> read_metrics(const std::string& sol_path, std::size_t vertices);
 
-/// A mesh file with the sizes or metrics that the fields of a `.sol` or `.solb` at its vertices ask for, by the parameters
+/// A mesh file, of a volume its surface, with the sizes or metrics that the fields of a `.sol` or `.solb` at its vertices ask for, by the parameters
 /// adapt_*; a file of one symmetric tensor is taken as metrics. Several scalars, and the components of vectors, count
 /// together (intersection). On a mesh of dimension 2, sizes are lengths of the parameter planes; those of a plane model
 /// are one plane. Throws what read_background() and estimate_all() throw.

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/simplex_search.h"
 #include "mesh/surface_mesh.h"
-#include "mesh/triangle_search.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3.h"
 #include "metric/prescription.h"
@@ -26,33 +26,36 @@ struct VertexValues {
   [[nodiscard]] std::size_t size() const noexcept { return sizes.size() + space.size() + parameter.size(); }
 };
 
-/// A triangle mesh with a value at each vertex.
+/// A mesh with a value at each vertex: of triangles, of tetrahedra, of edges, or of several of them.
 struct BackgroundMesh {
-  int dimension = 3;           ///< 3: a surface in space; 2: in parameter planes, z = 0
+  int dimension = 3;           ///< 3: in space; 2: in parameter planes, z = 0
   std::vector<Vec3> vertices;  ///< finite
   std::vector<std::array<std::int32_t, 3>> triangles;
   /// Plane meshes: the reference of the face in whose parameter plane each triangle lies; empty, or 0: any face that
   /// no other triangle names.
   std::vector<std::int32_t> faces;
   VertexValues values;
+  std::vector<std::array<std::int32_t, 4>> tetrahedra = {};  ///< of dimension 3
+  std::vector<std::array<std::int32_t, 2>> edges = {};  ///< of dimension 2: on curves of the faces that no triangle names
 };
 
 /// How often a background mesh was asked, and where it did not cover.
 struct BackgroundReport {
   std::int64_t asked = 0;
-  std::int64_t outside = 0;  ///< farther from the mesh than 1/8 of the longest edge of the nearest triangle
+  std::int64_t outside = 0;  ///< farther from the mesh than 1/8 of the longest edge of the nearest element
   double farthest = 0;       ///< distance of the farthest point outside; model length, or parameter length
   friend bool operator==(const BackgroundReport&, const BackgroundReport&) = default;
 };
 
 /// The field of a background mesh. A place is looked up in logarithmic time: in space at the nearest point of the
-/// surface, in a parameter plane in the triangle that holds (u, v). Outside, the nearest point's value holds, and the
-/// point is counted. Inside a triangle values follow the law along two segments: from the first vertex towards the
-/// second, then towards the third; on edges that is the law of the edge from either side. Answers are as given: not
-/// clamped. For one thread.
+/// mesh, which is the place itself inside a tetrahedron; in a parameter plane in the triangle that holds (u, v). Outside,
+/// the nearest point's value holds, and the point is counted. Inside a triangle values follow the law along two segments:
+/// from the first vertex towards the second, then towards the third; on edges that is the law of the edge from either side.
+/// In a tetrahedron a third segment leads to the last vertex. Edges alone, with metrics at the vertices of curves (RR-2818
+/// sec. 4.1), answer on curves and points, not inside faces. Answers are as given: not clamped. For one thread.
 class BackgroundField final : public PrescriptionSource {
  public:
-  /// Throws InvalidArgument, with the vertex or triangle counted from 0, unless there is a triangle, indices lie in
+  /// Throws InvalidArgument, with the vertex or element counted from 0, unless there is an element, indices lie in
   /// range, lists fit, coordinates are finite, sizes positive and metrics positive definite.
   explicit BackgroundField(const BackgroundMesh& mesh);
   /// On a mesh of a session: each face is looked up in its own parameter plane, and values are those of the mesh's
@@ -66,6 +69,7 @@ class BackgroundField final : public PrescriptionSource {
   [[nodiscard]] std::vector<std::string> remarks() const override;
   [[nodiscard]] bool needs_position() const noexcept override { return needs_position_; }
   [[nodiscard]] double accuracy() const noexcept override;
+  [[nodiscard]] bool curves_only() const noexcept override;
   Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override;
   Prescription on_curve(int face, int ic, double t, Vec2 uv, Vec3 xyz) override;
   /// A plane mesh does not answer.
@@ -82,23 +86,27 @@ class BackgroundField final : public PrescriptionSource {
   [[nodiscard]] std::span<const SteepPlace> steep_in_space() const override { return steep_in_space_; }
 
  private:
-  /// Triangles of one parameter plane, or of space.
+  /// What lies in one parameter plane, or in space.
   struct Piece {
-    TriangleSearch tree;
     std::vector<Vec3> vertices;
-    std::vector<std::array<std::int32_t, 3>> triangles;  // of vertices
-    std::vector<std::int32_t> value;                     // of each vertex: index in values_
-    std::int32_t last = 0;                               // triangle that was found last
-    std::vector<Vec2> steep = {};                        // of a parameter plane: steep_places()
+    std::vector<Simplex> simplices;   // of vertices
+    std::vector<std::int32_t> value;  // of each vertex: index in values_
+    SimplexSearch tree = {};
+    std::int32_t last = 0;         // simplex that was found last
+    bool edges_only = false;       // says nothing inside faces
+    std::vector<Vec2> steep = {};  // of a parameter plane: steep_places()
+
+    void prepare();
   };
 
+  void add_planes(const BackgroundMesh& mesh, const std::vector<std::int32_t>& same);
   void check_values(std::size_t vertices) const;
   [[nodiscard]] std::vector<Vec2> steep_vertices(const Piece& piece) const;
   void find_steep_in_space();
   void add_piece(int face, Piece piece);
   [[nodiscard]] Piece* piece_of(int face) noexcept;
   Prescription look_up(Piece& piece, Vec3 p);
-  [[nodiscard]] Prescription value_at(const Piece& piece, const NearestOnMesh& where) const;
+  [[nodiscard]] Prescription value_at(const Piece& piece, const NearestOnSimplices& where) const;
   [[nodiscard]] double change(std::int32_t a, std::int32_t b) const;
 
   VertexValues values_;

@@ -97,6 +97,11 @@ double SizeRules::source_accuracy() const noexcept {
   return accuracy;
 }
 
+bool SizeRules::asks_curves_only() const noexcept {
+  return asks_sources() && std::any_of(parameters_.sources.begin(), parameters_.sources.end(),
+                                       [](const PrescriptionSource* s) { return s->curves_only(); });
+}
+
 std::vector<Vec2> SizeRules::steep_places(int face) const {
   std::vector<Vec2> places;
   if (!asks_sources()) return places;
@@ -290,12 +295,13 @@ void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span
     for (std::size_t i = 0; i < uv.size(); ++i) xyz[i] = jets[i].s;
   const std::vector<Prescription> told = told_on_surface(face, uv, xyz);
   const std::size_t sources = told.size() / std::max<std::size_t>(uv.size(), 1);
+  const bool by_boundary = parameters_.physical == PhysicalSizes::asked || asks_curves_only();
   const auto answers_at = [&](std::size_t i) {
     Answers answers;
     if (!physical) return answers;
     answers = answers_on_surface(face, uv[i], std::span(told).subspan(sources * i, sources));
     if (answers.empty()) {
-      const double usual = parameters_.physical == PhysicalSizes::uniform ? parameters_.hphydef : fallback(uv[i]);
+      const double usual = by_boundary ? fallback(uv[i]) : parameters_.hphydef;
       answers.push_back(Prescription::of_size(usual));
     }
     return answers;

@@ -211,6 +211,7 @@ class SizeRules {
   [[nodiscard]] std::vector<Prescription> told_on_surface(int face, std::span<const Vec2> uv,
                                                           std::span<const Vec3> xyz) const;
   Answers answers_on_surface(int face, const Vec2& uv, std::span<const Prescription> told) const;
+  [[nodiscard]] bool asks_curves_only() const noexcept;
   Answers answers_on_surface(int face, const Vec2& uv, const Vec3& xyz) const;
   Answers answers_on_curve(int curve, std::span<const double> t);
   Answers answers_at_point(int point);

@@ -134,6 +134,37 @@ TEST_F(Adaptation, SizesOfABackgroundMeshAreFollowed) {
   EXPECT_EQ(background_report().asked, 0);
 }
 
+// A cube around the square, in the five tetrahedra of a corner each and the one between; sizes that are linear in x.
+TEST_F(Adaptation, SizesOfTetrahedraAreFollowed) {
+  const double corners[24] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1};
+  const int32_t tetrahedra[20] = {0, 1, 2, 4, 3, 2, 1, 7, 5, 4, 7, 1, 6, 7, 4, 2, 1, 2, 4, 7};
+  double sizes[8];
+  for (int v = 0; v < 8; ++v) sizes[v] = 0.1 + 0.05 * corners[3 * v];
+  auto b = abi_tests::sized<carreau_background>();
+  b.dimension = 3;
+  b.vertex_count = 8, b.vertices = corners, b.sizes = sizes;
+  b.tetrahedron_count = 5, b.tetrahedra = tetrahedra;
+  ASSERT_EQ(carreau_set_background(session, &b), CARREAU_OK) << error();
+  const auto data = run();
+  EXPECT_NEAR(double(data.triangle_count()) / wanted([](double x) { return std::pow(0.1 + 0.05 * x, 2); }), 1, 0.05);
+  EXPECT_GT(background_report().asked, 100);
+  EXPECT_EQ(background_report().outside, 0);
+}
+
+// Sizes along the border alone, linear in x: so they are inside.
+TEST_F(Adaptation, SizesOfEdgesOfCurvesAreInterpolatedInFaces) {
+  const double sizes[4] = {0.05, 0.15, 0.15, 0.05};
+  const int32_t edges[8] = {0, 1, 1, 2, 2, 3, 3, 0};
+  for (const int dimension : {2, 3}) {
+    carreau_background b = square(dimension);
+    b.triangle_count = 0, b.triangles = nullptr;
+    b.edge_count = 4, b.edges = edges, b.sizes = sizes;
+    ASSERT_EQ(carreau_set_background(session, &b), CARREAU_OK) << error();
+    EXPECT_NEAR(double(run().triangle_count()) / wanted([](double x) { return std::pow(0.1 + 0.05 * x, 2); }), 1, 0.05);
+    EXPECT_EQ(background_report().outside, 0);
+  }
+}
+
 TEST_F(Adaptation, MetricsOfABackgroundMeshAreFollowed) {
   // Sizes 0.03 and 0.3, turned by 30 degrees.
   const double c = std::cos(0.5235987755982988), s = std::sin(0.5235987755982988), p = 1 / 0.0009, q = 1 / 0.09;
@@ -193,7 +224,7 @@ TEST_F(Adaptation, FilesAreReadAndTheirErrorsName) {
   const std::string empty = file("empty.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 0\nTriangles 0\nEnd\n");
   sol(0, "1 1", "1");
   EXPECT_EQ(carreau_set_background_mesh(session, empty.c_str(), path.c_str()), CARREAU_ERR_FILE);
-  EXPECT_EQ(error(), empty + ": a background mesh needs triangles; it has none");
+  EXPECT_EQ(error(), empty + ": a background mesh needs triangles, tetrahedra or edges; it has none");
   EXPECT_EQ(carreau_set_background_mesh(session, nullptr, path.c_str()), CARREAU_ERR_ARGUMENT);
   EXPECT_NEAR(double(run().triangle_count()) / wanted([](double) { return 0.01; }), 1, 0.1);
 }
@@ -496,7 +527,12 @@ TEST_F(Adaptation, WrongBackgroundMeshesAreRefused) {
   carreau_background b = square(3);
   b.sizes = sizes;
   b.triangle_count = 0;
-  EXPECT_EQ(refused(b), "the background mesh has no triangle");
+  EXPECT_EQ(refused(b), "the background mesh has no triangle, no tetrahedron and no edge");
+  b.edge_count = 1;
+  EXPECT_EQ(refused(b), "the argument background->edges is NULL");
+  b.edge_count = 0;
+  b.tetrahedron_count = -2;
+  EXPECT_NE(refused(b).find("background->tetrahedron_count is -2"), std::string::npos);
   b = square(3);
   b.sizes = sizes;
   b.dimension = 4;

@@ -110,7 +110,7 @@ TEST_F(FieldsTest, OptionsThatCannotBeAreRefused) {
   EXPECT_EQ(refused([](auto& o) { o.width = -8; }), "the width of an image is -8 pixels; it must be from 1 to 65536");
   EXPECT_EQ(refused([](auto& o) { o.height = 0; }), "the height of an image is 0 pixels; it must be from 1 to 65536");
   EXPECT_EQ(refused([](auto& o) { o.channels = -1; }),
-            "the groups of channels are 4294967295, which is not from 1 to 1023");
+            "the groups of channels are 4294967295, which is not from 1 to 2047");
   EXPECT_EQ(refused([](auto& o) { o.threads = -1; }), "the number of threads is -1; it must be at least 1");
   EXPECT_EQ(refused([](auto& o) { o.face = 3; }),
             "there is no face of the reference 3, whose fields are to be written");

@@ -137,7 +137,7 @@ contains
 end module paraboloid_m
 
 program fortran_test
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_loc, c_null_char, c_ptr
   use carreau
   use paraboloid_m
   implicit none
@@ -152,6 +152,20 @@ program fortran_test
       integer(c_int64_t), intent(out) :: out_triangles
       integer(c_int64_t) :: n
     end function c_paraboloid
+    function c_paraboloid_in_tetrahedron(corners, sizes, capacity, xyz) result(n) bind(c, name="c_paraboloid_in_tetrahedron")
+      import :: c_double, c_int64_t
+      implicit none
+      real(c_double), intent(in) :: corners(*), sizes(*)
+      integer(c_int64_t), value :: capacity
+      real(c_double), intent(out) :: xyz(*)
+      integer(c_int64_t) :: n
+    end function c_paraboloid_in_tetrahedron
+    function c_paraboloid_image(path) result(status) bind(c, name="c_paraboloid_image")
+      import :: c_char, c_int32_t
+      implicit none
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: status
+    end function c_paraboloid_image
   end interface
   real(c_double), parameter :: h = 0.2d0
   integer(c_int64_t), parameter :: capacity = 20000
@@ -165,6 +179,7 @@ program fortran_test
   call test_curve
   call test_adaptation
   call test_fields
+  call test_background_and_image_as_in_c
   call test_errors
   if (failures > 0) stop 1
   print '(a)', 'fortran_test: all passed'
@@ -617,6 +632,62 @@ contains
     call expect(status == CARREAU_ERR_FILE, 'write_exr to a folder that is not there')
     call carreau_session_free(session)
   end subroutine test_fields
+
+  subroutine test_background_and_image_as_in_c
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    type(carreau_exr_options) :: options
+    type(carreau_background_report) :: background
+    real(c_double), parameter :: around(3, 4) = reshape([-30d0, -30d0, -5d0, 60d0, -30d0, -5d0, -30d0, 60d0, -5d0, -30d0, -30d0, &
+      60d0], [3, 4]), sizes(4) = [0.3d0, 0.9d0, 1.2d0, 0.6d0]
+    integer(c_int32_t), parameter :: no_triangle(3, 0) = 0
+    real(c_double), allocatable :: xyz(:, :), c_xyz(:, :)
+    integer(c_int64_t) :: n
+    integer(c_int32_t) :: status
+    call carreau_session_create(session, status)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status, surf1=surf1, surf2=surf2, curv1=curv1, curv2=curv2)
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', 0.5d0, status)
+    call carreau_mesh_generate(session, status)
+    options%longest = 16
+    options%channels = CARREAU_EXR_GOVERNS + CARREAU_EXR_MASK + CARREAU_EXR_POSITION
+    options%multi_part = .true.
+    options%raw = .true.
+    call carreau_write_exr(session, 'fortran_image.exr', options, status)
+    call expect_ok(status, session, 'write_exr')
+    call expect(c_paraboloid_image('c_image.exr'//c_null_char) == CARREAU_OK, 'the image of C')
+    call expect(bytes_of('fortran_image.exr') == bytes_of('c_image.exr'), 'the image is that of C, byte for byte')
+
+    call carreau_set_background(session, around, no_triangle, status, sizes=sizes, tetrahedra=reshape([1, 2, 3, 4], [4, 1]))
+    call expect_ok(status, session, 'set_background by a tetrahedron')
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'generate')
+    call carreau_session_background(session, background, status)
+    call expect(background%asked > 0 .and. background%outside == 0, 'the tetrahedron covers the face')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_vertices(mesh, xyz, status)
+    allocate (c_xyz(3, capacity))
+    n = c_paraboloid_in_tetrahedron(around, sizes, capacity, c_xyz)
+    call expect(size(xyz, 2, kind=c_int64_t) == n, 'by a tetrahedron: as many vertices as in C')
+    if (size(xyz, 2, kind=c_int64_t) == n) call expect(all(xyz == c_xyz(:, :n)), 'by a tetrahedron: the vertices of C')
+    call carreau_set_background(session, around, no_triangle, status, sizes=sizes, edges=reshape([1, 2, 3], [3, 1]))
+    call expect(status == CARREAU_ERR_ARGUMENT, 'edges of three vertices are refused')
+    call carreau_set_background(session, around, no_triangle, status, sizes=sizes, edges=reshape([1, 2, 3, 4], [2, 2]))
+    call expect_ok(status, session, 'set_background by edges')
+    call carreau_session_free(session)
+  end subroutine test_background_and_image_as_in_c
+
+  !> The whole file, which is removed.
+  function bytes_of(path) result(bytes)
+    character(len=*), intent(in) :: path
+    character(len=:), allocatable :: bytes
+    integer :: unit, n
+    open (newunit=unit, file=path, access='stream', form='unformatted', status='old')
+    inquire (unit=unit, size=n)
+    allocate (character(len=n) :: bytes)
+    read (unit) bytes
+    close (unit, status='delete')
+  end function bytes_of
 
   subroutine test_errors
     type(carreau_session) :: session

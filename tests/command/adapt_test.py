@@ -10,37 +10,12 @@ import sys
 import tempfile
 import unittest
 
-from mesh_files import read_png
+from mesh_files import read_mesh, read_png, read_sol, write_sol
 
 PROGRAM, PAGE, TEAPOT = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[3]), os.path.abspath(sys.argv[4])
 FORMULAS = sys.argv[2] in ("1", "ON", "TRUE")
 
 SQUARE = "4 2 0 0\n1 -1 -1\n2 1 -1\n3 1 1\n4 -1 1\n4 1\n1 1 2 1\n2 2 3 2\n3 3 4 3\n4 4 1 4\n0\n"
-
-
-class Mesh:
-    def __init__(self, path):
-        with open(path) as file:
-            words = file.read().split()
-        self.dimension = int(words[words.index("Dimension") + 1])
-        at, wide = words.index("Vertices") + 2, self.dimension + 1
-        count = int(words[at - 1])
-        self.vertices = [tuple(map(float, words[at + wide * i:at + wide * i + wide - 1])) for i in range(count)]
-        at = words.index("Triangles") + 2
-        self.triangles = [tuple(int(w) - 1 for w in words[at + 4 * i:at + 4 * i + 3]) for i in range(int(words[at - 1]))]
-
-
-def values_of(path):
-    """Dimension, types and rows of a .sol."""
-    with open(path) as file:
-        words = file.read().split()
-    dimension = int(words[words.index("Dimension") + 1])
-    at = words.index("SolAtVertices") + 1
-    count, kinds = int(words[at]), int(words[at + 1])
-    types = [int(w) for w in words[at + 2:at + 2 + kinds]]
-    width = sum({1: 1, 2: dimension, 3: dimension * (dimension + 1) // 2, 4: dimension ** 2}[t] for t in types)
-    numbers = [float(w) for w in words[at + 2 + kinds:at + 2 + kinds + count * width]]
-    return dimension, types, [numbers[width * i:width * (i + 1)] for i in range(count)]
 
 
 class Adapt(unittest.TestCase):
@@ -75,12 +50,10 @@ class Adapt(unittest.TestCase):
 
     def start(self, size="0.1"):
         self.done("plane", "square.poly", "-o", "0.mesh", "--size", size)
-        return Mesh(self.path("0.mesh"))
+        return read_mesh(self.path("0.mesh"))
 
     def solution(self, name, mesh, types, value):
-        rows = "".join(" ".join(repr(float(x)) for x in value(*p)) + "\n" for p in mesh.vertices)
-        self.write(name, "MeshVersionFormatted 2\nDimension %d\nSolAtVertices\n%d\n%d %s\n%sEnd\n"
-                   % (mesh.dimension, len(mesh.vertices), len(types), " ".join(map(str, types)), rows))
+        write_sol(self.path(name), mesh, types, value)
 
     def interpolation_error(self, mesh, f):
         """Largest distance at the middles of triangles."""
@@ -102,10 +75,10 @@ class Adapt(unittest.TestCase):
 
         def front(x, y):
             return math.tanh(20 * (y - x * x / 2))
-        first, last = (Mesh(self.path(f"step{i}.mesh")) for i in (0, 4))
+        first, last = (read_mesh(self.path(f"step{i}.mesh")) for i in (0, 4))
         self.assertLess(len(last.vertices), 1.5 * len(first.vertices))
         self.assertLess(self.interpolation_error(last, front), self.interpolation_error(first, front) / 5)
-        dimension, types, rows = values_of(self.path("step4.sol"))
+        dimension, types, rows = read_sol(self.path("step4.sol"))
         self.assertEqual((dimension, types, len(rows)), (2, [1, 2], len(last.vertices)))
         with open(self.path("step4.png"), "rb") as file:
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
@@ -118,16 +91,16 @@ class Adapt(unittest.TestCase):
         self.solution("all.sol", mesh, [1, 2, 3, 4], lambda x, y: [x + 2 * y, x, -y, 1 + x, y, 3, 1, 2 * x, y, 4])
         for sizes, use, wanted in (("h.sol", "sizes", 4 / math.sqrt(3) / 0.05 ** 2 * 4), ("m.sol", "metrics", 4 / math.sqrt(3) * 500 * 4)):
             self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", sizes, "--use", use, "--transfer", "all.sol", "-o", "next.mesh")
-            after = Mesh(self.path("next.mesh"))
+            after = read_mesh(self.path("next.mesh"))
             self.assertAlmostEqual(len(after.triangles) / wanted, 1, delta=0.08)
-            dimension, types, rows = values_of(self.path("next.sol"))
+            dimension, types, rows = read_sol(self.path("next.sol"))
             self.assertEqual((dimension, types), (2, [1, 2, 3, 4]))
             for (x, y), row in zip(after.vertices, rows):
                 for found, exact in zip(row, [x + 2 * y, x, -y, 1 + x, y, 3, 1, 2 * x, y, 4]):
                     self.assertAlmostEqual(found, exact, delta=1e-12)
         # A metric among values is a metric; without fields there is no .sol.
         self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", "m.sol", "-o", "values.mesh", "-o", "values.solb")
-        self.assertEqual(Mesh(self.path("values.mesh")).triangles, after.triangles)
+        self.assertEqual(read_mesh(self.path("values.mesh")).triangles, after.triangles)
         self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", "h.sol", "--use", "sizes", "-o", "bare.mesh")
         self.assertFalse(os.path.exists(self.path("bare.sol")))
 
@@ -142,7 +115,7 @@ class Adapt(unittest.TestCase):
         for name in ("two.sol", "vector.sol"):
             self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", name, "-o", "next.mesh", "--shape", "anisotropic", "--tolerance",
                       str(tolerance))
-            counts.append(len(Mesh(self.path("next.mesh")).triangles))
+            counts.append(len(read_mesh(self.path("next.mesh")).triangles))
         self.assertEqual(counts[0], counts[1])
         self.assertAlmostEqual(counts[0] / (16 / math.sqrt(3) / (sizes[0] * sizes[1])), 1, delta=0.1)
 
@@ -152,7 +125,7 @@ class Adapt(unittest.TestCase):
 
         def count(*options, tolerance="0.02"):
             self.done("adapt", "square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "-o", "next.mesh", "--tolerance", tolerance, *options)
-            return len(Mesh(self.path("next.mesh")).triangles)
+            return len(read_mesh(self.path("next.mesh")).triangles)
         size = math.sqrt(4.5 * 0.02 / 20)
         self.assertAlmostEqual(count() / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
         # In the other direction the size is hmax, or a third of it by the ratio.
@@ -173,12 +146,12 @@ class Adapt(unittest.TestCase):
 
     def test_surfaces_in_space_are_adapted(self):
         self.done("mesh", TEAPOT, "-o", "0.mesh", "--size", "2%")
-        mesh = Mesh(self.path("0.mesh"))
+        mesh = read_mesh(self.path("0.mesh"))
         self.assertEqual(mesh.dimension, 3)
         self.solution("u.sol", mesh, [1, 2], lambda x, y, z: [math.tanh(8 * (z - 1.2)), x, y, z])
         self.done("adapt", TEAPOT, "--mesh", "0.mesh", "--sol", "u.sol", "-o", "1.mesh", "--tolerance", "0.01", "--min", "0.03", "--gradation", "1.5")
-        after = Mesh(self.path("1.mesh"))
-        dimension, types, rows = values_of(self.path("1.sol"))
+        after = read_mesh(self.path("1.mesh"))
+        dimension, types, rows = read_sol(self.path("1.sol"))
         self.assertEqual((dimension, types, len(rows)), (3, [1, 2], len(after.vertices)))
         # Edges are short where the field bends, 1.2 +- .08, and long far from it.
 
@@ -197,14 +170,20 @@ class Adapt(unittest.TestCase):
                          "next.mesh")
         self.assertEqual(told.count("\nadaptation "), 2)
         size = math.sqrt(4.5 * 0.02 / 20)
-        self.assertAlmostEqual(len(Mesh(self.path("next.mesh")).triangles) / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
+        self.assertAlmostEqual(len(read_mesh(self.path("next.mesh")).triangles) / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
         self.fails("square.poly", "--formula", "1 / (x - x)", "-o", "next.vtu", sentence="has no finite value at x =")
+        self.fails("square.poly", "--mesh", "0.mesh", "--sol", "u.sol", "--convergence", "0.1", "-o", "next.vtu", sentence="it does not go with --mesh")
+        # From the formula itself; the loop ends when the mesh no longer changes.
+        told = self.done("adapt", "square.poly", "--formula", "10 * x^2", "--differences", "--tolerance", "0.02", "--iterations", "9", "--convergence",
+                         "0.1", "--size", "0.2", "-o", "next.mesh")
+        self.assertLess(told.count("\nadaptation "), 9)
+        self.assertAlmostEqual(len(read_mesh(self.path("next.mesh")).triangles) / (16 / math.sqrt(3) / size ** 2), 1, delta=0.1)
         self.fails("square.poly", "--formula", "x +", "-o", "next.vtu", sentence="The formula 'x +' is wrong at position")
 
     def test_pictures_show_the_ellipses_of_metrics(self):
         """Four vertices of a square 2 x 2: rings with half axes .4 along y and .2 along x, at half of sizes .8 and .4."""
         self.write("two.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 4\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\nTriangles 2\n1 2 3 1\n1 3 4 1\nEnd\n")
-        self.solution("m.sol", Mesh(self.path("two.mesh")), [3], lambda x, y: [1 / 0.4 ** 2, 0, 1 / 0.8 ** 2])
+        self.solution("m.sol", read_mesh(self.path("two.mesh")), [3], lambda x, y: [1 / 0.4 ** 2, 0, 1 / 0.8 ** 2])
         self.done("picture", "two.mesh", "-o", "bare.png", "--size", "500x500", "--no-edges", "--color", "none")
         self.done("picture", "two.mesh", "--metric", "m.sol", "-o", "rings.png", "--size", "500x500", "--no-edges", "--color", "none")
         bare, rings = read_png(self.path("bare.png")), read_png(self.path("rings.png"))
@@ -220,6 +199,29 @@ class Adapt(unittest.TestCase):
             dy = min(abs(y + 0.5 - top), abs(y + 0.5 - top - width)) / scale
             self.assertAlmostEqual(math.hypot(dx / 0.2, dy / 0.4), 1, delta=0.12)
         self.fails_picture("two.mesh", "--metric", "short.sol", sentence="it has values at 1 vertices, but the mesh has 4")
+
+    def test_pictures_show_the_ellipses_of_the_mesh_itself(self):
+        """Six equilateral triangles of side 1 around a vertex, twice as wide: half axes 1 and .5, at half the scale."""
+        corners = [(2 * math.cos(k * math.pi / 3), math.sin(k * math.pi / 3)) for k in range(6)]
+        self.write("six.mesh", "MeshVersionFormatted 2\nDimension 2\nVertices 7\n0 0 0\n" + "".join(f"{x!r} {y!r} 0\n" for x, y in corners)
+                   + "Triangles 6\n" + "".join(f"1 {k + 2} {(k + 1) % 6 + 2} 1\n" for k in range(6)) + "End\n")
+        common = ("--size", "400x400", "--no-edges", "--color", "none", "--around", "0,0,0,1.5")
+        self.done("picture", "six.mesh", "--metric", "mesh", "-o", "rings.png", *common)
+        rings = read_png(self.path("rings.png"))
+        scale = 0.92 * 200 / 1.5  # pixels of a unit: the picture holds the radius with a margin of 4 % on each side
+        reached, directions = [0, 0], set()
+        for y, row in enumerate(rings):
+            for x, (r, g, b) in enumerate(row):
+                p = ((x + 0.5 - 200) / scale, (y + 0.5 - 200) / scale)
+                if r > 1.5 * g + 20 and math.hypot(p[0], p[1] / 0.5) < 1.03:  # beyond are those of the neighbours
+                    self.assertGreater(math.hypot(p[0], p[1] / 0.5), 0.95)
+                    directions.add(int(16 * math.atan2(p[1], p[0]) / math.pi))
+                    reached = [max(reached[0], abs(p[0])), max(reached[1], abs(p[1]))]
+        self.assertGreaterEqual(len(directions), 31)
+        self.assertAlmostEqual(reached[0], 1, delta=0.02)
+        self.assertAlmostEqual(reached[1], 0.5, delta=0.02)
+        self.fails_picture("six.mesh", "--view", "top", "--view", "iso", "--around", "0,0,0,1", sentence="--around shows one view")
+        self.fails_picture("six.mesh", "--around", "0,0,0,0", sentence="--around wants a radius above 0")
 
     def fails_picture(self, *words, sentence):
         self.write("short.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n1\n1 1\n1\nEnd\n")

@@ -89,7 +89,19 @@ class Fields(unittest.TestCase):
                 self.assertEqual(part["parameter.hphydef"], 0.5)
                 self.assertGreater(part["triangle.count"], 100)
                 self.assertIn("curvature.k1", part["channels"])
-                self.assertEqual(len(part["channels"]), 26)
+                self.assertEqual(len(part["channels"]), 35)
+
+    def test_sizes_apart_have_channels_that_openexr_lists(self):
+        self.run_fields(self.pardom, "-o", "a.exr", "--pixels", "20", "--multi-part", "--channels", "governs", "--angle", "8", "--size", "0.5")
+        channels = ["geometric.angle", "geometric.h", "geometric.h1", "geometric.h2", "governs", "physical.angle", "physical.h", "physical.h1",
+                    "physical.h2"]
+        part, = attributes(self.path("a.exr"))
+        self.assertEqual(part["channels"], channels)
+        if not shutil.which("exrheader"):
+            self.skipTest("no exrheader (Debian package openexr)")
+        told = subprocess.run(["exrheader", self.path("a.exr")], capture_output=True, text=True, check=True).stdout
+        for channel in channels:
+            self.assertIn(f"    {channel}, " + ("32-bit unsigned integer" if channel == "governs" else "32-bit floating-point"), told)
 
     def test_an_env_file_is_run_and_then_shown(self):
         self.write("blsurf.env", "hphydef 0.5\ncall inimesh\npref mine\ncall export\ncall exit\n")

@@ -26,13 +26,17 @@ class Mesh:
         return [sum((a - b) ** 2 for a, b in zip(self.vertices[i], self.vertices[j])) ** 0.5 for i, j in edges]
 
 
-def read_mesh(path, dimension=3):
+def read_mesh(path, dimension=None):
+    """Medit's text; of the dimension that the file tells."""
     with open(path) as file:
         words = iter(file.read().split())
     mesh = Mesh([], [], [])
     for word in words:
-        if word == "Vertices":
-            mesh.vertices = [tuple(float(next(words)) for _ in range(dimension + 1))[:dimension] for _ in range(int(next(words)))]
+        if word == "Dimension":
+            mesh.dimension = int(next(words))
+            assert dimension in (None, mesh.dimension), mesh.dimension
+        elif word == "Vertices":
+            mesh.vertices = [tuple(float(next(words)) for _ in range(mesh.dimension + 1))[:mesh.dimension] for _ in range(int(next(words)))]
         elif word == "Triangles":
             for _ in range(int(next(words))):
                 i, j, k, ref = (int(next(words)) for _ in range(4))
@@ -43,6 +47,27 @@ def read_mesh(path, dimension=3):
                 i, j, ref = (int(next(words)) for _ in range(3))
                 mesh.edges.append((i - 1, j - 1, ref))
     return mesh
+
+
+def read_sol(path):
+    """Dimension, types and rows of values of a .sol."""
+    with open(path) as file:
+        words = file.read().split()
+    dimension = int(words[words.index("Dimension") + 1])
+    at = words.index("SolAtVertices") + 1
+    count, kinds = int(words[at]), int(words[at + 1])
+    types = [int(w) for w in words[at + 2:at + 2 + kinds]]
+    width = sum({1: 1, 2: dimension, 3: dimension * (dimension + 1) // 2, 4: dimension ** 2}[t] for t in types)
+    numbers = [float(w) for w in words[at + 2 + kinds:at + 2 + kinds + count * width]]
+    return dimension, types, [numbers[width * i:width * (i + 1)] for i in range(count)]
+
+
+def write_sol(path, mesh, types, value):
+    """Rows of value(*vertex) at the vertices of a mesh."""
+    rows = "".join(" ".join(repr(float(x)) for x in value(*p)) + "\n" for p in mesh.vertices)
+    with open(path, "w") as file:
+        file.write("MeshVersionFormatted 2\nDimension %d\nSolAtVertices\n%d\n%d %s\n%sEnd\n"
+                   % (mesh.dimension, len(mesh.vertices), len(types), " ".join(map(str, types)), rows))
 
 
 def area(mesh):

@@ -31,6 +31,10 @@ struct ExrImage {
     return real.at(channel).at(static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
                                static_cast<std::size_t>(column));
   }
+  [[nodiscard]] std::uint32_t number(const std::string& channel, int column, int row) const {
+    return integer.at(channel).at(static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                                  static_cast<std::size_t>(column));
+  }
   [[nodiscard]] bool has(const std::string& attribute) const { return header.find(attribute.c_str()) != header.end(); }
   [[nodiscard]] int integer_attribute(const char* name) const {
     return header.typedAttribute<Imf::IntAttribute>(name).value();

@@ -15,15 +15,15 @@ namespace carreau {
 namespace {
 
 constexpr std::int32_t line_type = 1, triangle_type = 2, quad_type = 3, line_of_order_2_type = 8,
-                       triangle_of_order_2_type = 9, quad_of_eight_nodes_type = 16, point_type = 15;
+                       triangle_of_order_2_type = 9, quad_of_eight_nodes_type = 16, point_type = 15, tetrahedron_type = 4;
 
 /// Number of vertices of the elements that are read (points, lines, triangles and quadrilaterals of first and second
-/// order) and of solids, which are skipped; 0: of others, without which a surface would have holes.
+/// order, tetrahedra of the first) and of other solids, which are skipped; 0: of others, without which a surface would have holes.
 std::size_t vertices_of_type(std::int32_t type) {
   static constexpr std::pair<std::int32_t, std::size_t> known[] = {
       {point_type, 1}, {line_type, 2}, {triangle_type, 3}, {quad_type, 4}, {line_of_order_2_type, 3},
       {triangle_of_order_2_type, 6}, {quad_of_eight_nodes_type, 8},
-      {4, 4},   {5, 8},   {6, 6},   {7, 5},   {11, 10}, {12, 27},
+      {tetrahedron_type, 4}, {5, 8},   {6, 6},   {7, 5},   {11, 10}, {12, 27},
       {13, 18},        {14, 14},       {17, 20},           {18, 15}, {19, 13}, {29, 20}, {30, 35}, {31, 56}};
   for (const auto& [each, vertices] : known)
     if (each == type) return vertices;
@@ -35,7 +35,8 @@ bool is_surface(std::int32_t type) noexcept {
          type == quad_of_eight_nodes_type;
 }
 bool is_read(std::int32_t type) noexcept {
-  return is_surface(type) || type == point_type || type == line_type || type == line_of_order_2_type;
+  return is_surface(type) || type == point_type || type == line_type || type == line_of_order_2_type ||
+         type == tetrahedron_type;
 }
 
 using Key = std::pair<std::int32_t, std::int32_t>;  // dimension and tag, of an entity or a physical group
@@ -218,6 +219,7 @@ void MshReader::element(std::int32_t type, std::int32_t ref, std::size_t vertice
     list.refs.push_back(ref);
   };
   if (type == point_type) mesh_.vertex_refs[static_cast<std::size_t>(nodes[0])] = ref;
+  if (type == tetrahedron_type) mesh_.tetrahedra.push_back({nodes[0], nodes[1], nodes[2], nodes[3]});
   if (type == line_type) add(lists_.edges);
   if (type == line_of_order_2_type) add(lists_.edges3);
   if (type == triangle_type) add(lists_.triangles);

@@ -21,7 +21,7 @@ struct ElementSections {
 
   Section<2> edges;
   Section<3> edges3, triangles;
-  Section<4> quads;
+  Section<4> quads, tetrahedra;
   Section<6> triangles6;
   Section<9> quads9;
 
@@ -49,6 +49,7 @@ struct ElementSections {
     check("quadrilateral", quads, vertices, refuse);
     check("triangle of order 2", triangles6, vertices, refuse);
     check("quadrilateral of order 2", quads9, vertices, refuse);
+    check("tetrahedron", tetrahedra, vertices, refuse);
   }
 
   /// Moves all elements into the mesh. `fail(place, sentence)` throws; `end`: the place of what is about no one section.
@@ -60,6 +61,7 @@ struct ElementSections {
                        .quads8 = {},
                        .edges = std::move(edges.list),
                        .edges3 = std::move(edges3.list)};
+    mesh.tetrahedra = std::move(tetrahedra.list.nodes);
     std::size_t bad = 0;
     if (!take_quads9(quads9.list.nodes, quads9.list.refs, lists, mesh, bad))
       fail(quads9.start, "quadrilateral of order 2 " + std::to_string(bad + 1) +

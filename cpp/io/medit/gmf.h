@@ -19,6 +19,7 @@ enum class GmfCode : std::int32_t {
   edges = 5,
   triangles = 6,
   quadrilaterals = 7,
+  tetrahedra = 8,
   triangles_of_order_2 = 24,
   edges_of_order_2 = 25,
   quadrilaterals_of_order_2 = 27,

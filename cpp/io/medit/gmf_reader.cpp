@@ -68,6 +68,8 @@ void GmfReader::section(std::int32_t code) {
       return entities("triangles", elements_.triangles);
     case GmfCode::quadrilaterals:
       return entities("quadrilaterals", elements_.quads);
+    case GmfCode::tetrahedra:
+      return entities("tetrahedra", elements_.tetrahedra);
     case GmfCode::triangles_of_order_2:
       return entities("triangles of order 2", elements_.triangles6);
     case GmfCode::quadrilaterals_of_order_2:

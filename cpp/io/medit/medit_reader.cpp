@@ -64,6 +64,8 @@ bool MeditReader::read_section(std::string_view name) {
     entities("triangles", elements_.triangles);
   else if (name == "Quadrilaterals")
     entities("quadrilaterals", elements_.quads);
+  else if (name == "Tetrahedra")
+    entities("tetrahedra", elements_.tetrahedra);
   else if (name == "TrianglesP2")
     entities("triangles of order 2", elements_.triangles6);
   else if (name == "QuadrilateralsQ2")
@@ -86,8 +88,8 @@ void MeditReader::check_indices() {
 
 FlatMesh MeditReader::read() {
   in_.header("a mesh file");
-  while (read_section(in_.next_section({"Vertices", "Edges", "EdgesP2", "Triangles", "Quadrilaterals", "TrianglesP2",
-                                        "QuadrilateralsQ2"}))) {
+  while (read_section(in_.next_section({"Vertices", "Edges", "EdgesP2", "Triangles", "Quadrilaterals", "Tetrahedra",
+                                        "TrianglesP2", "QuadrilateralsQ2"}))) {
   }
   if (!has_vertices_) in_.fail(in_.position(), "the file has no Vertices");
   check_indices();

@@ -14,7 +14,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_quadratic_edge = 21;
+constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_tetrahedron = 10, vtk_quadratic_edge = 21;
 
 /// Kinds of elements by their types.
 std::optional<CellKind> kind_of(std::int64_t type) noexcept {
@@ -32,7 +32,7 @@ std::optional<CellKind> kind_of(std::int64_t type) noexcept {
   }
 }
 
-/// Solids, of any order: they are skipped. Other cells are pieces of surfaces that are not triangles.
+/// Solids, of any order: straight tetrahedra are kept, others skipped. Other cells are pieces of surfaces that are not triangles.
 bool is_solid(std::int64_t type) noexcept {
   constexpr std::int64_t solids[] = {10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 42, 71, 72, 73, 74};
   return std::find(std::begin(solids), std::end(solids), type) != std::end(solids);
@@ -156,8 +156,9 @@ std::int32_t VtuReader::index(const VtuArray& array, std::int64_t value) const {
 
 void VtuReader::add_cell(std::int64_t type, const std::vector<std::int32_t>& corners, std::size_t cell) {
   const bool of_points = type == vtk_vertex || type == vtk_points, chain = type == vtk_line || type == vtk_polyline;
-  if (of_points || is_solid(type)) return;
   const std::size_t n = corners.size();
+  if (type == vtk_tetrahedron && n == 4) mesh_.tetrahedra.push_back({corners[0], corners[1], corners[2], corners[3]});
+  if (of_points || is_solid(type)) return;
   const std::optional<CellKind> kind = kind_of(type);
   if (kind && n == static_cast<std::size_t>(node_count(*kind))) {
     Cell element{.kind = *kind, .nodes = {-1, -1, -1, -1, -1, -1, -1, -1}};

@@ -169,6 +169,15 @@ TEST(Fields, HaveTheChannelsAndAttributesThatAreDocumented) {
                                           "deviation.a1",
                                           "triangle",
                                           "mask",
+                                          "physical.h",
+                                          "physical.h1",
+                                          "physical.h2",
+                                          "physical.angle",
+                                          "geometric.h",
+                                          "geometric.h1",
+                                          "geometric.h2",
+                                          "geometric.angle",
+                                          "governs",
                                           "R",
                                           "G",
                                           "B",
@@ -268,6 +277,93 @@ TEST(Fields, OfAnAnisotropicMeshHaveTwoSizesAndADirection) {
   });
   EXPECT_GT(across, 1000);
   EXPECT_LT(along, 200);
+}
+
+// On a sphere of radius 1 the geometric size is 2 sin(angle) (HDR eq. 4.35); the physical one grows along x.
+TEST(Fields, TellWhichSizeGoverns) {
+  FieldCase run(testing::hemisphere());
+  const auto physical = [](Vec2 p) { return 0.25 + 0.2 * p.x(); };
+  run.cad->size_on_surface = [&](int, Vec2 p) { return std::optional<double>(physical(p)); };
+  run.by_angle();
+  Parameters& parameters = run.session->parameters();
+  parameters.set("hphy_flag", 2);
+  parameters.set("hphymin", 0.1);
+  parameters.set("hphymax", 10.0);
+  run.session->make_mesh();
+  const ExrImage image = run.image(64, 64);
+  const double geometric = 2 * std::sin(8 * pi / 180);
+  std::array<int, 4> count{};
+  for_each_inside(image, [&](int i, int j, Vec2 p) {
+    const auto at = [&](const char* name) { return static_cast<double>(image.at(name, i, j)); };
+    const double h = std::max(0.1, physical(p));
+    for (const char* name : {"physical.h", "physical.h1", "physical.h2"}) ASSERT_NEAR(at(name), h, single);
+    for (const char* name : {"geometric.h", "geometric.h1", "geometric.h2"}) ASSERT_NEAR(at(name), geometric, single);
+    ASSERT_NEAR(at("size.h"), std::min(h, geometric), single);
+    const auto governs = image.number("governs", i, j);
+    if (std::abs(h - geometric) < 1e-5 || std::abs(physical(p) - 0.1) < 1e-5) return;
+    ASSERT_EQ(governs, geometric < h ? 1u : physical(p) < 0.1 ? 2u : 0u);
+    ++count[governs];
+  });
+  for (const std::size_t origin : {0u, 1u, 2u}) EXPECT_GT(count[origin], 50) << origin;
+  EXPECT_EQ(image.number("governs", 0, 0), no_triangle) << "outside of the disc";
+}
+
+// What bounds a size is its own bound: a geometric one its own, and the smaller size counts.
+TEST(Fields, TellWhatBoundsAndGradationGovern) {
+  FieldCase run(testing::hemisphere());
+  run.by_angle();
+  Parameters& parameters = run.session->parameters();
+  parameters.set("hphy_flag", 2);
+  parameters.set("hphymin", 0.01);
+  parameters.set("hphymax", 1.0);
+  parameters.set("hgeomax", 0.2);  // 2 sin(8 degrees) = .278
+  run.cad->size_on_surface = [](int, Vec2 p) { return std::optional<double>(p.x() < 0 ? 0.05 : 0.9); };
+  run.session->make_mesh();
+  const unsigned channels = field_governs | field_mask | field_size;
+  ExrImage image = run.image(48, 48, channels);
+  for_each_inside(image, [&](int i, int j, Vec2 p) {
+    ASSERT_EQ(image.number("governs", i, j), p.x() < 0 ? 0u : 2u);
+    ASSERT_NEAR(image.at("geometric.h", i, j), 0.2, single);
+  });
+  parameters.set("gradation", 1.3);
+  run.session->make_mesh();
+  image = run.image(48, 48, channels);
+  std::array<int, 4> count{};
+  for_each_inside(image, [&](int i, int j, Vec2 p) {
+    const std::uint32_t governs = image.number("governs", i, j);
+    ++count[governs];
+    const double whole = p.x() < 0 ? 0.05 : 0.2;
+    ASSERT_EQ(governs == 3, image.at("size.h", i, j) < (1 - 2e-6) * whole) << image.at("size.h", i, j);
+  });
+  EXPECT_GT(count[3], 200) << "sizes grow from .05 to .2 by steps of 1.3";
+  EXPECT_GT(count[0], 700);
+}
+
+// By direction: the least of two sizes counts, and a size that is ignored is not a number.
+TEST(Fields, OfAnAnisotropicMeshTellBothMetrics) {
+  FieldCase run(testing::torus_patch());
+  run.by_angle();
+  run.session->parameters().set("geo_metric", 1);
+  run.session->parameters().set("geo_rule", "angle");
+  run.session->make_mesh();
+  ExrImage image = run.image(24, 24);
+  for_each_inside(image, [&](int i, int j, Vec2) {
+    ASSERT_TRUE(std::isnan(image.at("physical.h1", i, j)));
+    for (const char* name : {".h", ".h1", ".h2", ".angle"})
+      ASSERT_EQ(image.at(std::string("geometric") + name, i, j), image.at(std::string("size") + name, i, j));
+    ASSERT_EQ(image.number("governs", i, j), 1u);
+  });
+  run.session->parameters().set("hphy_flag", 1);
+  run.session->parameters().set("hphydef", 0.15);
+  run.session->parameters().set("hphymax", 10.0);
+  run.session->parameters().set("hphymin", 1e-3);
+  run.session->make_mesh();
+  image = run.image(24, 24);
+  for_each_inside(image, [&](int i, int j, Vec2) {
+    ASSERT_NEAR(image.at("physical.h1", i, j), 0.15, single);
+    ASSERT_EQ(image.number("governs", i, j), 0u) << image.at("geometric.h1", i, j);
+    ASSERT_NEAR(image.at("size.h2", i, j), 0.15, single);
+  });
 }
 
 // A small size at one place; with gradation 1.3 sizes grow by ln 1.3 at most along a path, and the target agrees.
@@ -518,8 +614,8 @@ TEST(Fields, ThatCannotBeWrittenLeaveTheMesh) {
             "the longer side of an image is 0 pixels; it must be from 1 to 65536");
   EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.width = 5})),
             "the height of an image is 0 pixels; it must be from 1 to 65536");
-  EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.groups = 1024})),
-            "the groups of channels are 1024, which is not from 1 to 1023");
+  EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.groups = 2048})),
+            "the groups of channels are 2048, which is not from 1 to 2047");
   EXPECT_EQ(sentence_of<InvalidArgument>(write(run.file("x.exr"), {.file = {.threads = -1}})),
             "the number of threads is -1; it must be at least 1");
   EXPECT_TRUE(std::filesystem::is_empty(run.folder));

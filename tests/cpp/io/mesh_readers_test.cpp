@@ -189,6 +189,7 @@ TEST(MeshReaders, GmshFilesMayNumberNodesAsTheyLike) {
   EXPECT_EQ(mesh.edge_refs, std::vector<std::int32_t>{6});
   EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{2, 0, 1}}));
   EXPECT_EQ(mesh.triangle_refs, std::vector<std::int32_t>{8});
+  EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::int32_t, 4>>{{0, 1, 2, 3}}));
   ASSERT_EQ(mesh.faces.size(), 1u);
   EXPECT_EQ(mesh.faces[0].name, "the \"bore\" ");
 }
@@ -328,6 +329,7 @@ TEST(MeshReaders, VtuTextOfOtherPrograms) {
   EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
   EXPECT_EQ(mesh.edges, (std::vector<std::array<std::int32_t, 2>>{{2, 1}, {1, 0}}));
   EXPECT_EQ(mesh.triangle_refs, std::vector<std::int32_t>{0});
+  EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::int32_t, 4>>{{3, 0, 1, 2}}));
   ASSERT_EQ(mesh.fields.size(), 1u);
   EXPECT_EQ(mesh.fields[0].values[3], 4);
 }

@@ -8,6 +8,7 @@
 #include <random>
 #include <string>
 
+#include "common/kuhn_cube.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
 
@@ -224,14 +225,98 @@ TEST(BackgroundField, SteepPlacesOfSpaceAreWhereItChangesWithinAUnitEdge) {
   EXPECT_TRUE(BackgroundField(mesh).steep_in_space().empty());
 }
 
+BackgroundMesh cube_mesh(int n) {
+  testing::Tetrahedra cube = testing::kuhn_cube(n);
+  BackgroundMesh mesh;
+  mesh.vertices = std::move(cube.vertices);
+  mesh.tetrahedra = std::move(cube.tetrahedra);
+  return mesh;
+}
+
+TEST(BackgroundField, InTetrahedraSizesAreLinear) {
+  BackgroundMesh mesh = cube_mesh(4);
+  const auto wanted = [](const Vec3& p) { return 1 + 2 * p.x() + 3 * p.y() + 4 * p.z(); };
+  for (const Vec3& p : mesh.vertices) mesh.values.sizes.push_back(wanted(p));
+  BackgroundField field(mesh);
+  EXPECT_FALSE(field.curves_only());
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> number(0, 1);
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 p{number(random), number(random), number(random)};
+    EXPECT_NEAR(field.on_surface(1, {}, p).size, wanted(p), 1e-13);
+    EXPECT_NEAR(field.at_point(1, p + Vec3{1, 0, 0}).size, wanted({1, p.y(), p.z()}), 1e-13) << "outside: the nearest";
+  }
+  EXPECT_GT(field.report().outside, 900);
+  EXPECT_LE(field.report().farthest, 1);
+}
+
+TEST(BackgroundField, MetricsInTetrahedraAreOneOnTheFacesBetween) {
+  // Two tetrahedra beside the triangle 0, 1, 2, whichever comes first and however their corners are counted.
+  BackgroundMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.values.space = {{9, 2, 0, 4, 0, 1}, {1, 0, 0.3, 25, 1, 2}, {4, -1, 0, 1, 0.5, 9}, {1, 0, 0, 1, 0, 1}, {100, 0, 0, 100, 0, 100}};
+  mesh.tetrahedra = {{3, 2, 0, 1}, {1, 4, 2, 0}};
+  BackgroundField one(mesh);
+  mesh.tetrahedra = {{4, 0, 1, 2}, {0, 3, 1, 2}};
+  BackgroundField two(mesh);
+  for (const MetricLaw law : {MetricLaw::linear, MetricLaw::geometric}) {
+    one.begin_run(law), two.begin_run(law);
+    for (const Vec3& p : {Vec3{0.2, 0.3, 0}, Vec3{0.5, 0.25, 0}, Vec3{0, 0.5, 0}})
+      EXPECT_EQ(one.on_surface(1, {}, p).space, two.on_surface(1, {}, p).space);
+  }
+  EXPECT_EQ(one.at_point(1, mesh.vertices[2]).space, mesh.values.space[2]);
+}
+
+TEST(BackgroundField, EdgesOfCurvesSpeakOfCurvesAlone) {
+  BackgroundMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}};
+  mesh.values.sizes = {1, 4, 2};
+  mesh.edges = {{0, 1}, {1, 2}};
+  for (const int dimension : {2, 3}) {
+    mesh.dimension = dimension;
+    BackgroundField field(mesh);
+    EXPECT_TRUE(field.curves_only());
+    EXPECT_EQ(field.on_surface(1, {0.5, 0}, {0.5, 0, 0}).kind, Prescription::Kind::none);
+    EXPECT_DOUBLE_EQ(field.on_curve(1, 1, 0, {0.5, 0}, {0.5, 0, 0}).size, 2.5);
+    EXPECT_DOUBLE_EQ(field.on_curve(1, 2, 0, {1, 0.5}, {1, 0.5, 0}).size, 3.5);
+    field.begin_run(MetricLaw::geometric);
+    EXPECT_DOUBLE_EQ(field.on_curve(1, 1, 0, {0.5, 0}, {0.5, 0, 0}).size, 2);
+  }
+  EXPECT_DOUBLE_EQ(BackgroundField(mesh).at_point(1, {1, 2, 0}).size, 2);
+}
+
+TEST(BackgroundField, SidesOfTrianglesAreNoEdgesOfTheirOwn) {
+  BackgroundMesh mesh = grid(6, sphere);
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> number(1, 2);
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.values.sizes.push_back(number(random));
+  BackgroundField bare(mesh);
+  for (const auto& t : mesh.triangles) mesh.edges.push_back({t[2], t[0]});
+  BackgroundField field(mesh);
+  EXPECT_FALSE(field.curves_only());
+  for (int k = 0; k < 500; ++k) {
+    const Vec3 p = sphere(number(random) - 1, number(random) - 1);
+    EXPECT_EQ(field.on_surface(1, {}, p).size, bare.on_surface(1, {}, p).size);
+  }
+}
+
 TEST(BackgroundField, RefusesWhatItCannotUse) {
   BackgroundMesh sound = grid(1, flat);
   sound.values.sizes = {1, 1, 1, 1};
   EXPECT_EQ(sentence_of(sound), "");
   BackgroundMesh mesh = sound;
   mesh.triangles.clear();
-  EXPECT_EQ(sentence_of(mesh), "the background mesh has no triangle");
-  EXPECT_EQ(sentence_of(BackgroundMesh{}), "the background mesh has no triangle");
+  EXPECT_EQ(sentence_of(mesh), "the background mesh has no triangle, no tetrahedron and no edge");
+  EXPECT_EQ(sentence_of(BackgroundMesh{}), "the background mesh has no triangle, no tetrahedron and no edge");
+  mesh.tetrahedra = {{0, 1, 2, 9}};
+  EXPECT_EQ(sentence_of(mesh), "the background mesh: tetrahedron 0 (from 0) names vertex 9, but there are 4");
+  mesh.tetrahedra.clear();
+  mesh.edges = {{0, 1}, {-1, 2}};
+  EXPECT_EQ(sentence_of(mesh), "the background mesh: edge 1 (from 0) names vertex -1, but there are 4");
+  mesh = sound;
+  mesh.dimension = 2;
+  mesh.tetrahedra = {{0, 1, 2, 3}};
+  EXPECT_EQ(sentence_of(mesh), "the background mesh lies in parameter planes, which hold no tetrahedra");
   mesh = sound;
   mesh.triangles[1][2] = 4;
   EXPECT_EQ(sentence_of(mesh), "the background mesh: triangle 1 (from 0) names vertex 4, but there are 4");

@@ -32,6 +32,8 @@ std::string triangle_file(int version, bool big_endian) {
   }
   section(6, index + 4 * index);
   for (const int value : {1, 1, 2, 3, 9}) integer(value);
+  section(8, index + 5 * index);  // flat, but a tetrahedron
+  for (const int value : {1, 3, 2, 1, 3, 7}) integer(value);
   section(54, 0);
   return b.text();
 }
@@ -50,6 +52,7 @@ TEST(Gmf, ReadsVersions1To4InBothByteOrders) {
       ASSERT_EQ(mesh.triangles.size(), 1u);
       EXPECT_EQ(mesh.triangles[0], (std::array<std::int32_t, 3>{0, 1, 2}));
       EXPECT_EQ(mesh.triangle_refs[0], 9);
+      EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::int32_t, 4>>{{2, 1, 0, 2}}));
     }
 }
 

@@ -49,7 +49,7 @@ TEST(Medit, LayoutCommentsAndOtherSectionsDoNotMatter) {
   const FlatMesh mesh = read_mesh_text(
       "\xEF\xBB\xBF# made by hand\r\n MeshVersionFormatted\n2 Dimension 3 # space\n"
       "Triangles 1 1 2 3 5\nCorners 2\n1 2\nRequiredVertices 0\nNormals 1 0 0 1\n"
-      "Geometry \"a name End Vertices\"\nAngleOfCornerBound 30.5\nTetrahedra 1 1 2 3 4 1\nIdentifier \"x\"\n"
+      "Geometry \"a name End Vertices\"\nAngleOfCornerBound 30.5\nHexahedra 1 1 2 3 4 5 6 7 8 1\nIdentifier \"x\"\n"
       "Vertices 3\n0 +1.5d0 -2.5E-1 1 1e300 .5 0. 2\n-0 1.D-3 7 -3#end\nEnd\n",
       "x.mesh");
   ASSERT_EQ(mesh.vertices.size(), 3u);
@@ -120,6 +120,16 @@ TEST(Medit, NamesTheLineOfEveryViolation) {
   EXPECT_EQ(error_of("MeshVersionFormatted 2 Dimension 3 End"), "x.mesh, line 1: the file has no Vertices");
   EXPECT_EQ(error_of("MeshVersionFormatted 2 Dimension 3 Edges 1 1 2 3 Vertices 1 0 0 0 0 End"),
             "x.mesh, line 1: edge 1 names vertex 2, but there are 1");
+  EXPECT_EQ(error_of("MeshVersionFormatted 2 Dimension 3 Vertices 1 0 0 0 0\nTetrahedra 1 1 1 1 2 0 End"),
+            "x.mesh, line 2: tetrahedron 1 names vertex 2, but there are 1");
+}
+
+TEST(Medit, TetrahedraAreReadAndNeverWritten) {
+  const FlatMesh mesh = read_mesh_text(
+      "MeshVersionFormatted 2 Dimension 3 Vertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 Tetrahedra 1 4 2 1 3 5 End", "x");
+  EXPECT_EQ(mesh.tetrahedra, (std::vector<std::array<std::int32_t, 4>>{{3, 1, 0, 2}}));
+  EXPECT_TRUE(mesh.triangles.empty());
+  EXPECT_EQ(mesh_bytes(mesh, MeshFormat::mesh).find("Tetra"), std::string::npos);
 }
 
 TEST(Medit, IsTheSameInEveryLocale) {

@@ -1,0 +1,107 @@
+#include "fields/size_origins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/error.h"
+#include "support/infinity.h"
+#include "support/pieces.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr TangentSizes unknown{nan, nan, nan, nan};
+// Points at a time, as elsewhere.
+constexpr std::size_t batch = 1024;
+// Bounds so many times as wide bound nothing that a mesh can have; squares of their ratio are still far from overflow.
+constexpr double widening = 1e6;
+// Sizes that differ by a smaller share are one: metrics are decomposed to some 1e-12.
+constexpr double same_size = 1e-6;
+
+SizeParameters physical_of(SizeParameters size) {
+  size.geometric = GeometricSizes::ignored;
+  size.geo_anisotropic = false;
+  size.geo_rule = GeometricCriterion::angle;
+  return size;
+}
+
+SizeParameters geometric_of(SizeParameters size) {
+  size.physical = PhysicalSizes::ignored;
+  return size;
+}
+
+SizeParameters widened(SizeParameters size) {
+  size.hphymin /= widening, size.hgeomin /= widening;
+  size.hphymax *= widening, size.hgeomax *= widening;
+  return size;
+}
+
+bool differ(double a, double b) noexcept { return std::abs(a - b) > same_size * b; }
+
+/// The least size; infinity where nothing is asked for.
+double least(const TangentSizes& sizes) noexcept { return std::isnan(sizes.h1) ? infinity : sizes.h1; }
+
+}  // namespace
+
+OriginRules::OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& size)
+    : both(model, topology, cad, size) {
+  const auto set = [&](std::optional<SizeRules>& clamped, std::optional<SizeRules>& any, const SizeParameters& part) {
+    clamped.emplace(model, topology, cad, part);
+    any.emplace(model, topology, cad, widened(part));
+  };
+  if (size.physical != PhysicalSizes::ignored) set(physical, any_physical, physical_of(size));
+  if (size.geometric != GeometricSizes::ignored) set(geometric, any_geometric, geometric_of(size));
+}
+
+SizeOrigins::SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, Monitor& monitor) {
+  const auto set = [&](Part& part, const std::optional<SizeRules>& own) {
+    if (own) part.metric.emplace(face, *own, interfaces, monitor);
+  };
+  set(physical_, rules.physical), set(any_physical_, rules.any_physical);
+  set(geometric_, rules.geometric), set(any_geometric_, rules.any_geometric);
+  both_.metric.emplace(face, rules.both, interfaces, monitor);
+}
+
+void SizeOrigins::ask(Part& part, std::span<const Vec2> uv, std::span<const SurfaceJet> jets) {
+  part.sizes.assign(uv.size(), unknown);
+  if (!part.metric) return;
+  std::vector<Metric2> metric(uv.size());
+  const auto known = [&](std::size_t i, std::size_t n) {
+    try {
+      part.metric->at(uv.subspan(i, n), jets.subspan(i, n), std::span(metric).subspan(i, n));
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error&) {  // told for what is prescribed
+      return false;
+    }
+    for (std::size_t k = i; k < i + n; ++k) part.sizes[k] = tangent_sizes(jets[k], metric[k]);
+    return true;
+  };
+  if (known(0, uv.size())) return;
+  for (std::size_t i = 0; i < uv.size(); ++i) known(i, 1);
+}
+
+void SizeOrigins::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
+                     std::span<OriginsAt> origins) {
+  for_pieces(uv.size(), batch, [&](std::size_t first, std::size_t n) {
+    for (Part* part : {&physical_, &geometric_, &any_physical_, &any_geometric_, &both_})
+      ask(*part, uv.subspan(first, n), jets.subspan(first, n));
+    for (std::size_t i = 0; i < n; ++i) {
+      OriginsAt& here = origins[first + i];
+      here = {physical_.sizes[i], geometric_.sizes[i], {}};
+      const double graded = tangent_sizes(jets[first + i], prescribed[first + i]).h1, whole = both_.sizes[i].h1;
+      if (std::isnan(graded) || std::isnan(whole)) continue;
+      const bool geometric = least(here.geometric) < least(here.physical);
+      const TangentSizes &own = geometric ? here.geometric : here.physical,
+                         &any = geometric ? any_geometric_.sizes[i] : any_physical_.sizes[i];
+      here.governs = geometric ? SizeOrigin::geometric : SizeOrigin::physical;
+      if (differ(own.h1, any.h1)) here.governs = SizeOrigin::bounds;
+      if (graded < whole && differ(graded, whole)) here.governs = SizeOrigin::gradation;
+    }
+  });
+}
+
+}  // namespace carreau

@@ -1,0 +1,59 @@
+// Where the sizes of a face come from: physical, geometric, bounds or gradation.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "fields/field_samples.h"
+#include "size/size_rules.h"
+#include "surface/sample/face_metric.h"
+
+namespace carreau {
+
+/// What makes the least size of a place what it is. Values are part of the C ABI (channel `governs`).
+enum class SizeOrigin : std::uint32_t {
+  physical = 0,   ///< the host, hphydef, a background mesh
+  geometric = 1,  ///< the curvature
+  bounds = 2,     ///< the one of these two that is smaller, moved by hphymin, hphymax, hgeomin or hgeomax
+  gradation = 3,  ///< a place beside
+};
+
+/// The rules of a run, apart. Each may be missing: that size is ignored.
+struct OriginRules {
+  /// Keeps references to its arguments. Throws what SizeRules throws.
+  OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& size);
+
+  std::optional<SizeRules> physical, geometric;            ///< clamped
+  std::optional<SizeRules> any_physical, any_geometric;    ///< within bounds a million times as wide
+  SizeRules both;
+};
+
+/// At one place. All members of sizes are NaN where they are ignored or not known.
+struct OriginsAt {
+  TangentSizes physical, geometric;
+  std::optional<SizeOrigin> governs;  ///< of the least size in any direction; empty: not known
+};
+
+/// The origins of one face (index in Model::faces). Keeps references. For one thread.
+class SizeOrigins {
+ public:
+  SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, Monitor& monitor);
+
+  /// `jets` hold what FaceMetric::wants() of the whole rules asks for; `prescribed`: what FaceMetric says there, with its
+  /// gradation. Asks the host for its sizes again; a failure of the host is a place that is not known. Throws Cancelled
+  /// only.
+  void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
+          std::span<OriginsAt> origins);
+
+ private:
+  struct Part {
+    std::optional<FaceMetric> metric;
+    std::vector<TangentSizes> sizes;  // of the batch
+  };
+  void ask(Part& part, std::span<const Vec2> uv, std::span<const SurfaceJet> jets);
+
+  Part physical_, geometric_, any_physical_, any_geometric_, both_;
+};
+
+}  // namespace carreau
