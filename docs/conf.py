@@ -30,6 +30,6 @@ html_static_path = []
 html_css_files = []
 html_show_sphinx = False
 html_copy_source = False
-pygments_style = "sphinx"
+pygments_style = "tango"
 html_theme_options = {"navigation_with_keys": True, "light_css_variables": {"font-stack": "sans-serif", "font-stack--monospace": "monospace"},
                       "dark_css_variables": {"font-stack": "sans-serif", "font-stack--monospace": "monospace"}}

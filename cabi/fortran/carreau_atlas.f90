@@ -29,6 +29,7 @@ module carreau_atlas
     private
     type(c_ptr) :: handle = c_null_ptr
   end type carreau_annulus
+  !> Charts of a closed triangulated surface: carreau_atlas of C, a name that the module has.
   type, public :: carreau_atlas_handle
     private
     type(c_ptr) :: handle = c_null_ptr

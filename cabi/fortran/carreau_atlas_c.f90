@@ -13,6 +13,7 @@ module carreau_atlas_c
     integer(c_int32_t) :: border = 0, reach = 0
   end type c_atlas_options
 
+  !> What an atlas consists of.
   type, bind(c) :: c_atlas_counts
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, triangles = 0, charts = 0, triples = 0, mended = 0
@@ -155,7 +156,7 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_annulus_invert
 
-    !> As carreau_loop_pivots.
+    !> The pivots (x y) of an annulus, and their number; as carreau_loop_pivots.
     function c_annulus_pivots(annulus, capacity, xy, count) result(status) bind(c, name="carreau_annulus_pivots")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -238,7 +239,7 @@ module carreau_atlas_c
       integer(c_int32_t) :: status
     end function c_atlas_build
 
-    !> Counts.
+    !> Count what the atlas consists of, and tell of chart `chart`.
     function c_atlas_count(atlas, counts) result(status) bind(c, name="carreau_atlas_count")
       import :: c_atlas_counts, c_int32_t, c_ptr
       implicit none

@@ -23,6 +23,7 @@ module carreau_c
       cad_radc = c_null_funptr
   end type c_cad_m
 
+  !> The callbacks of a geometry.
   type, bind(c) :: c_cad
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: user = c_null_ptr
@@ -32,6 +33,7 @@ module carreau_c
       surface_radius = c_null_funptr, curve_radius = c_null_funptr, failure = c_null_funptr, release = c_null_funptr
   end type c_cad
 
+  !> Callbacks that want metrics, beside those of a geometry.
   type, bind(c) :: c_metric_callbacks
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: user = c_null_ptr
@@ -39,6 +41,7 @@ module carreau_c
       surface_metric_batch = c_null_funptr
   end type c_metric_callbacks
 
+  !> What is known of a parameter, whatever its value.
   type, bind(c) :: c_parameter
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: name = c_null_ptr, help = c_null_ptr, default_text = c_null_ptr, choices = c_null_ptr
@@ -63,6 +66,7 @@ module carreau_c
     real(c_double) :: gap = 0
   end type c_interface
 
+  !> A background mesh in arrays of the caller.
   type, bind(c) :: c_background
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: dimension = 0, reserved = 0
@@ -80,12 +84,14 @@ module carreau_c
     real(c_double) :: farthest = 0
   end type c_background_report
 
+  !> How sizes are found from a field.
   type, bind(c) :: c_estimator
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: source = 0, shape = 0, relative = 0, recovery = 0
     real(c_double) :: tolerance = 0, relative_floor = 0, hmin = 0, hmax = 0, ratio = 0
   end type c_estimator
 
+  !> A loop of adaptation.
   type, bind(c) :: c_adaptation
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: estimator = c_null_ptr
@@ -126,6 +132,7 @@ module carreau_c
       least_jacobian_mean = 0, least_jacobian_min = 0, angle_min = 0, angle_max = 0, area = 0, triangle_share = 0
   end type c_cell_quality
 
+  !> What became of a face.
   type, bind(c) :: c_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: ref = 0, status = 0
@@ -143,6 +150,7 @@ module carreau_c
       angle_min = 0, angle_max = 0, area = 0, edge_min = 0, edge_mean = 0, edge_max = 0, degree6 = 0
   end type c_quality
 
+  !> Which images are written, and how.
   type, bind(c) :: c_exr_options
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: longest = 0, width = 0, height = 0, channels = 0, face = 0, multi_part = 0, raw = 0, &
@@ -158,6 +166,7 @@ module carreau_c
     real(c_double) :: lss = 0
   end type c_curve
 
+  !> What a mesh delivers, as a whole.
   type, bind(c) :: c_delivered
     integer(c_size_t) :: struct_size = 0
     integer(c_int64_t) :: vertices = 0, edges = 0, triangles = 0, short_edges = 0, long_edges = 0, &
@@ -169,6 +178,7 @@ module carreau_c
     real(c_double) :: seconds = 0
   end type c_delivered
 
+  !> The spread of one measure.
   type, bind(c) :: c_measure
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: name = c_null_ptr, title = c_null_ptr
@@ -609,6 +619,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_run_env
 
+    !> Tells what that run did.
     function c_session_report(session, report) result(status) bind(c, name="carreau_session_report")
       import :: c_int32_t, c_ptr, c_report
       implicit none
@@ -646,6 +657,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_background_mesh
 
+    !> Takes arrays in place of files.
     function c_set_background(session, background) result(status) bind(c, name="carreau_set_background")
       import :: c_background, c_int32_t, c_ptr
       implicit none
@@ -694,6 +706,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_read_metrics
 
+    !> Tells how.
     function c_session_background(session, report) result(status) bind(c, name="carreau_session_background")
       import :: c_background_report, c_int32_t, c_ptr
       implicit none
@@ -962,6 +975,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_edge_mids
 
+    !> Measures the elements.
     function c_mesh_cell_quality(mesh, quality) result(status) bind(c, name="carreau_mesh_cell_quality")
       import :: c_cell_quality, c_int32_t, c_ptr
       implicit none
@@ -980,6 +994,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_face
 
+    !> Measures the triangles.
     function c_mesh_quality(mesh, quality) result(status) bind(c, name="carreau_mesh_quality")
       import :: c_int32_t, c_ptr, c_quality
       implicit none
@@ -1124,6 +1139,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_metric_lengths
 
+    !> Measures the mesh as a whole.
     function c_session_delivered(session, delivered) result(status) bind(c, name="carreau_session_delivered")
       import :: c_delivered, c_int32_t, c_ptr
       implicit none
@@ -1132,6 +1148,7 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_session_delivered
 
+    !> Tells the spread of a kind.
     function c_delivered_measure(session, kind, measure) result(status) bind(c, name="carreau_delivered_measure")
       import :: c_int32_t, c_measure, c_ptr
       implicit none

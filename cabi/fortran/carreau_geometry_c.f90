@@ -21,6 +21,7 @@ module carreau_geometry_c
     type(c_ptr) :: degrees = c_null_ptr, controls = c_null_ptr, side_refs = c_null_ptr
   end type c_bezier
 
+  !> Which surface of a molecule, and by which probe.
   type, bind(c) :: c_molecule_options
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: surface = 0, drop_cavities = 0
@@ -233,7 +234,7 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_plane_domain
 
-    !> Tells whether the plane domain that the session was given last has sizes or metrics at its points.
+    !> Tells whether the plane domain that the session was given last has sizes or metrics at its points; 0 if none was.
     function c_plane_has_sizes(session, answer) result(status) bind(c, name="carreau_plane_has_sizes")
       import :: c_int32_t, c_ptr
       implicit none

@@ -27,8 +27,12 @@ def roles_of(sources):
 
 def example_lines(example, language, known):
     """known: pages of listings by path."""
-    known.add(example.path)
-    return [f".. code-block:: {language}", f"   :caption: from :doc:`{example.path} </listings/{example.path}>`, line {example.line}", "",
+    page = f"/listings/{example.path}"
+    if example.path.endswith(".md"):
+        page = "/" + example.path.removeprefix("docs/").removesuffix(".md")
+    else:
+        known.add(example.path)
+    return [f".. code-block:: {language}", f"   :caption: from :doc:`{example.path} <{page}>`, line {example.line}", "",
             *indented(example.text.split("\n")), ""]
 
 
@@ -48,7 +52,7 @@ class CPages:
         for function in group:
             example = self.calls.find(function.name)
             if example and not re.search(rf"\b{function.name}\b", shown):
-                language = "c" if example.path.endswith(".c") else "cpp"
+                language = "c" if example.path.endswith((".c", ".md")) else "cpp"
                 body += example_lines(example, language, self.listings)
                 shown += example.text
         return lines + indented(body) + [""]

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 AROUND = 3  # lines before and behind a call, at most
 
-# In the order in which they are preferred: programs to read first, then tests.
-C = ["fortran_examples/c_paraboloid", "fortran_examples/c_torus", "fortran_examples", "docs/tutorials", "tests/cabi/hosts.c", "tests/cabi/c_reference.c",
+# In the order in which they are preferred: programs to read first, then tests. Pages have programs in blocks with a name.
+C = ["docs/tutorials", "docs", "fortran_examples/c_paraboloid", "fortran_examples/c_torus", "fortran_examples", "tests/cabi/hosts.c", "tests/cabi/c_reference.c",
      "tests/cabi", "tests/adapters", "cad_adapters/command", "cad_adapters/bl2d"]
-FORTRAN = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
-CPP = ["fortran_examples", "docs/tutorials", "tests/cabi", "tests/cpp_wrapper"]
-PYTHON = ["docs/tutorials", "fortran_examples", "tests/python"]
-LANGUAGES = {"c": (C, (".c", ".cpp", ".h")), "fortran": (FORTRAN, (".f90",)), "cpp": (CPP, (".cpp",)), "python": (PYTHON, (".py",))}
+FORTRAN = ["docs/tutorials", "docs", "fortran_examples", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
+CPP = ["docs/tutorials", "docs", "fortran_examples", "tests/cabi", "tests/cpp_wrapper"]
+PYTHON = ["docs/tutorials", "docs", "fortran_examples", "tests/python"]
+LANGUAGES = {"c": (C, (".c", ".cpp", ".h", ".md")), "fortran": (FORTRAN, (".f90", ".md")), "cpp": (CPP, (".cpp", ".md")), "python": (PYTHON, (".py", ".md"))}
 
 
 @dataclass
@@ -34,6 +34,16 @@ def files_below(root, places, suffixes):
     return list(dict.fromkeys(found))
 
 
+def programs_of(page, language):
+    """The lines of a page, those outside of its programs (blocks with a name) empty."""
+    inside, lines = False, []
+    for line in page.split("\n"):
+        fence = line.startswith("```")
+        inside = line.startswith(f"```{{code-block}} {language}") or inside and not fence
+        lines.append("" if fence or not inside or line.startswith(":caption:") else line)
+    return lines
+
+
 class Calls:
     """language: a key of LANGUAGES."""
 
@@ -42,7 +52,8 @@ class Calls:
         self.texts = {}
         for path in files_below(root, places, suffixes):
             with open(os.path.join(root, path), encoding="utf-8") as file:
-                self.texts[path] = file.read().split("\n")
+                text = file.read()
+            self.texts[path] = programs_of(text, language) if path.endswith(".md") else text.split("\n")
         self.index = {}
         word = r"\b\w+(?=\s*\()" + (r"|(?<=call )\w+" if language == "fortran" else "")
         for path, lines in self.texts.items():

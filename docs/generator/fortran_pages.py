@@ -27,7 +27,9 @@ class FortranPages:
             return []
         twin = self.c.get(entity.name)
         said = {member.name: member.text for member in twin.members} if twin else {}
-        title = "Component" if entity.kind == "type" else "Argument"
+        if entity.kind != "type":
+            return [".. code-block:: fortran", "", *indented([part.type for part in entity.parts]), ""]
+        title = "Component"
         lines = [".. list-table::", "   :header-rows: 1", "   :class: arguments", "", f"   * - {title}", "     -"]
         for part in entity.parts:
             text = self.names.inline(" ".join(part.text or said.get(part.name, [])))

@@ -92,6 +92,8 @@ class Module:
     def _type(self, i, text, section):
         number, line = self.lines[i]
         entity = Entity("type", line.split("::")[1].strip(), section, text, number)
+        if re.search(r"\bpublic\b", line.split("::")[0]):
+            self.public.add(entity.name.lower())
         while not re.match(r"\s*end type", self.lines[i + 1][1]):
             i += 1
             line = self.lines[i][1]

@@ -97,7 +97,10 @@ class Sandbox:
         return done.stdout
 
     def write(self, name, text):
-        with open(os.path.join(self.clone, name), "w", encoding="utf-8") as file:
+        path = os.path.join(self.clone, name)
+        if os.path.islink(path):  # of the source, which stays as it is
+            os.remove(path)
+        with open(path, "w", encoding="utf-8") as file:
             file.write(text)
 
     def size(self, name):

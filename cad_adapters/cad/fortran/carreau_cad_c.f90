@@ -7,6 +7,7 @@ module carreau_cad_c
   implicit none
   public
 
+  !> How a file is read.
   type, bind(c) :: c_cad_options
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: trap_faults = 0, reserved = 0
@@ -14,6 +15,7 @@ module carreau_cad_c
     type(c_ptr) :: user = c_null_ptr
   end type c_cad_options
 
+  !> What a file holds, counted.
   type, bind(c) :: c_cad_content
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: faces = 0, edges = 0, vertices = 0, closed = 0
@@ -22,18 +24,21 @@ module carreau_cad_c
     integer(c_int32_t) :: losses = 0, bent_faces = 0, left_out = 0, references = 0
   end type c_cad_content
 
+  !> What the file tells of a face.
   type, bind(c) :: c_cad_face
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: number = 0, rgb = 0
     type(c_ptr) :: name = c_null_ptr, why = c_null_ptr
   end type c_cad_face
 
+  !> Measures of a face.
   type, bind(c) :: c_cad_figures
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: kind = c_null_ptr
     real(c_double) :: area = 0, perimeter = 0, low(3) = 0, high(3) = 0
   end type c_cad_figures
 
+  !> What a file holds, and how much of it is hard to mesh.
   type, bind(c) :: c_cad_report
     integer(c_size_t) :: struct_size = 0
     integer(c_int32_t) :: solids = 0, shells = 0, faces = 0, edges = 0, vertices = 0, seams = 0, poles = 0, &
@@ -42,6 +47,7 @@ module carreau_cad_c
     integer(c_int32_t) :: kinds = 0, dangers = 0
   end type c_cad_report
 
+  !> A place that a mesher may stumble over.
   type, bind(c) :: c_cad_danger
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: kind = c_null_ptr
@@ -122,6 +128,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_set_face_size
 
+    !> Counts what the file holds.
     function c_cad_info(file, content) result(status) bind(c, name="carreau_cad_info")
       import :: c_cad_content, c_int32_t, c_ptr
       implicit none
@@ -190,6 +197,7 @@ module carreau_cad_c
       integer(c_int32_t) :: status
     end function c_cad_danger_at
 
+    !> Measures the gaps of all edges.
     function c_cad_measure_gaps(file, gaps) result(status) bind(c, name="carreau_cad_measure_gaps")
       import :: c_cad_gaps, c_int32_t, c_ptr
       implicit none
