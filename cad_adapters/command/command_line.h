@@ -30,6 +30,7 @@ class CommandLine {
   void add_info();
   void add_areas();
   void add_picture();
+  void add_report();
   void add_check();
   void add_fields();
   void add_params();
@@ -45,6 +46,7 @@ class CommandLine {
   AreasOptions areas_;
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
+  ReportOptions report_;
   CheckOptions check_;
   FieldsOptions fields_;
   std::string field_size_ = "1024", shell_;
