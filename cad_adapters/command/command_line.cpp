@@ -290,6 +290,7 @@ void CommandLine::add_report() {
   app->add_option("MESH", report_.mesh, mesh_files)->required()->type_name(kind::file);
   app->add_option("-o,--output", report_.out, "File .html to write; by default that of the mesh with this suffix")
       ->type_name(kind::file);
+  app->add_flag("--json", report_.json, "Print what carreau check prints as JSON, and the size of the page");
 }
 
 void CommandLine::add_fields() {

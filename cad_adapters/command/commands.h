@@ -99,6 +99,7 @@ int check(const CheckOptions& options);
 struct ReportOptions {
   std::string mesh, out;
   std::string repeat;  ///< shell_line() of it
+  bool json = false;
 };
 
 /// Writes a page of HTML about a mesh. 0; throws Failure.

@@ -113,7 +113,14 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
 }
 
-/// The page about a run. It measures what was delivered: the last thing that asks the geometry.
+/// Before anything is written: files of one run hold the same whatever their order.
+void measure(carreau_session* session) {
+  carreau_delivered delivered{};
+  delivered.struct_size = sizeof delivered;
+  require(session, carreau_session_delivered(session, &delivered));
+}
+
+/// The page about a run that was measured.
 std::string page_of(const MeshRun& run) {
   ReportContent content = content_of(run.mesh, &run.crossings);
   content.file = run.options.input;
@@ -191,6 +198,7 @@ int mesh(const MeshOptions& given) {
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
   if (!options.quiet || options.json || has_report(options)) run.short_edges = find_short_edges(run.session, run.mesh);
   run.warnings = progress.warnings();
+  if (has_report(options)) measure(run.session);
   const Stopwatch writing;
   outputs.write([&](const std::vector<std::string>& hidden) { write_all(run, adaptation, hidden, progress); });
   run.seconds_writing = writing.seconds();

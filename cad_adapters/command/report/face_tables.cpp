@@ -90,7 +90,7 @@ std::string worst_section(const ReportContent& content) {
     if (values.key != "size") tables += worst_table(content, values, values.key != "quality");
   if (tables.empty()) return "";
   return section("worst", "Worst elements",
-                 "<p>Numbers count from 1, as in files. A button shows its triangle in the view above.</p>\n<div class=\"side\">" + tables +
+                 "<p>Numbers count from 1, as in files. A button shows its triangle in the view.</p>\n<div class=\"side\">" + tables +
                      "</div>\n");
 }
 

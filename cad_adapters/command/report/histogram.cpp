@@ -89,10 +89,12 @@ Histogram histogram_of(const TriangleValues& values, const std::vector<std::uint
 }
 
 std::string html_of(const Histogram& h, const TriangleValues& values) {
-  const std::string unit = values.unit.empty() ? "" : ", " + values.unit;
-  std::string text = "<figure><figcaption>" + html(values.title + unit) + "<small>" + html(values.help) +
-                     (h.without > 0 ? " " + count_text(h.without) + " elements have none." : "") +
-                     "</small></figcaption>\n" + drawing(h, values);
+  std::string title = values.title;
+  if (!values.unit.empty()) title.append(", ").append(values.unit);
+  std::string help = html(values.help);
+  if (h.without > 0) help.append(" ").append(count_text(h.without)).append(" elements have none.");
+  const std::string text =
+      "<figure><figcaption>" + html(title) + "<small>" + help + "</small></figcaption>\n" + drawing(h, values);
   return text + "<details><summary>As numbers</summary>\n" + html_of(numbers_of(h, values)) + "</details></figure>\n";
 }
 

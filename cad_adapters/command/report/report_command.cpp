@@ -1,5 +1,6 @@
 // `carreau report`: a mesh in a file as a page that people open.
 #include "commands.h"
+#include "json_output.h"
 #include "output_files.h"
 #include "report/report_content.h"
 #include "signals.h"
@@ -21,7 +22,7 @@ std::string quoted(const std::string& word) {
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789@%+=:,./-_";
   if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
   std::string text = "'";
-  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  for (const char c : word) c == '\'' ? text.append("'\\''") : text.append(1, c);
   return text + "'";
 }
 
@@ -29,19 +30,24 @@ std::string quoted(const std::string& word) {
 
 std::string shell_line(const std::string& program, const std::vector<std::string>& words) {
   std::string line = program;
-  for (const std::string& word : words) line += " " + quoted(word);
+  for (const std::string& word : words) line.append(" ").append(quoted(word));
   return line;
 }
 
 int report(const ReportOptions& options) {
   catch_signals();
-  OutputFiles output({options.out.empty() ? usual_name(options.mesh) : options.out}, {".html"}, {options.mesh});
+  const std::string out = options.out.empty() ? usual_name(options.mesh) : options.out;
+  OutputFiles output({out}, {".html"}, {options.mesh});
   const MeshHandle mesh = read_mesh(options.mesh);
   ReportContent content = content_of(mesh.get());
   content.file = options.mesh;
   content.repeat = options.repeat;
   const std::string page = report_page(content);
   output.write([&](const std::vector<std::string>& hidden) { write_text(hidden.front(), page); });
+  if (!options.json) return 0;
+  nlohmann::ordered_json summary = check_json(content.check, options.mesh, defects_told);
+  summary["output"] = out, summary["bytes"] = page.size();
+  print_json("report", summary);
   return 0;
 }
 

@@ -37,7 +37,7 @@ AskedValue real_value(carreau_session* session, const carreau_parameter& p, doub
 }  // namespace
 
 ReportContent content_of(carreau_mesh* mesh, const Crossings* known) {
-  constexpr CheckLimits limits{.closed = false, .limit = 100, .worst = 0};
+  constexpr CheckLimits limits{.closed = false, .limit = defects_told, .worst = 0};
   ReportContent content;
   content.mesh = arrays_of(mesh);
   content.check = check_of(mesh, content.mesh, limits, known);

@@ -29,6 +29,8 @@ struct ReportContent {
   nlohmann::ordered_json run;  ///< what `carreau mesh --json` prints, with "delivered"; null for a mesh from a file
 };
 
+constexpr int defects_told = 100;
+
 /// Of a mesh: all but the names and the run. `known`: its crossings. Throws Failure.
 ReportContent content_of(carreau_mesh* mesh, const Crossings* known = nullptr);
 

@@ -183,7 +183,7 @@ std::string times_section(const ReportContent& content) {
 
 std::string command_section(const ReportContent& content) {
   return section("repeat", "To repeat it",
-                 "<pre tabindex=\"0\"><code id=\"command\">" + html(content.repeat) + "</code></pre>\n<p>" +
+                 "<pre tabindex=\"0\" role=\"region\" aria-label=\"Command\"><code id=\"command\">" + html(content.repeat) + "</code></pre>\n<p>" +
                      html(std::string("carreau ") + carreau_version()) + "</p>\n");
 }
 

@@ -45,8 +45,8 @@ void main() {
     if (curve) ink = max(ink, 0.95 * (1.0 - smoothstep(0.8, 1.6, away)));
     else if (edges && !hidden) ink = max(ink, 0.75 * clamp((height - 3.0) / 8.0, 0.0, 1.0) * (1.0 - smoothstep(0.3, 1.0, away)));
   }
-  float bright = dot(lit, vec3(0.2126, 0.7152, 0.0722));
-  lit = mix(lit, bright < 0.04 ? vec3(0.6) : vec3(0.01), ink);
+  float bright = dot(base, vec3(0.2126, 0.7152, 0.0722));
+  lit = mix(lit, bright < 0.025 ? vec3(0.45) : vec3(0.01), ink);
   colour = vec4(pow(lit, vec3(1.0 / 2.2)), 1.0);
 }`;
 
