@@ -1,67 +1,17 @@
 // `carreau check`: what a mesh in a file is worth.
 #include <cinttypes>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
-#include "crossings.h"
 #include "json_output.h"
-#include "mesh_report.h"
-#include "quality_json.h"
+#include "mesh_check.h"
 
 namespace command {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-struct Checked {
-  std::int64_t vertices = 0, triangles = 0, edges = 0, faces = 0, defects = 0;
-  std::string sentences;
-  carreau_quality quality{};
-  carreau_cell_quality cells{};
-  MeshReport report;
-  Crossings crossings;
-  std::vector<FaceResult> not_meshed;  ///< faces that the file knows of and has no triangles of
-  bool measured = false;               ///< indices and numbers allow quality and report
-};
-
-/// Whether indices are in range and coordinates finite.
-bool can_be_measured(const MeshArrays& mesh) {
-  const auto n = static_cast<std::int32_t>(mesh.vertices.size());
-  for (const auto& t : mesh.triangles)
-    for (const std::int32_t v : t)
-      if (v < 0 || v >= n) return false;
-  for (const Point& p : mesh.vertices)
-    for (const double x : p)
-      if (!std::isfinite(x)) return false;
-  return true;
-}
-
-Checked look_at(const CheckOptions& options) {
-  constexpr std::size_t places = 5;  // of each thing that is wrong
-  const MeshHandle mesh = read_mesh(options.mesh);
-  Checked c;
-  require(mesh.get(), carreau_mesh_count(mesh.get(), &c.vertices, &c.triangles, &c.edges, &c.faces));
-  const char* text = "";
-  require(mesh.get(), carreau_mesh_defects(mesh.get(), options.closed ? 1 : 0, options.limit, &c.defects, &text));
-  c.sentences = text;
-  const MeshArrays arrays = arrays_of(mesh.get());
-  for (const FaceResult& face : arrays.faces)
-    if (face.triangles == 0) c.not_meshed.push_back(face);
-  c.measured = can_be_measured(arrays);
-  if (!c.measured) return c;
-  c.report = report_of(arrays, static_cast<std::size_t>(options.worst), places);
-  c.quality.struct_size = sizeof c.quality;
-  require(mesh.get(), carreau_mesh_quality(mesh.get(), &c.quality));
-  c.cells.struct_size = sizeof c.cells;
-  require(mesh.get(), carreau_mesh_cell_quality(mesh.get(), &c.cells));
-  c.crossings = crossings_of(mesh.get(), arrays.triangle_refs, 0);
-  return c;
-}
-
 /// Models may cross themselves: that is a defect for those who say so.
-bool is_sound(const Checked& c, const CheckOptions& options) {
+bool is_sound(const MeshCheck& c, const CheckOptions& options) {
   return c.defects == 0 && (c.crossings.pairs == 0 || !options.no_crossings);
 }
 
@@ -97,8 +47,6 @@ void print_quality(const carreau_quality& q, const MeshReport& r) {
   print_histogram("Q2 classes  ", r.q2, static_cast<double>(q.triangles));
   std::printf("degree 6    %.1f %% of interior vertices\n", 100 * q.degree6);
 }
-
-bool has_elements(const carreau_cell_quality& q) { return q.triangles6 + q.quads4 + q.quads8 > 0; }
 
 void print_elements(const carreau_cell_quality& q) {
   if (!has_elements(q)) return;
@@ -146,68 +94,13 @@ void print_report(const MeshReport& r, bool faces) {
                 f.name.empty() ? "" : "  ", f.name.c_str());
 }
 
-Json json_of(const MeshReport& r) {
-  Json borders = Json::array(), faces = Json::array(), worst = Json::array();
-  for (const Border& b : r.borders)
-    borders.push_back({{"edges", b.edges}, {"length", b.length}, {"loop", b.closed}, {"at", b.place}});
-  for (const FaceFigures& f : r.faces)
-    faces.push_back({{"reference", f.ref},
-                     {"name", f.name},
-                     {"triangles", f.triangles},
-                     {"area", f.area},
-                     {"q2_mean", f.q2_mean},
-                     {"q2_min", f.q2_min},
-                     {"edge_min", f.edge_min},
-                     {"edge_mean", f.edge_mean},
-                     {"edge_max", f.edge_max}});
-  for (const WorstTriangle& t : r.worst)
-    worst.push_back({{"triangle", t.index}, {"reference", t.ref}, {"q2", t.quality}, {"at", t.centre}});
-  return {{"q1_classes", r.q1},
-          {"q2_classes", r.q2},
-          {"worst", worst},
-          {"parts", r.parts},
-          {"euler", r.euler},
-          {"borders", borders},
-          {"loose_edges", r.loose_edges},
-          {"shared_edges", {{"count", r.shared_edges}, {"at", r.shared_at}}},
-          {"turned_triangles", {{"count", r.turned_triangles}, {"at", r.turned_at}}},
-          {"folds", {{"count", r.folds}, {"at", r.fold_at}}},
-          {"double_points", {{"count", r.double_points}, {"at", r.double_at}}},
-          {"faces", faces}};
-}
-
-void print_as_json(const Checked& c, const CheckOptions& options) {
-  Json defects = Json::array();
-  for (std::size_t from = 0; from < c.sentences.size();) {
-    const std::size_t to = std::min(c.sentences.find('\n', from), c.sentences.size());
-    defects.push_back(c.sentences.substr(from, to - from));
-    from = to + 1;
-  }
-  Json result = {{"mesh", options.mesh},
-                 {"vertices", c.vertices},
-                 {"triangles", c.triangles},
-                 {"faces", c.faces},
-                 {"curve_edges", c.edges},
-                 {"defects", defects},
-                 {"all_defects", c.defects < options.limit}};
-  for (const FaceResult& face : c.not_meshed)
-    result["not_meshed"].push_back(
-        {{"reference", face.ref}, {"name", face.name}, {"status", status_word(face.status)}, {"why", face.why}});
-  if (c.measured) {
-    result["quality"] = quality_json(c.quality);
-    if (has_elements(c.cells)) result["elements"] = elements_json(c.cells);
-    result["report"] = json_of(c.report);
-    result["intersections"] = crossings_json(c.crossings);
-  }
-  print_json("check", result);
-}
-
 }  // namespace
 
 int check(const CheckOptions& options) {
-  const Checked c = look_at(options);
+  const MeshHandle mesh = read_mesh(options.mesh);
+  const MeshCheck c = check_of(mesh.get(), arrays_of(mesh.get()), {options.closed, options.limit, options.worst});
   if (options.json) {
-    print_as_json(c, options);
+    print_json("check", check_json(c, options.mesh, options.limit));
     return is_sound(c, options) ? 0 : 1;
   }
   std::printf("vertices    %" PRId64 "\ntriangles   %" PRId64 "\nfaces       %" PRId64 "\ncurve edges %" PRId64 "\n",

@@ -67,6 +67,7 @@ CommandLine::CommandLine() : app_("Meshes of surfaces made of parametric patches
   add_areas();
   add_check();
   add_picture();
+  add_report();
   add_fields();
   add_params();
   add_completion();
@@ -84,8 +85,8 @@ void CommandLine::add_mesh() {
   mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
       ->type_name(kind::file);
   repeated(mesh->add_option("-o,--output", mesh_.outputs,
-                            "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2) or .exr (fields); "
-                            "may be repeated"))
+                            "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2), .exr (fields) or .html "
+                            "(a report); may be repeated"))
       ->required()
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);
@@ -108,7 +109,7 @@ void CommandLine::add_plane() {
       ->type_name(kind::file);
   repeated(plane->add_option("-o,--output", plane_.outputs,
                              "File to write: .mesh or .meshb (dimension 2), .bl2d, .vtu, .stl, .msh (Gmsh 4.1), .msh2 "
-                             "(2.2) or .exr (fields); may be repeated"))
+                             "(2.2), .exr (fields) or .html (a report); may be repeated"))
       ->required()
       ->type_name(kind::file);
   plane
@@ -163,7 +164,7 @@ void CommandLine::add_adapt() {
       ->check(CLI::Range(0.0, 1.0))
       ->type_name("SHARE");
   repeated(adapt->add_option("-o,--output", adapt_.outputs,
-                             "File to write: the mesh as .mesh, .meshb, .bl2d, .vtu, .stl, .msh, .msh2 or .exr, the "
+                             "File to write: the mesh as .mesh, .meshb, .bl2d, .vtu, .stl, .msh, .msh2, .exr or .html, the "
                              "fields on it as .sol or .solb (beside the mesh when not named); may be repeated"))
       ->required()
       ->type_name(kind::file);
@@ -297,6 +298,14 @@ void CommandLine::add_picture() {
       ->capture_default_str();
 }
 
+void CommandLine::add_report() {
+  CLI::App* app = add("report", "Write a mesh as a page of HTML: a view in space, histograms, faces, defects");
+  app->add_option("MESH", report_.mesh, mesh_files)->required()->type_name(kind::file);
+  app->add_option("-o,--output", report_.out, "File .html to write; by default that of the mesh with this suffix")
+      ->type_name(kind::file);
+  app->add_flag("--json", report_.json, "Print what carreau check prints as JSON, and the size of the page");
+}
+
 void CommandLine::add_fields() {
   CLI::App* fields = add("fields", "Mesh, and write what governed the mesh as OpenEXR images or pictures");
   fields->add_option("INPUT", fields_.mesh.input, "CAD file, .bpt, .pardom, or .env whose actions are run")
@@ -364,6 +373,8 @@ int CommandLine::run(int argc, char** argv) {
       if (error.get_exit_code() == 0) return app_.exit(error), 0;
       throw Failure(sub == nullptr ? std::string(error.what()) : sentence_of(error, *sub, words));
     }
+    for (std::string* repeat : {&mesh_.repeat, &plane_.repeat, &adapt_.repeat, &report_.repeat})
+      *repeat = shell_line("carreau", words);
     return run_command();
   } catch (const std::bad_alloc&) {
     if (json) print_json_error(first, "there is not enough memory", unusable);
@@ -397,6 +408,7 @@ int CommandLine::run_command() {
     if (picture_.scene.around && !(around_[3] > 0)) throw Failure("--around wants a radius above 0 as its fourth number.");
     return picture(picture_);
   }
+  if (app_.got_subcommand("report")) return report(report_);
   if (app_.got_subcommand("fields")) {
     parse_field_size(field_size_, fields_);
     return fields(fields_);

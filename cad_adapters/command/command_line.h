@@ -30,6 +30,7 @@ class CommandLine {
   void add_info();
   void add_areas();
   void add_picture();
+  void add_report();
   void add_check();
   void add_fields();
   void add_params();
@@ -46,6 +47,7 @@ class CommandLine {
   PictureOptions picture_;
   std::string picture_size_ = "1200x900", paint_ = "face", label_;
   std::vector<double> around_;
+  ReportOptions report_;
   CheckOptions check_;
   FieldsOptions fields_;
   std::string field_size_ = "1024", shell_;

@@ -25,8 +25,12 @@ struct PictureOptions {
 
 int picture(const PictureOptions& options);
 
+/// A line for a shell that gives a program these words.
+std::string shell_line(const std::string& program, const std::vector<std::string>& words);
+
 struct MeshOptions : InputChoice {
   std::string input;
+  std::string repeat;       ///< shell_line() of all of this, for reports
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`
   std::vector<std::string> outputs;
@@ -93,6 +97,15 @@ struct CheckOptions {
 
 /// Prints counts, quality and defects. 1 when there are defects.
 int check(const CheckOptions& options);
+
+struct ReportOptions {
+  std::string mesh, out;
+  std::string repeat;  ///< shell_line() of it
+  bool json = false;
+};
+
+/// Writes a page of HTML about a mesh. 0; throws Failure.
+int report(const ReportOptions& options);
 
 struct FieldsOptions {
   MeshOptions mesh;  ///< input: also .env; outputs: the name of the images, .exr or .png

@@ -11,6 +11,7 @@
 #include "mesh_summary.h"
 #include "output_files.h"
 #include "progress.h"
+#include "report/report_content.h"
 #include "session_handle.h"
 #include "signals.h"
 #include "text_file.h"
@@ -32,6 +33,12 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+bool is_report(const std::string& path) { return suffix_of(path) == ".html"; }
+
+bool has_report(const MeshOptions& options) {
+  return std::any_of(options.outputs.begin(), options.outputs.end(), is_report);
+}
 
 /// The face that an error is about, 0: none.
 std::int32_t face_of_error(carreau_session* session) {
@@ -98,7 +105,7 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   run.faces = faces_of(run.mesh);
   for (FaceResult& face : run.faces) face.why = in_terms_of_file(input, face.why);
   if (const std::string open = unexpectedly_open(run); !open.empty()) progress.warning(open);
-  if (!options.quiet || options.json) {
+  if (!options.quiet || options.json || has_report(options)) {
     constexpr std::size_t faces_told = 10;
     run.crossings = crossings_of(run.mesh, options.threads);
     for (const std::string& sentence : sentences_of(run.crossings, faces_told)) progress.warning(sentence);
@@ -106,6 +113,26 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
       progress.warning("smaller triangles cross there, too: faces cross in the geometry itself, or lie at one place");
   }
   failed.dump_of_mesh(run.session, run.mesh, input, run.faces, progress);
+}
+
+/// Before anything is written: files of one run hold the same whatever their order.
+void measure(carreau_session* session) {
+  carreau_delivered delivered{};
+  delivered.struct_size = sizeof delivered;
+  require(session, carreau_session_delivered(session, &delivered));
+}
+
+/// The page about a run that was measured.
+std::string page_of(const MeshRun& run) {
+  ReportContent content = content_of(run.mesh, &run.crossings);
+  content.file = run.options.input;
+  content.repeat = run.options.repeat;
+  content.mesh.faces = run.faces;
+  content.asked = asked_of(run.session);
+  content.run = summary_json(run, true);
+  for (TriangleValues& values : surface_values(run.session, content.mesh.triangles.size()))
+    content.values.push_back(std::move(values));
+  return report_page(content);
 }
 
 void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vector<std::string>& paths,
@@ -121,6 +148,8 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
     done += each;
     if (suffix_of(path) == ".exr")
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
+    else if (is_report(path))
+      write_text(path, page_of(run));
     else if (is_solution(path))
       adaptation.write_fields(run.session, path, progress);
     else
@@ -139,7 +168,7 @@ int mesh(const MeshOptions& given) {
   SizeMap map(options.size_map);
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
-  std::vector<std::string> suffixes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d", ".exr"};
+  std::vector<std::string> suffixes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d", ".exr", ".html"};
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
@@ -169,10 +198,12 @@ int mesh(const MeshOptions& given) {
   const bool any =
       std::any_of(run.faces.begin(), run.faces.end(), [](const FaceResult& face) { return face.triangles > 0; });
   if (!any) throw Failure(failed.empty() ? "There is no triangle." : failed);
+  if (!options.quiet || options.json || has_report(options)) run.short_edges = find_short_edges(run.session, run.mesh);
+  run.warnings = progress.warnings();
+  if (has_report(options)) measure(run.session);
   const Stopwatch writing;
   outputs.write([&](const std::vector<std::string>& hidden) { write_all(run, adaptation, hidden, progress); });
   run.seconds_writing = writing.seconds();
-  if (!options.quiet || options.json) run.short_edges = find_short_edges(run.session, run.mesh);
   if (!options.quiet) {
     for (const std::string& line : summary_lines(run)) progress.line(line);
     if (const std::string line = input->of_mesh(run.session); !line.empty()) progress.line(line);

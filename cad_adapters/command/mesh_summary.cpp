@@ -237,7 +237,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
   return lines;
 }
 
-void print_json(const MeshRun& run) {
+nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
   const carreau_report r = report_of(run.session);
   const carreau_quality q = quality_of(run.mesh);
   const ShortEdges& short_edges = run.short_edges;
@@ -282,10 +282,14 @@ void print_json(const MeshRun& run) {
                                       {"total", r.seconds_total},
                                       {"writing", run.seconds_writing},
                                       {"processor", run.seconds_processor}}}};
+  if (delivered) summary["delivered"] = delivered_json(run.session);
+  return summary;
+}
+
+void print_json(const MeshRun& run) {
   std::int32_t measured = 0;
   require(run.session, carreau_get_integer(run.session, "measure", &measured));
-  if (measured != 0) summary["delivered"] = delivered_json(run.session);
-  print_json("mesh", summary);
+  print_json("mesh", summary_json(run, measured != 0));
 }
 
 }  // namespace command

@@ -3,6 +3,7 @@
 
 #include <carreau.h>
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,11 @@ std::string unexpectedly_open(const MeshRun& run);
 /// A table: faces, lengths, times, files; the library's own messages tell counts, shape and the times of its phases.
 std::vector<std::string> summary_lines(const MeshRun& run);
 
-/// Everything about a run that a program may want: a JSON object on the standard output.
+/// Everything about a run that a program may want, without its format: what `carreau mesh --json` prints. `delivered`: with
+/// what was delivered, for which the mesh is measured when it has not been.
+nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered);
+
+/// summary_json() on the standard output, with what was delivered when the parameter `measure` asks for it.
 void print_json(const MeshRun& run);
 
 }  // namespace command

@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <iterator>
 #include <map>
-#include <set>
-#include <unordered_map>
 #include <unordered_set>
 
 #include "drawn_elements.h"
+#include "face_colours.h"
 
 namespace command {
 namespace {
@@ -19,26 +18,6 @@ Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-float linear_of_srgb(int byte) {
-  const double s = byte / 255.0;
-  return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-}
-
-Colour srgb(int hex) {
-  return {linear_of_srgb(hex >> 16 & 255), linear_of_srgb(hex >> 8 & 255), linear_of_srgb(hex & 255)};
-}
-
-constexpr int grey = 0xbcc6d2;
-
-constexpr std::size_t palette_size = 12;
-
-/// Soft colours, far apart for neighbours in the list.
-Colour face_colour(std::size_t rank) {
-  static constexpr int palette[palette_size] = {0x8fb8de, 0xf2c078, 0x9fd0a4, 0xe39b94, 0xb9a7d6, 0xe8dc8c,
-                                                0x86cbc7, 0xe9aec8, 0xb7c48a, 0xa9b7c9, 0xd9b99b, 0x9bb0e6};
-  return srgb(palette[rank % palette_size]);
 }
 
 /// Two lamps and some light from everywhere; both sides of a triangle are lit. `normal` is a unit vector in the frame
@@ -53,10 +32,6 @@ Colour shaded(Colour colour, Point normal) {
   return colour;
 }
 
-std::uint64_t key_of(std::int32_t a, std::int32_t b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint32_t>(std::max(a, b));
-}
-
 /// Lines fade where triangles are a few pixels wide, or a fine mesh would be black.
 Line line_on(double pixels, bool curve, bool edges) {
   if (curve) return {0.95f, 0.95f};
@@ -64,70 +39,10 @@ Line line_on(double pixels, bool curve, bool edges) {
   return {0.42f, static_cast<float>(0.75 * std::clamp((pixels - 2) / 8, 0.0, 1.0))};
 }
 
-/// Sides along curves: the edges of the mesh, or what lies between two references when the file has none.
-std::unordered_set<std::uint64_t> sides_on_curves(const MeshArrays& mesh) {
-  std::unordered_set<std::uint64_t> curves;
-  for (const auto& [a, b] : mesh.edges) curves.insert(key_of(a, b));
-  if (!mesh.edges.empty()) return curves;
-  std::unordered_map<std::uint64_t, std::int32_t> first;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t side = key_of(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]);
-      const auto [at, fresh] = first.emplace(side, mesh.triangle_refs[i]);
-      if (!fresh && at->second != mesh.triangle_refs[i]) curves.insert(side);
-    }
-  return curves;
-}
-
-/// A colour of the palette for each reference: in the order of their first triangle the first one that no neighbour
-/// over an edge has, or, where twelve neighbours have all, the rank decides.
-std::map<std::int32_t, Colour> colours_of_references(const MeshArrays& mesh) {
-  std::vector<std::int32_t> order;
-  std::map<std::int32_t, std::set<std::int32_t>> beside;
-  std::unordered_map<std::uint64_t, std::int32_t> first;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const std::int32_t ref = mesh.triangle_refs[i];
-    if (beside.try_emplace(ref).second) order.push_back(ref);
-    for (int k = 0; k < 3; ++k) {
-      const auto [at, fresh] = first.emplace(key_of(mesh.triangles[i][k], mesh.triangles[i][(k + 1) % 3]), ref);
-      if (!fresh && at->second != ref) beside[ref].insert(at->second), beside[at->second].insert(ref);
-    }
-  }
-  std::map<std::int32_t, std::size_t> place;
-  std::map<std::int32_t, Colour> colours;
-  for (std::size_t rank = 0; rank < order.size(); ++rank) {
-    std::array<bool, palette_size> taken{};
-    for (const std::int32_t ref : beside[order[rank]])
-      if (const auto found = place.find(ref); found != place.end()) taken[found->second] = true;
-    // Beginning at the rank, so that few faces far from each other share a colour.
-    std::size_t k = rank % palette_size, tried = 0;
-    while (taken[k] && ++tried < palette_size) k = (k + 1) % palette_size;
-    place[order[rank]] = k, colours[order[rank]] = face_colour(k);
-  }
-  return colours;
-}
-
-/// Colours of faces: their own when any has one (grey for the others), else those of the palette.
-std::map<std::int32_t, Colour> colours_of_faces(const MeshArrays& mesh) {
-  const bool own = std::any_of(mesh.faces.begin(), mesh.faces.end(), [](const FaceResult& f) { return f.rgb >= 0; });
-  if (!own) return colours_of_references(mesh);
-  std::map<std::int32_t, Colour> colours;
-  for (const std::int32_t ref : mesh.triangle_refs) colours.try_emplace(ref, srgb(grey));
-  for (const FaceResult& face : mesh.faces)
-    if (face.rgb >= 0) colours[face.ref] = srgb(face.rgb);
-  return colours;
-}
-
 /// Too dark for dark lines and for shades.
 bool is_dark(const Colour& colour) {
   constexpr float darkest = 0.03f;
   return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2] < darkest;
-}
-
-/// Side of the equilateral triangle of the same area.
-double size_of(const Point& a, const Point& b, const Point& c) {
-  const Point n = cross(minus(b, a), minus(c, a));
-  return std::sqrt(2 / std::sqrt(3.0)) * std::pow(dot(n, n), 0.25);
 }
 
 /// The edges of a mesh that has no triangles, such as the domain of a face that failed, as narrow rectangles.
@@ -194,7 +109,7 @@ class Painter {
   }
 
   [[nodiscard]] bool is_on_curve(const Element& element, int k) const {
-    return curves_.contains(key_of(element.nodes[k], element.nodes[(k + 1) % element.corners()]));
+    return curves_.contains(side_key(element.nodes[k], element.nodes[(k + 1) % element.corners()]));
   }
 
   [[nodiscard]] double side_in_pixels(const Element& element, const std::array<Point, 8>& x) const {
@@ -255,6 +170,11 @@ double SizeScale::share(const Point& a, const Point& b, const Point& c) const {
   const double size = size_of(a, b, c);
   if (!(size > 0) || !(largest > smallest)) return 0.5;
   return std::log(size / smallest) / std::log(largest / smallest);
+}
+
+double size_of(const Point& a, const Point& b, const Point& c) {
+  const Point n = cross(minus(b, a), minus(c, a));
+  return std::sqrt(2 / std::sqrt(3.0)) * std::pow(dot(n, n), 0.25);
 }
 
 double shape_quality(const Point& a, const Point& b, const Point& c) {

@@ -29,6 +29,14 @@ std::string read_text(const std::string& path) {
   return text;
 }
 
+void write_text(const std::string& path, const std::string& text) {
+  const auto refuse = [&] { throw Failure("'" + path + "' cannot be written: " + std::strerror(errno) + "."); };
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) refuse();
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (std::fclose(file) != 0 || !written) refuse();
+}
+
 std::string suffix_of(const std::string& path) {
   const std::string name = path.substr(path.find_last_of('/') + 1);
   const std::size_t dot = name.find_last_of('.');

@@ -1,0 +1,26 @@
+// The sections of a report: each is "" where there is nothing to tell.
+#pragma once
+
+#include <string>
+
+#include "report/report_content.h"
+
+namespace command {
+
+/// What a reader must know first: whether all is well, else what is not.
+std::string verdict_section(const ReportContent& content);
+/// The elements of least quality, and of largest distance and angle to the surface, with buttons that show them.
+std::string worst_section(const ReportContent& content);
+std::string histograms_section(const ReportContent& content);
+/// A row a face, with a button that shows it.
+std::string faces_section(const ReportContent& content);
+std::string asked_section(const ReportContent& content);
+std::string delivered_section(const ReportContent& content);
+/// Warnings of the run, what could not be read, defects, triangles that cross.
+std::string warnings_section(const ReportContent& content);
+/// Counts, borders, parts, lengths, angles.
+std::string mesh_section(const ReportContent& content);
+std::string times_section(const ReportContent& content);
+std::string command_section(const ReportContent& content);
+
+}  // namespace command

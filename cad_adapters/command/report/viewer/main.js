@@ -1,0 +1,38 @@
+// Starts all of it. Without WebGL, or where the data cannot be read, tables and histograms stay, and a sentence tells why.
+
+/** For tests and measurements: the time of each of n pictures, milliseconds, the mesh turning; each is waited for. */
+function timesOfFrames(viewer, n) {
+  const { renderer, camera } = viewer;
+  const pixel = new Uint8Array(4), times = [];
+  renderer.resize(Math.min(2, devicePixelRatio));
+  for (let i = 0; i < n; ++i) {
+    const start = performance.now();
+    camera.turn(0.05, 0.02);
+    renderer.draw(camera);
+    renderer.gl.readPixels(0, 0, 1, 1, renderer.gl.RGBA, renderer.gl.UNSIGNED_BYTE, pixel);
+    times.push(performance.now() - start);
+  }
+  viewer.redraw(false);
+  return times;
+}
+
+async function start() {
+  wireTables();
+  if (!byId('viewer-data')) {
+    byId('message').textContent = 'There is nothing to draw.';
+    return null;
+  }
+  byId('message').textContent = 'The mesh is unpacked …';
+  const mesh = await readMesh();
+  const viewer = new Viewer(mesh);
+  wireTools(viewer);
+  wireRows(viewer);
+  byId('message').textContent = '';
+  return viewer;
+}
+
+const ready = start().catch((error) => {
+  byId('message').textContent = error.message;
+  return null;
+});
+window.carreauReport = { ready, timesOfFrames, factsOf, readMesh };

@@ -1,0 +1,192 @@
+// Triangles on a canvas, by WebGL 2: one draw call a picture, one more for the triangle that is picked.
+
+const vertexShader = `#version 300 es
+precision highp float;
+in vec3 position;
+uniform mat4 toClip;
+uniform vec3 toPixels;
+flat out int triangle;
+out vec3 place, weights;
+void main() {
+  gl_Position = toClip * vec4(position, 1.0);
+  place = gl_Position.xyz * toPixels;
+  int k = gl_VertexID % 3;
+  weights = vec3(k == 0, k == 1, k == 2);
+  triangle = gl_VertexID / 3;
+}`;
+
+// Two lamps and some light from everywhere; both sides of a triangle are lit, as on pictures of the command. Lines along
+// sides fade where triangles are few pixels wide, or a fine mesh would be black.
+const fragmentShader = `#version 300 es
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+flat in int triangle;
+in vec3 place, weights;
+uniform sampler2D colours;
+uniform bool edges, chosen;
+out vec4 colour;
+void main() {
+  vec4 own = texelFetch(colours, ivec2(triangle % 2048, triangle / 2048), 0);
+  int sides = int(own.a * 255.0 + 0.5);
+  vec3 normal = cross(dFdx(place), dFdy(place));
+  float size = length(normal);
+  normal = size > 0.0 ? normal / size : vec3(0.0, 0.0, 1.0);
+  if (normal.z < 0.0) normal = -normal;
+  float light = 0.21 + 0.75 * max(0.0, dot(normal, vec3(-0.42, 0.63, 0.653))) + 0.16 * max(0.0, dot(normal, vec3(0.78, -0.1, 0.618)));
+  vec3 base = chosen ? vec3(0.75, 0.08, 0.0) : pow(own.rgb, vec3(2.2));
+  vec3 lit = base * light;
+  vec3 width = max(fwidth(weights), vec3(1e-9));
+  vec3 pixels = weights / width;
+  float ink = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    float away = pixels[(k + 2) % 3], height = 1.0 / width[(k + 2) % 3];
+    bool curve = (sides >> k & 1) == 1, hidden = (sides >> (3 + k) & 1) == 1;
+    if (curve) ink = max(ink, 0.95 * (1.0 - smoothstep(0.8, 1.6, away)));
+    else if (edges && !hidden) ink = max(ink, 0.75 * clamp((height - 3.0) / 8.0, 0.0, 1.0) * (1.0 - smoothstep(0.3, 1.0, away)));
+  }
+  float bright = dot(base, vec3(0.2126, 0.7152, 0.0722));
+  lit = mix(lit, bright < 0.025 ? vec3(0.45) : vec3(0.01), ink);
+  colour = vec4(pow(lit, vec3(1.0 / 2.2)), 1.0);
+}`;
+
+const pickShader = `#version 300 es
+precision highp float;
+precision highp int;
+flat in int triangle;
+out vec4 colour;
+void main() {
+  int id = triangle + 1;
+  colour = vec4(id & 255, id >> 8 & 255, id >> 16 & 255, id >> 24 & 255) / 255.0;
+}`;
+
+const textureWidth = 2048;  // as in the shader
+
+function compiled(gl, fragment) {
+  const program = gl.createProgram();
+  for (const [type, text] of [[gl.VERTEX_SHADER, vertexShader], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.bindAttribLocation(program, 0, 'position');
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program) || 'A shader fails.');
+  const at = (name) => gl.getUniformLocation(program, name);
+  return { program, toClip: at('toClip'), toPixels: at('toPixels'), colours: at('colours'), edges: at('edges'), chosen: at('chosen') };
+}
+
+/** Corner by corner of each triangle: 16 bits a coordinate where the data has as many, else single precision. */
+function cornerArray(mesh) {
+  const narrow = mesh.most === 0xffff;
+  const step = narrow ? 4 : 3;  // bytes of an attribute are a multiple of four
+  const array = narrow ? new Uint16Array(step * mesh.corners.length) : new Float32Array(step * mesh.corners.length);
+  const scale = narrow ? 1 : 1 / mesh.most;
+  for (let i = 0; i < mesh.corners.length; ++i) {
+    const from = 3 * mesh.corners[i];
+    for (let x = 0; x < 3; ++x) array[step * i + x] = mesh.positions[from + x] * scale;
+  }
+  return { array, narrow };
+}
+
+class Renderer {
+  /** Throws Error when there is no WebGL 2. */
+  constructor(canvas, mesh) {
+    this.canvas = canvas;
+    this.mesh = mesh;
+    this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, preserveDrawingBuffer: false });
+    if (!this.gl) throw new Error('This browser has no WebGL 2: tables and histograms are all there is.');
+    this.edges = true;
+    this.chosen = -1;
+    this.upload();
+  }
+
+  /** All that is on the graphics card; again when it was lost. */
+  upload() {
+    const gl = this.gl;
+    this.drawing = compiled(gl, fragmentShader);
+    this.picking = compiled(gl, pickShader);
+    const { array, narrow } = cornerArray(this.mesh);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, narrow ? gl.UNSIGNED_SHORT : gl.FLOAT, narrow, narrow ? 8 : 12, 0);
+    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
+    this.rows = Math.ceil(this.mesh.head.triangles / textureWidth);
+    this.bytes = { corners: array.byteLength, colours: 4 * textureWidth * this.rows };
+    gl.enable(gl.DEPTH_TEST);
+  }
+
+  paint(key, face) {
+    const gl = this.gl;
+    const colours = coloursOf(this.mesh, key, face, this.bytes.colours);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, textureWidth, this.rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
+  }
+
+  /** Pixels of the drawing for one of the page: fewer while it moves and the machine is slow. */
+  resize(density) {
+    const width = Math.max(1, Math.round(this.canvas.clientWidth * density));
+    const height = Math.max(1, Math.round(this.canvas.clientHeight * density));
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+  }
+
+  use(shaders, camera) {
+    const gl = this.gl;
+    const { width, height } = this.canvas;
+    camera.aspect = width / height;
+    const clip = camera.toClip();
+    gl.useProgram(shaders.program);
+    gl.viewport(0, 0, width, height);
+    gl.uniformMatrix4fv(shaders.toClip, false, clip);
+    // Depth grows away from the eye and is scaled otherwise than right and up: normals need lengths of one pixel in all.
+    const pixels = height / 2;
+    gl.uniform3f(shaders.toPixels, width / 2, pixels, (-camera.depth() / camera.half) * pixels);
+  }
+
+  draw(camera) {
+    const gl = this.gl;
+    this.use(this.drawing, camera);
+    gl.clearColor(0, 0, 0, 0);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.uniform1i(this.drawing.edges, this.edges);
+    gl.uniform1i(this.drawing.chosen, false);
+    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.mesh.head.triangles);
+    this.drawCalls = 1;
+    if (this.chosen < 0) return;
+    gl.uniform1i(this.drawing.chosen, true);
+    gl.depthFunc(gl.ALWAYS);
+    gl.drawArrays(gl.TRIANGLES, 3 * this.chosen, 3);
+    gl.depthFunc(gl.LESS);
+    this.drawCalls = 2;
+  }
+
+  /** The triangle at a place of the canvas, in shares of it from the upper left corner; -1: none. Numbers of triangles are drawn as colours. */
+  pick(camera, x, y) {
+    const gl = this.gl;
+    const { width, height } = this.canvas;
+    const frame = gl.createFramebuffer(), store = gl.createRenderbuffer(), depth = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, store);
+    gl.renderbufferStorage(gl.RENDERBUFFER, gl.RGBA8, width, height);
+    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
+    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, store);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+    const column = Math.min(width - 1, Math.floor(x * width)), row = Math.min(height - 1, Math.floor((1 - y) * height));
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(column, row, 1, 1);
+    this.use(this.picking, camera);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.mesh.head.triangles);
+    const id = new Uint8Array(4);
+    gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, id);
+    gl.disable(gl.SCISSOR_TEST);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.deleteFramebuffer(frame);
+    gl.deleteRenderbuffer(store);
+    gl.deleteRenderbuffer(depth);
+    return (id[0] | id[1] << 8 | id[2] << 16 | id[3] << 24) - 1;
+  }
+}
