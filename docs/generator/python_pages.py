@@ -52,24 +52,40 @@ def arguments(node):
     return ", ".join(part for part in text.split(", ") if part not in ("self", "cls"))
 
 
+def parsed(base, module):
+    with open(os.path.join(base, module + ".py"), encoding="utf-8") as file:
+        return ast.parse(file.read())
+
+
+def listed(body):
+    """The names of __all__."""
+    return next(ast.literal_eval(node.value) for node in body.body if isinstance(node, ast.Assign) and
+                any(isinstance(target, ast.Name) and target.id == "__all__" for target in node.targets))
+
+
 def modules(package):
-    """[(module, docstring, entities)] of a package; what its __all__ does not have is left out where there is one."""
-    found = []
-    base = os.path.join(ROOT, package)
-    for name in sorted(os.listdir(base)):
-        if not name.endswith(".py") or name.startswith("_") and name != "__init__.py":
-            continue
-        with open(os.path.join(base, name), encoding="utf-8") as file:
-            body = ast.parse(file.read())
-        module = os.path.basename(package) + ("" if name == "__init__.py" else "." + name.removesuffix(".py"))
-        listed = next((ast.literal_eval(node.value) for node in body.body if isinstance(node, ast.Assign) and
-                       any(isinstance(target, ast.Name) and target.id == "__all__" for target in node.targets) and
-                       isinstance(node.value, (ast.List, ast.Tuple))), None)
-        inside = [entity(node, module) for node in body.body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and is_public(node.name) and
-                  (listed is None or node.name in listed)]
-        found.append((module, ast.get_docstring(body) or "", [item if item.kind == "class" else Entity("function", item.path, item.name, item.signature, item.doc)
-                                                              for item in inside]))
-    return found
+    """[(module, docstring, entities)]: what the package's __all__ has, wherever it is defined, and the modules that it has, with what else is
+    public in them."""
+    base, name = os.path.join(ROOT, package), os.path.basename(package)
+    whole = parsed(base, "__init__")
+    exported, taken, rest = set(listed(whole)), [], []
+    for module in sorted(file.removesuffix(".py") for file in os.listdir(base) if file.endswith(".py") and file != "__init__.py"):
+        body, inside = parsed(base, module), []
+        for node in body.body:
+            if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or not is_public(node.name):
+                continue
+            if node.name in exported:
+                taken.append(top(entity(node, name)))
+            elif module in exported:
+                inside.append(top(entity(node, f"{name}.{module}")))
+        if inside:
+            rest.append((f"{name}.{module}", ast.get_docstring(body) or "", inside))
+    return [(name, ast.get_docstring(whole) or "", sorted(taken, key=lambda item: (item.kind == "class", item.name.lower())))] + rest
+
+
+def top(item):
+    """An entity that is no method, whatever dots its module has."""
+    return item if item.kind == "class" else Entity("function", item.path, item.name, item.signature, item.doc)
 
 
 def entities(package):

@@ -203,6 +203,13 @@ TEST(Wrapper, MetricsHoldByDirection) {
   carreau::Session session = session_of(flat);
   session.set_metrics({.surface = [](int, double, double) { return carreau::Prescription::tangent(0.5, 0.1, {1, 0, 0}); }});
   session.generate();
+  const std::vector<Point3> one_by_one = session.mesh().vertices();
+  session.set_metrics({.surface_batch = [](int, std::span<const Point2> uv, std::span<const Point3> xyz, std::span<carreau::Prescription> out) {
+    EXPECT_EQ(xyz[0][0], uv[0][0]);
+    std::ranges::fill(out, carreau::Prescription::tangent(0.5, 0.1, {1, 0, 0}));
+  }});
+  session.generate();
+  EXPECT_EQ(session.mesh().vertices(), one_by_one);
   const double area = 25, per_triangle = 0.5 * 0.1 * std::sqrt(3.0) / 4;
   EXPECT_NEAR(static_cast<double>(session.mesh().triangle_count()) * per_triangle / area, 1, 0.15);
 }
@@ -265,6 +272,18 @@ TEST(Wrapper, ReadsModelsAndParametersBack) {
   session.reset("hphydef");
   session.reset();
   EXPECT_EQ(carreau::parameters().size(), static_cast<std::size_t>(carreau_parameter_count()));
+}
+
+TEST(Wrapper, DividesCurves) {
+  carreau::Session session = session_of(paraboloid());
+  session.divide_curve(1, 1, 7);
+  session.divide_curve(1, 2, 5, CARREAU_GEOMETRIC, 1.2);
+  session.divide_curve_at(1, 3, std::array{0.25, 0.5});
+  session.generate();
+  const std::vector<std::int32_t> refs = session.mesh().edge_refs();
+  EXPECT_EQ(std::ranges::count(refs, 1), 7);
+  EXPECT_EQ(std::ranges::count(refs, 2), 5);
+  EXPECT_EQ(std::ranges::count(refs, 3), 3);
 }
 
 TEST(Wrapper, MeasuresWhatWasDelivered) {

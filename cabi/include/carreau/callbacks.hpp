@@ -66,9 +66,11 @@ struct Prescription {
   }
 };
 
-/// The callbacks of carreau_metric_callbacks.
+/// The callbacks of carreau_metric_callbacks. surface_batch is used in place of surface when it is given: places in the parameter plane and in
+/// space, and an answer for each.
 struct Metrics {
   std::function<Prescription(int face, double u, double v)> surface{};
+  std::function<void(int face, std::span<const Point2> uv, std::span<const Point3> xyz, std::span<Prescription> out)> surface_batch{};
   std::function<Prescription(int face, int ic, double t)> curve{};
   std::function<Prescription(int point)> point{};
 };
@@ -222,6 +224,15 @@ struct HeldMetrics {
   static std::int32_t surface(std::int32_t face, double u, double v, std::int32_t* kind, double* value, void* user) {
     return answer(user, kind, value, [&] { return of(user).callbacks.surface(face, u, v); });
   }
+  static std::int32_t surface_batch(std::int32_t face, std::int64_t n, const double* uv, const double* xyz, std::int32_t* kind,
+                                    double* value, void* user) {
+    return of(user).faults->guarded([&] {
+      const auto size = static_cast<std::size_t>(n);
+      std::vector<Prescription> found(size);
+      of(user).callbacks.surface_batch(face, {reinterpret_cast<const Point2*>(uv), size}, {reinterpret_cast<const Point3*>(xyz), size}, found);
+      for (std::size_t i = 0; i < size; ++i) store(found[i], kind + i, value + 6 * i);
+    });
+  }
   static std::int32_t curve(std::int32_t face, std::int32_t ic, double t, std::int32_t* kind, double* value, void* user) {
     return answer(user, kind, value, [&] { return of(user).callbacks.curve(face, ic, t); });
   }
@@ -232,11 +243,11 @@ struct HeldMetrics {
  private:
   template <typename Ask>
   static std::int32_t answer(void* user, std::int32_t* kind, double* value, Ask&& ask) {
-    return of(user).faults->guarded([&] {
-      const Prescription found = ask();
-      *kind = found.kind;
-      for (std::size_t i = 0; i < found.value.size(); ++i) value[i] = found.value[i];
-    });
+    return of(user).faults->guarded([&] { store(ask(), kind, value); });
+  }
+  static void store(const Prescription& found, std::int32_t* kind, double* value) {
+    *kind = found.kind;
+    for (std::size_t i = 0; i < found.value.size(); ++i) value[i] = found.value[i];
   }
 };
 
@@ -244,6 +255,7 @@ inline carreau_metric_callbacks table_of(HeldMetrics& held) {
   auto table = sized<carreau_metric_callbacks>();
   table.user = &held;
   if (held.callbacks.surface) table.surface_metric = HeldMetrics::surface;
+  if (held.callbacks.surface_batch) table.surface_metric_batch = HeldMetrics::surface_batch;
   if (held.callbacks.curve) table.curve_metric = HeldMetrics::curve;
   if (held.callbacks.point) table.point_metric = HeldMetrics::point;
   return table;

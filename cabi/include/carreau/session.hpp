@@ -116,6 +116,13 @@ class Session {
   void add_curve(int face, const Curve& curve) {
     done(carreau_model_add_curve(get(), face, curve.type, curve.ref, curve.ends[0], curve.ends[1]));
   }
+  /// progression: CARREAU_EQUAL, CARREAU_ARITHMETIC or CARREAU_GEOMETRIC; no edges: prescriptions are taken away.
+  void divide_curve(int face, int ic, int edges, int progression = CARREAU_EQUAL, double ratio = 1) {
+    done(carreau_model_divide_curve(get(), face, ic, edges, progression, ratio));
+  }
+  void divide_curve_at(int face, int ic, std::span<const double> t) {
+    done(carreau_model_divide_curve_at(get(), face, ic, detail::count_of(t.size()), detail::data_or_null(t)));
+  }
   void add_point(int face, int ref, const Point2& uv) { done(carreau_model_add_point(get(), face, ref, uv[0], uv[1])); }
   void name_face(int face, const std::string& name) { done(carreau_model_name_face(get(), face, name.c_str())); }
   void color_face(int face, int rgb) { done(carreau_model_color_face(get(), face, rgb)); }
