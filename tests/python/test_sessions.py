@@ -1,0 +1,125 @@
+"""Parameters and files of sessions, charts of atlases, questions to CAD files, domains."""
+import math
+import os
+import threading
+
+import numpy as np
+import pytest
+
+import carreau
+from carreau import domains
+from conftest import needs
+from hosts import TORUS_BOX, torus
+
+
+def test_parameters_are_set_read_and_reset(tmp_path):
+    session = carreau.Session(hphydef=0.25)
+    assert session.is_set("hphydef") and session["hphydef"] == 0.25
+    session.reset("hphydef")
+    assert not session.is_set("hphydef")  # a share of a diagonal that nobody knows yet
+    env = tmp_path / "x.env"
+    env.write_text("hphydef 0.125\nangle_mesh 6\ncall exit\n")
+    session.read_env(env)
+    assert session["hphydef"] == 0.125 and session["angle_mesh"] == 6
+    session.reset()
+    assert session["angle_mesh"] == carreau.parameters()["angle_mesh"].default_number
+    env.write_text("hphydef 0.5\nhphydeff 1\ncall exit\n")
+    with pytest.raises(carreau.CarreauError, match="hphydeff") as caught:
+        session.read_env(env)
+    assert caught.value.line == 2
+
+
+def test_a_blsurf_env_runs(tmp_path):
+    mesh = carreau.mesh(torus, domain=TORUS_BOX, size=0.5)
+    env = tmp_path / "blsurf.env"
+    env.write_text("hphydef 0.5\ncall inimesh\npref torus\ncall export\ncall exit\n")
+    mesh.session.run_env(env)
+    written = carreau.read(tmp_path / "torus.mesh")
+    assert len(written.triangles) > 500 and 2 * len(written.vertices) == len(written.triangles)  # Euler's number of a torus is 0
+
+
+def test_a_thread_stops_a_run():
+    begun = threading.Event()
+    session = carreau.mesh(torus, domain=TORUS_BOX, size=0.5).session
+    session["hphydef"] = 0.003
+    stopper = threading.Thread(target=lambda: (begun.wait(), session.stop()))
+    stopper.start()
+    with pytest.raises(carreau.Cancelled):
+        session.generate(progress=lambda *_: begun.set())
+    stopper.join()
+
+
+def octahedron(times):
+    xyz = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
+    triangles = [(0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2, 5), (3, 1, 5), (0, 3, 5)]
+    for _ in range(times):
+        known = {}
+
+        def middle(a, b):
+            if (min(a, b), max(a, b)) not in known:
+                p = np.add(xyz[a], xyz[b])
+                known[min(a, b), max(a, b)] = len(xyz)
+                xyz.append(tuple(p / np.linalg.norm(p)))
+            return known[min(a, b), max(a, b)]
+
+        triangles = [t for a, b, c in triangles for ab, bc, ca in [(middle(a, b), middle(b, c), middle(c, a))]
+                     for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
+    return np.array(xyz, dtype=float), np.array(triangles)
+
+
+def test_charts_agree_where_they_overlap():
+    atlas = carreau.Atlas(*octahedron(3))
+    n, weights = atlas.counts.charts, np.zeros(1)
+    # Places far from the middle of a chart are shared.
+    for radius in np.linspace(0.1, 1, 30):
+        place = np.array([[radius, 0.0]])
+        if atlas.zones(0, place)[0][0] == 1:
+            break
+    zone, weights = atlas.zones(0, place)
+    assert zone[0] == 1
+    here = atlas.points(0, place)[0]
+    shared = 0
+    for j in range(1, n):
+        there, found = atlas.transition(0, j, place)
+        if not found[0]:
+            assert np.isnan(there).all()
+            continue
+        shared += 1
+        weights = weights + atlas.zones(j, there)[1]
+        assert np.allclose(atlas.points(j, there)[0], here, atol=1e-9)
+    assert shared >= 1 and abs(weights[0] - 1) < 1e-9
+
+
+@needs("CARREAU_MAKE_SHAPES")
+def test_a_cad_file_answers(source):
+    file = carreau.CadFile(os.path.join(source, "tests/packages/cad/sphere.brep"))
+    figures = file.figures(1)
+    assert figures.kind == "sphere" and figures.area > 0
+    report, dangers = file.inspect()
+    assert report.faces == 1 and len(dangers) == report.dangers
+    counts = []
+    for size in (0.2, 0.1):
+        session = carreau.Session(hphy_flag=2)
+        file.add_to(session)
+        file.set_face_size(1, size * math.sqrt(figures.area / (4 * math.pi)))
+        counts.append(len(session.generate().triangles))
+    assert abs(counts[1] / counts[0] - 4) < 0.4
+
+
+def test_domains_enclose_their_areas():
+    half = [domains.arc((0, 0), 2, 0, math.pi), domains.segment((-2, 0), (2, 0))]
+    for domain, area in ((half, 2 * math.pi), ("ring:0,0,1,2", 3 * math.pi), ((0, 0, 3, 1), 3)):
+        assert len(domains.domain_of(domain)) >= 2
+        mesh = carreau.mesh(lambda u, v: (u, v, 0 * u), domain=domain, size=0.05)
+        corners = mesh.vertices[mesh.triangles]
+        found = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
+        assert abs(found / area - 1) < 1e-3
+    with pytest.raises(carreau.ArgumentError):
+        domains.arc((0, 0), 0, 0, 1)
+
+
+def test_surfaces_fill_arrays_up_to_an_order():
+    surface = carreau.Surface(lambda u, v: (u, v, u * v))
+    out = [np.full((2, 3), np.nan) for _ in range(6)]
+    surface.fill(1, np.array([[1.0, 2.0], [3.0, 4.0]]), 0, out)
+    assert np.array_equal(out[0], [[1, 2, 2], [3, 4, 12]]) and np.isnan(out[1]).all()
