@@ -209,7 +209,8 @@ def main():
     with open(README, encoding="utf-8") as file:
         text = file.read()
     blocks = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "cmake": 0, "": 0}
+    # Those in Python are run by tests/python/test_examples.py.
+    done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "python": 0, "cmake": 0, "": 0}
     for language, name in (("c", "program.c"), ("fortran", "program.f90"), ("c", "step.c"), ("cpp", "step.cpp"), ("fortran", "step.f90")):
         source, = (block for kind, block in blocks if kind == language and ("carreau_cad_open" in block) == name.startswith("step"))
         with open(os.path.join(CLONE, name), "w", encoding="utf-8") as file:
