@@ -15,7 +15,8 @@ from ._records import Geometry, MoleculeMeasures, TrianglesReport
 from ._run import Host
 from .atlas import Atlas
 from .errors import ArgumentError, CarreauError
-from .plane import PlaneDomain
+from .meshes import Mesh
+from .planes import PlaneDomain
 from .surfaces import Patch, PatchCallbacks, model_of
 
 SURFACES = {"vws": c.VWS, "sas": c.SAS, "ses": c.SES}
@@ -157,6 +158,14 @@ class Geometries:
         pair = np.empty(2)
         self._call(lib().triangles_distances, pair)
         return float(pair[0]), float(pair[1])
+
+    def refine_triangles(self, angle: float, depth: int = 6) -> Mesh:
+        """The triangles, mended, cut into four on the smooth surface while normals differ from it by more than an angle
+        (degrees), at most `depth` times; 0: as they are mended."""
+        def fill(handle: Any) -> int:
+            self._call(lib().triangles_refine, float(angle), depth, handle)
+            return c.OK
+        return Mesh._filled_by(fill)
 
     def add_plane(self, domain: PlaneDomain) -> None:
         """Makes a domain of the plane the only geometry."""

@@ -47,7 +47,8 @@ class CadM:
     def curve_points(self, face: int, ic: int, shares: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points (n, 3) at shares of the interval of a curve, 0 to 1."""
         ref, rank, a, b, t = c_int32(face), c_int32(ic), c_double(), c_double(), c_double()
-        at = [ctypes.addressof(each) for each in (ref, rank, a, b, t)]
+        places: list[Any] = [ref, rank, a, b, t]
+        at = [ctypes.addressof(each) for each in places]
         self.routines["curv_int"](*at[:4])
         uv, points = np.empty(2), np.empty((len(shares), 3))
         for share, point in zip(shares.tolist(), points):

@@ -16,7 +16,7 @@ from .cad_m import CadM
 from .errors import ArgumentError, SequenceError
 from .formulas import is_formula, patch_of
 from .meshes import Mesh
-from .plane import PlaneDomain
+from .planes import PlaneDomain
 from .progress import Progress
 from .session import Session
 from .surfaces import Patch
