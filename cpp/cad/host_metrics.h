@@ -43,9 +43,7 @@ class HostMetrics : public PrescriptionSource {
   explicit HostMetrics(const HostMetricTable& table) : table_(table) {}
 
   [[nodiscard]] std::string name() const override { return "the metric callback"; }
-  [[nodiscard]] bool needs_position() const noexcept override {
-    return table_.surface_metric_batch != nullptr;
-  }
+  [[nodiscard]] bool needs_position() const noexcept override { return table_.surface_metric_batch != nullptr; }
   Prescription on_surface(int face, Vec2 uv, Vec3 xyz) override;
   void on_surface_points(int face, std::span<const Vec2> uv, std::span<const Vec3> xyz,
                          std::span<Prescription> out) override;

@@ -12,7 +12,7 @@
 namespace carreau {
 
 struct Helpers::State {
-  explicit State(int threads) : most(static_cast<std::size_t>(threads) - 1) {}
+  explicit State(int with_caller) : most(static_cast<std::size_t>(with_caller) - 1) {}
 
   void help() {
     std::unique_lock lock(mutex);

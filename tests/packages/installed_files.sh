@@ -1,7 +1,7 @@
 #!/bin/sh
-# installed_files.sh TREE WORK FORTRAN COMMAND CAD: what an installed tree must hold, and must not.
+# installed_files.sh TREE WORK FORTRAN COMMAND CAD PYTHON: what an installed tree must hold, and must not.
 set -eu
-tree=$1 fortran=$3 command=$4 cad=$5
+tree=$1 fortran=$3 command=$4 cad=$5 python=$6
 cd -- "$tree"
 fail=0
 need() {
@@ -23,6 +23,10 @@ if [ "$cad" = 1 ]; then
     need share/carreau/fortran/carreau_cad.f90 lib/libcarreau_cad_fortran.a lib/fortran/modules/carreau/*/carreau_cad.mod \
       lib/pkgconfig/carreau-cad-fortran.pc
   fi
+fi
+if [ "$python" = 1 ]; then
+  need lib/python3*/dist-packages/carreau/__init__.py lib/python3*/dist-packages/carreau/py.typed lib/python3*/dist-packages/carreau-*.dist-info/METADATA
+  [ ! -e carreau ] || { echo "what a wheel has inside is installed, too"; fail=1; }
 fi
 if [ "$command" = 1 ]; then
   need bin/carreau share/bash-completion/completions/carreau share/zsh/site-functions/_carreau \

@@ -20,6 +20,21 @@ int32_t torus_surface(int32_t face, double u, double v, int32_t order, double* S
   return 0;
 }
 
+/* As routines of cad_m: the paraboloid z = (u^2 + v^2) / 2 over the unit square. */
+void surf0(const int32_t* refs, const double* uv, double* S) {
+  (void)refs;
+  S[0] = uv[0], S[1] = uv[1], S[2] = (uv[0] * uv[0] + uv[1] * uv[1]) / 2;
+}
+void curv_int(const int32_t* refs, const int32_t* ic, double* a, double* b) {
+  (void)refs, (void)ic;
+  *a = 0, *b = 1;
+}
+void curv0(const int32_t* refs, const int32_t* ic, const double* t, double* C) {
+  static const double at[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
+  (void)refs;
+  for (int i = 0; i < 2; ++i) C[i] = (1 - *t) * at[*ic - 1][i] + *t * at[*ic][i];
+}
+
 int32_t torus_surface_batch(int32_t face, int64_t n, const double* uv, int32_t order, double* S, double* Su, double* Sv,
                             double* Suu, double* Suv, double* Svv, void* user) {
   for (int64_t i = 0; i < n; ++i)

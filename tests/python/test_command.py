@@ -79,6 +79,19 @@ def test_formulas_and_size_maps(tmp_path):
     agree(carreau.mesh(ring, domain="ring:0.1,0,0.3,1", size=0.1), by_command(tmp_path, ring, "--domain", "ring:0.1,0,0.3,1", "--size", "0.1"))
 
 
+def test_a_model_with_a_library_of_cad_m(tmp_path):
+    host = os.environ["CARREAU_PYTHON_HOST"]
+    session = carreau.Session()
+    session.add(carreau.Patch(lambda u, v: (u, v, (u * u + v * v) / 2)))
+    session._call(carreau.capi.lib().model_write_pardom, os.fsencode(tmp_path / "x.pardom"))
+    mesh = carreau.mesh(tmp_path / "x.pardom", host=host, size="5%")
+    agree(mesh, by_command(tmp_path, tmp_path / "x.pardom", "--host", host, "--size", "5%"))
+    with pytest.raises(carreau.ArgumentError, match="host names"):
+        carreau.mesh(tmp_path / "x.pardom")
+    with pytest.raises(OSError):
+        carreau.mesh(tmp_path / "x.pardom", host="no.so")
+
+
 def test_an_env_file(source, tmp_path):
     (tmp_path / "sizes.env").write_text("hphydef 0.25\nelement p1\nnarrow_ratio 0.001\n")
     teapot = os.path.join(source, "fortran_examples/teapot/teapot.bpt")

@@ -136,6 +136,23 @@ def test_progress_stops_and_its_exceptions_arrive():
     assert isinstance(caught.value.__cause__, Unlucky)
 
 
+def test_what_comes_too_late_to_stop_a_run_is_raised():
+    def at_the_end(fraction, phase, entity):
+        if fraction == 1:
+            raise Unlucky("late")
+    with pytest.raises(carreau.CallbackError, match="late"):
+        carreau.mesh(torus, domain=TORUS_BOX, size=0.5, progress=at_the_end)
+
+
+def test_points_that_a_callback_cannot_tell():
+    session = carreau.Session()
+    session.add(carreau.Patch(carreau.scalar(lambda u, v: (u, v, 1 / (u - 0.5)))))
+    assert session.points(1, [(0.25, 0)]).tolist() == [[0.25, 0, -4]]
+    with pytest.raises(carreau.CallbackError) as caught:
+        session.points(1, [(0.5, 0)])
+    assert isinstance(caught.value.__cause__, ZeroDivisionError) and caught.value.uv == (0.5, 0)
+
+
 def test_progress_never_falls_and_ends():
     told = []
     carreau.mesh([carreau.Patch(lambda u, v, k=k: (u + 2 * k, v, u * v)) for k in range(4)], size=0.1,

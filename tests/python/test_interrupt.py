@@ -54,8 +54,8 @@ def test_ctrl_c_ends_a_run(name):
         out, err = process.communicate(timeout=30)
         assert process.returncode == 0, err
         assert out == "interrupted True\n" and "ignored" not in err
-        # 100 ms by the contract, a small mesh, the end of an interpreter, on a machine that may be busy.
-        assert time.monotonic() - start < 5
+        # 100 ms by the contract, a small mesh, the end of an interpreter; a busy machine takes its time.
+        assert time.monotonic() - start < 15
     finally:
         process.kill()
 

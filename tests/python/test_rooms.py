@@ -55,6 +55,21 @@ def test_metric_lengths():
         metric.sizes([[1, 2, 1]])
 
 
+def test_curves_are_split_in_their_metric():
+    # Sizes h(s) = 0.1 + 0.1 s along a line of length 3: its length is the integral of 1 / h, 10 ln 4.
+    s = np.linspace(0, 3, 31)
+    line = np.column_stack([s, 0 * s])
+    cuts, length = metric.split(line, metric.isotropic(0.1 + 0.1 * s, 2))
+    assert length == pytest.approx(10 * math.log(4), rel=1e-3) and len(cuts) == round(length) + 1
+    assert cuts[0] == 0 and cuts[-1] == pytest.approx(3)
+    each = 10 * np.diff(np.log(1 + cuts))
+    assert np.allclose(each, length / (len(cuts) - 1), rtol=2e-3)
+    with pytest.raises(carreau.ArgumentError):
+        metric.split(line, np.tile((-1, 0, -1), (len(s), 1)))
+    with pytest.raises(ValueError, match="31 x 3"):
+        metric.split(line, metric.isotropic(1 + s, 2)[:5])
+
+
 def test_a_plane_with_a_hole():
     ring = lambda r, n: r * np.stack([np.cos(np.arange(n) * 2 * np.pi / n), np.sin(np.arange(n) * 2 * np.pi / n)], axis=1)  # noqa: E731
     outer, inner = ring(1, 64), ring(0.4, 32)
@@ -77,6 +92,40 @@ def test_subdomains_and_splines():
     assert spline.quality.area == pytest.approx(math.pi, rel=5e-3)
     arcs = carreau.mesh(carreau.PlaneDomain([(1, 0), (-1, 0)], [[0, 1, 0]], kinds="arcs"), size=0.05)
     assert arcs.quality.area == pytest.approx(math.pi, rel=5e-3)
+
+
+def test_plane_takes_files_polygons_and_sizes(tmp_path, source):
+    square = carreau.plane([[(0, 0), (1, 0), (1, 1), (0, 1)]], size=0.1)
+    assert square.dimension == 2 and square.quality.area == pytest.approx(1)
+    plate = carreau.plane(os.path.join(source, "tests/data/plane/plate.poly"), size=0.2)
+    assert plate.check() == [] and plate.dimension == 2
+    stretched = carreau.plane([[(0, 0), (1, 0), (1, 1), (0, 1)]], metric=lambda x: np.tile((0.05, 0.2, 1, 0, 0), (len(x), 1)))
+    assert np.abs(np.diff(stretched.vertices[stretched.edges], axis=1)).max(axis=0)[0, 1] > 0.15
+    carreau.fields(square, tmp_path / "f.png", longest=32, face=1)
+    assert (tmp_path / "f.png").stat().st_size > 0
+    carreau.fields("z = x * y", tmp_path / "g.exr", longest=16, channels=["size", "mask"], size=0.3)
+    assert list(tmp_path.glob("g.face.1.exr"))
+
+
+def test_sizes_on_curves_and_at_points():
+    def boundary(**named):
+        session = carreau.Session(hphydef=0.25, hphymin=0.001, hphymax=1, hphy_flag=2)
+        session.add(carreau.Patch(lambda u, v: (u, v, 0 * u)))
+        session.set_sizes(**named)
+        return len(session.generate().edges)
+    assert boundary(on_curve=lambda t: 0.05) == 80
+    assert boundary(on_curve=lambda ic: 0.05 if ic == 1 else 0.5) == 20 + 3 * 2
+    assert boundary(at_point=lambda point: 0.1, on_curve=lambda t: None) == 40
+
+
+def test_refined_triangles_are_on_the_smooth_surface():
+    coarse = carreau.mesh(torus, domain=TORUS_BOX, size=0.5)
+    session = carreau.Session()
+    session.add_triangles(coarse.vertices, coarse.triangles)
+    fine = session.refine_triangles(5)
+    assert len(fine.triangles) > 2 * len(coarse.triangles) and fine.check(closed=True) == []
+    assert TORUS_AREA - fine.quality.area < (TORUS_AREA - coarse.quality.area) / 2
+    assert len(session.refine_triangles(5, depth=0).triangles) == len(coarse.triangles)
 
 
 def test_bezier_nets_and_their_points():

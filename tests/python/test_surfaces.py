@@ -124,6 +124,15 @@ def test_any_number_of_threads_makes_one_mesh():
     assert same(carreau.mesh(patches, size=0.05, threads=1), carreau.mesh(patches, size=0.05, threads=4))
 
 
+def test_sessions_in_threads_of_python_do_not_disturb_each_other():
+    from concurrent.futures import ThreadPoolExecutor
+    sizes = [0.2, 0.25, 0.3, 0.35]
+    alone = [carreau.mesh(torus_of_floats, domain=TORUS_BOX, size=h) for h in sizes]
+    with ThreadPoolExecutor(4) as pool:
+        together = list(pool.map(lambda h: carreau.mesh(torus_of_floats, domain=TORUS_BOX, size=h), sizes))
+    assert all(same(a, b) for a, b in zip(alone, together))
+
+
 def test_metrics_stretch_triangles():
     flat = carreau.Patch(lambda u, v: (u, v, 0 * u))
     mesh = carreau.mesh(flat, metric=lambda x: np.tile((1 / 0.02 ** 2, 0, 0, 1 / 0.1 ** 2, 0, 1 / 0.1 ** 2), (len(x), 1)))

@@ -1,5 +1,6 @@
 """The package as users have it: as a wheel in a virtual environment, and as `cmake --install` puts it."""
 import glob
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -36,7 +37,8 @@ def program(tmp_path_factory):
 
 def test_a_wheel_serves_a_virtual_environment(source, tmp_path, program):
     for module in ("pip", "setuptools", "wheel", "venv"):
-        pytest.importorskip(module)
+        if importlib.util.find_spec(module) is None:
+            pytest.skip(f"{module} is not there")
     copy = tmp_path / "python"
     shutil.copytree(os.path.join(source, "cabi/python"), copy, ignore=shutil.ignore_patterns("build", "*.egg-info", "__pycache__"))
     subprocess.run([sys.executable, "-m", "pip", "wheel", "-q", "--no-deps", "--no-build-isolation", "--no-index", "-w", str(tmp_path), str(copy)],

@@ -64,7 +64,8 @@ def main():
     with open(README, encoding="utf-8") as file:
         text = file.read()
     blocks = re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
-    done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "cmake": 0, "": 0}
+    # Those in Python are run by tests/python/test_examples.py.
+    done = {"sh": 0, "c": 0, "cpp": 0, "fortran": 0, "python": 0, "cmake": 0, "": 0}
     samples.write(text, SANDBOX.clone, "program")
     # The tree P: the commands of "How to link" stand in its sentences.
     inline = re.findall(r"`((?:cc|cmake) [^`]*)`", text[text.index("## How to link"):])

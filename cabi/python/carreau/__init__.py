@@ -23,9 +23,9 @@ from .domains import Curve, arc, box, disc, polygon, ring, segment
 from .errors import (ArgumentError, BusyError, CallbackError, Cancelled, CarreauError, DomainError, FileError, InternalError,
                      LimitError, ModelError, OutOfMemory, PartialError, SequenceError)
 from .meshes import Mesh
-from .meshing import adapt, mesh
+from .meshing import adapt, fields, mesh, plane
 from .molecules import Areas, areas
-from .plane import PlaneDomain, polygons
+from .planes import PlaneDomain, polygons
 from .remeshing import Remeshed, Tool, remesh
 from .session import Session, parameters
 from .surfaces import Patch, Surface, patch
@@ -35,7 +35,7 @@ __all__ = [
     "Areas", "ArgumentError", "Atlas", "BusyError", "CadFile", "CallbackError", "Cancelled", "CarreauError", "Curve", "DomainError",
     "FileError", "InternalError", "LimitError", "Mesh", "ModelError", "OutOfMemory", "PartialError", "Patch", "PlaneDomain",
     "Remeshed", "SequenceError", "Session", "Surface", "Tool", "adapt", "arc", "areas", "box", "capi", "disc", "domains",
-    "errors", "mesh", "metric", "parameters", "patch", "polygon", "polygons", "read", "remesh", "ring", "scalar", "segment",
+    "errors", "fields", "mesh", "metric", "parameters", "patch", "plane", "polygon", "polygons", "read", "remesh", "ring", "scalar", "segment",
     "version"]
 
 read = Mesh.read

@@ -15,7 +15,8 @@ from ._records import Geometry, MoleculeMeasures, TrianglesReport
 from ._run import Host
 from .atlas import Atlas
 from .errors import ArgumentError, CarreauError
-from .plane import PlaneDomain
+from .meshes import Mesh
+from .planes import PlaneDomain
 from .surfaces import Patch, PatchCallbacks, model_of
 
 SURFACES = {"vws": c.VWS, "sas": c.SAS, "ses": c.SES}
@@ -59,6 +60,9 @@ class Geometries:
     def _call(self, function: Callable[..., int], *arguments: Any) -> None:
         raise NotImplementedError
 
+    def _long(self, function: Callable[..., int], *arguments: Any) -> None:
+        raise NotImplementedError
+
     def add(self, patches: Union[Patch, Iterable[Patch]]) -> None:
         """Adds patches, as one geometry: faces 1, 2, ... of it. Curves that meet are found when a mesh is made, unless
         they have references."""
@@ -85,22 +89,22 @@ class Geometries:
         degrees = np.array([(net.shape[0] - 1, net.shape[1] - 1) for net in nets], dtype=np.int32)
         controls = np.concatenate([net.ravel() for net in nets]) if nets else np.empty(0)
         sides = None if side_refs is None else int32s(side_refs, "side_refs", len(nets), 4)
-        self._call(lib().add_bezier, byref(struct(c.carreau_bezier, patch_count=len(nets), degrees=address(degrees),
+        self._long(lib().add_bezier, byref(struct(c.carreau_bezier, patch_count=len(nets), degrees=address(degrees),
                                                   controls=address(controls), side_refs=address(sides))))
 
     def load_bezier(self, path: Path) -> None:
         """Adds the patches of a file .bpt."""
-        self._call(lib().load_bezier, file_name(path))
+        self._long(lib().load_bezier, file_name(path))
 
     def add_molecule(self, centers: ArrayLike, radii: ArrayLike, **options: Any) -> None:
         """Adds the surface of n balls: centers (n, 3), radii (n). options: surface ("vws", "sas", "ses"), probe (its
         radius), drop_cavities."""
         xyz = doubles(centers, "centers", None, 3)
-        self._call(lib().add_molecule, byref(molecule_options(**options)), len(xyz), xyz, doubles(radii, "radii", len(xyz)))
+        self._long(lib().add_molecule, byref(molecule_options(**options)), len(xyz), xyz, doubles(radii, "radii", len(xyz)))
 
     def load_molecule(self, path: Path, **options: Any) -> None:
         """The same of the atoms of a file .xyzr, .xyz, .pdb or .cif."""
-        self._call(lib().load_molecule, byref(molecule_options(**options)), file_name(path))
+        self._long(lib().load_molecule, byref(molecule_options(**options)), file_name(path))
 
     @property
     def molecule(self) -> MoleculeMeasures:
@@ -121,11 +125,11 @@ class Geometries:
         grids = [doubles(each, "a grid", None, None, 3) for each in blocks]
         counts = np.array([(grid.shape[1], grid.shape[0]) for grid in grids], dtype=np.int32)
         nodes = np.concatenate([grid.ravel() for grid in grids]) if grids else np.empty(0)
-        self._call(lib().add_grid, byref(grid_options(**options)), len(grids), counts, nodes)
+        self._long(lib().add_grid, byref(grid_options(**options)), len(grids), counts, nodes)
 
     def load_grid(self, path: Path, format: str = "", **options: Any) -> None:
         """The same of a file; format: "plot3d", "heights", "scan", "nodes", or "": by the suffix."""
-        self._call(lib().load_grid, byref(grid_options(**options)), file_name(path), choice(GRID_FORMATS, format, "format"))
+        self._long(lib().load_grid, byref(grid_options(**options)), file_name(path), choice(GRID_FORMATS, format, "format"))
 
     def add_triangles(self, vertices: ArrayLike, triangles: ArrayLike, *, references: Optional[ArrayLike] = None,
                       edges: Optional[ArrayLike] = None, **options: Any) -> None:
@@ -138,11 +142,11 @@ class Geometries:
         given = struct(c.carreau_triangles, vertex_count=len(xyz), triangle_count=len(corners), vertices=address(xyz),
                        triangles=address(corners), triangle_refs=address(refs), edge_count=0 if lines is None else len(lines),
                        edges=address(lines))
-        self._call(lib().add_triangles, byref(triangles_options(**options)), byref(given))
+        self._long(lib().add_triangles, byref(triangles_options(**options)), byref(given))
 
     def load_triangles(self, path: Path, **options: Any) -> None:
         """The same of a file .stl, .off, .obj, .ply, .mesh, .vtu or .msh."""
-        self._call(lib().load_triangles, byref(triangles_options(**options)), file_name(path))
+        self._long(lib().load_triangles, byref(triangles_options(**options)), file_name(path))
 
     @property
     def triangles(self) -> TrianglesReport:
@@ -155,14 +159,22 @@ class Geometries:
         self._call(lib().triangles_distances, pair)
         return float(pair[0]), float(pair[1])
 
+    def refine_triangles(self, angle: float, depth: int = 6) -> Mesh:
+        """The triangles, mended, cut into four on the smooth surface while normals differ from it by more than an angle
+        (degrees), at most `depth` times; 0: as they are mended."""
+        def fill(handle: Any) -> int:
+            self._call(lib().triangles_refine, float(angle), depth, handle)
+            return c.OK
+        return Mesh._filled_by(fill)
+
     def add_plane(self, domain: PlaneDomain) -> None:
         """Makes a domain of the plane the only geometry."""
-        self._call(lib().add_plane_domain, byref(domain._struct()))
+        self._long(lib().add_plane_domain, byref(domain._struct()))
 
     def load_plane(self, path: Path, sizes: Optional[Path] = None, corner_angle: float = 0) -> None:
         """The same of a file .poly, .mesh, .bl2d, .data or .g; sizes: a .sol, .hg or .h for its vertices. With a
         corner_angle (degrees) above 0, polygons become splines between corners."""
-        self._call(lib().load_plane_domain, file_name(path), None if sizes is None else file_name(sizes), float(corner_angle))
+        self._long(lib().load_plane_domain, file_name(path), None if sizes is None else file_name(sizes), float(corner_angle))
 
     def plane_has_sizes(self) -> bool:
         """Whether that domain has sizes at its points."""
@@ -172,7 +184,7 @@ class Geometries:
 
     def add_atlas(self, atlas: Atlas) -> None:
         """Adds the C1 surface near closed triangles; the atlas may go."""
-        self._call(lib().add_atlas, atlas._handle)
+        self._long(lib().add_atlas, atlas._handle)
 
     def read_pardom(self, path: Path) -> None:
         """Replaces the model by that of a file x.pardom."""

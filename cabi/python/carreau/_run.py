@@ -4,11 +4,10 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from ctypes import c_void_p
 from typing import Any, Callable, Iterator, Optional
 
-from . import _declarations as c
 from ._library import lib
 from .errors import CallbackError
 
@@ -86,8 +85,9 @@ class _Watcher:
             if signal.SIGINT in heard:
                 self.host.interrupted = True
                 self.host.stop()
-            if self.before >= 0:  # of an event loop
-                os.write(self.before, heard)
+            if self.before >= 0:  # of an event loop, which may have enough to read
+                with suppress(OSError):
+                    os.write(self.before, heard)
 
     def close(self) -> None:
         signal.set_wakeup_fd(self.before)
@@ -131,7 +131,7 @@ def run(host: Host, call: Callable[[], int]) -> int:
     with _listening(host) as pass_on:
         status = call()
     error = host.take_error()
-    if error is not None and status != c.OK:
+    if error is not None:
         raise error
     pass_on()
     return status

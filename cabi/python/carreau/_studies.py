@@ -154,7 +154,8 @@ class Studies:
             self._run(lib().adapt, byref(loop), byref(report), progress=progress)
         except PartialError:
             pass
-        self._runs += 1
+        finally:
+            self._runs += 1
         self.adaptation = record(report)
         return self.mesh  # type: ignore[attr-defined]
 

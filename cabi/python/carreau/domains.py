@@ -6,7 +6,7 @@ from typing import Any, Callable, Optional, Sequence
 
 import numpy as np
 
-from ._callbacks import Named
+from ._callbacks import Named, scalar
 from .errors import ArgumentError
 
 Jet = tuple[float, float]
@@ -54,48 +54,40 @@ class Curve:
         return float(row.flat[0]), float(row.flat[1])
 
 
-class _Segment(Curve):
-    def __init__(self, start: Sequence[float], end: Sequence[float], **named: Any) -> None:
-        super().__init__(lambda t: None, **named)
-        (self.x, self.y), self.step = map(float, start), (float(end[0]) - start[0], float(end[1]) - start[1])
-
-    @property
-    def order(self) -> int:
-        return 2
-
-    def at(self, t: float, order: int = 0, face: int = 0, ic: int = 0) -> Jet:
-        if order == 0:
-            return self.x + t * self.step[0], self.y + t * self.step[1]
-        return self.step if order == 1 else (0.0, 0.0)
-
-
-class _Arc(Curve):
-    def __init__(self, center: Sequence[float], radius: float, start: float, turn: float, **named: Any) -> None:
-        super().__init__(lambda t: None, **named)
-        (self.x, self.y), self.radius, self.start, self.turn = map(float, center), radius, start, turn
-
-    @property
-    def order(self) -> int:
-        return 2
-
-    def at(self, t: float, order: int = 0, face: int = 0, ic: int = 0) -> Jet:
-        angle = self.start + t * self.turn
-        cosine, sine, w = self.radius * math.cos(angle), self.radius * math.sin(angle), self.turn
-        if order == 0:
-            return self.x + cosine, self.y + sine
-        return (-w * sine, w * cosine) if order == 1 else (-w * w * cosine, -w * w * sine)
-
-
 def segment(start: Sequence[float], end: Sequence[float], **named: Any) -> Curve:
     """The straight line from (u, v) to (u, v), for t from 0 to 1. named: ref, ends and internal of Curve."""
-    return _Segment(start, end, **named)
+    (u, v), (last_u, last_v) = map(float, start), map(float, end)
+    return _straight(u, v, last_u - u, last_v - v, **named)
+
+
+def _straight(u: float, v: float, du: float, dv: float, **named: Any) -> Curve:
+    return Curve(scalar(lambda t: (u + t * du, v + t * dv)), first=scalar(lambda t: (du, dv)), second=scalar(lambda t: (0.0, 0.0)),
+                 **named)
 
 
 def arc(center: Sequence[float], radius: float, start: float, end: float, **named: Any) -> Curve:
     """The arc of a circle about (u, v) from one angle to another, radians; counterclockwise where end > start."""
     if not radius > 0 or start == end:
         raise ArgumentError(f"an arc has a radius above 0 and two angles, not {radius}, {start} and {end}")
-    return _Arc(center, radius, start, end - start, **named)
+    u, v, w = float(center[0]), float(center[1]), end - start
+
+    def at(t: float) -> Jet:
+        angle = start + t * w
+        return radius * math.cos(angle), radius * math.sin(angle)
+
+    def point(t: float) -> Jet:
+        cosine, sine = at(t)
+        return u + cosine, v + sine
+
+    def first(t: float) -> Jet:
+        cosine, sine = at(t)
+        return -w * sine, w * cosine
+
+    def second(t: float) -> Jet:
+        cosine, sine = at(t)
+        return -w * w * cosine, -w * w * sine
+
+    return Curve(scalar(point), first=scalar(first), second=scalar(second), **named)
 
 
 def polygon(points: Sequence[Sequence[float]]) -> list[Curve]:
@@ -109,13 +101,7 @@ def box(u0: float, v0: float, u1: float, v1: float) -> list[Curve]:
     if not (u0 < u1 and v0 < v1):
         raise ArgumentError(f"box({u0}, {v0}, {u1}, {v1}) has no inside: u0 < u1 and v0 < v1")
     w, h = u1 - u0, v1 - v0
-    corners = [(u0, v0, w, 0.0), (u1, v0, 0.0, h), (u1, v1, -w, 0.0), (u0, v1, 0.0, -h)]
-    sides = []
-    for u, v, du, dv in corners:
-        side = _Segment((u, v), (u + du, v + dv))
-        side.step = (du, dv)  # to the last bit
-        sides.append(side)
-    return list(sides)
+    return [_straight(u0, v0, w, 0.0), _straight(u1, v0, 0.0, h), _straight(u1, v1, -w, 0.0), _straight(u0, v1, 0.0, -h)]
 
 
 def disc(u: float, v: float, radius: float) -> list[Curve]:

@@ -40,6 +40,8 @@ class Mesh:
     sizes          (n)        prescribed sizes, model length; None as above
     dimension      3, or 2: of the plane z = 0
     session        that has made it; None: of a file or of arrays
+
+    A mesh that its session has made before another one is measured and written as straight triangles.
     """
 
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, edges: Optional[ArrayLike] = None,

@@ -5,15 +5,17 @@ import difflib
 import logging
 import os
 from dataclasses import dataclass, field
+from dataclasses import fields as dataclass_fields
 from typing import Any, Callable, Mapping, Optional, Union
 
 from ._calls import Path
 from .errors import ArgumentError
 from .formulas import size_function
 from .meshes import Mesh
+from .planes import PlaneDomain, polygons
 from .progress import Progress
 from .session import Session, parameters
-from .sources import SessionSource, Source, source_of
+from .sources import Loaded, SessionSource, Source, source_of
 
 log = logging.getLogger("carreau")
 #: A model length, or a share of the diagonal of the geometry: "1%".
@@ -185,7 +187,8 @@ def prepare(session: Session, source: Source, sizes: Sizes, *, element: Optional
         diagonal = source.diagonal(session)
     wanted = {face: length(each, "face_size", diagonal) for face, each in sizes.face_size.items()}
     of_faces = source.face_sizes(session, wanted)
-    session["threads"] = threads or os.cpu_count() or 1
+    if threads or not own:
+        session["threads"] = threads or os.cpu_count() or 1
     if not own:
         _set_choices(session, source, diagonal, env, named)
     if independent:
@@ -209,8 +212,8 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
     """Meshes a geometry.
 
     source       a path: STEP, IGES, BREP, .bpt, molecules, grids, triangles, plane files; a formula "z = x * y"; a function
-                 of (u, v), with domain; a Patch or several; a Session, Mesh, Atlas, CadFile or PlaneDomain; a pair of
-                 arrays, vertices (n, 3) and triangles (m, 3)
+                 of (u, v), with domain; a Patch or several; a Mesh, Atlas, CadFile or PlaneDomain; a pair of arrays,
+                 vertices (n, 3) and triangles (m, 3); a Session, whose parameters stay but for those that are given
     size         model length, or "1%" of the diagonal; or a function of the place: names what it takes of x, y, z (n
                  each), xyz (n, 3), u, v, uv, face, and gives n sizes. Nothing given: 2 % of the diagonal
     min, max     bounds of sizes
@@ -227,15 +230,28 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
     env          a file blsurf.env with parameters
     progress     True: a bar; or a function of (fraction, phase, entity)
     named        options of the source: domain ("box:u0,v0,u1,v1", "disc:u,v,r", "ring:u,v,r0,r1"; curves), surface ("vws",
-                 "sas", "ses", "atlas"), probe, smooth, sharp, ..., and parameters of the session (hphydef=0.1, ...)
+                 "sas", "ses", "atlas"), probe, host (the library of a .pardom), smooth, sharp, ..., and parameters of the session (hphydef=0.1, ...)
 
     Faces that cannot be meshed are left out: mesh.failed tells them. Raises CarreauError, with face, curve and (u, v);
     CallbackError from what a callback has raised; KeyboardInterrupt, at once.
     """
     session, geometry = _begin(source, progress, named)
-    chosen = Sizes(size, min, max, angle, chord, anisotropic, gradation, face_size or {}, _map_of(size_map, metric))
-    prepare(session, geometry, chosen, element=element, independent=independent, sharp_angle=sharp_angle, threads=threads,
-            env=env, named=named)
+    words = {"size": size, "min": min, "max": max, "angle": angle, "chord": chord, "anisotropic": anisotropic, "gradation": gradation,
+             "face_size": face_size or {}, "size_map": _map_of(size_map, metric), "element": element, "independent": independent,
+             "sharp_angle": sharp_angle, "threads": threads, "env": env, "progress": progress}
+    return _generated(session, geometry, {**words, **named})
+
+
+def _generated(session: Session, geometry: Source, words: Mapping[str, Any]) -> Mesh:
+    """By the words of mesh()."""
+    rest = dict(words)
+    progress = rest.pop("progress", None)
+    if "metric" in rest:
+        rest["size_map"] = _map_of(rest.get("size_map"), rest.pop("metric"))
+    chosen = Sizes(**{each.name: rest.pop(each.name) for each in dataclass_fields(Sizes) if each.name in rest})
+    usual = {"element": None, "independent": False, "sharp_angle": None, "threads": 0, "env": None}
+    others: dict[str, Any] = {name: rest.pop(name, value) for name, value in usual.items()}
+    prepare(session, geometry, chosen, named=rest, **others)
     made = session.generate(progress)
     for face in made.failed:
         log.warning("face %d has no mesh: %s", face.ref, face.why)
@@ -268,6 +284,33 @@ def adapt(source: Any, values: Callable[..., Any], tolerance: float = 0.01, *, s
     diagonal = geometry.diagonal(session)
     bounds: dict[str, Any] = {"hmin": length(min or "0.2%", "min", diagonal), "hmax": length(max or "20%", "max", diagonal)}
     made: Mesh = session.adapt(values, tolerance, shape=shape, iterations=iterations, progress=progress, **bounds, **loop)
+    return made
+
+
+def plane(source: Any, *, sizes: Optional[Path] = None, corner_angle: float = 0, **words: Any) -> Mesh:
+    """Meshes a domain of the plane.
+
+    source         a file .poly, .mesh, .meshb, .bl2d, .data or .g; a PlaneDomain; or closed polygons, (n, 2) each, of which
+                   those inside others bound holes
+    sizes          a file .sol, .hg or .h with a size or metric for each vertex of a file
+    corner_angle   above 0, degrees: polygons of a file become splines that end where they turn by more
+    words          those of mesh()
+    """
+    if isinstance(source, (str, os.PathLike)):
+        session = Session()
+        geometry: Source = Loaded("load_plane", source, sizes=sizes, corner_angle=corner_angle)
+        return _generated(session, geometry, words)
+    return mesh(source if isinstance(source, PlaneDomain) else polygons(*source), **words)
+
+
+def fields(source: Any, path: Path, *, longest: int = 0, channels: Any = (), face: int = 0, multi_part: bool = False,
+           **words: Any) -> Mesh:
+    """Meshes a geometry, and writes what governed the mesh of each face as images .exr or .png (docs/fields.md); a Mesh of
+    a session is taken as it is. longest: pixels of the longer side; channels: their groups, none: all; words: those of
+    mesh()."""
+    made = source if isinstance(source, Mesh) and source.session is not None else mesh(source, **words)
+    assert made.session is not None
+    made.session.write_fields(path, longest=longest, channels=channels, face=face, multi_part=multi_part)
     return made
 
 

@@ -5,13 +5,15 @@ axis is 1 / sqrt(eigenvalue).
 """
 from __future__ import annotations
 
-from typing import Any, Callable
+from ctypes import byref, c_double, c_int64
+from typing import Any, Callable, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _declarations as c
 from ._arrays import doubles
+from ._calls import address, struct
 from ._library import lib
 from .errors import ArgumentError
 
@@ -99,6 +101,26 @@ def reduce(p: ArrayLike, q: ArrayLike) -> tuple[Array, Array, Array]:
     of_p, of_q, directions = np.empty((n, d)), np.empty((n, d)), np.empty((n, d, d))
     _call()(lib().metric_reduce, d, n, first, second, of_p, of_q, directions)
     return of_p, of_q, directions
+
+
+def split(points: ArrayLike, metrics: ArrayLike, abscissae: Optional[ArrayLike] = None, law: str = "linear") -> tuple[Array, float]:
+    """Cuts a polyline (n, d) into edges of equal length in metrics (k, 3 or 6), as near to 1 as a whole number of edges
+    allows: usual lengths from the first point (edges + 1), and the length of the curve in the metric (RR-2818 sec. 4).
+    abscissae (k): where the metrics hold, usual lengths from the first point; None: at the points."""
+    corners = np.asarray(points, dtype=np.float64)
+    if corners.ndim != 2 or corners.shape[1] not in ENTRIES:
+        raise ArgumentError(f"points has the shape {corners.shape}; it must be (n, 2) or (n, 3)")
+    corners, d = doubles(corners, "points", None, None), corners.shape[1]
+    along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(corners, axis=0), axis=1))]) if abscissae is None else abscissae
+    places = doubles(along, "abscissae", None)
+    rows = doubles(metrics, "metrics", len(places), ENTRIES[d])
+    curve = struct(c.carreau_curve, dimension=d, law=_law(law), point_count=len(corners), metric_count=len(rows), points=address(corners),
+                   abscissae=address(places), metrics=address(rows))
+    edges, length, call = c_int64(), c_double(), _call()
+    call(lib().curve_split, byref(curve), 0, None, byref(edges), byref(length))
+    out = np.empty(edges.value + 1)
+    call(lib().curve_split, byref(curve), len(out), out, None, None)
+    return out, length.value
 
 
 def lengths(edges: ArrayLike, metrics: ArrayLike, law: str = "linear") -> Array:

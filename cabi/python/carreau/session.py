@@ -74,7 +74,9 @@ class Session(Geometries, Studies):
         """A function of the library on this session. Raises CarreauError."""
         if not self._close.alive:
             raise ValueError("the session is closed")
-        require(self._handle, function(self._handle, *arguments))
+        status = function(self._handle, *arguments)
+        if status != c.OK:
+            raise self._host.take_error() or session_error(self._handle, status)
 
     # ---- parameters ----
 
@@ -122,8 +124,16 @@ class Session(Geometries, Studies):
 
     # ---- runs ----
 
+    def _long(self, function: Callable[..., int], *arguments: Any) -> None:
+        """As _call, for what may take long: Ctrl-C is heard."""
+        if not self._close.alive:
+            raise ValueError("the session is closed")
+        status = run(self._host, lambda: function(self._handle, *arguments))
+        if status != c.OK:
+            raise session_error(self._handle, status)
+
     def _run(self, function: Callable[..., int], *arguments: Any, progress: Progress = None) -> None:
-        """As _call, for what may ask callbacks and take long."""
+        """The same with progress."""
         hears = listener(progress)
         self.messages.clear()
 
@@ -134,14 +144,11 @@ class Session(Geometries, Studies):
         callback = c.carreau_progress_fn(self._host.guarded(lambda *_: {}, on_progress)) if hears else c.carreau_progress_fn(0)
         self._call(lib().set_progress_callback, callback, None)
         try:
-            status = run(self._host, lambda: function(self._handle, *arguments))
-            error = session_error(self._handle, status) if status != c.OK else None
+            self._long(function, *arguments)
         finally:
             self._call(lib().set_progress_callback, c.carreau_progress_fn(0), None)
             if isinstance(hears, Bar):
                 hears.close()
-        if error is not None:
-            raise error
 
     def generate(self, progress: Progress = None) -> Mesh:
         """Makes the mesh. With the parameter failing_faces at "leave_out" it may lack faces: mesh.failed tells them.
@@ -157,8 +164,10 @@ class Session(Geometries, Studies):
 
     def run_env(self, path: Path, progress: Progress = None) -> None:
         """Runs all actions of a blsurf.env (RT-0232 sec. 3.3)."""
-        self._run(lib().run_env, file_name(path), progress=progress)
-        self._runs += 1
+        try:
+            self._run(lib().run_env, file_name(path), progress=progress)
+        finally:
+            self._runs += 1
 
     def stop(self) -> None:
         """Asks the run under way to stop, which it does within 100 ms; from a callback, or another thread."""

@@ -5,17 +5,18 @@ import fnmatch
 import math
 import os
 import re
-from typing import Any, Iterable, Optional, Union
+from typing import Any, Iterable, Iterator, Optional, Union
 
 import numpy as np
 
 from ._run import callback_error
 from .atlas import Atlas
 from .cad import CadFile
-from .errors import ArgumentError
+from .cad_m import CadM
+from .errors import ArgumentError, SequenceError
 from .formulas import is_formula, patch_of
 from .meshes import Mesh
-from .plane import PlaneDomain
+from .planes import PlaneDomain
 from .progress import Progress
 from .session import Session
 from .surfaces import Patch
@@ -74,14 +75,18 @@ def box_diagonal(points: np.ndarray) -> float:  # type: ignore[type-arg]
     return float(largest * math.sqrt(x * x + y * y + z * z))
 
 
-def curve_points(session: Session) -> np.ndarray:  # type: ignore[type-arg]
-    """Samples of all curves in space."""
-    samples, before, ic = [], None, 0
+def places_of_curves(session: Session) -> Iterator[tuple[int, int]]:
+    """Reference of the face, and rank in it, of all curves."""
+    before, ic = None, 0
     for face in session.curves[0].tolist():
         ic = ic + 1 if face == before else 1
         before = face
-        samples.append(session.points(face, session.curve_points(face, ic, SHARES)))
-    return np.concatenate(samples)
+        yield face, ic
+
+
+def curve_points(session: Session) -> np.ndarray:  # type: ignore[type-arg]
+    """Samples of all curves in space."""
+    return np.concatenate([session.points(face, session.curve_points(face, ic, SHARES)) for face, ic in places_of_curves(session)])
 
 
 class PatchSource(Source):
@@ -157,6 +162,19 @@ class Loaded(Source):
         return self.load.endswith("_plane") and session.plane_has_sizes()
 
 
+class PardomSource(Source):
+    def __init__(self, path: str, host: Any) -> None:
+        super().__init__()
+        self.path, self.host = path, CadM(host)
+
+    def add_to(self, session: Session) -> None:
+        self.host.give_to(session)
+        session.read_pardom(self.path)
+
+    def diagonal(self, session: Session) -> float:
+        return box_diagonal(np.concatenate([self.host.curve_points(face, ic, SHARES) for face, ic in places_of_curves(session)]))
+
+
 class SessionSource(Source):
     def add_to(self, session: Session) -> None:
         pass
@@ -164,7 +182,7 @@ class SessionSource(Source):
     def diagonal(self, session: Session) -> float:
         try:
             return session.triangles.diagonal
-        except Exception:
+        except SequenceError:
             return super().diagonal(session)
 
 
@@ -191,6 +209,10 @@ def _of_path(path: str, progress: Progress, options: dict[str, Any]) -> Source:
         options.pop("surface")
         mesh = Mesh.read(path)
         return Loaded("add_atlas", Atlas(mesh.vertices, mesh.triangles), short_ends=True)
+    if suffix == ".pardom":
+        if "host" not in options:
+            raise ArgumentError(f"'{path}' has no geometry: host names the shared library that has")
+        return PardomSource(path, options.pop("host"))
     if suffix in GRIDS or "format" in options or (suffix == ".xyz" and _begins_as_grid(path)):
         return Loaded("load_grid", path, short_ends=True, **({"format": "plot3d"} if suffix == ".xyz" else {}), **own(GRID_OPTIONS))
     if suffix in MOLECULES:

@@ -85,12 +85,12 @@ class Patch:
     surface   a function of u and v (see Surface), a Surface, or an object with methods point, first and second
     domain    curves that bound it, or u0, v0, u1, v1 of a box; see carreau.domains
     points    (k, 2): imposed vertices inside; point_refs (k): their references, from 1 where none are given
-    name      for people, and for files that hold names
+    name      for people, and for files that hold names; color: 0xRRGGBB in sRGB, for .vtu
     """
 
     def __init__(self, surface: Any, domain: Any = (0, 0, 1, 1), *, points: Any = (), point_refs: Optional[Sequence[int]] = None,
-                 name: str = "") -> None:
-        self.surface, self.curves, self.name = _surface_of(surface), domain_of(domain), name
+                 name: str = "", color: int = -1) -> None:
+        self.surface, self.curves, self.name, self.color = _surface_of(surface), domain_of(domain), name, color
         self.points = np.asarray(points, dtype=np.float64).reshape(-1, 2)
         self.point_refs = list(point_refs) if point_refs is not None else list(range(1, len(self.points) + 1))
         if len(self.point_refs) != len(self.points):
@@ -157,6 +157,8 @@ def model_of(patches: Sequence[Patch]) -> list[tuple[str, tuple[Any, ...]]]:
             calls.append(("add_point", (ref, point_ref, u, v)))
         if each.name:
             calls.append(("name_face", (ref, each.name.encode())))
+        if each.color >= 0:
+            calls.append(("color_face", (ref, each.color)))
     return calls
 
 
