@@ -57,7 +57,8 @@ carreau_status carreau_cad_file_face(carreau_cad_file* file, int32_t number, car
 
 carreau_status carreau_cad_point(const carreau_cad_file* file, int32_t face, double u, double v, double out_xyz[3],
                                  double out_uv[2]) {
-  if (file == nullptr || !file->host || out_xyz == nullptr || face < 1 || face > file->host->reference_count())
+  if (file == nullptr || !file->host || out_xyz == nullptr || face < 1 ||
+      face > file->host->reference_count() + file->host->wire_count())
     return CARREAU_ERR_ARGUMENT;
   double xyz[3], uv[2];
   if (!file->host->locate(face, u, v, xyz, uv)) return CARREAU_ERR_CALLBACK;

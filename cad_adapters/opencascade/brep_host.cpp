@@ -218,7 +218,8 @@ int BrepHost::vertex_count() const noexcept { return state_->vertices.Extent(); 
 
 bool BrepHost::locate(int face, double u, double v, double* xyz, double* uv) const noexcept {
   const double given[2] = {u, v};
-  const bool swapped = state_->host_faces[static_cast<std::size_t>(face - 1)].swapped;
+  const bool swapped =
+      state_->wire(face) == nullptr && state_->host_faces[static_cast<std::size_t>(face - 1)].swapped;
   uv[0] = swapped ? v : u, uv[1] = swapped ? u : v;
   return State::surface_batch(face, 1, given, 0, xyz, nullptr, nullptr, nullptr, nullptr, nullptr, state_.get()) == 0;
 }

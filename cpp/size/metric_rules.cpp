@@ -339,8 +339,18 @@ void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span
 
 // ---- along curves ----
 
+namespace {
+
+Vec3 any_across(const Vec3& along) {
+  const Vec3 axis = std::abs(along.x()) < 0.6 * norm(along) ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
+  return cross(along, axis);
+}
+
+}  // namespace
+
 /// At a pole, the place a little way towards the curve's middle.
 SizeRules::CurvePlace SizeRules::place_on(const CurveUse& use, double t) {
+  const bool wire = model_.faces[static_cast<std::size_t>(use.face)].is_wire();
   const int ref = model_.faces[static_cast<std::size_t>(use.face)].ref;
   const unsigned wants = want_first | surface_wants();
   CurvePlace place;
@@ -348,12 +358,13 @@ SizeRules::CurvePlace SizeRules::place_on(const CurveUse& use, double t) {
     const CurveJet plane = cad_.curve(ref, use.curve + 1, want_position | want_first, at);
     place.uv = plane.c;
     place.jet = surface_at(cad_, ref, wants, plane.c);
-    const auto frame = TangentFrame::of(place.jet.su, place.jet.sv);
-    if (!frame) continue;
     const Vec3 along = plane.ct.x() * place.jet.su + plane.ct.y() * place.jet.sv;
     const double speed = norm(along);
     if (!(speed > 0)) continue;
-    if (uses_curvature()) {
+    // A wire has no surface: any plane that holds its tangent does.
+    const auto frame = wire ? TangentFrame::of(along, any_across(along)) : TangentFrame::of(place.jet.su, place.jet.sv);
+    if (!frame) continue;
+    if (uses_curvature() && !wire) {
       const auto sizes = directed_sizes(use.face, place.uv, place.jet);
       if (!sizes) continue;
       place.geometric = in_plane(*sizes, *frame);
