@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/kuhn_cube.h"
+#include "mesh/triangle_search.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
 
