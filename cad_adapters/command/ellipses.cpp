@@ -8,7 +8,9 @@ namespace {
 
 constexpr int sides = 48;                ///< of a ring
 constexpr double stroke = 1.3;           ///< pixels
-constexpr double above = 0.03;           ///< of the smaller size: rings lie in front of the triangles around them
+/// Of the longer half axis: rings are drawn as if they were so much nearer to the eye, or they would go under triangles that
+/// bend towards it. On edges of two sines of 30 degrees of the radius a surface leaves its tangent plane by a quarter.
+constexpr double nearer = 0.25;
 constexpr Colour ink{0.55f, 0.02f, 0.03f};  ///< linear light
 
 double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -124,13 +126,13 @@ void add_ellipses(const MeshArrays& mesh, const VertexMetrics& metrics, double s
     if (projection.in_camera(n)[2] < projection.in_camera({0, 0, 0})[2]) n = {-n[0], -n[1], -n[2]};
     const Frame frame(n);
     const Ellipse ellipse = ellipse_in(frame.e1, frame.e2, metrics[v]);
-    const double lift = above * scale * std::sqrt(dot(ellipse.minor, ellipse.minor));
+    const double ahead = nearer * scale * std::sqrt(dot(ellipse.major, ellipse.major));
     const auto at = [&](int i) {
       const double angle = 2 * std::numbers::pi * i / sides;
       Point p = mesh.vertices[v];
       for (int k = 0; k < 3; ++k)
-        p[k] += scale * (std::cos(angle) * ellipse.major[k] + std::sin(angle) * ellipse.minor[k]) + lift * n[k];
-      return projection(p);
+        p[k] += scale * (std::cos(angle) * ellipse.major[k] + std::sin(angle) * ellipse.minor[k]);
+      return projection.ahead(p, ahead);
     };
     for (int i = 0; i < sides; ++i) add_stroke(at(i), at(i + 1), triangles);
   }

@@ -85,6 +85,12 @@ Point Projection::in_camera(const Point& p) const {
   return {dot(d, view_.right), dot(d, view_.up), dot(d, view_.toward)};
 }
 
+Point Projection::ahead(const Point& p, double length) const {
+  Point place = (*this)(p);
+  place[2] = 1 / std::max(distance_ - in_camera(p)[2] - length, 1e-3 * distance_);
+  return place;
+}
+
 Point Projection::operator()(const Point& p) const {
   const Point c = in_camera(p);
   const double w = 1 / (distance_ - c[2]);

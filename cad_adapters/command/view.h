@@ -27,6 +27,8 @@ class Projection {
 
   /// {x, y, depth}.
   [[nodiscard]] Point operator()(const Point& p) const;
+  /// The same place with the depth of one so much nearer to the eye.
+  [[nodiscard]] Point ahead(const Point& p, double length) const;
   /// False for what is beside or behind the eye, or nearly so: only where the picture does not hold the whole mesh.
   [[nodiscard]] bool is_before_eye(const Point& p) const { return in_camera(p)[2] < 0.9 * distance_; }
   /// The point in the frame of the camera: right, up, toward the eye.

@@ -173,7 +173,8 @@ struct FieldImage::State {
         cad(geometry),
         monitor(who),
         sampler(what.ref, wants_of(how.groups),
-                (how.groups & (field_size | field_preview | field_governs)) != 0 ? what.prescribed : nullptr, geometry, who) {}
+                (how.groups & (field_size | field_preview | field_governs)) != 0 ? what.prescribed : nullptr, geometry,
+                who) {}
 
   void probe();
   void choose_grid(double length_u, double length_v);

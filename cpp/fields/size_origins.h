@@ -24,8 +24,8 @@ struct OriginRules {
   /// Keeps references to its arguments. Throws what SizeRules throws.
   OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& size);
 
-  std::optional<SizeRules> physical, geometric;            ///< clamped
-  std::optional<SizeRules> any_physical, any_geometric;    ///< within bounds a million times as wide
+  std::optional<SizeRules> physical, geometric;          ///< clamped
+  std::optional<SizeRules> any_physical, any_geometric;  ///< within bounds a million times as wide
   SizeRules both;
 };
 
@@ -40,9 +40,9 @@ class SizeOrigins {
  public:
   SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, Monitor& monitor);
 
-  /// `jets` hold what FaceMetric::wants() of the whole rules asks for; `prescribed`: what FaceMetric says there, with its
-  /// gradation. Asks the host for its sizes again; a failure of the host is a place that is not known. Throws Cancelled
-  /// only.
+  /// `jets` hold what FaceMetric::wants() of the whole rules asks for; `prescribed`: what FaceMetric says there, with
+  /// its gradation. Asks the host for its sizes again; a failure of the host is a place that is not known. Throws
+  /// Cancelled only.
   void at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
           std::span<OriginsAt> origins);
 

@@ -12,7 +12,7 @@
 #include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
 #include "io/plane/plane_files.h"
-#include "mesh/simplex_search.h"
+#include "mesh/simplices/simplices.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
 #include "session/adaptation.h"

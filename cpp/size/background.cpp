@@ -51,7 +51,8 @@ M blend(const M& p, const M& q, double t, MetricLaw law) noexcept {
   return p == q ? p : interpolate(p, q, t, law);
 }
 
-/// The value inside an element of `corners` vertices: along a segment from each corner towards the next; exact at corners.
+/// The value inside an element of `corners` vertices: along a segment from each corner towards the next; exact at
+/// corners.
 template <typename Value>
 Value interpolated(const std::vector<Value>& list, const std::array<std::int32_t, 4>& corner, int corners,
                    const std::array<double, 4>& w, MetricLaw law) {

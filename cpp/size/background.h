@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/simplex_search.h"
+#include "mesh/simplices/simplex_search.h"
 #include "mesh/surface_mesh.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3.h"
@@ -36,7 +36,8 @@ struct BackgroundMesh {
   std::vector<std::int32_t> faces;
   VertexValues values;
   std::vector<std::array<std::int32_t, 4>> tetrahedra = {};  ///< of dimension 3
-  std::vector<std::array<std::int32_t, 2>> edges = {};  ///< of dimension 2: on curves of the faces that no triangle names
+  std::vector<std::array<std::int32_t, 2>> edges =
+      {};  ///< of dimension 2: on curves of the faces that no triangle names
 };
 
 /// How often a background mesh was asked, and where it did not cover.
@@ -48,11 +49,12 @@ struct BackgroundReport {
 };
 
 /// The field of a background mesh. A place is looked up in logarithmic time: in space at the nearest point of the
-/// mesh, which is the place itself inside a tetrahedron; in a parameter plane in the triangle that holds (u, v). Outside,
-/// the nearest point's value holds, and the point is counted. Inside a triangle values follow the law along two segments:
-/// from the first vertex towards the second, then towards the third; on edges that is the law of the edge from either side.
-/// In a tetrahedron a third segment leads to the last vertex. Edges alone, with metrics at the vertices of curves (RR-2818
-/// sec. 4.1), answer on curves and points, not inside faces. Answers are as given: not clamped. For one thread.
+/// mesh, which is the place itself inside a tetrahedron; in a parameter plane in the triangle that holds (u, v).
+/// Outside, the nearest point's value holds, and the point is counted. Inside a triangle values follow the law along
+/// two segments: from the first vertex towards the second, then towards the third; on edges that is the law of the edge
+/// from either side. In a tetrahedron a third segment leads to the last vertex. Edges alone, with metrics at the
+/// vertices of curves (RR-2818 sec. 4.1), answer on curves and points, not inside faces. Answers are as given: not
+/// clamped. For one thread.
 class BackgroundField final : public PrescriptionSource {
  public:
   /// Throws InvalidArgument, with the vertex or element counted from 0, unless there is an element, indices lie in

@@ -29,11 +29,11 @@ solve() { # values at the vertices of $1.mesh, in the place of a solver
       print "End" }' "$1.mesh" > "$1.sol"
 }
 
-carreau plane naca.poly --smooth=60 -o naca0.mesh --size 0.8 --angle 4 --min 0.004 --gradation 1.2 -q
+carreau plane naca.poly --smooth=60 -o naca0.mesh --size 0.8 --angle 4 --min 0.004 --gradation 1.25 -q
 solve naca0
 for i in 1 2 3; do
   carreau adapt naca.poly --smooth=60 --mesh naca$((i - 1)).mesh --sol naca$((i - 1)).sol -o naca$i.mesh \
-    --shape anisotropic --tolerance 0.008 --angle 4 --min 0.004 --max 0.8 --gradation 1.5 -q
+    --shape anisotropic --tolerance 0.0015 --min 0.004 --max 0.8 --gradation 1.4 -q
   solve naca$i
 done
-carreau picture naca3.mesh -o naca0012.png --view top --size 900x600 --around 0.5,0,0,0.75
+carreau picture naca3.mesh -o naca0012.png --size 900x600 --around 0.5,0,0,0.75

@@ -82,3 +82,36 @@ for i in 1 2 3; do
   carreau adapt square.poly --mesh liss$((i - 1)).mesh --sol liss.sol --use sizes -o liss$i.mesh -q
 done
 carreau picture liss3.mesh -o "$out/plane_lissajous.png" --size 480x480
+
+# RR-2818 fig. 20 to 27: a segment of length 10 by five sizes, and one of length 7.5 by five metrics (angle, h1, h2), as the sides of strips:
+# background meshes of edges alone. The report has 17, 26 and 21 edges by sizes; its three laws are hinterpol_flag 0, 1 and 2.
+strip() { # length height
+  printf '4 2 0 0\n1 0 0\n2 %s 0\n3 %s %s\n4 0 %s\n4 1\n1 1 2 1\n2 2 3 2\n3 3 4 2\n4 4 1 2\n0\n' "$1" "$1" "$2" "$2"
+}
+line() { # abscissae: a .mesh of edges between them
+  echo "MeshVersionFormatted 2 Dimension 2 Vertices $#"
+  printf '%s 0 0\n' "$@"
+  echo "Edges $(($# - 1))"
+  i=1
+  while [ $i -lt $# ]; do echo "$i $((i + 1)) 1"; i=$((i + 1)); done
+  echo End
+}
+strip 10 2.5 > sizes.poly
+line 0 3 4 8 10 > sizes.mesh
+printf 'MeshVersionFormatted 2 Dimension 2 SolAtVertices 5 1 1\n1.5\n.5\n2\n.1\n.7\nEnd\n' > sizes.sol
+strip 7.5 2.5 > metrics.poly
+line 0 2 3 6 7.5 > metrics.mesh
+echo '30 .70 .25  90 1.10 .15  0 .30 .30  -60 1.50 .40  -45 1.00 .35' | awk '{
+  print "MeshVersionFormatted 2 Dimension 2 SolAtVertices 5 1 3"
+  for (i = 1; i < NF; i += 3) { a = $i * atan2(0, -1) / 180; c = cos(a); s = sin(a); p = $(i + 1) ^ -2; q = $(i + 2) ^ -2
+    print p * c * c + q * s * s, (p - q) * c * s, p * s * s + q * c * c }
+  print "End" }' > metrics.sol
+for what in sizes metrics; do
+  middle=5; [ $what = sizes ] || middle=3.75
+  carreau picture $what.mesh --metric $what.sol --ellipses 1 -o "$out/plane_line_$what.png" --size 900x330 --around ${middle},0,0,2.2
+  for law in 0 1 2; do
+    carreau adapt $what.poly --mesh $what.mesh --sol $what.sol --use $what --set hinterpol_flag=$law --min 0.001 --max 10 -o $what$law.mesh -q
+    echo "$what, law $law: $(awk '$1 == "Edges" { getline; n = $1; for (i = 0; i < n; ++i) { getline; m += $3 == 1 } } END { print m }' $what$law.mesh) edges"
+  done
+  carreau picture ${what}1.mesh -o "$out/plane_strip_$what.png" --size 900x260
+done

@@ -83,6 +83,43 @@ class Adapt(unittest.TestCase):
         with open(self.path("step4.png"), "rb") as file:
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
 
+    def test_the_loop_around_the_profile_of_the_report(self):
+        """RR-2818 sec. 6.4 by docs/gallery/naca0012.sh: 1344, 2099, 2117, 2223 points."""
+        environment = dict(os.environ, PATH=os.path.dirname(PROGRAM) + os.pathsep + os.environ["PATH"])
+        script = os.path.join(os.path.dirname(PAGE), "gallery", "naca0012.sh")
+        done = subprocess.run(["sh", script, self.folder], env=environment, capture_output=True, text=True, timeout=300)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+        def step(x):
+            return (1 + math.tanh(x)) / 2
+
+        def shock(x, y, at, height):
+            return step((at + 0.15 * y - x) / 0.02) * step((x - 0.05) / 0.15) * step((height - y) / 0.15)
+
+        def flow(x, y):
+            above = step(y / 0.04)
+            return 0.8 + 0.5 * above * shock(x, y, 0.62, 0.6) + 0.25 * (1 - above) * shock(x, -y, 0.35, 0.3) - 0.6 * math.exp(-100 * (x * x + y * y))
+
+        def mean_error(mesh):
+            """Root of the mean square at the middles of triangles, by area."""
+            squares = area = 0
+            for t in mesh.triangles:
+                (ax, ay), (bx, by), (cx, cy) = p = [mesh.vertices[v] for v in t]
+                here = (bx - ax) * (cy - ay) - (cx - ax) * (by - ay)
+                away = sum(flow(*q) for q in p) / 3 - flow((ax + bx + cx) / 3, (ay + by + cy) / 3)
+                squares, area = squares + here * away ** 2, area + here
+            return math.sqrt(squares / area)
+        meshes = [read_mesh(self.path(f"naca{i}.mesh")) for i in range(4)]
+        for mesh, points in zip(meshes, (1344, 2099, 2117, 2223)):
+            self.assertAlmostEqual(len(mesh.vertices) / points, 1, delta=0.17)
+            sides = {tuple(sorted((t[k], t[k - 1]))) for t in mesh.triangles for k in range(3)}
+            self.assertEqual(len(mesh.vertices) - len(sides) + len(mesh.triangles), 0, "a disc with a hole")
+        self.assertAlmostEqual(len(meshes[3].vertices) / 2223, 1, delta=0.05)
+        self.assertLess(mean_error(meshes[3]), mean_error(meshes[0]) / 5)
+        _, types, rows = read_sol(self.path("naca3.sol"))
+        self.assertEqual((types, len(rows)), ([1], len(meshes[3].vertices)))
+        self.assertTrue(os.path.exists(self.path("naca0012.png")))
+
     def test_sizes_and_metrics_are_taken_and_fields_carried_over(self):
         mesh = self.start()
         self.solution("h.sol", mesh, [1], lambda x, y: [0.05])
@@ -207,21 +244,36 @@ class Adapt(unittest.TestCase):
                    + "Triangles 6\n" + "".join(f"1 {k + 2} {(k + 1) % 6 + 2} 1\n" for k in range(6)) + "End\n")
         common = ("--size", "400x400", "--no-edges", "--color", "none", "--around", "0,0,0,1.5")
         self.done("picture", "six.mesh", "--metric", "mesh", "-o", "rings.png", *common)
-        rings = read_png(self.path("rings.png"))
-        scale = 0.92 * 200 / 1.5  # pixels of a unit: the picture holds the radius with a margin of 4 % on each side
+        self.check_ring("rings.png", 0.92 * 200 / 1.5, (1, 0.5))
+        self.fails_picture("six.mesh", "--view", "top", "--view", "iso", "--around", "0,0,0,1", sentence="--around shows one view")
+        self.fails_picture("six.mesh", "--around", "0,0,0,0", sentence="--around wants a radius above 0")
+
+    def test_ellipses_of_surfaces_lie_in_their_tangent_planes(self):
+        """The plane z = x, by metrics of space with the sizes .8, .8 along it and another one across: from above the ring is narrower by sqrt(2)."""
+        corners = [(-1, -1, -1), (1, -1, 1), (1, 1, 1), (-1, 1, -1)]
+        self.write("tilted.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n" + "".join("%d %d %d 0\n" % p for p in corners)
+                   + "Triangles 4\n" + "".join(f"1 {k + 2} {(k + 1) % 4 + 2} 1\n" for k in range(4)) + "End\n")
+        a, b = 1 / 0.8 ** 2, 1 / 0.05 ** 2  # along, across
+        write_sol(self.path("m.sol"), read_mesh(self.path("tilted.mesh")), [3],
+                  lambda *p: [(a + b) / 2, 0, a, (a - b) / 2, 0, (a + b) / 2] if p == (0, 0, 0) else [1e4, 0, 1e4, 0, 0, 1e4])
+        self.done("picture", "tilted.mesh", "--metric", "m.sol", "-o", "rings.png", "--size", "400x400", "--no-edges", "--color", "none", "--view", "top",
+                  "--around", "0,0,0,0.8")
+        self.check_ring("rings.png", 0.92 * 200 / 0.8, (0.4 / math.sqrt(2), 0.4), 0.05)
+
+    def check_ring(self, name, scale, axes, delta=0.02):
+        """Around the middle of a picture of 400 x 400, of `scale` pixels a unit; rings of other vertices lie outside."""
         reached, directions = [0, 0], set()
-        for y, row in enumerate(rings):
+        for y, row in enumerate(read_png(self.path(name))):
             for x, (r, g, b) in enumerate(row):
                 p = ((x + 0.5 - 200) / scale, (y + 0.5 - 200) / scale)
-                if r > 1.5 * g + 20 and math.hypot(p[0], p[1] / 0.5) < 1.03:  # beyond are those of the neighbours
-                    self.assertGreater(math.hypot(p[0], p[1] / 0.5), 0.95)
+                away = math.hypot(p[0] / axes[0], p[1] / axes[1])
+                if r > 1.5 * g + 20 and away < 1.01 + delta:
+                    self.assertGreater(away, 0.97 - delta)
                     directions.add(int(16 * math.atan2(p[1], p[0]) / math.pi))
                     reached = [max(reached[0], abs(p[0])), max(reached[1], abs(p[1]))]
         self.assertGreaterEqual(len(directions), 31)
-        self.assertAlmostEqual(reached[0], 1, delta=0.02)
-        self.assertAlmostEqual(reached[1], 0.5, delta=0.02)
-        self.fails_picture("six.mesh", "--view", "top", "--view", "iso", "--around", "0,0,0,1", sentence="--around shows one view")
-        self.fails_picture("six.mesh", "--around", "0,0,0,0", sentence="--around wants a radius above 0")
+        for k in range(2):
+            self.assertAlmostEqual(reached[k] / axes[k], 1, delta=2 * delta)
 
     def fails_picture(self, *words, sentence):
         self.write("short.sol", "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n1\n1 1\n1\nEnd\n")

@@ -14,7 +14,8 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_tetrahedron = 10, vtk_quadratic_edge = 21;
+constexpr std::int64_t vtk_vertex = 1, vtk_points = 2, vtk_line = 3, vtk_polyline = 4, vtk_tetrahedron = 10,
+                       vtk_quadratic_edge = 21;
 
 /// Kinds of elements by their types.
 std::optional<CellKind> kind_of(std::int64_t type) noexcept {
@@ -32,7 +33,8 @@ std::optional<CellKind> kind_of(std::int64_t type) noexcept {
   }
 }
 
-/// Solids, of any order: straight tetrahedra are kept, others skipped. Other cells are pieces of surfaces that are not triangles.
+/// Solids, of any order: straight tetrahedra are kept, others skipped. Other cells are pieces of surfaces that are not
+/// triangles.
 bool is_solid(std::int64_t type) noexcept {
   constexpr std::int64_t solids[] = {10, 11, 12, 13, 14, 15, 16, 24, 25, 26, 27, 29, 31, 32, 33, 42, 71, 72, 73, 74};
   return std::find(std::begin(solids), std::end(solids), type) != std::end(solids);

@@ -1,5 +1,5 @@
 // Places of meshes of tetrahedra, triangles and edges, against all of them one by one.
-#include "mesh/simplex_search.h"
+#include "mesh/simplices/simplex_search.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,8 @@ TEST(SimplexSearch, FindsWhatAllSimplicesTogetherSay) {
     std::vector<Simplex> simplices;
     for (int i = 0; i < 60; ++i) {
       Simplex s{.vertex = {-1, -1, -1, -1}, .corners = 2 + number.below(3)};
-      for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k) s.vertex[k] = number.below(40);  // some flat
+      for (std::size_t k = 0; k < static_cast<std::size_t>(s.corners); ++k)
+        s.vertex[k] = number.below(40);  // some flat
       simplices.push_back(s);
     }
     const SimplexSearch tree(vertices, simplices);

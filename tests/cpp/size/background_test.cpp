@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/kuhn_cube.h"
+#include "mesh/triangle_search.h"
 #include "metric/metric3_algebra.h"
 #include "support/error.h"
 
@@ -254,7 +255,8 @@ TEST(BackgroundField, MetricsInTetrahedraAreOneOnTheFacesBetween) {
   // Two tetrahedra beside the triangle 0, 1, 2, whichever comes first and however their corners are counted.
   BackgroundMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
-  mesh.values.space = {{9, 2, 0, 4, 0, 1}, {1, 0, 0.3, 25, 1, 2}, {4, -1, 0, 1, 0.5, 9}, {1, 0, 0, 1, 0, 1}, {100, 0, 0, 100, 0, 100}};
+  mesh.values.space = {
+      {9, 2, 0, 4, 0, 1}, {1, 0, 0.3, 25, 1, 2}, {4, -1, 0, 1, 0.5, 9}, {1, 0, 0, 1, 0, 1}, {100, 0, 0, 100, 0, 100}};
   mesh.tetrahedra = {{3, 2, 0, 1}, {1, 4, 2, 0}};
   BackgroundField one(mesh);
   mesh.tetrahedra = {{4, 0, 1, 2}, {0, 3, 1, 2}};

@@ -1,9 +1,7 @@
-#include "mesh/simplex_search.h"
+#include "mesh/simplices/simplex_search.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "mesh/triangle_search.h"
 #include "support/infinity.h"
@@ -21,13 +19,6 @@ Box box_of(std::span<const Vec3> corners) noexcept {
   return box;
 }
 
-/// Opposite to each corner of a tetrahedron; turned inward where its volume is positive.
-constexpr std::array<std::array<std::size_t, 3>, 4> faces_of_tetrahedron{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
-
-double volume6(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
-  return dot(cross(b - a, c - a), d - a);
-}
-
 NearestOnSimplices nearest_on_edge(const Vec3& p, std::span<const Vec3> corner) noexcept {
   const double t = fraction_on_segment(p, corner[0], corner[1]);
   const Vec3 point = lerp(corner[0], corner[1], t);
@@ -38,10 +29,9 @@ NearestOnSimplices nearest_on_edge(const Vec3& p, std::span<const Vec3> corner) 
 NearestOnSimplices nearest_on_tetrahedron(const Vec3& p, std::span<const Vec3> corner) noexcept {
   const double all = volume6(corner[0], corner[1], corner[2], corner[3]);
   if (all != 0) {
-    const std::array<double, 4> w{volume6(p, corner[1], corner[2], corner[3]) / all,
-                                  volume6(corner[0], p, corner[2], corner[3]) / all,
-                                  volume6(corner[0], corner[1], p, corner[3]) / all,
-                                  volume6(corner[0], corner[1], corner[2], p) / all};
+    const std::array<double, 4> w{
+        volume6(p, corner[1], corner[2], corner[3]) / all, volume6(corner[0], p, corner[2], corner[3]) / all,
+        volume6(corner[0], corner[1], p, corner[3]) / all, volume6(corner[0], corner[1], corner[2], p) / all};
     if (const double sum = w[0] + w[1] + w[2] + w[3]; *std::min_element(w.begin(), w.end()) >= 0 && sum > 0)
       return {-1, {w[0] / sum, w[1] / sum, w[2] / sum, w[3] / sum}, p, 0};
   }
@@ -55,67 +45,7 @@ NearestOnSimplices nearest_on_tetrahedron(const Vec3& p, std::span<const Vec3> c
   return best;
 }
 
-template <std::size_t N>
-std::array<std::int32_t, N> sorted(std::array<std::int32_t, N> vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  return vertices;
-}
-
-/// All subsets of N of the vertices of an element, sorted.
-template <std::size_t N, std::size_t M>
-void add_sides(const std::array<std::int32_t, M>& element, std::set<std::array<std::int32_t, N>>& sides) {
-  std::array<bool, M> chosen{};
-  std::fill(chosen.begin(), chosen.begin() + N, true);
-  do {
-    std::array<std::int32_t, N> side;
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < M; ++i)
-      if (chosen[i]) side[k++] = element[i];
-    sides.insert(sorted(side));
-  } while (std::prev_permutation(chosen.begin(), chosen.end()));
-}
-
 }  // namespace
-
-std::vector<Simplex> simplices_of(std::span<const std::array<std::int32_t, 4>> tetrahedra,
-                                  std::span<const std::array<std::int32_t, 3>> triangles,
-                                  std::span<const std::array<std::int32_t, 2>> edges) {
-  std::vector<Simplex> simplices;
-  for (const auto& t : tetrahedra) simplices.push_back({sorted(t), 4});
-  std::set<std::array<std::int32_t, 3>> faces;
-  std::set<std::array<std::int32_t, 2>> sides;
-  if (!triangles.empty())
-    for (const auto& t : tetrahedra) add_sides(t, faces);
-  if (!edges.empty()) {
-    for (const auto& t : tetrahedra) add_sides(t, sides);
-    for (const auto& t : triangles) add_sides(t, sides);
-  }
-  for (const auto& t : triangles)
-    if (!faces.contains(sorted(t))) simplices.push_back({{t[0], t[1], t[2], -1}, 3});
-  for (const auto& e : edges)
-    if (!sides.contains(sorted(e))) simplices.push_back({{e[0], e[1], -1, -1}, 2});
-  return simplices;
-}
-
-std::vector<std::array<std::int32_t, 3>> boundary_of(std::span<const Vec3> vertices,
-                                                     std::span<const std::array<std::int32_t, 4>> tetrahedra) {
-  std::map<std::array<std::int32_t, 3>, int> uses;
-  const auto face_of = [](const std::array<std::int32_t, 4>& t, const std::array<std::size_t, 3>& corner) {
-    return std::array{t[corner[0]], t[corner[1]], t[corner[2]]};
-  };
-  for (const auto& t : tetrahedra)
-    for (const auto& corner : faces_of_tetrahedron) ++uses[sorted(face_of(t, corner))];
-  std::vector<std::array<std::int32_t, 3>> boundary;
-  const auto at = [&](std::int32_t v) { return vertices[static_cast<std::size_t>(v)]; };
-  for (const auto& t : tetrahedra) {
-    const bool positive = volume6(at(t[0]), at(t[1]), at(t[2]), at(t[3])) > 0;
-    for (const auto& corner : faces_of_tetrahedron) {
-      const auto face = face_of(t, corner);
-      if (uses[sorted(face)] == 1) boundary.push_back(positive ? std::array{face[0], face[2], face[1]} : face);
-    }
-  }
-  return boundary;
-}
 
 NearestOnSimplices nearest_on_simplex(const Vec3& p, std::span<const Vec3> corners) noexcept {
   if (corners.size() == 2) return nearest_on_edge(p, corners);
