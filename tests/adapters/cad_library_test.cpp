@@ -286,7 +286,8 @@ class Mixed : public testing::Test {
     const std::array<std::int32_t, 2> degrees{2, 2};
     std::vector<double> controls;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) controls.insert(controls.end(), {-900.0 + 10 * i, 10.0 * j, i == 1 && j == 1 ? 20.0 : 0});
+      for (int j = 0; j < 3; ++j)
+        controls.insert(controls.end(), {-900.0 + 10 * i, 10.0 * j, i == 1 && j == 1 ? 20.0 : 0});
     auto bezier = empty<carreau_bezier>();
     bezier.patch_count = 1, bezier.degrees = degrees.data(), bezier.controls = controls.data();
     EXPECT_OK(session, carreau_add_bezier(session, &bezier));

@@ -2,6 +2,7 @@
 //   NAME.step, NAME.brep   each shape of the torture set
 //   assembly.step          two boxes of one part "block", placed apart, and a "ball", in an assembly "rig"
 //   named_faces.step       a box whose six faces are called bottom, top and side; the box is green, its top orange
+//   bracket.step           a part whose faces have names: bracket.h
 //   inch.step              a cube of one inch
 //   open.igs               five faces of a box, each on its own
 //   plate.step, .brep, .igs   a plate with a hole, all of NURBS
@@ -39,6 +40,7 @@
 #include <string>
 
 #include "bent_shapes.h"
+#include "bracket.h"
 #include "shapes.h"
 
 namespace {
@@ -99,6 +101,17 @@ void write_named_faces(const std::string& path) {
     name(face, e.Current().IsSame(bottom) ? "bottom" : e.Current().IsSame(top) ? "top" : "side");
     if (e.Current().IsSame(top)) colours->SetColor(face, colour(255, 128, 0), XCAFDoc_ColorSurf);
   }
+  write_document(document, path);
+}
+
+void write_bracket(const std::string& path) {
+  Handle(TDocStd_Document) document = new TDocStd_Document("XmlXCAF");
+  const auto tool = XCAFDoc_DocumentTool::ShapeTool(document->Main());
+  const TopoDS_Shape bracket = shapes::bracket();
+  const TDF_Label whole = tool->AddShape(bracket, Standard_False);
+  name(whole, "bracket");
+  for (TopExp_Explorer e(bracket, TopAbs_FACE); e.More(); e.Next())
+    name(tool->AddSubShape(whole, e.Current()), shapes::name_in_bracket(TopoDS::Face(e.Current())).c_str());
   write_document(document, path);
 }
 
@@ -163,6 +176,7 @@ int main(int argc, char** argv) {
     }
     write_assembly(folder + "assembly.step");
     write_named_faces(folder + "named_faces.step");
+    write_bracket(folder + "bracket.step");
     write_plate(folder + "plate");
     Interface_Static::SetCVal("write.step.unit", "INCH");
     write_step(BRepPrimAPI_MakeBox(25.4, 25.4, 25.4).Shape(), folder + "inch.step");

@@ -132,7 +132,8 @@ TEST(CAtlas, SphereIsCoveredBlendedAndMeshed) {
   chart.struct_size = sizeof chart;
   ASSERT_EQ(carreau_atlas_chart_info(atlas, 0, &chart), CARREAU_OK);
   for (int i = 0; i < 3; ++i)  // u, v and the normal are a frame
-    EXPECT_NEAR(chart.u[(i + 1) % 3] * chart.v[(i + 2) % 3] - chart.u[(i + 2) % 3] * chart.v[(i + 1) % 3], chart.normal[i], 1e-12);
+    EXPECT_NEAR(chart.u[(i + 1) % 3] * chart.v[(i + 2) % 3] - chart.u[(i + 2) % 3] * chart.v[(i + 1) % 3],
+                chart.normal[i], 1e-12);
   EXPECT_EQ(carreau_atlas_chart_info(atlas, counts.charts, &chart), CARREAU_ERR_ARGUMENT);
   for (std::int64_t i = 0; i < counts.charts; ++i)
     for (int k = 0; k < 10; ++k) {

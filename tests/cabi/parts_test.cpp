@@ -68,7 +68,8 @@ TEST_F(PartsTest, AreOneFaceInTheMesh) {
   std::vector<std::int32_t> corner_faces(3 * data.triangle_count());  // parts by their own references
   ASSERT_EQ(carreau_mesh_corner_faces(mesh(), std::int64_t(data.triangle_count()), corner_faces.data()), CARREAU_OK);
   for (std::size_t c = 0; c < corner_faces.size(); ++c)
-    EXPECT_TRUE(corner_faces[c] == data.triangle_refs[c / 3] || (corner_faces[c] == 3 && data.triangle_refs[c / 3] == 2));
+    EXPECT_TRUE(corner_faces[c] == data.triangle_refs[c / 3] ||
+                (corner_faces[c] == 3 && data.triangle_refs[c / 3] == 2));
   std::map<int, double> lengths;
   for (std::size_t e = 0; e < data.edge_count(); ++e) {
     const double* p = &data.xyz[3 * std::size_t(data.edges[2 * e])];

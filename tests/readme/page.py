@@ -8,11 +8,13 @@ made is installed in PREFIX.
     ```{code-block} c        with `:caption: bowl.c`: a file of that name
     ```text  ```json         what a file or a program shows, not run
 
-Another kind is an error, and so is a picture of the page that no command has made under its name (`img/x.png`: x.png).
---refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page shows them."""
+Another kind is an error, and so is a picture of the page that no command of it has made under its name (`img/x.png`: x.png), unless the gallery has it.
+--refresh: writes the listings that differ into the page. --pictures: puts the pictures where the page shows them, those above 150 kB
+with 256 colours (Debian's pngquant)."""
 import os
 import re
 import shutil
+import subprocess
 import sys
 
 from listings import listing
@@ -35,13 +37,21 @@ def pictures_of(block):
     return re.findall(r"[\w.]+\.png", block)
 
 
+def pictures_of_gallery(source):
+    with open(os.path.join(source, "docs/gallery.md"), encoding="utf-8") as file:
+        return re.findall(r"!\[[^\]]*\]\((?:gallery/)?([^)/]+\.png)\)", file.read())
+
+
 def show(page, sandbox, shown):
     for name in shown:
         made, target = os.path.join(sandbox.clone, os.path.basename(name)), os.path.join(os.path.dirname(os.path.abspath(page)), name)
-        if os.path.exists(made):
-            if os.path.getsize(made) > LARGEST:
-                sys.exit(f"{name} has {os.path.getsize(made)} bytes, more than {LARGEST}")
-            shutil.copyfile(made, target)
+        if not os.path.exists(made):
+            continue
+        if os.path.getsize(made) > LARGEST:  # 256 colours will do
+            subprocess.run(["pngquant", "--force", "--speed", "1", "--output", made, "256", made], check=True)
+        if os.path.getsize(made) > LARGEST:
+            sys.exit(f"{name} has {os.path.getsize(made)} bytes, more than {LARGEST}")
+        shutil.copyfile(made, target)
 
 
 def main():
@@ -64,6 +74,7 @@ def main():
             sys.exit(f"{page}: ```{language} is a listing that nobody runs")
         run += language in ("sh", "console")
     shown = re.findall(r"!\[[^\]]*\]\((\S+\.png)\)", text)
+    later += [] if page.endswith("gallery.md") else pictures_of_gallery(source)
     missing = [name for name in shown if not sandbox.size(os.path.basename(name)) and os.path.basename(name) not in later]
     if missing:
         sys.exit(f"{page}: no command makes {missing}")
