@@ -123,3 +123,21 @@ def test_surfaces_fill_arrays_up_to_an_order():
     out = [np.full((2, 3), np.nan) for _ in range(6)]
     surface.fill(1, np.array([[1.0, 2.0], [3.0, 4.0]]), 0, out)
     assert np.array_equal(out[0], [[1, 2, 2], [3, 4, 12]]) and np.isnan(out[1]).all()
+
+
+def test_curves_are_divided_as_told():
+    session = carreau.mesh(lambda u, v: (u, v, 0 * u), domain="box:0,0,1,1", size=0.5).session
+    session.divide_curve(1, 1, 5, geometric=2)
+    session.divide_curve(1, 2, 4, arithmetic=3)
+    session.divide_curve(1, 3, [0.25, 0.3])
+    xyz = session.generate().vertices
+
+    def along(axis, other, value):
+        return np.sort(xyz[xyz[:, other] == value][:, axis])
+
+    assert np.allclose(np.diff(along(0, 1, 0)), 2.0 ** np.arange(5) / 31, rtol=1e-9)
+    assert np.allclose(np.diff(along(1, 0, 1)), np.array([3, 5, 7, 9]) / 24, rtol=1e-9)
+    assert np.allclose(along(0, 1, 1), [0, 0.7, 0.75, 1])
+    session.divide_curve(1, 1, 0)
+    with pytest.raises(carreau.ArgumentError):
+        session.divide_curve(1, 3, [0.5, 0.25])

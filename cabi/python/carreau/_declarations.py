@@ -26,6 +26,9 @@ METRIC_SPACE = 2
 METRIC_TANGENT = 3
 BOUNDARY = 1
 INTERNAL = 2
+EQUAL = 0
+ARITHMETIC = 1
+GEOMETRIC = 2
 INTEGER = 1
 REAL = 2
 TEXT = 3
@@ -69,6 +72,11 @@ EXR_DEVIATION = 64
 EXR_TRIANGLE = 128
 EXR_MASK = 256
 EXR_PREVIEW = 512
+EXR_GOVERNS = 1024
+GOVERNS_PHYSICAL = 0
+GOVERNS_GEOMETRIC = 1
+GOVERNS_BOUNDS = 2
+GOVERNS_GRADATION = 3
 EXR_ZIP = 0
 EXR_PIZ = 1
 INTERSECT_IN_TURN = 0
@@ -270,7 +278,7 @@ class carreau_interface(Structure):
         ("boundary", c_int32),
         ("glued", c_int32),
         ("degenerate", c_int32),
-        ("reserved", c_int32),
+        ("loose", c_int32),
         ("gap", c_double),
     ]
 
@@ -287,6 +295,10 @@ class carreau_background(Structure):
         ("faces", c_void_p),
         ("sizes", c_void_p),
         ("metrics", c_void_p),
+        ("tetrahedron_count", c_int64),
+        ("edge_count", c_int64),
+        ("tetrahedra", c_void_p),
+        ("edges", c_void_p),
     ]
 
 
@@ -849,6 +861,8 @@ CARREAU = {
     "carreau_model_add_face": (c_int32, [c_void_p, c_int32, c_int32]),
     "carreau_model_leave_out_face": (c_int32, [c_void_p, c_int32, c_char_p]),
     "carreau_model_add_curve": (c_int32, [c_void_p, c_int32, c_int32, c_int32, c_int32, c_int32]),
+    "carreau_model_divide_curve": (c_int32, [c_void_p, c_int32, c_int32, c_int32, c_int32, c_double]),
+    "carreau_model_divide_curve_at": (c_int32, [c_void_p, c_int32, c_int32, c_int64, Doubles]),
     "carreau_model_add_point": (c_int32, [c_void_p, c_int32, c_int32, c_double, c_double]),
     "carreau_model_name_face": (c_int32, [c_void_p, c_int32, c_char_p]),
     "carreau_model_color_face": (c_int32, [c_void_p, c_int32, c_int32]),

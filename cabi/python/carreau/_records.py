@@ -22,7 +22,7 @@ class ErrorPlace(NamedTuple):
 
 
 class Parameter(NamedTuple):
-    """What the C interface calls carreau_parameter."""
+    """What is known of a parameter, whatever its value."""
 
     name: str
     help: str
@@ -65,6 +65,7 @@ class Interface(NamedTuple):
     boundary: int
     glued: int
     degenerate: int
+    loose: int
     gap: float
 
 
@@ -114,7 +115,7 @@ class CellQuality(NamedTuple):
 
 
 class Face(NamedTuple):
-    """What the C interface calls carreau_face."""
+    """What became of a face."""
 
     ref: int
     status: int
@@ -149,7 +150,7 @@ class Quality(NamedTuple):
 
 
 class Delivered(NamedTuple):
-    """What the C interface calls carreau_delivered."""
+    """What a mesh delivers, as a whole."""
 
     vertices: int
     edges: int
@@ -168,7 +169,7 @@ class Delivered(NamedTuple):
 
 
 class Measure(NamedTuple):
-    """What the C interface calls carreau_measure."""
+    """The spread of one measure."""
 
     name: str
     title: str
@@ -244,7 +245,7 @@ class TrianglesReport(NamedTuple):
 
 
 class AtlasCounts(NamedTuple):
-    """What the C interface calls carreau_atlas_counts."""
+    """What an atlas consists of."""
 
     vertices: int
     triangles: int
@@ -289,7 +290,7 @@ class RemeshSummary(NamedTuple):
 
 
 class CadContent(NamedTuple):
-    """What the C interface calls carreau_cad_content."""
+    """What a file holds, counted."""
 
     faces: int
     edges: int
@@ -306,7 +307,7 @@ class CadContent(NamedTuple):
 
 
 class CadFace(NamedTuple):
-    """What the C interface calls carreau_cad_face."""
+    """What the file tells of a face."""
 
     number: int
     rgb: int
@@ -315,7 +316,7 @@ class CadFace(NamedTuple):
 
 
 class CadFigures(NamedTuple):
-    """What the C interface calls carreau_cad_figures."""
+    """Measures of a face."""
 
     kind: str
     area: float
@@ -325,7 +326,7 @@ class CadFigures(NamedTuple):
 
 
 class CadReport(NamedTuple):
-    """What the C interface calls carreau_cad_report."""
+    """What a file holds, and how much of it is hard to mesh."""
 
     solids: int
     shells: int
@@ -348,7 +349,7 @@ class CadReport(NamedTuple):
 
 
 class CadDanger(NamedTuple):
-    """What the C interface calls carreau_cad_danger."""
+    """A place that a mesher may stumble over."""
 
     kind: str
     face: int

@@ -6,7 +6,11 @@ import weakref
 from ctypes import byref, c_char_p, c_double, c_int32, c_void_p
 from typing import Any, Callable, Mapping, Optional, Union
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from . import _declarations as c
+from ._arrays import doubles
 from ._calls import Path, asked, counted, created, file_name, record, require, session_error, struct, text_of
 from ._geometries import Geometries
 from ._library import lib
@@ -121,6 +125,20 @@ class Session(Geometries, Studies):
         sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point).struct()
         self._call(lib().set_metric_callbacks, byref(sizes))
         self._sizes = sizes
+
+    def divide_curve(self, face: int, ic: int, edges: Union[int, ArrayLike], *, arithmetic: float = 1, geometric: float = 1) -> None:
+        """Prescribes the edges of curve number ic, from 1, of a face, and so of all curves that are one with it.
+
+        edges        their number, 0: no prescription; or the parameters (n) of all vertices inside the curve, ascending
+        arithmetic   lengths grow by the same step, and the last is so many times as long as the first
+        geometric    each edge is so many times as long as the one before
+        """
+        if np.ndim(edges) == 1:  # type: ignore[arg-type]
+            t = doubles(edges, "edges", None)
+            self._call(lib().model_divide_curve_at, face, ic, len(t), t)
+            return
+        kind, ratio = (c.ARITHMETIC, arithmetic) if arithmetic != 1 else (c.GEOMETRIC, geometric) if geometric != 1 else (c.EQUAL, 1)
+        self._call(lib().model_divide_curve, face, ic, int(edges), kind, float(ratio))  # type: ignore[call-overload]
 
     # ---- runs ----
 
