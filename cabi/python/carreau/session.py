@@ -133,12 +133,12 @@ class Session(Geometries, Studies):
         arithmetic   lengths grow by the same step, and the last is so many times as long as the first
         geometric    each edge is so many times as long as the one before
         """
-        if np.ndim(edges) == 1:  # type: ignore[arg-type]
+        if np.ndim(edges) == 1:
             t = doubles(edges, "edges", None)
             self._call(lib().model_divide_curve_at, face, ic, len(t), t)
             return
         kind, ratio = (c.ARITHMETIC, arithmetic) if arithmetic != 1 else (c.GEOMETRIC, geometric) if geometric != 1 else (c.EQUAL, 1)
-        self._call(lib().model_divide_curve, face, ic, int(edges), kind, float(ratio))  # type: ignore[call-overload]
+        self._call(lib().model_divide_curve, face, ic, int(edges), kind, float(ratio))  # type: ignore[arg-type]
 
     # ---- runs ----
 
