@@ -243,4 +243,5 @@ class Mesh:
         return html(self)
 
     def __repr__(self) -> str:
-        return f"<carreau.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.edges)} edges on curves, {len(self.faces)} faces>"
+        counts = f"{len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.edges)} edges on curves"
+        return f"<carreau.Mesh: {counts}, {len(self.faces)} faces>"
