@@ -191,6 +191,8 @@ def test_adaptation_meets_its_tolerance():
     assert np.sqrt(np.mean((linear - front(*middles[:, :2].T)) ** 2)) < 0.02
     stretched = carreau.adapt("z = 0 * x", front, tolerance=0.02, size="5%", gradation=2, shape="anisotropic")
     assert len(stretched.triangles) < len(mesh.triangles)
+    bent = carreau.adapt("z = x * x", lambda x: 0 * x, size="10%", angle=3)
+    assert len(bent.triangles) > 3 * len(carreau.adapt("z = x * x", lambda x: 0 * x, size="10%").triangles)
     with pytest.raises(carreau.CallbackError) as caught:
         carreau.adapt("z = 0 * x", lambda x: 1 / 0)
     assert isinstance(caught.value.__cause__, ZeroDivisionError)

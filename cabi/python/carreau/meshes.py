@@ -227,7 +227,8 @@ class Mesh:
 
     def picture(self, path: Optional[Path] = None, **options: Any) -> bytes:
         """A picture as PNG, written to a file where a path is given. options: width and height (pixels), view ("iso",
-        "top", "front", "right", or a direction from which to look), edges, colors ("face", "quality"); see carreau.render."""
+        "top", "front", "right", or a direction from which to look), edges, colors ("face", "quality", or n or m values); see
+        carreau.render."""
         from .render import picture
         data = picture(self, **options)
         if path is not None:

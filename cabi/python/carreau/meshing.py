@@ -59,18 +59,23 @@ def mesh(source: Any, *, size: Union[None, Length, Callable[..., Any]] = None, m
 
 def _generated(session: Session, geometry: Source, words: Mapping[str, Any]) -> Mesh:
     """By the words of mesh()."""
+    _prepare(session, geometry, words)
+    made = session.generate(words.get("progress"))
+    for face in made.failed:
+        log.warning("face %d has no mesh: %s", face.ref, face.why)
+    return made
+
+
+def _prepare(session: Session, geometry: Source, words: Mapping[str, Any]) -> None:
+    """Geometry and parameters, by the words of mesh()."""
     rest = dict(words)
-    progress = rest.pop("progress", None)
+    rest.pop("progress", None)
     if "metric" in rest:
         rest["size_map"] = map_of(rest.get("size_map"), rest.pop("metric"))
     chosen = Sizes(**{each.name: rest.pop(each.name) for each in members(Sizes) if each.name in rest})
     usual = {"element": None, "independent": False, "sharp_angle": None, "threads": 0, "env": None}
     others: dict[str, Any] = {name: rest.pop(name, value) for name, value in usual.items()}
     prepare(session, geometry, chosen, named=rest, **others)
-    made = session.generate(progress)
-    for face in made.failed:
-        log.warning("face %d has no mesh: %s", face.ref, face.why)
-    return made
 
 
 def adapt(source: Any, values: Callable[..., Any], tolerance: float = 0.01, *, size: Optional[Length] = None,
@@ -94,8 +99,7 @@ def adapt(source: Any, values: Callable[..., Any], tolerance: float = 0.01, *, s
     if "estimator" in loop:
         loop["source"] = loop.pop("estimator")
     session, geometry = _begin(source, progress, named)
-    chosen = Sizes(size=size, min=min, max=max, gradation=gradation, adapts=True)
-    prepare(session, geometry, chosen, element=None, independent=False, sharp_angle=None, threads=threads, env=None, named=named)
+    _prepare(session, geometry, {"size": size, "min": min, "max": max, "gradation": gradation, "threads": threads, "adapts": True, **named})
     diagonal = geometry.diagonal(session)
     bounds: dict[str, Any] = {"hmin": length(min or "0.2%", "min", diagonal), "hmax": length(max or "20%", "max", diagonal)}
     made: Mesh = session.adapt(values, tolerance, shape=shape, iterations=iterations, progress=progress, **bounds, **loop)
