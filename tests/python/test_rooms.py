@@ -181,6 +181,28 @@ def test_an_atlas_of_a_sphere():
     assert np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1, atol=0.03)
 
 
+def test_loops_and_annuli():
+    corner = lambda r, n, turn=0: r * np.stack([np.cos(turn + np.arange(n) * 2 * np.pi / n), np.sin(turn + np.arange(n) * 2 * np.pi / n)], axis=1)  # noqa: E731
+    hexagon = corner(1, 6)
+    loop = carreau.Loop(hexagon, smooth=True)
+    phi = np.linspace(0.05, 6.2, 40)
+    points, derivatives = loop.points(phi)
+    assert np.allclose(loop.invert(points), phi, atol=1e-9) and np.allclose(loop.points([0.0])[0], hexagon[0])
+    # Of this polygon: at most its circumscribed circle, at least the inscribed one.
+    assert np.all(np.linalg.norm(points, axis=1) <= 1 + 1e-12) and np.all(np.linalg.norm(points, axis=1) >= math.sqrt(3) / 2 - 1e-12)
+    ahead = loop.points(phi + 1e-6)[0]
+    assert np.median(np.linalg.norm((ahead - points) / 1e-6 - derivatives, axis=1)) < 1e-4
+    with pytest.raises(carreau.DomainError):
+        carreau.Loop(hexagon[::-1])
+    annulus = carreau.Annulus(hexagon, corner(2, 6))
+    places = np.column_stack([np.linspace(0.1, 0.9, 20), np.linspace(0.1, 6, 20)])
+    inside, _ = annulus.points(places)
+    again, zones = annulus.invert(inside)
+    assert np.allclose(again, places, atol=1e-8) and set(zones.tolist()) == {1}
+    assert annulus.invert([(0, 0), (9, 9)])[1].tolist() == [2, 0]
+    assert len(annulus.pivots) >= 1 and annulus.outer_border.shape[1] == 2 and annulus.skeleton.shape[1:] == (2, 2)
+
+
 def test_adaptation_meets_its_tolerance():
     front = lambda x, y: np.tanh(20 * (x * x + y * y - 0.25))  # noqa: E731
     mesh = carreau.adapt("z = 0 * x", front, tolerance=0.02, size="5%", gradation=2)
