@@ -92,7 +92,7 @@ def test_a_model_with_a_library_of_cad_m(tmp_path):
     host = os.environ["CARREAU_PYTHON_HOST"]
     session = carreau.Session()
     session.add(carreau.Patch(lambda u, v: (u, v, (u * u + v * v) / 2)))
-    session._call(carreau.capi.lib().model_write_pardom, os.fsencode(tmp_path / "x.pardom"))
+    session.write_pardom(tmp_path / "x.pardom")
     mesh = carreau.mesh(tmp_path / "x.pardom", host=host, size="5%")
     agree(mesh, by_command(tmp_path, tmp_path / "x.pardom", "--host", host, "--size", "5%"))
     with pytest.raises(carreau.ArgumentError, match="host names"):
