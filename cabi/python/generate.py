@@ -2,8 +2,10 @@
 """Writes what the package carreau knows of the C interface: _declarations.py (ctypes) and _records.py (results as tuples
 with names).
 
-    generate.py HEADER... FOLDER            writes the modules into FOLDER
-    generate.py --check HEADER... FOLDER    fails when they are not what it would write
+    generate.py            writes the modules
+    generate.py --check    fails when they are not what it would write
+
+It reads all headers of cabi/include, and carreau_cad.h.
 
 How a declaration of C becomes one of ctypes:
   T name[], const T* name     Int32s, Int64s, Doubles: NumPy arrays of that type, C order, or None
@@ -13,6 +15,7 @@ How a declaration of C becomes one of ctypes:
   pointers in callbacks       c_void_p: addresses
 Headers with CARREAU_CAD_API belong to libcarreau_cad, all others to libcarreau.
 """
+import glob
 import os
 import re
 import sys
@@ -20,6 +23,9 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, os.pardir, "fortran"))
 from c_header import Header  # noqa: E402
+
+FOLDER = os.path.join(HERE, "carreau")
+HEADERS = sorted(glob.glob(os.path.join(HERE, "../include/*.h"))) + [os.path.join(HERE, "../../cad_adapters/cad/include/carreau_cad.h")]
 
 PLAIN = {"carreau_status": "c_int32", "int32_t": "c_int32", "int64_t": "c_int64", "size_t": "c_size_t", "double": "c_double",
          "void": "None", "void*": "c_void_p", "char*": "c_char_p"}
@@ -133,18 +139,16 @@ def records(interface):
 
 
 def main():
-    check = sys.argv[1] == "--check"
-    *headers, folder = sys.argv[1 + check:]
-    interface = Interface(headers)
+    interface = Interface(HEADERS)
     for name, text in (("_declarations.py", declarations(interface)), ("_records.py", records(interface))):
-        path = os.path.join(folder, name)
-        if not check:
+        path = os.path.join(FOLDER, name)
+        if sys.argv[1:] != ["--check"]:
             with open(path, "w", encoding="utf-8") as file:
                 file.write(text)
             continue
         with open(path, encoding="utf-8") as file:
             if file.read() != text:
-                sys.exit(f"{path} is not what the headers say. Refresh it: {' '.join([sys.argv[0], *headers, folder])}")
+                sys.exit(f"{os.path.normpath(path)} is not what the headers say. Refresh it: python3 cabi/python/generate.py")
 
 
 main()

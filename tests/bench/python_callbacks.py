@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """python_callbacks.py [SIZE...]: what a geometry costs by callbacks in C, in NumPy (batched) and in Python (scalar): a torus, the median
-of five runs by turns in a new session each; then with a size at every place. Seconds of the processor, by one thread; what a point costs
-more is the difference to C, by the number of evaluations. Environment: as for tests/python (ctest has it; see there)."""
+of fifteen runs by turns in a new session each; then with a size at every place. Seconds of the processor, by one thread; what a point costs
+more is the difference to C, by the number of evaluations. In a clone with a build:
+
+    PYTHONPATH=cabi/python CARREAU_LIBRARY_PATH=build/release/cabi CARREAU_PYTHON_HOST=build/release/tests/python/python_host.so \\
+      /usr/bin/python3 tests/bench/python_callbacks.py
+"""
 import math
 import os
 import statistics
@@ -14,7 +18,7 @@ import numpy as np  # noqa: E402
 import carreau  # noqa: E402
 from hosts import HostInC, TORUS_BOX, torus, torus_of_floats  # noqa: E402
 
-RUNS = 5
+RUNS = 15
 
 
 def in_c(batch, sized):

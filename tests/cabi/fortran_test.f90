@@ -125,6 +125,21 @@ contains
     status = merge(1, 0, c_associated(user))
   end function height
 
+  !> The size .3 at points of the paraboloid; the status 7 where xyz belongs to another place than uv.
+  function sizes_of_points(face, n, uv, xyz, kind, value, user) result(status) bind(c)
+    integer(c_int32_t), value :: face
+    integer(c_int64_t), value :: n
+    real(c_double), intent(in) :: uv(2, n), xyz(3, n)
+    integer(c_int32_t), intent(inout) :: kind(n)
+    real(c_double), intent(inout) :: value(6, n)
+    type(c_ptr), value :: user
+    integer(c_int32_t) :: status
+    kind = CARREAU_METRIC_SIZE
+    value(1, :) = 0.3d0
+    status = merge(0, 7, face == 1 .and. .not. c_associated(user) .and. all(xyz(1:2, :) == uv) .and. &
+      all(xyz(3, :) == (uv(1, :)**2 + uv(2, :)**2)/2))
+  end function sizes_of_points
+
   subroutine message(level, text, user) bind(c)
     integer(c_int32_t), value :: level
     type(c_ptr), value :: text, user
@@ -175,6 +190,7 @@ program fortran_test
   call test_same_mesh_as_in_c
   call test_callbacks_by_value_and_files
   call test_divided_curves
+  call test_metric_batches
   call test_elements
   call test_curve
   call test_adaptation
@@ -512,6 +528,25 @@ contains
     call expect(status == CARREAU_ERR_ARGUMENT, 'metrics of two rows are refused')
     call carreau_session_free(session)
   end subroutine test_curve
+
+  subroutine test_metric_batches
+    type(carreau_session) :: session
+    type(carreau_mesh) :: mesh
+    real(c_double), allocatable :: h(:)
+    integer(c_int32_t) :: status
+    call carreau_session_create(session, status)
+    call carreau_set_cad_m(session, surf0, curv_int, curv0, status)
+    call build_model(session)
+    call carreau_set_real(session, 'hphydef', 1d0, status)
+    call carreau_set_metric_callbacks(session, status, surface_metric_batch=sizes_of_points)
+    call expect_ok(status, session, 'set_metric_callbacks')
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'mesh_generate with sizes in batches')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_vertex_sizes(mesh, h, status)
+    call expect(size(h) > 500 .and. all(abs(h - 0.3d0) < 1d-9), 'the sizes of the batches hold')
+    call carreau_session_free(session)
+  end subroutine test_metric_batches
 
   !> What tests/cabi/metric_algebra_test.cpp finds in C.
   subroutine test_metric_algebra(session)

@@ -79,11 +79,20 @@ def test_formulas_and_size_maps(tmp_path):
     agree(carreau.mesh(ring, domain="ring:0.1,0,0.3,1", size=0.1), by_command(tmp_path, ring, "--domain", "ring:0.1,0,0.3,1", "--size", "0.1"))
 
 
+@pytest.mark.parametrize("shape", ["isotropic", "anisotropic"])
+def test_adaptation_to_a_formula(tmp_path, shape):
+    out = tmp_path / "by_command.mesh"
+    subprocess.run([os.environ["CARREAU_COMMAND"], "adapt", "z = x * y", "--formula", "x * x * x - x * y * z", "--tolerance", "0.001",
+                    "--shape", shape, "--size", "10%", "--min", "0.01", "--gradation", "1.5", "-o", str(out), "-q"], check=True)
+    mesh = carreau.adapt("z = x * y", lambda x, y, z: x * x * x - x * y * z, tolerance=0.001, shape=shape, size="10%", min=0.01, gradation=1.5)
+    agree(mesh, carreau.read(out))
+
+
 def test_a_model_with_a_library_of_cad_m(tmp_path):
     host = os.environ["CARREAU_PYTHON_HOST"]
     session = carreau.Session()
     session.add(carreau.Patch(lambda u, v: (u, v, (u * u + v * v) / 2)))
-    session._call(carreau.capi.lib().model_write_pardom, os.fsencode(tmp_path / "x.pardom"))
+    session.write_pardom(tmp_path / "x.pardom")
     mesh = carreau.mesh(tmp_path / "x.pardom", host=host, size="5%")
     agree(mesh, by_command(tmp_path, tmp_path / "x.pardom", "--host", host, "--size", "5%"))
     with pytest.raises(carreau.ArgumentError, match="host names"):

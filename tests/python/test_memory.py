@@ -78,6 +78,25 @@ def test_callbacks_live_as_long_as_their_session():
     del garbage
 
 
+def test_a_mesh_is_measured_with_the_sizes_that_made_it():
+    session = carreau.Session(hphydef=0.5, hphymin=0.1)
+    session.add(carreau.Patch(torus, TORUS_BOX))
+    asked = []
+    first = lambda x: asked.append("first") or np.full(len(x), 0.4)  # noqa: E731
+    session.set_sizes(first)
+    session.generate()
+    asked.clear()
+    gone = weakref.ref(first)
+    del first
+    for _ in range(3):
+        session.set_sizes(lambda x: np.full(len(x), 0.2))
+    gc.collect()
+    assert session.delivered.in_range > 0.8 and set(asked) == {"first"}
+    session.generate()
+    gc.collect()
+    assert gone() is None
+
+
 def test_no_cycle_keeps_a_session():
     gc.collect()
     gc.disable()

@@ -63,6 +63,17 @@ def test_depth_is_that_of_the_point_and_not_of_the_triangle():
     assert not np.array_equal(pixels[row, left], pixels[row, right]) and hue(pixels[row, left]).shape == (3,)
 
 
+def test_values_are_colours_from_blue_to_red():
+    mesh = carreau.mesh("z = 0 * x", size=0.2)
+    for values in (mesh.vertices[:, 0], mesh.vertices[mesh.triangles][:, :, 0].mean(axis=1)):
+        pixels = pixels_of(mesh.picture(view="top", colors=values, edges=False)).astype(int)
+        rows, columns = np.nonzero(drawn(pixels))
+        left, right = (pixels[240, columns.min() + 3], pixels[240, columns.max() - 3])
+        assert left[2] > left[0] + 50 and right[0] > right[2] + 50
+    with pytest.raises(ValueError, match="for each vertex"):
+        mesh.picture(colors=[1, 2, 3])
+
+
 def test_quality_and_notebooks(tmp_path):
     mesh = carreau.mesh("z = x * y", size=0.2)
     green = pixels_of(mesh.picture(tmp_path / "x.png", colors="quality", edges=False, view="top"))

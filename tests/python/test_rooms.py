@@ -147,6 +147,7 @@ def test_a_ball_as_molecule():
     mesh = carreau.mesh(session, size=0.1, eps_ends=1e-9)
     cap = 2 * math.pi * (1 - 0.75)
     assert session.molecule.area == pytest.approx(2 * (4 * math.pi - cap)) and session.atom_areas().sum() == pytest.approx(session.molecule.area)
+    assert session.atom_names() == ["", ""]
     assert mesh.quality.area == pytest.approx(session.molecule.area, rel=3e-3) and mesh.check(closed=True) == []
 
 
@@ -181,6 +182,28 @@ def test_an_atlas_of_a_sphere():
     assert np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1, atol=0.03)
 
 
+def test_loops_and_annuli():
+    corner = lambda r, n, turn=0: r * np.stack([np.cos(turn + np.arange(n) * 2 * np.pi / n), np.sin(turn + np.arange(n) * 2 * np.pi / n)], axis=1)  # noqa: E731
+    hexagon = corner(1, 6)
+    loop = carreau.Loop(hexagon, smooth=True)
+    phi = np.linspace(0.05, 6.2, 40)
+    points, derivatives = loop.points(phi)
+    assert np.allclose(loop.invert(points), phi, atol=1e-9) and np.allclose(loop.points([0.0])[0], hexagon[0])
+    # Of this polygon: at most its circumscribed circle, at least the inscribed one.
+    assert np.all(np.linalg.norm(points, axis=1) <= 1 + 1e-12) and np.all(np.linalg.norm(points, axis=1) >= math.sqrt(3) / 2 - 1e-12)
+    ahead = loop.points(phi + 1e-6)[0]
+    assert np.median(np.linalg.norm((ahead - points) / 1e-6 - derivatives, axis=1)) < 1e-4
+    with pytest.raises(carreau.DomainError):
+        carreau.Loop(hexagon[::-1])
+    annulus = carreau.Annulus(hexagon, corner(2, 6))
+    places = np.column_stack([np.linspace(0.1, 0.9, 20), np.linspace(0.1, 6, 20)])
+    inside, _ = annulus.points(places)
+    again, zones = annulus.invert(inside)
+    assert np.allclose(again, places, atol=1e-8) and set(zones.tolist()) == {1}
+    assert annulus.invert([(0, 0), (9, 9)])[1].tolist() == [2, 0]
+    assert len(annulus.pivots) >= 1 and annulus.outer_border.shape[1] == 2 and annulus.skeleton.shape[1:] == (2, 2)
+
+
 def test_adaptation_meets_its_tolerance():
     front = lambda x, y: np.tanh(20 * (x * x + y * y - 0.25))  # noqa: E731
     mesh = carreau.adapt("z = 0 * x", front, tolerance=0.02, size="5%", gradation=2)
@@ -191,6 +214,8 @@ def test_adaptation_meets_its_tolerance():
     assert np.sqrt(np.mean((linear - front(*middles[:, :2].T)) ** 2)) < 0.02
     stretched = carreau.adapt("z = 0 * x", front, tolerance=0.02, size="5%", gradation=2, shape="anisotropic")
     assert len(stretched.triangles) < len(mesh.triangles)
+    bent = carreau.adapt("z = x * x", lambda x: 0 * x, size="10%", angle=3)
+    assert len(bent.triangles) > 3 * len(carreau.adapt("z = x * x", lambda x: 0 * x, size="10%").triangles)
     with pytest.raises(carreau.CallbackError) as caught:
         carreau.adapt("z = 0 * x", lambda x: 1 / 0)
     assert isinstance(caught.value.__cause__, ZeroDivisionError)
@@ -240,11 +265,19 @@ def test_elements_of_second_order_and_quadrilaterals():
     assert "triangle" not in quads.cells and quads.cell_quality.quads4 == len(quads.cells["quad"][0])
 
 
-def test_what_was_delivered():
+def test_what_was_delivered(tmp_path):
     session = carreau.mesh(torus, domain=TORUS_BOX, size=0.2).session
     assert session.delivered.in_range > 0.9
     spread, values = session.measure("length")
     assert spread.values == len(values) and np.nanmean(values) == pytest.approx(spread.mean)
+    ends, curves = session.measured_edges()
+    assert len(ends) == len(values) and np.all(ends[:, 0] < ends[:, 1])
+    assert sorted(map(tuple, ends[curves > 0].tolist())) == sorted(tuple(sorted(edge)) for edge in session.mesh.edges.tolist())
+    bounds, counts = session.histogram("length")
+    assert counts.sum() == np.isfinite(values).sum() and bounds[0] == -np.inf
+    assert counts.tolist() == np.histogram(values[np.isfinite(values)], np.append(bounds, np.inf))[0].tolist()
+    session.write_delivered(tmp_path / "delivered.json")
+    assert "length" in (tmp_path / "delivered.json").read_text()
     with pytest.raises(carreau.ArgumentError, match="kind is one of"):
         session.measure("width")
 
@@ -257,6 +290,13 @@ def test_files_come_back(tmp_path):
         assert np.array_equal(again.vertices, mesh.vertices) and np.array_equal(again.triangles, mesh.triangles)
     mesh.session.write_fields(tmp_path / "fields.png", longest=64)
     assert os.path.getsize(tmp_path / "fields.face.1.png") > 0
+    (tmp_path / "x.sol").write_text(f"MeshVersionFormatted 2\nDimension 3\nSolAtVertices {len(mesh.vertices)}\n1 1\n"
+                                    + "".join(f"{x:.17g}\n" for x in mesh.vertices[:, 0]) + "End\n")
+    mesh.session["hphydef"] = 0.1
+    finer = mesh.session.generate()
+    assert mesh.session.transfer_files(tmp_path / "x.mesh", tmp_path / "x.sol", tmp_path / "y.sol") == 0
+    carried = [float(word) for word in (tmp_path / "y.sol").read_text().split("1 1\n")[1].split()[:-1]]
+    assert np.allclose(carried, finer.vertices[:, 0], atol=0.02)  # the nearest point of a chord
     mesh.add_field("height", mesh.vertices[:, 2])
     mesh.write(tmp_path / "field.vtu")
     assert b"height" in (tmp_path / "field.vtu").read_bytes()
@@ -280,6 +320,16 @@ def test_faces_that_fail_are_left_out(caplog):
     assert [face.ref for face in mesh.failed] == [2] and mesh.failed[0].why
     assert mesh.quality.area == pytest.approx(1)
     assert any("face 2 has no mesh" in record.getMessage() for record in caplog.records)
+
+
+def test_faces_are_left_out_by_hand():
+    session = carreau.Session(hphydef=0.3)
+    session.add([carreau.Patch(lambda u, v, k=k: (u + 2 * k, v, 0 * u)) for k in range(2)])
+    session.leave_out_face(1, "not wanted")
+    mesh = session.generate()
+    assert set(mesh.face_ids.tolist()) == {2} and mesh.failed[0].why == "not wanted"
+    session.leave_out_face(1, "")
+    assert set(session.generate().face_ids.tolist()) == {1, 2}
 
 
 def test_messages_go_to_the_logger(caplog):

@@ -22,6 +22,7 @@ from .cad import CadFile
 from .domains import Curve, arc, box, disc, polygon, ring, segment
 from .errors import (ArgumentError, BusyError, CallbackError, Cancelled, CarreauError, DomainError, FileError, InternalError,
                      LimitError, ModelError, OutOfMemory, PartialError, SequenceError)
+from .loops import Annulus, Loop
 from .meshes import Mesh
 from .meshing import adapt, fields, mesh, plane
 from .molecules import Areas, areas
@@ -32,8 +33,8 @@ from .surfaces import Patch, Surface, patch
 
 __version__ = "0.1.0"
 __all__ = [
-    "Areas", "ArgumentError", "Atlas", "BusyError", "CadFile", "CallbackError", "Cancelled", "CarreauError", "Curve", "DomainError",
-    "FileError", "InternalError", "LimitError", "Mesh", "ModelError", "OutOfMemory", "PartialError", "Patch", "PlaneDomain",
+    "Annulus", "Areas", "ArgumentError", "Atlas", "BusyError", "CadFile", "CallbackError", "Cancelled", "CarreauError", "Curve", "DomainError",
+    "FileError", "InternalError", "LimitError", "Loop", "Mesh", "ModelError", "OutOfMemory", "PartialError", "Patch", "PlaneDomain",
     "Remeshed", "SequenceError", "Session", "Surface", "Tool", "adapt", "arc", "areas", "box", "capi", "disc", "domains",
     "errors", "fields", "mesh", "metric", "parameters", "patch", "plane", "polygon", "polygons", "read", "remesh", "ring", "scalar", "segment",
     "version"]

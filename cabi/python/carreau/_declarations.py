@@ -98,6 +98,14 @@ OF_VERTICES = 2
 OF_TRIANGLES = 3
 HVIDE = -1e+38
 NO_ANSWER = -1
+LOOP_EVEN = 0
+LOOP_SMOOTH = 1
+BORDER_SPLINE = 0
+BORDER_CUBIC = 1
+BORDER_POLYGON = 2
+ZONE_OUTSIDE = 0
+ZONE_ANNULUS = 1
+ZONE_INSIDE = 2
 GEOMETRY_CALLBACKS = 1
 GEOMETRY_BEZIER = 2
 GEOMETRY_MOLECULE = 3
@@ -123,14 +131,6 @@ GRID_PLOT3D = 1
 GRID_HEIGHTS = 2
 GRID_SCAN = 3
 GRID_NODES = 4
-LOOP_EVEN = 0
-LOOP_SMOOTH = 1
-BORDER_SPLINE = 0
-BORDER_CUBIC = 1
-BORDER_POLYGON = 2
-ZONE_OUTSIDE = 0
-ZONE_ANNULUS = 1
-ZONE_INSIDE = 2
 NODE_INSIDE = 0
 NODE_FREE = 1
 NODE_IMPOSED = 2
@@ -502,6 +502,37 @@ class carreau_measure(Structure):
     ]
 
 
+class carreau_atlas_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("border", c_int32),
+        ("reach", c_int32),
+    ]
+
+
+class carreau_atlas_counts(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("vertices", c_int64),
+        ("triangles", c_int64),
+        ("charts", c_int64),
+        ("triples", c_int64),
+        ("mended", c_int64),
+    ]
+
+
+class carreau_atlas_chart(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("origin", c_double * 3),
+        ("u", c_double * 3),
+        ("v", c_double * 3),
+        ("normal", c_double * 3),
+        ("period", c_double),
+        ("vertices", c_int64),
+    ]
+
+
 class carreau_geometry(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -646,37 +677,6 @@ class carreau_triangles_report(Structure):
         ("folded", c_int64),
         ("diagonal", c_double),
         ("deviation", c_double),
-    ]
-
-
-class carreau_atlas_options(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("border", c_int32),
-        ("reach", c_int32),
-    ]
-
-
-class carreau_atlas_counts(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("vertices", c_int64),
-        ("triangles", c_int64),
-        ("charts", c_int64),
-        ("triples", c_int64),
-        ("mended", c_int64),
-    ]
-
-
-class carreau_atlas_chart(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("origin", c_double * 3),
-        ("u", c_double * 3),
-        ("v", c_double * 3),
-        ("normal", c_double * 3),
-        ("period", c_double),
-        ("vertices", c_int64),
     ]
 
 
@@ -949,32 +949,6 @@ CARREAU = {
     "carreau_delivered_edges": (c_int32, [c_void_p, c_int64, Int32s, Int32s]),
     "carreau_delivered_triangle_edges": (c_int32, [c_void_p, c_int64, Int32s]),
     "carreau_delivered_write": (c_int32, [c_void_p, c_char_p]),
-    "carreau_geometry_count": (c_int32, [c_void_p, POINTER(c_int64)]),
-    "carreau_geometry_info": (c_int32, [c_void_p, c_int64, POINTER(carreau_geometry)]),
-    "carreau_geometry_begin": (c_int32, [c_void_p, POINTER(carreau_cad)]),
-    "carreau_geometry_end": (c_int32, [c_void_p]),
-    "carreau_geometry_cancel": (c_int32, [c_void_p]),
-    "carreau_add_bezier": (c_int32, [c_void_p, POINTER(carreau_bezier)]),
-    "carreau_load_bezier": (c_int32, [c_void_p, c_char_p]),
-    "carreau_bezier_degrees": (c_int32, [c_void_p, c_int32, Int32s]),
-    "carreau_add_molecule": (c_int32, [c_void_p, POINTER(carreau_molecule_options), c_int64, Doubles, Doubles]),
-    "carreau_load_molecule": (c_int32, [c_void_p, POINTER(carreau_molecule_options), c_char_p]),
-    "carreau_molecule_measure": (c_int32, [c_void_p, POINTER(carreau_molecule_measures)]),
-    "carreau_molecule_atoms": (c_int32, [c_void_p, c_int64, Int32s, Doubles]),
-    "carreau_molecule_atom_areas": (c_int32, [c_void_p, c_int64, Doubles, Doubles, Doubles]),
-    "carreau_molecule_atom_name": (c_char_p, [c_void_p, c_int64]),
-    "carreau_add_plane_domain": (c_int32, [c_void_p, POINTER(carreau_plane_domain)]),
-    "carreau_load_plane_domain": (c_int32, [c_void_p, c_char_p, c_char_p, c_double]),
-    "carreau_plane_has_sizes": (c_int32, [c_void_p, POINTER(c_int32)]),
-    "carreau_add_grid": (c_int32, [c_void_p, POINTER(carreau_grid_options), c_int64, Int32s, Doubles]),
-    "carreau_load_grid": (c_int32, [c_void_p, POINTER(carreau_grid_options), c_char_p, c_int32]),
-    "carreau_add_triangles": (c_int32, [c_void_p, POINTER(carreau_triangles_options), POINTER(carreau_triangles)]),
-    "carreau_load_triangles": (c_int32, [c_void_p, POINTER(carreau_triangles_options), c_char_p]),
-    "carreau_triangles_measure": (c_int32, [c_void_p, POINTER(carreau_triangles_report)]),
-    "carreau_triangles_refine": (c_int32, [c_void_p, c_double, c_int32, c_void_p]),
-    "carreau_triangles_distances": (c_int32, [c_void_p, Doubles]),
-    "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
-    "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_loop_create": (c_int32, [POINTER(c_void_p)]),
     "carreau_loop_free": (None, [c_void_p]),
     "carreau_loop_last_error": (c_char_p, [c_void_p]),
@@ -1003,6 +977,32 @@ CARREAU = {
     "carreau_atlas_transition": (c_int32, [c_void_p, c_int64, c_int64, c_int64, Doubles, Doubles, Int32s]),
     "carreau_atlas_points": (c_int32, [c_void_p, c_int64, c_int64, Doubles, Doubles, Doubles]),
     "carreau_add_atlas": (c_int32, [c_void_p, c_void_p]),
+    "carreau_geometry_count": (c_int32, [c_void_p, POINTER(c_int64)]),
+    "carreau_geometry_info": (c_int32, [c_void_p, c_int64, POINTER(carreau_geometry)]),
+    "carreau_geometry_begin": (c_int32, [c_void_p, POINTER(carreau_cad)]),
+    "carreau_geometry_end": (c_int32, [c_void_p]),
+    "carreau_geometry_cancel": (c_int32, [c_void_p]),
+    "carreau_add_bezier": (c_int32, [c_void_p, POINTER(carreau_bezier)]),
+    "carreau_load_bezier": (c_int32, [c_void_p, c_char_p]),
+    "carreau_bezier_degrees": (c_int32, [c_void_p, c_int32, Int32s]),
+    "carreau_add_molecule": (c_int32, [c_void_p, POINTER(carreau_molecule_options), c_int64, Doubles, Doubles]),
+    "carreau_load_molecule": (c_int32, [c_void_p, POINTER(carreau_molecule_options), c_char_p]),
+    "carreau_molecule_measure": (c_int32, [c_void_p, POINTER(carreau_molecule_measures)]),
+    "carreau_molecule_atoms": (c_int32, [c_void_p, c_int64, Int32s, Doubles]),
+    "carreau_molecule_atom_areas": (c_int32, [c_void_p, c_int64, Doubles, Doubles, Doubles]),
+    "carreau_molecule_atom_name": (c_char_p, [c_void_p, c_int64]),
+    "carreau_add_plane_domain": (c_int32, [c_void_p, POINTER(carreau_plane_domain)]),
+    "carreau_load_plane_domain": (c_int32, [c_void_p, c_char_p, c_char_p, c_double]),
+    "carreau_plane_has_sizes": (c_int32, [c_void_p, POINTER(c_int32)]),
+    "carreau_add_grid": (c_int32, [c_void_p, POINTER(carreau_grid_options), c_int64, Int32s, Doubles]),
+    "carreau_load_grid": (c_int32, [c_void_p, POINTER(carreau_grid_options), c_char_p, c_int32]),
+    "carreau_add_triangles": (c_int32, [c_void_p, POINTER(carreau_triangles_options), POINTER(carreau_triangles)]),
+    "carreau_load_triangles": (c_int32, [c_void_p, POINTER(carreau_triangles_options), c_char_p]),
+    "carreau_triangles_measure": (c_int32, [c_void_p, POINTER(carreau_triangles_report)]),
+    "carreau_triangles_refine": (c_int32, [c_void_p, c_double, c_int32, c_void_p]),
+    "carreau_triangles_distances": (c_int32, [c_void_p, Doubles]),
+    "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
+    "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_remesh": (c_int32, [c_void_p, POINTER(carreau_remesh_input), POINTER(carreau_remesh_summary)]),
     "carreau_remesh_nodal_values": (c_int32, [c_void_p, c_int64, Doubles]),
     "carreau_remesh_element_values": (c_int32, [c_void_p, c_int64, Doubles]),

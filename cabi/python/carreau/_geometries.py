@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _declarations as c
 from ._arrays import doubles, int32s
-from ._calls import Path, address, asked, counted, file_name, struct
+from ._calls import Path, address, asked, counted, file_name, struct, text_of
 from ._library import lib
 from ._records import Geometry, MoleculeMeasures, TrianglesReport
 from ._run import Host
@@ -118,6 +118,10 @@ class Geometries:
         self._call(lib().molecule_atom_areas, n, *areas)
         return areas.T
 
+    def atom_names(self) -> list[str]:
+        """Residues of the atoms of that molecule, "" where there is none."""
+        return [text_of(lib().molecule_atom_name(self._handle, k)) for k in range(self.molecule.atoms)]
+
     def add_grid(self, *blocks: ArrayLike, **options: Any) -> None:
         """Adds a surface through the nodes of structured grids: (rows, columns, 3) each, NaN: a node is missing. options:
         measured ("points", "heights", "radii"), smooth (rounds, or rounds and two weights), lengths, orient, join_angle
@@ -189,6 +193,14 @@ class Geometries:
     def read_pardom(self, path: Path) -> None:
         """Replaces the model by that of a file x.pardom."""
         self._call(lib().model_read_pardom, file_name(path))
+
+    def write_pardom(self, path: Path) -> None:
+        """Writes the model in the layout of x.pardom."""
+        self._call(lib().model_write_pardom, file_name(path))
+
+    def leave_out_face(self, face: int, why: str) -> None:
+        """Leaves a face out of what is meshed, for a reason; "" takes it in again."""
+        self._call(lib().model_leave_out_face, face, why.encode())
 
     # ---- what there is ----
 

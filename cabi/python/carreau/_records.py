@@ -187,6 +187,27 @@ class Measure(NamedTuple):
     forced: int
 
 
+class AtlasCounts(NamedTuple):
+    """What an atlas consists of."""
+
+    vertices: int
+    triangles: int
+    charts: int
+    triples: int
+    mended: int
+
+
+class AtlasChart(NamedTuple):
+    """The plane of a chart: its place (x, y) lies at origin + x u + y v."""
+
+    origin: tuple[float, float, float]
+    u: tuple[float, float, float]
+    v: tuple[float, float, float]
+    normal: tuple[float, float, float]
+    period: float
+    vertices: int
+
+
 class Geometry(NamedTuple):
     """A geometry, and the references that are its own: its face k is face first_face + k - 1 of the session."""
 
@@ -242,27 +263,6 @@ class TrianglesReport(NamedTuple):
     folded: int
     diagonal: float
     deviation: float
-
-
-class AtlasCounts(NamedTuple):
-    """What an atlas consists of."""
-
-    vertices: int
-    triangles: int
-    charts: int
-    triples: int
-    mended: int
-
-
-class AtlasChart(NamedTuple):
-    """The plane of a chart: its place (x, y) lies at origin + x u + y v."""
-
-    origin: tuple[float, float, float]
-    u: tuple[float, float, float]
-    v: tuple[float, float, float]
-    normal: tuple[float, float, float]
-    period: float
-    vertices: int
 
 
 class RemeshSummary(NamedTuple):
@@ -380,11 +380,11 @@ RECORDS: dict[type, Any] = {
     c.carreau_quality: Quality,
     c.carreau_delivered: Delivered,
     c.carreau_measure: Measure,
+    c.carreau_atlas_counts: AtlasCounts,
+    c.carreau_atlas_chart: AtlasChart,
     c.carreau_geometry: Geometry,
     c.carreau_molecule_measures: MoleculeMeasures,
     c.carreau_triangles_report: TrianglesReport,
-    c.carreau_atlas_counts: AtlasCounts,
-    c.carreau_atlas_chart: AtlasChart,
     c.carreau_remesh_summary: RemeshSummary,
     c.carreau_cad_content: CadContent,
     c.carreau_cad_face: CadFace,

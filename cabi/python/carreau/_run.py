@@ -129,6 +129,7 @@ def run(host: Host, call: Callable[[], int]) -> int:
     and KeyboardInterrupt."""
     host.error, host.interrupted = None, False
     with _listening(host) as pass_on:
+        pass_on()  # a run would forget what was asked before it
         status = call()
     error = host.take_error()
     if error is not None:

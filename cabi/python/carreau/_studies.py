@@ -178,6 +178,30 @@ class Studies:
         self._call(lib().delivered_values, number, len(values), values)
         return spread, values
 
+    def histogram(self, kind: str) -> tuple[Reals, NDArray[np.int64]]:
+        """Of a measure: lower bounds of the classes, the first -infinity, and how many values each has."""
+        classes = self.measure(kind)[0].classes
+        bounds, counts = np.empty(classes), np.empty(classes, dtype=np.int64)
+        self._call(lib().delivered_histogram, MEASURES[kind], classes, bounds, counts)
+        return bounds, counts
+
+    def measured_edges(self) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+        """The edges (k, 2) that measures of edges have a value for, the smaller vertex first, and the references (k) of
+        their curves, 0 inside faces."""
+        count = self.delivered.edges
+        ends, curves = np.empty((count, 2), dtype=np.int32), np.empty(count, dtype=np.int32)
+        self._call(lib().delivered_edges, count, ends, curves)
+        return ends, curves
+
+    def write_delivered(self, path: Path) -> None:
+        """Writes spreads, histograms, counts and sentences as JSON."""
+        self._run(lib().delivered_write, file_name(path))
+
+    def transfer_files(self, mesh: Path, sol: Path, out: Path) -> int:
+        """Writes the fields of a .sol on another mesh, as they are at the vertices of this one, to a .sol; returns how many
+        of these lie beside it, and have the nearest values."""
+        return counted(lambda outside: self._call(lib().transfer_files, file_name(mesh), file_name(sol), file_name(out), outside))
+
     def write_fields(self, path: Path, *, longest: int = 0, width: int = 0, height: int = 0, channels: Any = (), face: int = 0,
                      multi_part: bool = False, raw: bool = False, piz: bool = False, threads: int = 0) -> None:
         """Writes what governed the mesh of each face as images .exr, or its preview as .png; docs/fields.md has the

@@ -13,7 +13,8 @@ from .surfaces import Patch
 Values = Mapping[str, Any]
 Node = Callable[[Values], Any]
 FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{name: getattr(np, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "sqrt", "log2", "log10", "rint", "sign", "abs")},
+    **{name: getattr(np, name) for name in ("sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "sqrt", "log2", "log10", "rint",
+                                            "sign", "abs")},
     "asin": np.arcsin, "acos": np.arccos, "atan": np.arctan, "atan2": np.arctan2, "asinh": np.arcsinh, "acosh": np.arccosh,
     "atanh": np.arctanh, "ln": np.log, "log": np.log, "min": lambda *a: np.minimum.reduce(np.broadcast_arrays(*a)),
     "max": lambda *a: np.maximum.reduce(np.broadcast_arrays(*a)), "sum": lambda *a: sum(a), "avg": lambda *a: sum(a) / len(a)}

@@ -227,7 +227,8 @@ class Mesh:
 
     def picture(self, path: Optional[Path] = None, **options: Any) -> bytes:
         """A picture as PNG, written to a file where a path is given. options: width and height (pixels), view ("iso",
-        "top", "front", "right", or a direction from which to look), edges, colors ("face", "quality"); see carreau.render."""
+        "top", "front", "right", or a direction from which to look), edges, colors ("face", "quality", or n or m values); see
+        carreau.render."""
         from .render import picture
         data = picture(self, **options)
         if path is not None:
@@ -243,4 +244,5 @@ class Mesh:
         return html(self)
 
     def __repr__(self) -> str:
-        return f"<carreau.Mesh: {len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.edges)} edges on curves, {len(self.faces)} faces>"
+        counts = f"{len(self.vertices)} vertices, {len(self.triangles)} triangles, {len(self.edges)} edges on curves"
+        return f"<carreau.Mesh: {counts}, {len(self.faces)} faces>"

@@ -43,7 +43,8 @@ class Remeshed(NamedTuple):
 def _tools(tools: Sequence[Tool]) -> dict[str, Any]:
     points = [doubles(tool.points, "a tool", None, 2) for tool in tools]
     radii = [np.zeros(len(p)) if tool.radii is None else doubles(tool.radii, "radii", len(p)) for tool, p in zip(tools, points)]
-    return {"tool_starts": np.cumsum([0] + [len(p) for p in points], dtype=np.int64), "tool_points": np.concatenate(points or [np.empty((0, 2))]),
+    return {"tool_starts": np.cumsum([0] + [len(p) for p in points], dtype=np.int64),
+            "tool_points": np.concatenate(points or [np.empty((0, 2))]),
             "tool_radii": np.concatenate(radii or [np.empty(0)]), "tool_closed": np.array([int(tool.closed) for tool in tools], dtype=np.int32)}
 
 

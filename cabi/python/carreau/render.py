@@ -45,19 +45,40 @@ def _heat(value: Reals) -> Reals:
     return np.stack([np.minimum(1, 2 - 2 * v) * 0.95, np.minimum(1, 2 * v) * 0.85, 0.25 + 0 * v], axis=-1)
 
 
-def _shades(mesh: "Mesh", axes: Reals, colors: str) -> Reals:
-    """A colour (m, 3) for each triangle, lit from the eye."""
-    normals = mesh.normals
-    size = np.linalg.norm(normals, axis=1)
-    lit = np.abs(normals @ axes[2]) / np.where(size > 0, size, 1)
+def _rainbow(values: Reals) -> Reals:
+    """From blue, the smallest, by white to red; NaN is grey."""
+    known = values[np.isfinite(values)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+    s = (values - low) / (high - low if high > low else 1)
+    ends = np.where(s[:, None] < 0.5, (0.23, 0.40, 0.90), (0.88, 0.25, 0.20))
+    color: Reals = ends + (1 - ends) * (1 - np.abs(2 * s - 1))[:, None] * 0.9
+    return np.where(np.isnan(s)[:, None], 0.6, color)
+
+
+def _base(mesh: "Mesh", size: Reals, colors: Any) -> Reals:
+    """A colour (m, 3) for each triangle of twice the area `size`."""
+    if not isinstance(colors, str):
+        values = np.asarray(colors, dtype=np.float64)
+        if values.shape == (len(mesh.vertices),):
+            values = values[mesh.triangles].mean(axis=1)
+        if values.shape != (len(mesh.triangles),):
+            raise ValueError(f"colors has the shape {values.shape}: a number for each vertex, or for each triangle")
+        return _rainbow(values)
     if colors == "quality":
         p = mesh.vertices[mesh.triangles]
         squares = sum(((p[:, i] - p[:, i - 1]) ** 2).sum(axis=1) for i in range(3))
-        base = _heat(2 * np.sqrt(3) * size / np.where(squares > 0, squares, 1))
-    elif colors == "face":
-        base = _palette(np.unique(mesh.face_ids, return_inverse=True)[1])
-    else:
-        raise ValueError(f"colors is face or quality, not '{colors}'")
+        return _heat(2 * np.sqrt(3) * size / np.where(squares > 0, squares, 1))
+    if colors == "face":
+        return _palette(np.unique(mesh.face_ids, return_inverse=True)[1])
+    raise ValueError(f"colors is face, quality or an array, not '{colors}'")
+
+
+def _shades(mesh: "Mesh", axes: Reals, colors: Any) -> Reals:
+    """The same lit from the eye."""
+    normals = mesh.normals
+    size = np.linalg.norm(normals, axis=1)
+    lit = np.abs(normals @ axes[2]) / np.where(size > 0, size, 1)
+    base = _base(mesh, size, colors)
     shaded: Reals = base * (0.45 + 0.55 * lit)[:, None]
     return shaded
 
@@ -133,13 +154,14 @@ def png(pixels: NDArray[np.uint8]) -> bytes:
 
 
 def picture(mesh: "Mesh", width: int = 640, height: int = 480, view: Union[None, str, Sequence[float]] = None, edges: bool = True,
-            colors: str = "face") -> bytes:
+            colors: Any = "face") -> bytes:
     """A PNG file of a mesh.
 
     view     "iso", "top", "bottom", "front", "back", "right", "left", or the direction towards the eye; None: "iso", of a
              plane mesh "top"
     edges    draws the sides of triangles
-    colors   "face", or "quality": from red (Q2 = 0) to green (1)
+    colors   "face"; "quality": from red (Q2 = 0) to green (1); or a number for each vertex (n) or triangle (m), from blue,
+             the smallest, to red
     """
     canvas = _Canvas(width * SAMPLES, height * SAMPLES)
     if len(mesh.triangles):

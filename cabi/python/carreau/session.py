@@ -46,7 +46,7 @@ class Session(Geometries, Studies):
         self._close = weakref.finalize(self, lib().session_free, self._handle)
         self._host = Host(self._handle)
         self._kept: list[Any] = []  # callbacks of geometries, until the session is gone
-        self._sizes: Any = None
+        self._sizes: list[Any] = []  # callbacks of sizes: of the latest mesh, which is measured with them, and since
         self._runs = 0
         self.messages: list[tuple[int, str]] = []
         self._listen()
@@ -124,7 +124,7 @@ class Session(Geometries, Studies):
         """Wants sizes (model length) or metrics by functions; see carreau.sizes.SizeCallbacks. Without any: none."""
         sizes = SizeCallbacks(self._host, function, face_sizes, on_curve, at_point).struct()
         self._call(lib().set_metric_callbacks, byref(sizes))
-        self._sizes = sizes
+        self._sizes.append(sizes)
 
     def divide_curve(self, face: int, ic: int, edges: Union[int, ArrayLike], *, arithmetic: float = 1, geometric: float = 1) -> None:
         """Prescribes the edges of curve number ic, from 1, of a face, and so of all curves that are one with it.
@@ -178,6 +178,7 @@ class Session(Geometries, Studies):
         except PartialError as partial:
             log.warning("%s", partial)
         self._runs += 1
+        del self._sizes[:-1]
         return self.mesh
 
     def run_env(self, path: Path, progress: Progress = None) -> None:

@@ -26,7 +26,8 @@ class Surface:
     first    Su and Sv: a tuple of two such results; None: by finite differences, as is second
     second   Suu, Suv and Svv: a tuple of three
 
-    A function that is marked by scalar() takes floats, and gives rows of 3.
+    A function that is marked by scalar() takes floats, and gives rows of 3. Arrays that a function gets are read-only memory
+    of the library, and end with the call.
     """
 
     def __init__(self, point: Callable[..., Any], first: Optional[Callable[..., Any]] = None,

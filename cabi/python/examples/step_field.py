@@ -17,9 +17,10 @@ def temperature(xyz):
     return np.tanh((np.linalg.norm(xyz - corner, axis=1) - 3 * reach) / reach)
 
 
-mesh = carreau.adapt(path, temperature, tolerance=0.002, size="4%", gradation=1.5)
+mesh = carreau.adapt(path, temperature, tolerance=0.002, size="4%", angle=12, gradation=1.5)
 report = mesh.session.adaptation
 print(f"{report.triangles_before} triangles with an error of {report.error_max_before:.3g} become {report.triangles} with {report.error_max:.3g}")
-mesh.add_field("temperature", temperature(mesh.vertices))
+values = temperature(mesh.vertices)
+mesh.add_field("temperature", values)
 mesh.write("adapted.vtu")
-mesh.picture("adapted.png")
+mesh.picture("adapted.png", colors=values)
