@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "drawn_elements.h"
+#include "mesh_report.h"
 
 namespace command {
 namespace {
@@ -130,12 +131,14 @@ double size_of(const Point& a, const Point& b, const Point& c) {
   return std::sqrt(2 / std::sqrt(3.0)) * std::pow(dot(n, n), 0.25);
 }
 
-/// The edges of a mesh that has no triangles, such as the domain of a face that failed, as narrow rectangles.
-std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Projection& projection) {
+using Edges = std::vector<std::array<std::int32_t, 2>>;
+
+/// Edges that no triangle has, such as the domain of a face that failed, or curves of space, as narrow rectangles.
+std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Edges& edges, const Projection& projection) {
   constexpr double half_width = 0.8;  // pixels
   const Colour dark = srgb(0x202830);
   std::vector<ScreenTriangle> triangles;
-  for (const auto& [i, j] : mesh.edges) {
+  for (const auto& [i, j] : edges) {
     const Point a = projection(mesh.vertices.at(i)), b = projection(mesh.vertices.at(j));
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (!(length > 0) || !std::isfinite(length)) continue;
@@ -268,19 +271,14 @@ std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, co
   for (const auto& t : mesh.triangles)
     for (const std::int32_t v : t)
       if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
-  if (mesh.triangles.empty())
-    for (const auto& edge : mesh.edges)
-      for (const std::int32_t v : edge)
-        if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
+  const Edges loose = loose_edges(mesh);
+  for (const auto& edge : loose)
+    for (const std::int32_t v : edge)
+      if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
   const Projection projection(view, used, x0, y0, width, height);
-  if (mesh.triangles.empty()) {
-    std::vector<ScreenTriangle> lines = lines_of(mesh, projection);
-    if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, lines);
-    return lines;
-  }
   const Painter painter(mesh, projection, options);
-  std::vector<ScreenTriangle> triangles;
-  triangles.reserve(mesh.triangles.size());
+  std::vector<ScreenTriangle> triangles = lines_of(mesh, loose, projection);
+  triangles.reserve(triangles.size() + mesh.triangles.size());
   for (const Element& element : mesh.elements) painter.add(element, triangles);
   if (mesh.elements.empty())
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
