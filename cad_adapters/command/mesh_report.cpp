@@ -221,11 +221,7 @@ void look_at_edges(const MeshArrays& mesh, std::size_t listed, MeshReport& repor
     if (folds(mesh, first[0], first[1])) ++report.folds, add_place(report.fold_at, place, listed);
   });
   report.open_edges = static_cast<std::int64_t>(open.size());
-  std::vector<std::array<std::int32_t, 2>> of_triangles;
-  for (const Side& side : sides) of_triangles.push_back({side.low, side.high});
-  for (const auto& [a, b] : mesh.edges)
-    if (!std::binary_search(of_triangles.begin(), of_triangles.end(), std::array{std::min(a, b), std::max(a, b)}))
-      ++report.loose_edges;
+  report.loose_edges = std::ssize(loose_edges(mesh));
   find_borders(mesh, open, report);
   find_turned(mesh, components, listed, report);
 }
@@ -290,6 +286,24 @@ void look_at_vertices(const MeshArrays& mesh, std::size_t listed, MeshReport& re
 }
 
 }  // namespace
+
+std::vector<std::array<std::int32_t, 2>> loose_edges(const MeshArrays& mesh) {
+  using Edge = std::array<std::int32_t, 2>;
+  const auto ordered = [](std::int32_t a, std::int32_t b) { return Edge{std::min(a, b), std::max(a, b)}; };
+  std::vector<Edge> edges;  // few beside the triangles
+  for (const Edge& edge : mesh.edges) edges.push_back(ordered(edge[0], edge[1]));
+  std::sort(edges.begin(), edges.end());
+  std::vector<char> has_triangle(edges.size(), 0);
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [first, last] = std::equal_range(edges.begin(), edges.end(), ordered(t[k], t[(k + 1) % 3]));
+      std::fill(has_triangle.begin() + (first - edges.begin()), has_triangle.begin() + (last - edges.begin()), 1);
+    }
+  std::vector<Edge> loose;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (has_triangle[e] == 0) loose.push_back(edges[e]);
+  return loose;
+}
 
 MeshReport report_of(const MeshArrays& mesh, std::size_t worst, std::size_t listed) {
   MeshReport report;

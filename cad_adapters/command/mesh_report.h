@@ -55,6 +55,9 @@ struct MeshReport {
   std::vector<FaceFigures> faces;  ///< ascending references
 };
 
+/// Edges of curves that no triangle has.
+std::vector<std::array<std::int32_t, 2>> loose_edges(const MeshArrays& mesh);
+
 /// Indices must be in range and numbers finite. Lists hold at most `listed` places each; `worst` triangles are listed.
 MeshReport report_of(const MeshArrays& mesh, std::size_t worst, std::size_t listed);
 

@@ -10,6 +10,7 @@
 
 #include "drawn_elements.h"
 #include "face_colours.h"
+#include "mesh_report.h"
 
 namespace command {
 namespace {
@@ -45,12 +46,14 @@ bool is_dark(const Colour& colour) {
   return 0.2126f * colour[0] + 0.7152f * colour[1] + 0.0722f * colour[2] < darkest;
 }
 
-/// The edges of a mesh that has no triangles, such as the domain of a face that failed, as narrow rectangles.
-std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Projection& projection) {
+using Edges = std::vector<std::array<std::int32_t, 2>>;
+
+/// Edges that no triangle has, such as the domain of a face that failed, or curves of space, as narrow rectangles.
+std::vector<ScreenTriangle> lines_of(const MeshArrays& mesh, const Edges& edges, const Projection& projection) {
   constexpr double half_width = 0.8;  // pixels
   const Colour dark = srgb(0x202830);
   std::vector<ScreenTriangle> triangles;
-  for (const auto& [i, j] : mesh.edges) {
+  for (const auto& [i, j] : edges) {
     const Point a = projection(mesh.vertices.at(i)), b = projection(mesh.vertices.at(j));
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (!(length > 0) || !std::isfinite(length)) continue;
@@ -186,7 +189,8 @@ double shape_quality(const Point& a, const Point& b, const Point& c) {
 namespace {
 
 /// What the picture has to hold: the ends of the axes of a ball, or the mesh.
-std::vector<Point> shown_points(const MeshArrays& mesh, const View& view, const SceneOptions& options) {
+std::vector<Point> shown_points(const MeshArrays& mesh, const Edges& loose, const View& view,
+                                const SceneOptions& options) {
   std::vector<Point> used;
   if (options.around) {
     const auto& [x, y, z, radius] = *options.around;
@@ -198,10 +202,9 @@ std::vector<Point> shown_points(const MeshArrays& mesh, const View& view, const 
   for (const auto& t : mesh.triangles)
     for (const std::int32_t v : t)
       if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
-  if (mesh.triangles.empty())
-    for (const auto& edge : mesh.edges)
-      for (const std::int32_t v : edge)
-        if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
+  for (const auto& edge : loose)
+    for (const std::int32_t v : edge)
+      if (finite(mesh.vertices.at(v))) used.push_back(mesh.vertices[v]);
   return used;
 }
 
@@ -209,15 +212,11 @@ std::vector<Point> shown_points(const MeshArrays& mesh, const View& view, const 
 
 std::vector<ScreenTriangle> project(const MeshArrays& mesh, const View& view, const SceneOptions& options, double x0,
                                     double y0, double width, double height) {
-  const Projection projection(view, shown_points(mesh, view, options), x0, y0, width, height);
-  if (mesh.triangles.empty()) {
-    std::vector<ScreenTriangle> lines = lines_of(mesh, projection);
-    if (!options.metrics.empty()) add_ellipses(mesh, options.metrics, options.ellipse_scale, projection, lines);
-    return lines;
-  }
+  const Edges loose = loose_edges(mesh);
+  const Projection projection(view, shown_points(mesh, loose, view, options), x0, y0, width, height);
   const Painter painter(mesh, projection, options);
-  std::vector<ScreenTriangle> triangles;
-  triangles.reserve(mesh.triangles.size());
+  std::vector<ScreenTriangle> triangles = lines_of(mesh, loose, projection);
+  triangles.reserve(triangles.size() + mesh.triangles.size());
   for (const Element& element : mesh.elements) painter.add(element, triangles);
   if (mesh.elements.empty())
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

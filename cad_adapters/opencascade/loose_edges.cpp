@@ -7,6 +7,9 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
+#include <algorithm>
+#include <limits>
+#include <optional>
 
 namespace carreau_occ {
 
@@ -19,6 +22,39 @@ Breaks breaks_of(const BRepAdaptor_Curve& curve) {
   return {{at.begin(), at.end()}, curve.IsPeriodic() == Standard_True, curve.IsPeriodic() ? curve.Period() : 0};
 }
 
+/// Vertices by place.
+class NearVertices {
+ public:
+  explicit NearVertices(const TopTools_IndexedMapOfShape& vertices) {
+    for (int v = 1; v <= vertices.Extent(); ++v) {
+      const TopoDS_Vertex vertex = TopoDS::Vertex(vertices(v));
+      all_.push_back({BRep_Tool::Pnt(vertex), BRep_Tool::Tolerance(vertex), v});
+      widest_ = std::max(widest_, all_.back().tolerance);
+    }
+    std::sort(all_.begin(), all_.end(), [](const Place& p, const Place& q) { return p.at.X() < q.at.X(); });
+  }
+  /// The smallest number of a vertex that is one with this one within both tolerances.
+  [[nodiscard]] int first_at(const TopoDS_Vertex& vertex) const {
+    const gp_Pnt at = BRep_Tool::Pnt(vertex);
+    const double tolerance = BRep_Tool::Tolerance(vertex), reach = tolerance + widest_;
+    auto near = std::lower_bound(all_.begin(), all_.end(), at.X() - reach,
+                                 [](const Place& p, double x) { return p.at.X() < x; });
+    int first = std::numeric_limits<int>::max();
+    for (; near != all_.end() && near->at.X() <= at.X() + reach; ++near)
+      if (near->at.Distance(at) <= tolerance + near->tolerance) first = std::min(first, near->number);
+    return first;
+  }
+
+ private:
+  struct Place {
+    gp_Pnt at;
+    double tolerance;
+    int number;
+  };
+  std::vector<Place> all_;  // by x
+  double widest_ = 0;
+};
+
 }  // namespace
 
 std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges,
@@ -26,6 +62,7 @@ std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTool
   TopTools_IndexedDataMapOfShapeListOfShape faces;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
   std::vector<LooseEdge> found;
+  std::optional<NearVertices> near;
   for (int e = 1; e <= edges.Extent(); ++e) {
     if (!faces.FindFromKey(edges(e)).IsEmpty()) continue;
     LooseEdge loose;
@@ -37,7 +74,10 @@ std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTool
     BRep_Tool::Range(loose.edge, loose.first, loose.last);
     if (Precision::IsInfinite(loose.first) || Precision::IsInfinite(loose.last) || !(loose.first < loose.last))
       continue;
-    loose.end1 = vertices.FindIndex(first), loose.end2 = vertices.FindIndex(last);
+    if (!near) near.emplace(vertices);
+    loose.end1 = near->first_at(first), loose.end2 = near->first_at(last);
+    if (loose.end1 == loose.end2 && !first.IsSame(last))
+      loose.end1 = vertices.FindIndex(first), loose.end2 = vertices.FindIndex(last);
     found.push_back(std::move(loose));
   }
   return found;

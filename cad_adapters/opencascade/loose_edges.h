@@ -24,7 +24,8 @@ struct LooseEdge {
 };
 
 /// Those of a shape that can be meshed, ascending, by the maps of its edges and vertices. Without those that have no
-/// length, no end or no curve.
+/// length, no end or no curve. Files often give each such edge vertices of its own: an end within the tolerances of
+/// another vertex has the smallest number of those, unless both ends would get one that the file keeps apart.
 std::vector<LooseEdge> find_loose_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& edges,
                                         const TopTools_IndexedMapOfShape& vertices);
 

@@ -735,7 +735,7 @@ contains
     call expect(status == CARREAU_ERR_SEQUENCE, 'generate without geometry')
     call carreau_set_integer(session, 'frontel', 1, status)
     call expect(carreau_last_error(session) == "there is no parameter 'frontel'; did you mean 'frontal'?", 'last_error')
-    call carreau_model_add_face(session, 7, 0, status)
+    call carreau_model_add_curve(session, 7, 3, 1, 1, 2, status)
     call carreau_last_error_place(session, place, status)
     call expect(status == CARREAU_OK .and. place%face == 7, 'error_place')
     call carreau_session_mesh(session, mesh, status)
