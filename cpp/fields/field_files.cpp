@@ -100,7 +100,8 @@ class FieldWriter {
         sources.back().prescribed = &prescribed.back();
       }
       if (origin_rules_) {
-        origins.emplace_back(static_cast<int>(f), *origin_rules_, interfaces_of(f), monitor_);
+        origins.emplace_back(static_cast<int>(f), *origin_rules_, interfaces_of(f), limits().field != nullptr,
+                             monitor_);
         sources.back().origins = &origins.back();
       }
       const auto all = static_cast<double>(faces_.size()), before = static_cast<double>(begun_ + images.size());

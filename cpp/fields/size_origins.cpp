@@ -46,8 +46,8 @@ double least(const TangentSizes& sizes) noexcept { return std::isnan(sizes.h1) ?
 
 }  // namespace
 
-OriginRules::OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& size)
-    : both(model, topology, cad, size) {
+OriginRules::OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters)
+    : both(model, topology, cad, parameters), size(parameters) {
   const auto set = [&](std::optional<SizeRules>& clamped, std::optional<SizeRules>& any, const SizeParameters& part) {
     clamped.emplace(model, topology, cad, part);
     any.emplace(model, topology, cad, widened(part));
@@ -56,13 +56,15 @@ OriginRules::OriginRules(const Model& model, const Topology& topology, Cad& cad,
   if (size.geometric != GeometricSizes::ignored) set(geometric, any_geometric, geometric_of(size));
 }
 
-SizeOrigins::SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, Monitor& monitor) {
+SizeOrigins::SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, bool graded,
+                         Monitor& monitor)
+    : size_(rules.size) {
   const auto set = [&](Part& part, const std::optional<SizeRules>& own) {
     if (own) part.metric.emplace(face, *own, interfaces, monitor);
   };
   set(physical_, rules.physical), set(any_physical_, rules.any_physical);
   set(geometric_, rules.geometric), set(any_geometric_, rules.any_geometric);
-  both_.metric.emplace(face, rules.both, interfaces, monitor);
+  if (graded) both_.metric.emplace(face, rules.both, interfaces, monitor);
 }
 
 void SizeOrigins::ask(Part& part, std::span<const Vec2> uv, std::span<const SurfaceJet> jets) {
@@ -84,15 +86,31 @@ void SizeOrigins::ask(Part& part, std::span<const Vec2> uv, std::span<const Surf
   for (std::size_t i = 0; i < uv.size(); ++i) known(i, 1);
 }
 
+/// Only a size on one of its bounds can have been moved there; elsewhere `any` says what `own` says.
+void SizeOrigins::ask_beyond(Part& any, const Part& own, double low, double high, std::span<const Vec2> uv,
+                             std::span<const SurfaceJet> jets) {
+  const bool on_bound = std::any_of(own.sizes.begin(), own.sizes.end(), [&](const TangentSizes& sizes) {
+    return !differ(sizes.h1, low) || !differ(sizes.h1, high);
+  });
+  if (on_bound)
+    ask(any, uv, jets);
+  else
+    any.sizes = own.sizes;
+}
+
 void SizeOrigins::at(std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<const Metric2> prescribed,
                      std::span<OriginsAt> origins) {
   for_pieces(uv.size(), batch, [&](std::size_t first, std::size_t n) {
-    for (Part* part : {&physical_, &geometric_, &any_physical_, &any_geometric_, &both_})
-      ask(*part, uv.subspan(first, n), jets.subspan(first, n));
+    const auto points = uv.subspan(first, n);
+    const auto there = jets.subspan(first, n);
+    for (Part* part : {&physical_, &geometric_, &both_}) ask(*part, points, there);
+    ask_beyond(any_physical_, physical_, size_.hphymin, size_.hphymax, points, there);
+    ask_beyond(any_geometric_, geometric_, size_.hgeomin, size_.hgeomax, points, there);
     for (std::size_t i = 0; i < n; ++i) {
       OriginsAt& here = origins[first + i];
       here = {physical_.sizes[i], geometric_.sizes[i], {}};
-      const double graded = tangent_sizes(jets[first + i], prescribed[first + i]).h1, whole = both_.sizes[i].h1;
+      const double graded = tangent_sizes(there[i], prescribed[first + i]).h1;
+      const double whole = both_.metric ? both_.sizes[i].h1 : graded;
       if (std::isnan(graded) || std::isnan(whole)) continue;
       const bool geometric = least(here.geometric) < least(here.physical);
       const TangentSizes &own = geometric ? here.geometric : here.physical,

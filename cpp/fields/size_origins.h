@@ -22,11 +22,12 @@ enum class SizeOrigin : std::uint32_t {
 /// The rules of a run, apart. Each may be missing: that size is ignored.
 struct OriginRules {
   /// Keeps references to its arguments. Throws what SizeRules throws.
-  OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& size);
+  OriginRules(const Model& model, const Topology& topology, Cad& cad, const SizeParameters& parameters);
 
   std::optional<SizeRules> physical, geometric;          ///< clamped
   std::optional<SizeRules> any_physical, any_geometric;  ///< within bounds a million times as wide
   SizeRules both;
+  SizeParameters size;
 };
 
 /// At one place. All members of sizes are NaN where they are ignored or not known.
@@ -38,7 +39,8 @@ struct OriginsAt {
 /// The origins of one face (index in Model::faces). Keeps references. For one thread.
 class SizeOrigins {
  public:
-  SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, Monitor& monitor);
+  /// `graded`: what is prescribed may be smaller than what the rules say.
+  SizeOrigins(int face, const OriginRules& rules, const FaceInterfaces& interfaces, bool graded, Monitor& monitor);
 
   /// `jets` hold what FaceMetric::wants() of the whole rules asks for; `prescribed`: what FaceMetric says there, with
   /// its gradation. Asks the host for its sizes again; a failure of the host is a place that is not known. Throws
@@ -52,7 +54,10 @@ class SizeOrigins {
     std::vector<TangentSizes> sizes;  // of the batch
   };
   void ask(Part& part, std::span<const Vec2> uv, std::span<const SurfaceJet> jets);
+  void ask_beyond(Part& any, const Part& own, double low, double high, std::span<const Vec2> uv,
+                  std::span<const SurfaceJet> jets);
 
+  const SizeParameters& size_;
   Part physical_, geometric_, any_physical_, any_geometric_, both_;
 };
 

@@ -115,3 +115,15 @@ for what in sizes metrics; do
   done
   carreau picture ${what}1.mesh -o "$out/plane_strip_$what.png" --size 900x260
 done
+
+# HDR fig. 4.9: the parameter plane of the paraboloid z = (x^2 + y^2)/2, meshed so that the surface has edges of .5, with the ellipses of the induced
+# metric (1 + x^2, x y, 1 + y^2) / .5^2. Without formulas (muParser) this figure is left out.
+if carreau mesh 'z = (x^2 + y^2) / 2' --domain box:-2.5,-2.5,2.5,2.5 --size 0.5 -o sheet.mesh -q 2> sheet.log; then
+  awk '$1 == "Dimension" { print; getline; print 2; next }
+    $1 == "Vertices" { print; getline; print; n = $1; for (i = 0; i < n; ++i) { getline; print $1, $2, $4 } next }
+    { print }' sheet.mesh > flat.mesh
+  awk '$1 == "Vertices" { getline; n = $1; print "MeshVersionFormatted 2\nDimension 2\nSolAtVertices\n" n "\n1 3"
+      for (i = 0; i < n; ++i) { getline; print (1 + $1 * $1) / .25, $1 * $2 / .25, (1 + $2 * $2) / .25 }
+      print "End" }' flat.mesh > flat.sol
+  carreau picture flat.mesh --metric flat.sol -o "$out/paraboloid_induced.png" --size 480x480
+fi
