@@ -14,6 +14,7 @@ extensions = ["myst_parser", "fortran_domain"]
 if os.path.exists(os.path.join(docs, "../cabi/include/carreau.hpp")):
     extensions.append("breathe")  # build.sh says where Doxygen's XML is
 breathe_default_project = "carreau"
+breathe_show_include = False
 root_doc = "index"
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 myst_heading_anchors = 3

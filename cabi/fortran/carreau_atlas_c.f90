@@ -41,7 +41,7 @@ module carreau_atlas_c
       type(c_ptr), value :: loop
     end subroutine c_loop_free
 
-    !> NULL is allowed
+    !> Returns the sentence of the last call on the loop, "" after success.
     function c_loop_last_error(loop) result(error) bind(c, name="carreau_loop_last_error")
       import :: c_ptr
       implicit none
@@ -109,7 +109,7 @@ module carreau_atlas_c
       type(c_ptr), value :: annulus
     end subroutine c_annulus_free
 
-    !> NULL is allowed
+    !> Returns the sentence of the last call on the annulus, "" after success.
     function c_annulus_last_error(annulus) result(error) bind(c, name="carreau_annulus_last_error")
       import :: c_ptr
       implicit none
@@ -215,7 +215,7 @@ module carreau_atlas_c
       type(c_ptr), value :: atlas
     end subroutine c_atlas_free
 
-    !> NULL is allowed
+    !> Returns the sentence of the last call on the atlas, "" after success.
     function c_atlas_last_error(atlas) result(error) bind(c, name="carreau_atlas_last_error")
       import :: c_ptr
       implicit none

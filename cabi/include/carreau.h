@@ -684,7 +684,7 @@ CARREAU_API carreau_status carreau_session_mesh(carreau_session* session, carrea
 
 /* Creates an empty mesh. Fill it by carreau_mesh_read, and free it by carreau_mesh_free. Errors: ARGUMENT, MEMORY. */
 CARREAU_API carreau_status carreau_mesh_create(carreau_mesh** out_mesh);
-CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* NULL is allowed */
+CARREAU_API void carreau_mesh_free(carreau_mesh* mesh); /* Frees it. NULL is allowed */
 
 /* Returns the sentence of the last call on the mesh, "" after success. It lives until the next call on the mesh. */
 CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);

@@ -30,7 +30,8 @@ enum {
 
 /* Creates an empty loop. Errors: ARGUMENT, MEMORY. */
 CARREAU_API carreau_status carreau_loop_create(carreau_loop** out_loop);
-CARREAU_API void carreau_loop_free(carreau_loop* loop); /* NULL is allowed */
+CARREAU_API void carreau_loop_free(carreau_loop* loop); /* Frees it. NULL is allowed */
+/* Returns the sentence of the last call on the loop, "" after success. It lives until the next call on it. */
 CARREAU_API const char* carreau_loop_last_error(const carreau_loop* loop);
 
 /* Describes a polygon of n vertices (n x 2: x y), counterclockwise, the first one not repeated. On an error the loop is as before.
@@ -68,7 +69,8 @@ enum {
 
 /* Creates an empty annulus. Errors: ARGUMENT, MEMORY. */
 CARREAU_API carreau_status carreau_annulus_create(carreau_annulus** out_annulus);
-CARREAU_API void carreau_annulus_free(carreau_annulus* annulus); /* NULL is allowed */
+CARREAU_API void carreau_annulus_free(carreau_annulus* annulus); /* Frees it. NULL is allowed */
+/* Returns the sentence of the last call on the annulus, "" after success. It lives until the next call on it. */
 CARREAU_API const char* carreau_annulus_last_error(const carreau_annulus* annulus);
 
 /* Describes the annulus between two polygons, both counterclockwise (n x 2, m x 2). Where no pivots see all of it, its outer border
@@ -130,7 +132,8 @@ typedef struct carreau_atlas_chart {
 
 /* Creates an empty atlas. Errors: ARGUMENT, MEMORY. */
 CARREAU_API carreau_status carreau_atlas_create(carreau_atlas** out_atlas);
-CARREAU_API void carreau_atlas_free(carreau_atlas* atlas); /* NULL is allowed */
+CARREAU_API void carreau_atlas_free(carreau_atlas* atlas); /* Frees it. NULL is allowed */
+/* Returns the sentence of the last call on the atlas, "" after success. It lives until the next call on it. */
 CARREAU_API const char* carreau_atlas_last_error(const carreau_atlas* atlas);
 
 /* Covers a closed surface of n vertices (n x 3) and m triangles (m x 3, indices from 0, counterclockwise from outside). clusters: the

@@ -69,8 +69,9 @@ def fortran_share(interfaces):
 def cpp_share(xml):
     share, calls = Share("C++"), Calls(ROOT, "cpp")
     for entity in cpp_pages.entities(cpp_pages.doxygen(CPP_HEADERS, xml)):
+        constructor = entity.scope.rsplit("::", 1)[-1] == entity.name
         share.add(f"{entity.scope}::{entity.name}", (not entity.described, "description"),
-                  (entity.kind == "function" and not calls.find(entity.name), "example"))
+                  (entity.kind == "function" and not constructor and not calls.find(entity.name), "example"))
     return share
 
 

@@ -56,8 +56,10 @@ class Places:
             elif fence and fence.group(1) == fenced:
                 fenced = None
             elif fenced is not None:
-                if toctree and re.match(r"\S+\.md$", line):
-                    line = os.path.relpath(self.page(os.path.normpath(os.path.join(os.path.dirname(path), line))), here or ".")
+                entry = re.match(r"(.*<)?([^\s<]+\.md)(>?)$", line) if toctree else None
+                if entry:
+                    page = self.page(os.path.normpath(os.path.join(os.path.dirname(path), entry.group(2))))
+                    line = (entry.group(1) or "") + os.path.relpath(page, here or ".") + entry.group(3)
             else:
                 line = "`".join(part if i % 2 else LINK.sub(link, part) for i, part in enumerate(line.split("`"))) if "](" in line and not code_in_link(line) \
                     else LINK.sub(link, line)
