@@ -34,7 +34,8 @@ def by_vtk(path):
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
     errors = []
-    reader = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".stl": vtk.vtkSTLReader}[os.path.splitext(path)[1]]()
+    reader = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".stl": vtk.vtkSTLReader, ".ply": vtk.vtkPLYReader,
+              ".obj": vtk.vtkOBJReader}[os.path.splitext(path)[1]]()
     reader.AddObserver("ErrorEvent", lambda *_: errors.append(path))
     reader.SetFileName(path)
     reader.Update()
@@ -53,9 +54,18 @@ def by_vtk(path):
 
 def by_meshio(path):
     import meshio
+    import numpy
     mesh = meshio.read(path, file_format="gmsh") if path.endswith(".msh2") else meshio.read(path)
     triangles, refs = [], []
-    key = next((k for k in ("reference", "gmsh:geometrical", "medit:ref") if k in mesh.cell_data), None)
+    key = next((k for k in ("reference", "gmsh:geometrical", "medit:ref", "nastran:ref", "su2:tag") if k in mesh.cell_data), None)
+    if path.endswith(".inp"):
+        assert all(name in mesh.cell_sets for name in (f"face_{face}" for face in WANTED)), list(mesh.cell_sets)
+        refs_of = [[0] * len(block.data) for block in mesh.cells]
+        for face in WANTED:
+            for refs_of_block, members in zip(refs_of, mesh.cell_sets[f"face_{face}"]):
+                for i in members:
+                    refs_of_block[i] = face
+        key, mesh.cell_data["reference"] = "reference", [numpy.array(block) for block in refs_of]
     for i, block in enumerate(mesh.cells):
         if block.type == "triangle":
             triangles += block.data.tolist()
@@ -92,8 +102,9 @@ def by_gmsh(path):
         gmsh.finalize()
 
 
-READERS = {"vtk": (by_vtk, ("vtu", "stl")), "gmsh": (by_gmsh, ("msh", "msh2", "mesh", "stl")),
-           "meshio": (by_meshio, ("vtu", "msh", "msh2", "mesh", "meshb", "stl"))}
+READERS = {"vtk": (by_vtk, ("vtu", "stl", "ply", "obj")), "gmsh": (by_gmsh, ("msh", "msh2", "mesh", "stl", "unv", "bdf")),
+           "meshio": (by_meshio, ("vtu", "msh", "msh2", "mesh", "meshb", "stl", "inp", "bdf", "su2", "ply", "off", "obj"))}
+WANTED = {}  # references of faces and their numbers of triangles
 
 
 KINDS = {"triangles3": 3, "triangles6": 6, "quads4": 4, "quads8": 8}  # elements, as `carreau check` calls them: nodes
@@ -158,9 +169,9 @@ def elements_by_gmsh(path):
 
 # Formats of which they know quadrilaterals, curved triangles and curved quadrilaterals.
 ELEMENT_READERS = {"vtk": (elements_by_vtk, {"q1": ("vtu",), "p2": ("vtu",), "q2": ("vtu",)}),
-                   "gmsh": (elements_by_gmsh, {"q1": ("msh", "msh2", "mesh"), "p2": ("msh", "msh2", "mesh"), "q2": ("msh", "msh2")}),
-                   "meshio": (elements_by_meshio, {"q1": ("vtu", "msh", "msh2", "mesh"), "p2": ("vtu", "msh", "msh2"),
-                                                   "q2": ("vtu", "msh", "msh2")})}
+                   "gmsh": (elements_by_gmsh, {"q1": ("msh", "msh2", "mesh", "unv", "bdf"), "p2": ("msh", "msh2", "mesh", "unv"), "q2": ("msh", "msh2", "unv")}),
+                   "meshio": (elements_by_meshio, {"q1": ("vtu", "msh", "msh2", "mesh", "inp", "bdf", "su2", "ply", "off", "obj"), "p2": ("vtu", "msh", "msh2", "inp", "bdf"),
+                                                   "q2": ("vtu", "msh", "msh2", "inp", "bdf")})}
 
 
 def check_elements(folder, geometry, element, options):
@@ -186,6 +197,8 @@ def check(folder, geometry, options):
     done = subprocess.run([PROGRAM, "mesh", geometry, *outputs, "--json", *options], check=True, capture_output=True, text=True)
     told = json.loads(done.stdout)
     wanted = {face["reference"]: face["triangles"] for face in told["faces"]}
+    WANTED.clear()
+    WANTED.update(wanted)
     for form, name in names.items():
         points, triangles, refs = read(name)
         assert len(triangles) == sum(wanted.values()), (name, len(triangles), wanted)
