@@ -14,7 +14,7 @@ namespace carreau {
 /// Gmsh ASCII (`.msh`, version 4.1; `.msh2`, version 2.2; both with physical names).
 /// BL2D (`.bl2d`, meshes of the plane z = 0).
 /// Solvers: Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`, written only), SU2 (`.su2`), with named sets.
-/// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary, with references).
+/// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary).
 enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply };
 
 struct MeshFileOptions {

@@ -1,9 +1,8 @@
-// OFF, Wavefront OBJ and PLY as text and bytes: triangles and straight quadrilaterals. OBJ has a group a face and lines along
-// curves; PLY has the reference of each face.
+// OFF and Wavefront OBJ as text, PLY as bytes: triangles and straight quadrilaterals. OBJ has a group a face and lines along curves;
+// the others have neither. A property of faces would hold references in PLY, but not every reader of its bytes skips one.
 #include <bit>
 #include <cstring>
 
-#include "io/element_lists.h"
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"
 #include "support/format.h"
@@ -21,16 +20,12 @@ void add_point(const FlatMesh& mesh, std::size_t v, std::string& text) {
   append_number(text, mesh.dimension == 3 ? p.z() : 0.0), text += '\n';
 }
 
-/// use(nodes, count, reference) for each element, in the order of the mesh.
+/// use(nodes, count) for each element, in the order of the mesh.
 template <typename Use>
 void for_each_polygon(const FlatMesh& mesh, Use&& use) {
-  std::size_t t = 0;
-  for (const Cell& cell : mesh.cells) {
-    const int corners = corner_count(cell.kind);
-    use(cell.nodes.data(), corners, ref_of(mesh.triangle_refs, t));
-    t += corners == 4 ? 2 : 1;
-  }
-  for (; t < mesh.triangles.size(); ++t) use(mesh.triangles[t].data(), 3, ref_of(mesh.triangle_refs, t));
+  for (const Cell& cell : mesh.cells) use(cell.nodes.data(), corner_count(cell.kind));
+  if (mesh.cells.empty())
+    for (const auto& triangle : mesh.triangles) use(triangle.data(), 3);
 }
 
 std::size_t count_polygons(const FlatMesh& mesh) {
@@ -51,7 +46,7 @@ std::string off_text(const FlatMesh& mesh) {
   std::string text =
       "OFF\n" + std::to_string(mesh.vertices.size()) + " " + std::to_string(count_polygons(mesh)) + " 0\n";
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) add_point(mesh, v, text);
-  for_each_polygon(mesh, [&](const std::int32_t* nodes, int count, std::int32_t) {
+  for_each_polygon(mesh, [&](const std::int32_t* nodes, int count) {
     text += std::to_string(count);
     for (int k = 0; k < count; ++k) text.append(" ").append(std::to_string(nodes[k]));
     text += '\n';
@@ -90,13 +85,12 @@ std::string ply_bytes(const FlatMesh& mesh) {
                       "_endian 1.0\ncomment mesh by Carreau\nelement vertex " + std::to_string(mesh.vertices.size()) +
                       "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
                       std::to_string(count_polygons(mesh)) +
-                      "\nproperty list uchar int vertex_indices\nproperty int reference\nend_header\n";
+                      "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Vec3& p : mesh.vertices)
     for (const double x : {p.x(), p.y(), mesh.dimension == 3 ? p.z() : 0.0}) add_bytes(x, bytes);
-  for_each_polygon(mesh, [&](const std::int32_t* nodes, int count, std::int32_t ref) {
+  for_each_polygon(mesh, [&](const std::int32_t* nodes, int count) {
     add_bytes(static_cast<std::uint8_t>(count), bytes);
     for (int k = 0; k < count; ++k) add_bytes(nodes[k], bytes);
-    add_bytes(ref, bytes);
   });
   return bytes;
 }

@@ -9,13 +9,13 @@ namespace {
 
 constexpr std::size_t longest_name = 80, number_width = 20, a_line = 16;
 
-/// Shells of three to eight nodes, whose order is that of the format.
+/// Shells of three to eight nodes, whose order is that of the format, as CalculiX calls them: S6 is STRI65 in Abaqus.
 const char* type_of(CellKind kind) noexcept {
   switch (kind) {
     case CellKind::triangle3:
       return "S3";
     case CellKind::triangle6:
-      return "STRI65";
+      return "S6";
     case CellKind::quad4:
       return "S4";
     case CellKind::quad8:
