@@ -16,7 +16,7 @@
 namespace command {
 namespace {
 
-constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .off, .obj or .ply";
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .su2, .off, .obj or .ply";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
     ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
@@ -85,8 +85,8 @@ void CommandLine::add_mesh() {
   mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
       ->type_name(kind::file);
   repeated(mesh->add_option("-o,--output", mesh_.outputs,
-                            "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2), .exr (fields) or .html "
-                            "(a report); may be repeated"))
+                            "File to write: .mesh, .meshb, .vtu, .stl, .msh (Gmsh 4.1), .msh2 (2.2), .inp, .bdf, .unv, .su2, "
+                            ".off, .obj, .ply, .exr (fields) or .html (a report); may be repeated"))
       ->required()
       ->type_name(kind::file);
   add_molecule_options(mesh, mesh_.molecule);

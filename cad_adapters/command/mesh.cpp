@@ -56,13 +56,21 @@ std::vector<std::int32_t> faces_of_model(carreau_session* session) {
   return refs;
 }
 
+bool is_one_of(const std::string& suffix, std::initializer_list<const char*> list) {
+  return std::find(list.begin(), list.end(), suffix) != list.end();
+}
+
 /// A format that has no such elements is told before anything is meshed. In .stl they are straight triangles.
 void refuse_elements(carreau_session* session, const std::vector<std::string>& outputs) {
   const char* element = nullptr;
   require(session, carreau_get_text(session, "element", &element));
-  for (const std::string& path : outputs)
-    if (std::string(element) != "p1" && suffix_of(path) == ".bl2d")
-      throw Failure("'" + path + "' cannot hold elements " + element + ": .bl2d knows straight triangles (p1) only.");
+  const std::string asked = element;
+  for (const std::string& path : outputs) {
+    if (asked != "p1" && suffix_of(path) == ".bl2d")
+      throw Failure("'" + path + "' cannot hold elements " + asked + ": .bl2d knows straight triangles (p1) only.");
+    if ((asked.starts_with("p2") || asked.starts_with("q2")) && is_one_of(suffix_of(path), {".su2", ".off", ".obj", ".ply"}))
+      throw Failure("'" + path + "' cannot hold elements " + asked + ": " + suffix_of(path) + " knows those of order 1 only.");
+  }
 }
 
 /// Throws Failure when there is no mesh.
@@ -168,7 +176,8 @@ int mesh(const MeshOptions& given) {
   SizeMap map(options.size_map);
   if (!map.mesh_file().empty() && !options.adapt.mesh.empty())
     throw Failure("--size-map names a background mesh, and --mesh is one: only one of them can hold.");
-  std::vector<std::string> suffixes{".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2", ".bl2d", ".exr", ".html"};
+  std::vector<std::string> suffixes = written_meshes;
+  suffixes.insert(suffixes.end(), {".exr", ".html"});
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});

@@ -11,7 +11,7 @@ namespace command {
 
 int refine(const RefineOptions& options) {
   catch_signals();
-  OutputFiles outputs(options.outputs, {".mesh", ".meshb", ".vtu", ".stl", ".msh", ".msh2"}, {options.input});
+  OutputFiles outputs(options.outputs, written_meshes, {options.input});
   if (!is_triangles(options.input)) throw Failure("'" + options.input + "' is no file of triangles.");
   const MeshHandle mesh =
       refined_triangles(options.input, options.triangles, options.angle, options.depth, options.quiet);

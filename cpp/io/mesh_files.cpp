@@ -11,12 +11,38 @@ namespace carreau {
 
 namespace {
 
-/// Formats that are read only.
-struct PolygonReader {
+FlatMesh read_medit(std::string_view content, const std::string& name) {
+  return starts_as_gmf(content) ? read_mesh_binary(content, name) : read_mesh_text(content, name);
+}
+
+[[noreturn]] FlatMesh refuse_unv(std::string_view, const std::string& name) {
+  throw InvalidArgument("'" + name + "' cannot be read: .unv is written only");
+}
+
+struct Format {
   const char* suffix;
+  MeshFormat format;
   FlatMesh (*read)(std::string_view content, const std::string& name);
 };
-constexpr PolygonReader polygon_readers[] = {{".off", read_mesh_off}, {".obj", read_mesh_obj}, {".ply", read_mesh_ply}};
+constexpr Format formats[] = {
+    {".mesh", MeshFormat::mesh, read_medit},     {".meshb", MeshFormat::meshb, read_medit},
+    {".vtu", MeshFormat::vtu, read_mesh_vtu},    {".stl", MeshFormat::stl, read_mesh_stl},
+    {".msh", MeshFormat::msh, read_mesh_msh},    {".msh2", MeshFormat::msh2, read_mesh_msh},
+    {".bl2d", MeshFormat::bl2d, read_mesh_bl2d}, {".inp", MeshFormat::inp, read_mesh_inp},
+    {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, refuse_unv},
+    {".su2", MeshFormat::su2, read_mesh_su2},    {".off", MeshFormat::off, read_mesh_off},
+    {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply}};
+
+/// That the suffix of a name tells. Throws InvalidArgument.
+const Format& known_format(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  std::string known;
+  for (const Format& format : formats) {
+    if (suffix == format.suffix) return format;
+    known.append(known.empty() ? "" : ", ").append(format.suffix);
+  }
+  throw InvalidArgument("'" + path + "' has none of the suffixes of a mesh file: " + known);
+}
 
 void check_length(const char* what, std::size_t found, std::size_t expected) {
   if (found != expected)
@@ -88,19 +114,7 @@ void check_mesh(const FlatMesh& mesh) {
 
 }  // namespace
 
-MeshFormat mesh_format_of(const std::string& path) {
-  const std::string suffix = suffix_of(path);
-  if (suffix == ".mesh") return MeshFormat::mesh;
-  if (suffix == ".meshb") return MeshFormat::meshb;
-  if (suffix == ".vtu") return MeshFormat::vtu;
-  if (suffix == ".stl") return MeshFormat::stl;
-  if (suffix == ".msh") return MeshFormat::msh;
-  if (suffix == ".msh2") return MeshFormat::msh2;
-  if (suffix == ".bl2d") return MeshFormat::bl2d;
-  throw InvalidArgument("'" + path +
-                        "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d; "
-                        ".off, .obj, .ply are read only");
-}
+MeshFormat mesh_format_of(const std::string& path) { return known_format(path).format; }
 
 std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& options) {
   check_mesh(mesh);
@@ -119,6 +133,20 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
       return msh_text(mesh, true, options.curve_groups);
     case MeshFormat::bl2d:
       return bl2d_text(mesh);
+    case MeshFormat::inp:
+      return inp_text(mesh);
+    case MeshFormat::bdf:
+      return bdf_text(mesh);
+    case MeshFormat::unv:
+      return unv_text(mesh);
+    case MeshFormat::su2:
+      return su2_text(mesh);
+    case MeshFormat::off:
+      return off_text(mesh);
+    case MeshFormat::obj:
+      return obj_text(mesh);
+    case MeshFormat::ply:
+      return ply_bytes(mesh);
   }
   throw InvalidArgument("unknown mesh format " + std::to_string(static_cast<int>(format)));
 }
@@ -128,25 +156,9 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 }
 
 FlatMesh read_mesh(const std::string& path) {
-  for (const auto& [suffix, read] : polygon_readers)
-    if (suffix_of(path) == suffix) return read(read_file(path), path);
-  const MeshFormat format = mesh_format_of(path);
-  const std::string content = read_file(path);
-  switch (format) {
-    case MeshFormat::mesh:
-    case MeshFormat::meshb:
-      return starts_as_gmf(content) ? read_mesh_binary(content, path) : read_mesh_text(content, path);
-    case MeshFormat::vtu:
-      return read_mesh_vtu(content, path);
-    case MeshFormat::stl:
-      return read_mesh_stl(content, path);
-    case MeshFormat::bl2d:
-      return read_mesh_bl2d(content, path);
-    case MeshFormat::msh:
-    case MeshFormat::msh2:
-      break;
-  }
-  return read_mesh_msh(content, path);
+  const Format& format = known_format(path);
+  if (format.format == MeshFormat::unv) refuse_unv("", path);  // before it is looked for
+  return format.read(read_file(path), path);
 }
 
 }  // namespace carreau

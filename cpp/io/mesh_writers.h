@@ -19,6 +19,16 @@ std::string stl_text(const FlatMesh& mesh);
 std::string msh_text(const FlatMesh& mesh, bool version_2, bool curve_groups);
 /// A mesh of straight triangles of the plane z = 0, else InvalidArgument.
 std::string bl2d_text(const FlatMesh& mesh);
+/// Abaqus and CalculiX, Nastran, I-DEAS, SU2: elements in named sets (solver/element_sets.h). SU2 has no elements of order
+/// two: InvalidArgument.
+std::string inp_text(const FlatMesh& mesh);
+std::string bdf_text(const FlatMesh& mesh);
+std::string unv_text(const FlatMesh& mesh);
+std::string su2_text(const FlatMesh& mesh);
+/// Polygons: no elements of order two either.
+std::string off_text(const FlatMesh& mesh);
+std::string obj_text(const FlatMesh& mesh);
+std::string ply_bytes(const FlatMesh& mesh);
 /// Name of a face: its own, or `prefix` and its reference. Control characters and quotation marks become '_'.
 std::string name_of_face(const FlatMesh& mesh, std::int32_t ref, const std::string& prefix);
 

@@ -17,7 +17,7 @@ class Browser:
     def __init__(self, folder, width=1400, height=900, options=()):
         choice = webdriver.ChromeOptions()
         choice.binary_location = shutil.which("chromium")
-        profile = os.path.join(folder, "profile")
+        profile = self.profile = os.path.join(folder, "profile")
         for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--hide-scrollbars",
                      "--force-device-scale-factor=1", f"--user-data-dir={profile}", f"--window-size={width},{height}", *options):
             choice.add_argument(word)
@@ -55,6 +55,21 @@ class Browser:
     def frames(self, n=2):
         """Waits until n pictures have been drawn."""
         self.wait("for (let i = 0; i < given[0]; ++i) await new Promise(requestAnimationFrame);", n)
+
+    def processor_seconds(self):
+        """Of all processes of this browser so far: on a busy machine the honest time."""
+        total = 0
+        for number in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{number}/cmdline", "rb") as file:
+                    own = self.profile.encode() in file.read()
+                if own:
+                    with open(f"/proc/{number}/stat") as file:
+                        fields = file.read().rsplit(")", 1)[1].split()
+                    total += int(fields[11]) + int(fields[12])
+            except OSError:
+                pass  # it has ended
+        return total / os.sysconf("SC_CLK_TCK")
 
     def messages(self):
         return [entry["message"] for entry in self.driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]

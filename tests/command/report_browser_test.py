@@ -160,7 +160,7 @@ class Pages(unittest.TestCase):
 
     def test_colours_change_the_picture(self):
         self.open("teapot.html")
-        read = ("const { gl, canvas } = { gl: viewer.renderer.gl, canvas: viewer.canvas }; viewer.renderer.draw(viewer.camera);"
+        read = ("const { gl, canvas } = { gl: viewer.renderer.gl, canvas: viewer.canvas }; viewer.renderer.draw(viewer.camera, false);"
                 "const pixels = new Uint8Array(4 * canvas.width * canvas.height);"
                 "gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);"
                 "let seen = 0; const colours = new Set();"

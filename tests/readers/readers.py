@@ -34,7 +34,8 @@ def by_vtk(path):
     import vtk
     from vtk.util.numpy_support import vtk_to_numpy
     errors = []
-    reader = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".stl": vtk.vtkSTLReader}[os.path.splitext(path)[1]]()
+    reader = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".stl": vtk.vtkSTLReader, ".ply": vtk.vtkPLYReader,
+              ".obj": vtk.vtkOBJReader}[os.path.splitext(path)[1]]()
     reader.AddObserver("ErrorEvent", lambda *_: errors.append(path))
     reader.SetFileName(path)
     reader.Update()
@@ -53,9 +54,18 @@ def by_vtk(path):
 
 def by_meshio(path):
     import meshio
+    import numpy
     mesh = meshio.read(path, file_format="gmsh") if path.endswith(".msh2") else meshio.read(path)
     triangles, refs = [], []
-    key = next((k for k in ("reference", "gmsh:geometrical", "medit:ref") if k in mesh.cell_data), None)
+    key = next((k for k in ("reference", "gmsh:geometrical", "medit:ref", "nastran:ref", "su2:tag") if k in mesh.cell_data), None)
+    if path.endswith(".inp"):
+        assert all(name in mesh.cell_sets for name in (f"face_{face}" for face in WANTED)), list(mesh.cell_sets)
+        refs_of = [[0] * len(block.data) for block in mesh.cells]
+        for face in WANTED:
+            for refs_of_block, members in zip(refs_of, mesh.cell_sets[f"face_{face}"]):
+                for i in members:
+                    refs_of_block[i] = face
+        key, mesh.cell_data["reference"] = "reference", [numpy.array(block) for block in refs_of]
     for i, block in enumerate(mesh.cells):
         if block.type == "triangle":
             triangles += block.data.tolist()
@@ -92,8 +102,9 @@ def by_gmsh(path):
         gmsh.finalize()
 
 
-READERS = {"vtk": (by_vtk, ("vtu", "stl")), "gmsh": (by_gmsh, ("msh", "msh2", "mesh", "stl")),
-           "meshio": (by_meshio, ("vtu", "msh", "msh2", "mesh", "meshb", "stl"))}
+READERS = {"vtk": (by_vtk, ("vtu", "stl", "ply", "obj")), "gmsh": (by_gmsh, ("msh", "msh2", "mesh", "stl", "unv", "bdf")),
+           "meshio": (by_meshio, ("vtu", "msh", "msh2", "mesh", "meshb", "stl", "inp", "bdf", "ply", "off", "obj"))}
+WANTED = {}  # references of faces and their numbers of triangles
 
 
 KINDS = {"triangles3": 3, "triangles6": 6, "quads4": 4, "quads8": 8}  # elements, as `carreau check` calls them: nodes
@@ -123,6 +134,12 @@ def elements_by_vtk(path):
 
 def elements_by_meshio(path):
     import meshio
+    if path.endswith(".inp"):  # meshio knows Abaqus' names of elements
+        with open(path) as file:
+            text = file.read()
+        path = path[:-4] + "_abaqus.inp"
+        with open(path, "w") as file:
+            file.write(text.replace("TYPE=S6,", "TYPE=STRI65,"))
     mesh = meshio.read(path, file_format="gmsh") if path.endswith(".msh2") else meshio.read(path)
     names = {"triangle": "triangles3", "triangle6": "triangles6", "quad": "quads4", "quad8": "quads8"}
     counts = {}
@@ -156,11 +173,13 @@ def elements_by_gmsh(path):
         gmsh.finalize()
 
 
+# Our command does not read these, or makes triangles of their polygons: the mesh is that of the other files.
+PLAIN = (".unv", ".off", ".obj", ".ply")
 # Formats of which they know quadrilaterals, curved triangles and curved quadrilaterals.
 ELEMENT_READERS = {"vtk": (elements_by_vtk, {"q1": ("vtu",), "p2": ("vtu",), "q2": ("vtu",)}),
-                   "gmsh": (elements_by_gmsh, {"q1": ("msh", "msh2", "mesh"), "p2": ("msh", "msh2", "mesh"), "q2": ("msh", "msh2")}),
-                   "meshio": (elements_by_meshio, {"q1": ("vtu", "msh", "msh2", "mesh"), "p2": ("vtu", "msh", "msh2"),
-                                                   "q2": ("vtu", "msh", "msh2")})}
+                   "gmsh": (elements_by_gmsh, {"q1": ("msh", "msh2", "mesh", "unv", "bdf"), "p2": ("msh", "msh2", "mesh", "unv"), "q2": ("msh", "msh2", "unv")}),
+                   "meshio": (elements_by_meshio, {"q1": ("vtu", "msh", "msh2", "mesh", "inp", "bdf", "ply", "obj"), "p2": ("vtu", "msh", "msh2", "inp", "bdf"),
+                                                   "q2": ("vtu", "msh", "msh2", "inp", "bdf")})}
 
 
 def check_elements(folder, geometry, element, options):
@@ -169,8 +188,9 @@ def check_elements(folder, geometry, element, options):
     names = [os.path.join(folder, "e." + form) for form in formats[element[:2]]]
     outputs = [word for name in names for word in ("-o", name)]
     subprocess.run([PROGRAM, "mesh", geometry, *outputs, "--element", element, "-q", *options], check=True)
-    for name in names:
-        told = json.loads(subprocess.run([PROGRAM, "check", name, "--json"], check=True, capture_output=True, text=True).stdout)
+    told = None
+    for name in sorted(names, key=lambda path: path.endswith(PLAIN)):
+        told = told if name.endswith(PLAIN) else json.loads(subprocess.run([PROGRAM, "check", name, "--json"], check=True, capture_output=True, text=True).stdout)
         wanted = {kind: told["elements"][kind] for kind in KINDS if told["elements"][kind] > 0}
         assert told["elements"]["invalid"] == 0, (name, told["elements"])
         found = read(name)
@@ -186,18 +206,42 @@ def check(folder, geometry, options):
     done = subprocess.run([PROGRAM, "mesh", geometry, *outputs, "--json", *options], check=True, capture_output=True, text=True)
     told = json.loads(done.stdout)
     wanted = {face["reference"]: face["triangles"] for face in told["faces"]}
+    WANTED.clear()
+    WANTED.update(wanted)
     for form, name in names.items():
         points, triangles, refs = read(name)
         assert len(triangles) == sum(wanted.values()), (name, len(triangles), wanted)
         assert form == "stl" or len(points) == told["mesh"]["vertices"], (name, len(points))
-        precision = 1e-6 if form == "stl" else 1e-12
+        single = form == "stl" or (READER == "vtk" and form in ("ply", "obj"))  # precision of the format or of the reader
+        precision = 1e-6 if single else 1e-12
         assert abs(area(points, triangles) / told["mesh"]["area"] - 1) < precision, name
         if refs and form != "stl":
             assert {ref: refs.count(ref) for ref in set(refs)} == wanted, name
         print(READER, form, len(points), "points", len(triangles), "triangles")
 
 
+def check_su2(folder):
+    """A plane mesh: meshio does not take the NELEM= 0 of a surface in space."""
+    import meshio
+    plates, name = os.path.join(folder, "plates.bpt"), os.path.join(folder, "plates.su2")
+    with open(plates, "w") as file:
+        file.write("2\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n1 1\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n")
+    done = subprocess.run([PROGRAM, "mesh", plates, "-o", name, "--size", "0.2", "--json"], check=True, capture_output=True, text=True)
+    told = json.loads(done.stdout)
+    mesh = meshio.read(name)
+    triangles = [t for block in mesh.cells if block.type == "triangle" for t in block.data.tolist()]
+    lines = [e for block in mesh.cells if block.type == "line" for e in block.data.tolist()]
+    points = [(*p, 0.0)[:3] for p in mesh.points.tolist()]
+    assert len(triangles) == told["mesh"]["triangles"] and abs(area(points, triangles) - 2) < 1e-12
+    # The border of [0, 2] x [0, 1], and the side that both squares share.
+    length = sum(math.dist(points[a], points[b]) for a, b in lines)
+    assert abs(length - 7) < 1e-12, length
+    print("meshio su2", len(triangles), "triangles", len(lines), "edges")
+
+
 with tempfile.TemporaryDirectory(prefix="carreau readers ") as home:
+    if READER == "meshio":
+        check_su2(home)
     corner = os.path.join(home, "corner.bpt")
     with open(corner, "w") as file:
         file.write(CORNER)

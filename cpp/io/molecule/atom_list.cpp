@@ -103,10 +103,4 @@ std::vector<std::string_view> words_of(std::string_view line, char comment) {
   return words;
 }
 
-std::string_view trimmed(std::string_view word) {
-  while (!word.empty() && is_blank(word.front())) word.remove_prefix(1);
-  while (!word.empty() && is_blank(word.back())) word.remove_suffix(1);
-  return word;
-}
-
 }  // namespace carreau

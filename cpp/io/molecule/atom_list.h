@@ -60,7 +60,5 @@ class Lines {
 
 /// Words of a line between blanks, up to `comment`.
 std::vector<std::string_view> words_of(std::string_view line, char comment = '\0');
-/// Without blanks at both ends.
-std::string_view trimmed(std::string_view word);
 
 }  // namespace carreau

@@ -24,9 +24,10 @@ FlatMesh back(const FlatMesh& mesh, MeshFormat format, const MeshFileOptions& op
     case MeshFormat::mesh:
       return read_mesh_text(bytes, "x.mesh");
     case MeshFormat::meshb:
-      break;
+      return read_mesh_binary(bytes, "x.meshb");
+    default:
+      throw std::logic_error("solver/ and polygons/ have tests of their own");
   }
-  return read_mesh_binary(bytes, "x.meshb");
 }
 
 /// As other formats than Medit's hold it: in space.

@@ -44,11 +44,11 @@ TEST(MeshFiles, TheSuffixGivesTheFormat) {
   EXPECT_EQ(mesh_format_of("a.b/x.y.MeshB"), MeshFormat::meshb);
   EXPECT_EQ(mesh_format_of(".vtu"), MeshFormat::vtu);
   EXPECT_EQ(mesh_format_of("/tmp/x.STL"), MeshFormat::stl);
-  for (const std::string path : {"", "x", "mesh", "x.mesh/y", "x.obj", "x.mesh.", "x.meshbb"})
+  for (const std::string path : {"", "x", "mesh", "x.mesh/y", "x.exr", "x.mesh.", "x.meshbb"})
     EXPECT_EQ(sentence_of<InvalidArgument>([&] { mesh_format_of(path); }),
               "'" + path +
-                  "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d; .off, .obj, "
-                  ".ply are read only");
+                  "' has none of the suffixes of a mesh file: .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, "
+                  ".unv, .su2, .off, .obj, .ply");
 }
 
 TEST(MeshFiles, AMeshThatNoReaderWouldTakeIsRefusedAndTheOldFileStays) {

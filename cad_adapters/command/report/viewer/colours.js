@@ -17,6 +17,8 @@ function scaleColour(stops, share) {
 }
 
 const grey = [188, 198, 210];
+const shown = [224, 123, 31];  // a face among others that fade
+const faded = (colour) => colour.map((byte) => 0.15 * byte + 0.85 * 208);
 
 /** The colour of each of the 65536 codes of a scale, three bytes each. */
 function coloursOfCodes(mesh, scale) {
@@ -32,8 +34,7 @@ function coloursOfFaces(mesh, face) {
   const table = new Uint8Array(3 * mesh.head.faces.length);
   mesh.head.faces.forEach((each, i) => {
     const own = bytesOf(each.colour);
-    const faded = own.map((byte, k) => Math.round(0.2 * byte + 0.8 * grey[k]));
-    table.set(face < 0 || face === i ? own : faded, 3 * i);
+    table.set(face < 0 ? own : face === i ? shown : faded(own), 3 * i);
   });
   return table;
 }
@@ -47,10 +48,10 @@ function coloursOf(mesh, key, face, length) {
   const table = scale ? coloursOfCodes(mesh, scale) : coloursOfFaces(mesh, face);
   const codes = scale ? mesh.codes[key] : mesh.faces;
   const colours = new Uint8Array(length);
+  const fading = scale && face >= 0;  // the table of faces has it
   for (let t = 0; t < codes.length; ++t) {
-    const at = 3 * codes[t];
-    const alone = face < 0 || mesh.faces[t] === face;
-    for (let k = 0; k < 3; ++k) colours[4 * t + k] = alone ? table[at + k] : 0.2 * table[at + k] + 0.8 * grey[k];
+    const colour = table.subarray(3 * codes[t], 3 * codes[t] + 3);
+    colours.set(fading && mesh.faces[t] !== face ? faded([...colour]) : colour, 4 * t);
     colours[4 * t + 3] = mesh.sides[t];
   }
   return colours;

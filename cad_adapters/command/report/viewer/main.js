@@ -1,14 +1,17 @@
 // Starts all of it. Without WebGL, or where the data cannot be read, tables and histograms stay, and a sentence tells why.
 
-/** For tests and measurements: the time of each of n pictures, milliseconds, the mesh turning; each is waited for. */
-function timesOfFrames(viewer, n) {
+/**
+ * For tests and measurements: the time of each of n pictures, milliseconds, the mesh turning; each is waited for. `fine`: as
+ * when it rests; `density`: pixels of the drawing for one of the page, 0.5 while it moves on slow machines.
+ */
+function timesOfFrames(viewer, n, fine, density) {
   const { renderer, camera } = viewer;
   const pixel = new Uint8Array(4), times = [];
-  renderer.resize(Math.min(2, devicePixelRatio));
+  renderer.resize(density);
   for (let i = 0; i < n; ++i) {
     const start = performance.now();
     camera.turn(0.05, 0.02);
-    renderer.draw(camera);
+    renderer.draw(camera, fine);
     renderer.gl.readPixels(0, 0, 1, 1, renderer.gl.RGBA, renderer.gl.UNSIGNED_BYTE, pixel);
     times.push(performance.now() - start);
   }
@@ -33,6 +36,7 @@ async function start() {
 
 const ready = start().catch((error) => {
   byId('message').textContent = error.message;
+  document.querySelectorAll('button.show').forEach((button) => { button.disabled = true; });
   return null;
 });
 window.carreauReport = { ready, timesOfFrames, factsOf, readMesh };

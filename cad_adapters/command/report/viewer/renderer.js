@@ -95,7 +95,7 @@ class Renderer {
   constructor(canvas, mesh) {
     this.canvas = canvas;
     this.mesh = mesh;
-    this.gl = canvas.getContext('webgl2', { antialias: true, alpha: true, preserveDrawingBuffer: false });
+    this.gl = canvas.getContext('webgl2', { antialias: false, alpha: true });
     if (!this.gl) throw new Error('This browser has no WebGL 2: tables and histograms are all there is.');
     this.edges = true;
     this.chosen = -1;
@@ -105,6 +105,7 @@ class Renderer {
   /** All that is on the graphics card; again when it was lost. */
   upload() {
     const gl = this.gl;
+    this.fine = null;
     this.drawing = compiled(gl, fragmentShader);
     this.picking = compiled(gl, pickShader);
     const { array, narrow } = cornerArray(this.mesh);
@@ -145,7 +146,50 @@ class Renderer {
     gl.uniform3f(shaders.toPixels, width / 2, pixels, (-camera.depth() / camera.half) * pixels);
   }
 
-  draw(camera) {
+  /** A frame of four samples a pixel, as large as the canvas. */
+  fineFrame() {
+    const gl = this.gl;
+    const { width, height } = this.canvas;
+    if (this.fine?.width === width && this.fine.height === height) return this.fine.frame;
+    if (this.fine) this.remove(this.fine);
+    this.fine = { width, height, ...this.makeFrame(Math.min(4, gl.getParameter(gl.MAX_SAMPLES))) };
+    return this.fine.frame;
+  }
+
+  makeFrame(samples) {
+    const gl = this.gl;
+    const { width, height } = this.canvas;
+    const frame = gl.createFramebuffer(), stores = [];
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    for (const [format, place] of [[gl.RGBA8, gl.COLOR_ATTACHMENT0], [gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]]) {
+      const store = gl.createRenderbuffer();
+      gl.bindRenderbuffer(gl.RENDERBUFFER, store);
+      gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, store);
+      stores.push(store);
+    }
+    return { frame, stores };
+  }
+
+  remove({ frame, stores }) {
+    this.gl.deleteFramebuffer(frame);
+    stores.forEach((store) => this.gl.deleteRenderbuffer(store));
+  }
+
+  /** `fine`: with smooth outlines, which take several times as long where the processor draws: not while the mesh moves. */
+  draw(camera, fine) {
+    const gl = this.gl;
+    const { width, height } = this.canvas;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, fine ? this.fineFrame() : null);
+    this.drawAll(camera);
+    if (!fine) return;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.fine.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  }
+
+  drawAll(camera) {
     const gl = this.gl;
     this.use(this.drawing, camera);
     gl.clearColor(0, 0, 0, 0);
@@ -166,14 +210,7 @@ class Renderer {
   pick(camera, x, y) {
     const gl = this.gl;
     const { width, height } = this.canvas;
-    const frame = gl.createFramebuffer(), store = gl.createRenderbuffer(), depth = gl.createRenderbuffer();
-    gl.bindRenderbuffer(gl.RENDERBUFFER, store);
-    gl.renderbufferStorage(gl.RENDERBUFFER, gl.RGBA8, width, height);
-    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
-    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, store);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+    const made = this.makeFrame(0);
     const column = Math.min(width - 1, Math.floor(x * width)), row = Math.min(height - 1, Math.floor((1 - y) * height));
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(column, row, 1, 1);
@@ -184,9 +221,7 @@ class Renderer {
     gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, id);
     gl.disable(gl.SCISSOR_TEST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
-    gl.deleteFramebuffer(frame);
-    gl.deleteRenderbuffer(store);
-    gl.deleteRenderbuffer(depth);
+    this.remove(made);
     return (id[0] | id[1] << 8 | id[2] << 16 | id[3] << 24) - 1;
   }
 }

@@ -41,7 +41,7 @@ class Viewer {
     if (this.moving && this.last && now - this.last < 1000) this.slow = now - this.last > slowest || (this.slow && now - this.last > slowest / 3);
     this.last = this.moving ? now : 0;
     this.renderer.resize(Math.min(2, devicePixelRatio) * (this.moving && this.slow ? 0.5 : 1));
-    this.renderer.draw(this.camera);
+    this.renderer.draw(this.camera, !this.moving);
     this.placeRing();
   }
 

@@ -1,0 +1,175 @@
+// Bulk data of Nastran: GRID, shells, and lines as edges; small, large and free fields. Other cards are skipped. The property
+// of an element is the reference of its face.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/mesh_files.h"
+#include "io/solver/solver_names.h"
+#include "io/text.h"
+#include "io/words.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+/// A card with its continuations: name in capitals, then its fields.
+struct Card {
+  std::string name;
+  std::vector<std::string_view> fields;
+  const char* at = nullptr;
+};
+
+/// "1.5-7" and "1.5D+3" are numbers too.
+bool parse_real(std::string_view field, double& value) {
+  std::string word(field);
+  for (std::size_t i = 1; i < word.size(); ++i) {
+    const bool sign = word[i] == '+' || word[i] == '-';
+    const bool digit = (word[i - 1] >= '0' && word[i - 1] <= '9') || word[i - 1] == '.';
+    if (sign && digit) word.insert(i++, "e");
+  }
+  return parse_number(word, value) && std::isfinite(value);
+}
+
+class BdfReader {
+ public:
+  BdfReader(std::string_view text, const std::string& name) : in_(text, name), nodes_(in_), groups_(in_) {}
+
+  FlatMesh read() {
+    skip_to_bulk();
+    while (in_.position() != in_.end() && !ended_) add_line();
+    use();
+    FlatMesh mesh;
+    nodes_.give_to(mesh);
+    groups_.give_to(mesh, nodes_);
+    for (const Line& line : lines_) {
+      mesh.edges.push_back({nodes_.vertex(line.ends[0], line.at), nodes_.vertex(line.ends[1], line.at)});
+      mesh.edge_refs.push_back(line.ref);
+    }
+    return mesh;
+  }
+
+ private:
+  struct Line {
+    std::array<std::int64_t, 2> ends;
+    std::int32_t ref;
+    const char* at;
+  };
+
+  /// The sections before the bulk data, which may be missing.
+  void skip_to_bulk() {
+    const char* const start = in_.position();
+    while (in_.position() != in_.end()) {
+      const std::string line = in_capitals(in_.rest_of_line());
+      if (line.starts_with("BEGIN") && line.find("BULK") != std::string::npos) return;
+    }
+    in_.go_back(start);
+  }
+
+  /// A line as it stands: columns count.
+  std::string_view next_line() {
+    const char* const from = in_.position();
+    in_.rest_of_line();
+    std::string_view line(from, static_cast<std::size_t>(in_.position() - from));
+    while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+    return line.substr(0, line.find('$'));
+  }
+
+  void add_line() {
+    const std::string_view line = next_line();
+    if (trimmed(line).empty()) return;
+    std::vector<std::string_view> fields = split(line);
+    const std::string name = in_capitals(fields.front());
+    const bool continues = name.empty() || name.front() == '+' || name.front() == '*';
+    fields.erase(fields.begin());
+    if (continues) {
+      card_.fields.resize(full_);  // fields that end a line may be left out
+      card_.fields.insert(card_.fields.end(), fields.begin(), fields.end());
+      full_ += fields_of_line(line);
+      return;
+    }
+    use();
+    const bool large = name.back() == '*';
+    card_ = {large ? name.substr(0, name.size() - 1) : name, std::move(fields), line.data()};
+    full_ = fields_of_line(line);
+    ended_ = card_.name == "ENDDATA";
+  }
+
+  static bool is_large(std::string_view line) {
+    return line.substr(0, std::min(line.find(','), std::size_t(8))).find('*') != std::string_view::npos;
+  }
+  static std::size_t fields_of_line(std::string_view line) { return is_large(line) ? 4 : 8; }
+
+  /// Name and fields: between commas, or columns of 8, or of 16 where the name ends in a star.
+  static std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> fields;
+    if (line.find(',') != std::string_view::npos) {
+      for (std::string_view rest = line; !rest.empty() || fields.empty();) fields.push_back(next_field(rest));
+      return fields;
+    }
+    constexpr std::size_t small = 8, large = 16, last_column = 72;
+    line = line.substr(0, last_column);  // then a mark of the continuation
+    fields.push_back(trimmed(line.substr(0, small)));
+    const std::size_t width = is_large(line) ? large : small;
+    for (std::size_t at = small; at < line.size(); at += width) fields.push_back(trimmed(line.substr(at, width)));
+    return fields;
+  }
+
+  std::string_view field(std::size_t i) const { return i < card_.fields.size() ? card_.fields[i] : std::string_view(); }
+
+  std::int64_t integer(std::size_t i, const char* what) const {
+    int n = 0;
+    if (!parse_number(field(i), n) || n < 1)
+      in_.fail(card_.at, "card " + shown(card_.name) + ": " + what + " was expected, not " + shown(field(i)));
+    return n;
+  }
+
+  void use() {
+    if (card_.name == "GRID") grid();
+    if (card_.name == "CTRIA3" || card_.name == "CTRIAR") shell(3);
+    if (card_.name == "CTRIA6") shell(6);
+    if (card_.name == "CQUAD4" || card_.name == "CQUADR") shell(4);
+    if (card_.name == "CQUAD8") shell(8);
+    if (card_.name == "PLOTEL") lines_.push_back({{integer(1, "a node"), integer(2, "a node")}, 0, card_.at});
+    if (card_.name == "CBAR" || card_.name == "CROD" || card_.name == "CBEAM")
+      lines_.push_back({{integer(2, "a node"), integer(3, "a node")}, static_cast<std::int32_t>(integer(1, "a property")), card_.at});
+    card_ = {};
+  }
+
+  void grid() {
+    if (const std::string_view system = field(1); !system.empty() && system != "0")
+      in_.fail(card_.at, "a node has coordinates of system " + shown(system) + ", and only those of the basic system are known");
+    Vec3 p;
+    for (int x = 0; x < 3; ++x) {
+      const std::string_view word = field(static_cast<std::size_t>(2 + x));
+      if (!word.empty() && !parse_real(word, p[x])) in_.fail(card_.at, "a coordinate should be a finite number, not " + shown(word));
+    }
+    nodes_.add(integer(0, "the number of a node"), p, card_.at);
+  }
+
+  void shell(std::size_t count) {
+    const std::int64_t property = field(1).empty() ? integer(0, "the number of an element") : integer(1, "a property");
+    SolverElement element{integer(0, "the number of an element"), {}, "P" + std::to_string(property), card_.at};
+    for (std::size_t k = 0; k < count; ++k) element.nodes.push_back(integer(2 + k, "a node"));
+    groups_.set_ref(element.set, static_cast<std::int32_t>(property));
+    groups_.add(element);
+  }
+
+  Words in_;
+  SolverNodes nodes_;
+  SolverGroups groups_;
+  std::vector<Line> lines_;
+  Card card_;
+  std::size_t full_ = 0;  ///< fields that the lines of the card have room for
+  bool ended_ = false;
+};
+
+}  // namespace
+
+FlatMesh read_mesh_bdf(std::string_view text, const std::string& name) {
+  return BdfReader(without_byte_order_mark(text), name).read();
+}
+
+}  // namespace carreau

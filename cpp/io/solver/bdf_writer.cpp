@@ -1,0 +1,132 @@
+// Bulk data of Nastran (MSC Nastran quick reference guide): GRID, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL for edges. Faces
+// are properties; names are sets of the case control section.
+#include <map>
+#include <set>
+
+#include "io/mesh_writers.h"
+#include "io/solver/element_sets.h"
+#include "io/solver/narrow_numbers.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr std::size_t longest_name = 32, small_field = 8, large_field = 16, largest_number = 99'999'999;
+
+const char* card_of(CellKind kind) noexcept {
+  switch (kind) {
+    case CellKind::triangle3:
+      return "CTRIA3";
+    case CellKind::triangle6:
+      return "CTRIA6";
+    case CellKind::quad4:
+      return "CQUAD4";
+    case CellKind::quad8:
+      return "CQUAD8";
+  }
+  return "";
+}
+
+std::string padded(std::string field, std::size_t width) {
+  field.resize(std::max(field.size(), width), ' ');
+  return field;
+}
+
+/// Without the blanks at its end.
+void end_line(std::string& text) {
+  text.erase(text.find_last_not_of(' ') + 1);
+  text += '\n';
+}
+
+/// A card of numbers in small fields, eight a line.
+void add_card(const char* name, const std::vector<std::size_t>& numbers, std::string& text) {
+  constexpr std::size_t a_line = 8;
+  text += padded(name, small_field);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i > 0 && i % a_line == 0) end_line(text), text += padded("+", small_field);
+    text += padded(std::to_string(numbers[i]), small_field);
+  }
+  end_line(text);
+}
+
+/// Small fields where they hold all coordinates exactly, else large ones.
+void add_grid(std::size_t number, const Vec3& p, std::string& text) {
+  std::string fields[3];
+  bool small = true;
+  for (int x = 0; x < 3; ++x) {
+    fields[x] = nastran_number(p[x], large_field);
+    small = small && fields[x].size() <= small_field;
+  }
+  const std::string id = std::to_string(number);
+  if (small) {
+    text += padded("GRID", small_field) + padded(id, small_field) + padded("", small_field);
+    for (const std::string& field : fields) text += padded(field, small_field);
+    end_line(text);
+    return;
+  }
+  text += padded("GRID*", small_field) + padded(id, large_field) + padded("", large_field) +
+          padded(fields[0], large_field) + padded(fields[1], large_field) + "\n" + padded("*", small_field) + fields[2] +
+          "\n";
+}
+
+/// Properties have positive numbers: other references get those above the largest one.
+std::vector<std::size_t> properties_of(const ElementSets& sets) {
+  std::size_t next = 0;
+  for (const FaceSet& face : sets.faces) next = std::max<std::size_t>(next, face.ref > 0 ? std::size_t(face.ref) : 0);
+  std::vector<std::size_t> properties;
+  for (const FaceSet& face : sets.faces)
+    properties.push_back(face.ref > 0 && std::size_t(face.ref) <= largest_number ? std::size_t(face.ref) : ++next);
+  return properties;
+}
+
+/// Faces are numbered through: their elements are ranges.
+void add_sets(const ElementSets& sets, const std::vector<std::size_t>& properties, std::string& text) {
+  for (std::size_t i = 0; i < sets.faces.size(); ++i)
+    text += "$ property " + std::to_string(properties[i]) + ": " + sets.faces[i].name + "\n";
+  for (std::size_t i = 0; i < sets.names.size(); ++i) {
+    const std::string number = std::to_string(i + 1);
+    text += "$ set " + number + ": " + sets.names[i].name + "\nSET " + number + " = ";
+    const char* between = "";
+    for (const std::size_t f : sets.names[i].faces) {
+      const FaceSet& face = sets.faces[f];
+      text += between + std::to_string(face.first);
+      if (face.cells.size() > 1) text += " THRU " + std::to_string(face.first + face.cells.size() - 1);
+      between = ",\n  ";
+    }
+    text += '\n';
+  }
+}
+
+}  // namespace
+
+std::string bdf_text(const FlatMesh& mesh) {
+  const ElementSets sets = sets_of(mesh, longest_name);
+  if (std::max(sets.elements, mesh.vertices.size()) > largest_number)
+    throw InvalidArgument("the mesh has more nodes or elements than the eight digits of .bdf can number");
+  const std::vector<std::size_t> properties = properties_of(sets);
+  std::string text = "$ mesh by Carreau\nCEND\n";
+  add_sets(sets, properties, text);
+  text += "BEGIN BULK\n";
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    Vec3 p = mesh.vertices[v];
+    if (mesh.dimension == 2) p.z() = 0;
+    add_grid(v + 1, p, text);
+  }
+  for (std::size_t i = 0; i < sets.faces.size(); ++i)
+    for (std::size_t k = 0; k < sets.faces[i].cells.size(); ++k) {
+      const Cell& cell = sets.faces[i].cells[k];
+      std::vector<std::size_t> numbers{sets.faces[i].first + k, properties[i]};
+      for (int n = 0; n < node_count(cell.kind); ++n) numbers.push_back(std::size_t(cell.nodes[n]) + 1);
+      add_card(card_of(cell.kind), numbers, text);
+    }
+  for (const CurveSet& curve : sets.curves) {
+    text += "$ " + curve.name + "\n";
+    for (std::size_t k = 0; k < curve.edges.size(); ++k)
+      add_card("PLOTEL", {curve.first + k, std::size_t(curve.edges[k][0]) + 1, std::size_t(curve.edges[k][1]) + 1}, text);
+  }
+  return text + "ENDDATA\n";
+}
+
+}  // namespace carreau

@@ -1,0 +1,96 @@
+// Input of Abaqus and CalculiX (Abaqus keywords reference; G. Dhondt, CalculiX CrunchiX user's manual): nodes, shells, sets.
+#include "io/mesh_writers.h"
+#include "io/solver/element_sets.h"
+#include "io/solver/narrow_numbers.h"
+
+namespace carreau {
+
+namespace {
+
+constexpr std::size_t longest_name = 80, number_width = 20, a_line = 16;
+
+/// Shells of three to eight nodes, whose order is that of the format, as CalculiX calls them: S6 is STRI65 in Abaqus.
+const char* type_of(CellKind kind) noexcept {
+  switch (kind) {
+    case CellKind::triangle3:
+      return "S3";
+    case CellKind::triangle6:
+      return "S6";
+    case CellKind::quad4:
+      return "S4";
+    case CellKind::quad8:
+      return "S8R";
+  }
+  return "";
+}
+
+/// Words of a list, sixteen a line; no line ends with a comma.
+class List {
+ public:
+  explicit List(std::string& text) : text_(text) {}
+  void add(const std::string& word) {
+    if (count_ > 0) text_ += count_ % a_line == 0 ? ",\n" : ", ";
+    text_ += word, ++count_;
+  }
+  void end() {
+    if (count_ > 0) text_ += '\n';
+  }
+
+ private:
+  std::string& text_;
+  std::size_t count_ = 0;
+};
+
+void add_nodes(const FlatMesh& mesh, std::string& text) {
+  text += "*NODE, NSET=all_nodes\n";
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3& p = mesh.vertices[v];
+    text += std::to_string(v + 1);
+    for (const double x : {p.x(), p.y(), mesh.dimension == 3 ? p.z() : 0.0})
+      text.append(", ").append(number_within(x, number_width));
+    text += '\n';
+  }
+}
+
+void add_face(const FaceSet& face, std::string& text) {
+  for (std::size_t i = 0; i < face.cells.size(); ++i) {
+    const Cell& cell = face.cells[i];
+    if (i == 0 || cell.kind != face.cells[i - 1].kind)
+      text.append("*ELEMENT, TYPE=").append(type_of(cell.kind)).append(", ELSET=").append(face.name).append("\n");
+    text += std::to_string(face.first + i);
+    for (int k = 0; k < node_count(cell.kind); ++k) text.append(", ").append(std::to_string(cell.nodes[k] + 1));
+    text += '\n';
+  }
+}
+
+void add_curve(const CurveSet& curve, std::string& text) {
+  text.append("*NSET, NSET=").append(curve.name).append("\n");
+  List list(text);
+  for (const auto& edge : curve.edges)
+    for (const std::int32_t v : edge) list.add(std::to_string(v + 1));
+  list.end();
+}
+
+}  // namespace
+
+std::string inp_text(const FlatMesh& mesh) {
+  const ElementSets sets = sets_of(mesh, longest_name);
+  std::string text = "*HEADING\nmesh by Carreau\n";
+  add_nodes(mesh, text);
+  for (const FaceSet& face : sets.faces) add_face(face, text);
+  const auto add_set = [&](const std::string& name, const auto& faces) {
+    if (faces.empty()) return;
+    text.append("*ELSET, ELSET=").append(name).append("\n");
+    List list(text);
+    for (const std::size_t i : faces) list.add(sets.faces[i].name);
+    list.end();
+  };
+  for (const NamedFaces& each : sets.names) add_set(each.name, each.faces);
+  std::vector<std::size_t> all(sets.faces.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  add_set("all_faces", all);
+  for (const CurveSet& curve : sets.curves) add_curve(curve, text);
+  return text;
+}
+
+}  // namespace carreau

@@ -1,0 +1,126 @@
+#include "io/solver/solver_names.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "io/element_lists.h"
+#include "io/text.h"
+#include "support/error.h"
+#include "support/format.h"
+
+namespace carreau {
+
+namespace {
+
+/// The reference in "face_7" or "face_m7" in capitals; false: it is another name.
+bool reference_in(const std::string& name, std::int32_t& ref) {
+  if (!name.starts_with("FACE_")) return false;
+  const bool minus = name.substr(5).starts_with("M");
+  const std::string digits = name.substr(minus ? 6 : 5);
+  int n = 0;
+  if (digits.empty() || digits.front() < '0' || digits.front() > '9' || !parse_number(digits, n)) return false;
+  ref = minus ? -n : n;
+  return true;
+}
+
+template <std::size_t N>
+void append(const SolverElement& element, std::int32_t ref, const SolverNodes& nodes, ElementList<N>& list) {
+  auto& own = list.nodes.emplace_back();
+  for (std::size_t k = 0; k < N; ++k) own[k] = nodes.vertex(element.nodes[k], element.at);
+  list.refs.push_back(ref);
+}
+
+}  // namespace
+
+std::string_view next_field(std::string_view& line) noexcept {
+  const std::size_t comma = line.find(',');
+  const std::string_view field = trimmed(line.substr(0, comma));
+  line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
+  if (trimmed(line).empty()) line = {};
+  return field;
+}
+
+void SolverNodes::add(std::int64_t number, const Vec3& p, const char* at) {
+  if (!nodes_.emplace(number, p).second) in_.fail(at, "node " + std::to_string(number) + " comes twice");
+}
+
+void SolverNodes::give_to(FlatMesh& mesh) {
+  if (nodes_.empty()) in_.fail(in_.end(), "the file has no nodes");
+  if (nodes_.size() > std::size_t(std::numeric_limits<std::int32_t>::max())) in_.fail(in_.end(), "there are too many nodes");
+  for (const auto& [number, p] : nodes_) {
+    vertices_.emplace(number, static_cast<std::int32_t>(mesh.vertices.size()));
+    mesh.vertices.push_back(p);
+  }
+  mesh.vertex_refs.assign(mesh.vertices.size(), 0);
+}
+
+std::int32_t SolverNodes::vertex(std::int64_t number, const char* at) const {
+  const auto found = vertices_.find(number);
+  if (found == vertices_.end()) in_.fail(at, "node " + std::to_string(number) + " is named, and the file does not have it");
+  return found->second;
+}
+
+/// Elements that name no set themselves have that of the first list which has them.
+void SolverGroups::take_ranges() {
+  std::map<std::int64_t, std::size_t> free;
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    if (elements_[i].set.empty()) free.emplace(elements_[i].number, i);
+  for (const Range& range : ranges_)
+    for (auto at = free.lower_bound(range.first); at != free.end() && at->first <= range.last;) {
+      const bool inside = (at->first - range.first) % range.step == 0;
+      if (inside) elements_[at->second].set = range.set;
+      at = inside ? free.erase(at) : std::next(at);
+    }
+}
+
+void SolverGroups::number_sets() {
+  std::int32_t last = 0;
+  std::vector<std::string> others;
+  for (const SolverElement& element : elements_) {
+    const std::string name = in_capitals(element.set);
+    std::int32_t ref = 0;
+    if (element.set.empty() || refs_.contains(name)) continue;
+    if (reference_in(name, ref))
+      refs_[name] = ref;
+    else
+      refs_[name] = 0, others.push_back(element.set);
+  }
+  for (const auto& [name, ref] : refs_) last = std::max(last, ref);
+  for (const std::string& name : others) {
+    if (last == std::numeric_limits<std::int32_t>::max()) in_.fail(in_.end(), "references of faces have no number left");
+    refs_[in_capitals(name)] = ++last;
+    names_[last] = name;
+  }
+  for (const OfSet& each : of_sets_)
+    if (const auto found = refs_.find(each.other); found != refs_.end() && in_capitals(each.set) != "ALL_FACES")
+      names_.emplace(found->second, each.set);
+}
+
+void SolverGroups::name_faces(FlatMesh& mesh) const {
+  const std::set<std::int32_t> meshed(mesh.triangle_refs.begin(), mesh.triangle_refs.end());
+  for (const auto& [ref, name] : names_)
+    if (meshed.contains(ref)) mesh.faces.push_back({.ref = ref, .status = FaceStatus::meshed, .name = name});
+}
+
+void SolverGroups::give_to(FlatMesh& mesh, const SolverNodes& nodes) {
+  take_ranges();
+  number_sets();
+  ElementLists lists;
+  for (const SolverElement& element : elements_) {
+    const auto found = refs_.find(in_capitals(element.set));
+    const std::int32_t ref = found == refs_.end() ? 0 : found->second;
+    if (element.nodes.size() == 3) append(element, ref, nodes, lists.triangles);
+    if (element.nodes.size() == 4) append(element, ref, nodes, lists.quads);
+    if (element.nodes.size() == 6) append(element, ref, nodes, lists.triangles6);
+    if (element.nodes.size() == 8) append(element, ref, nodes, lists.quads8);
+  }
+  try {
+    set_elements(lists, mesh);
+  } catch (const InvalidArgument& error) {
+    in_.fail(in_.end(), error.what());
+  }
+  name_faces(mesh);
+}
+
+}  // namespace carreau

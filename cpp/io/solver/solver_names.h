@@ -1,0 +1,84 @@
+// What the readers of solvers' files share: nodes and elements by number, named sets, fields between commas.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "io/text.h"
+#include "io/words.h"
+#include "mesh/flat_mesh.h"
+
+namespace carreau {
+
+/// What stands before the first comma, without blanks; takes it and the comma from the line.
+std::string_view next_field(std::string_view& line) noexcept;
+
+/// Nodes with numbers of a file's own; vertices get the order of these numbers. Keeps a reference to `in`.
+class SolverNodes {
+ public:
+  explicit SolverNodes(const Words& in) : in_(in) {}
+
+  /// `at`: where it stands. Throws FileError where the number comes twice.
+  void add(std::int64_t number, const Vec3& p, const char* at);
+  /// All vertices, once. Throws FileError when there are none.
+  void give_to(FlatMesh& mesh);
+  /// After give_to(): the vertex, from 0. Throws FileError where there is none.
+  [[nodiscard]] std::int32_t vertex(std::int64_t number, const char* at) const;
+
+ private:
+  const Words& in_;
+  std::map<std::int64_t, Vec3> nodes_;
+  std::unordered_map<std::int64_t, std::int32_t> vertices_;
+};
+
+struct SolverElement {
+  std::int64_t number = 0;
+  std::vector<std::int64_t> nodes;  ///< 3, 4, 6 or 8: corners, then nodes on sides
+  std::string set;                  ///< that it names itself; "": none
+  const char* at = nullptr;         ///< where it stands
+};
+
+/// Elements, and the sets that they are in. Sets become faces: "face_7" has reference 7 ("face_m7": -7), others get the
+/// numbers behind the largest one in the order in which they come; a set of sets names their faces. Names differ in
+/// more than capitals. Keeps a reference to `in`.
+class SolverGroups {
+ public:
+  explicit SolverGroups(const Words& in) : in_(in) {}
+
+  void add(const SolverElement& element) { elements_.push_back(element); }
+  void add_set_to(const std::string& set, const std::string& other) { of_sets_.push_back({set, in_capitals(other)}); }
+  /// Elements first, first + step, ... up to last.
+  void add_range_to(const std::string& set, std::int64_t first, std::int64_t last, std::int64_t step) {
+    ranges_.push_back({set, first, last, step});
+  }
+  /// Of a set in place of the rules above.
+  void set_ref(const std::string& set, std::int32_t ref) { refs_[in_capitals(set)] = ref; }
+  /// All elements and faces. Throws FileError.
+  void give_to(FlatMesh& mesh, const SolverNodes& nodes);
+
+ private:
+  struct OfSet {
+    std::string set, other;
+  };
+  struct Range {
+    std::string set;
+    std::int64_t first, last, step;
+  };
+
+  void take_ranges();
+  void number_sets();
+  void name_faces(FlatMesh& mesh) const;
+
+  const Words& in_;
+  std::vector<SolverElement> elements_;
+  std::vector<OfSet> of_sets_;
+  std::vector<Range> ranges_;
+  std::map<std::string, std::int32_t> refs_;    ///< by name in capitals
+  std::map<std::int32_t, std::string> names_;   ///< of faces whose name is not made of their reference
+};
+
+}  // namespace carreau
