@@ -3,6 +3,7 @@ import json
 import os
 import re
 
+NO_BREAK = "\u00a0"
 MARK = re.compile(r"^<!-- table: (\w+) -->$", re.M)
 
 
@@ -12,7 +13,11 @@ def table(head, rows):
 
 
 def thousands(number):
-    return f"{number:,.0f}".replace(",", " ")
+    return f"{number:,.0f}".replace(",", NO_BREAK)
+
+
+def seconds(number, digits):
+    return f"{number:.{digits}f}{NO_BREAK}s"
 
 
 def busy(told):
@@ -34,9 +39,9 @@ def surface(rows):
             made = row[who]
             speed = thousands(made["triangles"] / made["seconds"]) + "/s"
             ratio = f"{row['ratio']:.1f}" if who == "carreau" else ""
-            out.append((f"{made['case']} {made['size']:g}", who, thousands(made["triangles"]), f"{made['seconds']:.3f} s", speed, ratio, f"{made['q2_mean']:.3f}",
+            out.append((f"{made['case']} {made['size']:g}", who, thousands(made["triangles"]), seconds(made["seconds"], 3), speed, ratio, f"{made['q2_mean']:.3f}",
                         f"{made['q2_p1']:.3f}", f"{made['q2_min']:.3f}", f"{100 * made['degree6']:.1f} %"))
-    return table(("surface, size", "by", "triangles", "time", "triangles", "times the speed", "Q2 mean", "1 %", "worst", "six edges"), out)
+    return table(("surface, size", "by", "triangles", "time", "speed", "times the speed", "Q2 mean", "1 %", "worst", "six edges"), out)
 
 
 def best_ways(rows, quality):
@@ -75,10 +80,10 @@ def command(rows, told):
     out = []
     for row in rows:
         unlike = "direction" in row["case"] or "quadrilaterals" in row["case"]
-        out.append([row["case"], thousands(row["triangles"]), f"{row['processor']:.2f} s"] + (["", ""] if unlike else [f"{row['q2_mean']:.3f}", f"{row['q2_min']:.3f}"]))
+        out.append([row["case"], thousands(row["triangles"]), seconds(row["processor"], 2)] + (["", ""] if unlike else [f"{row['q2_mean']:.3f}", f"{row['q2_min']:.3f}"]))
     if not busy(told):
         head.append("whole run, wall clock")
-        out = [cells + [f"{row['seconds']:.2f} s"] for cells, row in zip(out, rows)]
+        out = [cells + [seconds(row["seconds"], 2)] for cells, row in zip(out, rows)]
     return table(head, out)
 
 
