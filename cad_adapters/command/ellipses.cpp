@@ -104,10 +104,11 @@ VertexMetrics metrics_of_triangles(const MeshArrays& mesh) {
     }
   VertexMetrics metrics(mesh.vertices.size(), {1, 0, 0, 1, 0, 1});
   for (std::size_t v = 0; v < metrics.size(); ++v) {
-    const auto& [xx, xy, yy, n] = sums[v];
+    const double xx = sums[v][0], xy = sums[v][1], yy = sums[v][2], n = sums[v][3];
     const double k = 1.5 * n / (xx * yy - xy * xy);  // of the inverse of 2/3 of the mean
     if (!(n > 0) || !std::isfinite(k)) continue;
-    const auto [e1, e2] = Frame(unit(normals[v]));
+    const Frame frame(unit(normals[v]));
+    const Point &e1 = frame.e1, &e2 = frame.e2;
     const auto entry = [&](int i, int j) {
       return k * (yy * e1[i] * e1[j] - xy * (e1[i] * e2[j] + e2[i] * e1[j]) + xx * e2[i] * e2[j]);
     };
