@@ -11,7 +11,7 @@ C = ["docs/tutorials", "docs", "fortran_examples/c_paraboloid", "fortran_example
      "tests/cabi", "tests/adapters", "cad_adapters/command", "cad_adapters/bl2d"]
 FORTRAN = ["docs/tutorials", "docs", "fortran_examples", "tests/cabi", "tests/adapters", "cabi/fortran/blsurf.f90", "cabi/fortran/blsurf_m.f90"]
 CPP = ["docs/tutorials", "docs", "fortran_examples", "tests/cabi", "tests/cpp_wrapper"]
-PYTHON = ["docs/tutorials", "docs", "fortran_examples", "tests/python"]
+PYTHON = ["docs/tutorials", "docs", "cabi/python/examples", "tests/python"]
 LANGUAGES = {"c": (C, (".c", ".cpp", ".h", ".md")), "fortran": (FORTRAN, (".f90", ".md")), "cpp": (CPP, (".cpp", ".md")), "python": (PYTHON, (".py", ".md"))}
 
 

@@ -44,7 +44,7 @@ def entity(node, path):
     result = f" -> {ast.unparse(node.returns)}" if node.returns else ""
     if is_property(node):
         return Entity("attribute", path, node.name, "", doc)
-    return Entity("method" if path.count(".") else "function", path, node.name, f"({arguments(node)}){result}", doc)
+    return Entity("method", path, node.name, f"({arguments(node)}){result}", doc)
 
 
 def arguments(node):
@@ -52,40 +52,54 @@ def arguments(node):
     return ", ".join(part for part in text.split(", ") if part not in ("self", "cls"))
 
 
-def parsed(base, module):
-    with open(os.path.join(base, module + ".py"), encoding="utf-8") as file:
-        return ast.parse(file.read())
+def parsed(package):
+    """{name: syntax tree} of the modules of a package."""
+    base, found = os.path.join(ROOT, package), {}
+    for name in sorted(os.listdir(base)):
+        if name.endswith(".py"):
+            with open(os.path.join(base, name), encoding="utf-8") as file:
+                found[name.removesuffix(".py")] = ast.parse(file.read())
+    return found
 
 
 def listed(body):
-    """The names of __all__."""
-    return next(ast.literal_eval(node.value) for node in body.body if isinstance(node, ast.Assign) and
-                any(isinstance(target, ast.Name) and target.id == "__all__" for target in node.targets))
+    """The names of __all__, or None."""
+    for node in body.body:
+        if isinstance(node, ast.Assign) and any(isinstance(target, ast.Name) and target.id == "__all__" for target in node.targets):
+            return ast.literal_eval(node.value) if isinstance(node.value, (ast.List, ast.Tuple)) else None
+    return None
+
+
+def defined(body, names=None):
+    """Public functions and classes of a module; those of `names` where given."""
+    return [node for node in body.body if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and is_public(node.name) and (names is None or node.name in names)]
+
+
+def described(node, module):
+    item = entity(node, module)
+    return item if item.kind == "class" else Entity("function", item.path, item.name, item.signature, item.doc)
+
+
+def of_package(trees, package, names):
+    """What __all__ of a package names: defined in it, or imported from its modules."""
+    nodes = defined(trees["__init__"], names)
+    for node in trees["__init__"].body:
+        if isinstance(node, ast.ImportFrom) and node.level == 1 and node.module in trees:
+            nodes += defined(trees[node.module], [alias.name for alias in node.names if (alias.asname or alias.name) in names])
+    return [described(node, package) for node in nodes]
 
 
 def modules(package):
-    """[(module, docstring, entities)]: what the package's __all__ has, wherever it is defined, and the modules that it has, with what else is
-    public in them."""
-    base, name = os.path.join(ROOT, package), os.path.basename(package)
-    whole = parsed(base, "__init__")
-    exported, taken, rest = set(listed(whole)), [], []
-    for module in sorted(file.removesuffix(".py") for file in os.listdir(base) if file.endswith(".py") and file != "__init__.py"):
-        body, inside = parsed(base, module), []
-        for node in body.body:
-            if not isinstance(node, (ast.FunctionDef, ast.ClassDef)) or not is_public(node.name):
-                continue
-            if node.name in exported:
-                taken.append(top(entity(node, name)))
-            elif module in exported:
-                inside.append(top(entity(node, f"{name}.{module}")))
-        if inside:
-            rest.append((f"{name}.{module}", ast.get_docstring(body) or "", inside))
-    return [(name, ast.get_docstring(whole) or "", sorted(taken, key=lambda item: (item.kind == "class", item.name.lower())))] + rest
-
-
-def top(item):
-    """An entity that is no method, whatever dots its module has."""
-    return item if item.kind == "class" else Entity("function", item.path, item.name, item.signature, item.doc)
+    """[(module, docstring, entities)] of a package. Where it has an __all__, those of its modules that this names are public, and no others."""
+    trees, name = parsed(package), os.path.basename(package)
+    names = listed(trees["__init__"])
+    inside = [described(node, name) for node in defined(trees["__init__"])] if names is None else of_package(trees, name, names)
+    found = [(name, ast.get_docstring(trees["__init__"]) or "", inside)]
+    for module, body in trees.items():
+        if not module.startswith("_") and (names is None or module in names):
+            path = f"{name}.{module}"
+            found.append((path, ast.get_docstring(body) or "", [described(node, path) for node in defined(body, listed(body))]))
+    return found
 
 
 def entities(package):
