@@ -18,7 +18,7 @@ class Browser:
         choice = webdriver.ChromeOptions()
         choice.binary_location = shutil.which("chromium")
         profile = self.profile = os.path.join(folder, "profile")
-        for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--hide-scrollbars",
+        for word in ("--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--enable-unsafe-swiftshader", "--use-angle=swiftshader", "--hide-scrollbars", "--force-prefers-reduced-motion",
                      "--force-device-scale-factor=1", f"--user-data-dir={profile}", f"--window-size={width},{height}", *options):
             choice.add_argument(word)
         choice.set_capability("goog:loggingPrefs", {"browser": "ALL"})

@@ -135,7 +135,7 @@ class Pages(unittest.TestCase):
         canvas.send_keys(Keys.SHIFT, Keys.ARROW_UP)
         self.assertNotEqual(state()["target"], before["target"])
         canvas.send_keys(Keys.HOME)
-        self.browser.wait("await new Promise((done) => setTimeout(done, 700));")
+        self.browser.frames()
         canvas.send_keys(Keys.ENTER)
         self.assertIn("Triangle", self.picked())
         canvas.send_keys(Keys.ESCAPE)
@@ -149,7 +149,7 @@ class Pages(unittest.TestCase):
         button = self.browser.driver.find_elements(By.CSS_SELECTOR, "#worst-a0 button.show")[3]
         triangle = int(button.get_attribute("data-triangle"))
         button.click()
-        self.browser.wait("await new Promise((done) => setTimeout(done, 900));")
+        self.browser.frames()
         self.assertEqual(int(self.picked()["Triangle"]), triangle + 1)
         x, y = self.browser.run("return viewer.onPage(arguments[0])", triangle)
         box = self.browser.driver.find_element(By.ID, "canvas").rect
@@ -181,7 +181,7 @@ class Pages(unittest.TestCase):
         self.open("teapot.html")
         driver = self.browser.driver
         driver.find_elements(By.CSS_SELECTOR, "#faces-table button.show")[4].click()
-        self.browser.wait("await new Promise((done) => setTimeout(done, 900));")
+        self.browser.frames()
         self.assertEqual(self.browser.run("return viewer.face"), 4)
         self.picture("face")
         heads = driver.find_elements(By.CSS_SELECTOR, "#faces-table button.sort")
