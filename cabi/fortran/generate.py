@@ -150,7 +150,8 @@ class Writer:
 
     def module(self, name):
         """name: "carreau", of the header and of the module that uses this one."""
-        self.add(f"!> The functions and structs of {name}.h as Fortran sees them. Private to module {name}.",
+        self.add("! SPDX-License-Identifier: BSD-3-Clause",
+                 f"!> The functions and structs of {name}.h as Fortran sees them. Private to module {name}.",
                  f"!! Written by generate.py from {name}.h: do not edit. After a change of the header:",
                  f"!!   python3 cabi/fortran/generate.py {self.folder}include/{name}.h {self.folder}fortran/{name}_c.f90",
                  f"module {name}_c")

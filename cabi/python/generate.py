@@ -32,7 +32,7 @@ PLAIN = {"carreau_status": "c_int32", "int32_t": "c_int32", "int64_t": "c_int64"
 ARRAYS = {"double": "Doubles", "int32_t": "Int32s", "int64_t": "Int64s"}
 PYTHON = {"int32_t": "int", "int64_t": "int", "size_t": "int", "double": "float", "const char*": "str"}
 IGNORED = "  # type: ignore[assignment]"  # tuples have a method of that name
-NOTICE = '"""{}\n\nWritten by cabi/python/generate.py: not to be edited."""\n'
+NOTICE = '# SPDX-License-Identifier: BSD-3-Clause\n"""{}\n\nWritten by cabi/python/generate.py: not to be edited."""\n'
 
 
 class Interface:
