@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # carreau_add_blsurf(<target> <source>...)
 #
 # The program `blsurf` of the manual (INRIA RT-0232, sec. 5) on a module cad_m: compiles the sources, of which one holds

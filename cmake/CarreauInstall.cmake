@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Package config, pkg-config files and documents. Targets install themselves where they are defined.
 include(CMakePackageConfigHelpers)
 

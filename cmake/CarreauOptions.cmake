@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What of OpenCASCADE is linked to libcarreau_cad.
 set(CARREAU_OPENCASCADE_LIBRARIES TKXDESTEP TKXDEIGES TKXCAF TKLCAF TKCDF TKSTEP TKSTEPBase TKIGES TKXSBase TKShHealing TKTopAlgo
   TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # `cpack` in the build folder: one archive that can be unpacked anywhere, and one package for Debian, each with all that was built. The
 # packages of a distribution, library by library, are made from debian/.
 set(CPACK_GENERATOR TGZ)

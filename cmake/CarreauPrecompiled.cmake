@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Precompiled headers, which halve the time of a build from nothing. They are those of others only, never our own: what
 # changes with every edit would build everything again. Sources include what they use all the same, and
 # -DCARREAU_PCH=OFF builds them so.

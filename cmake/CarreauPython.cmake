@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # CARREAU_PYTHON, and CARREAU_PYTHON_EXECUTABLE: a Python with NumPy. The one that CMake finds first may be a person's own
 # without it, beside that of the system.
 find_package(Python3 QUIET COMPONENTS Interpreter)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Sphinx: the pages that docs/generator/stage.py has laid out. docs/build.sh runs both."""
 import os
 import re

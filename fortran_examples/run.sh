@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs what is missing, builds, and meshes the Utah teapot through its Fortran host: out/teapot of the clone then holds
 # the mesh for Medit and Gmsh (.mesh), for ParaView (.vtu), and a picture (.png).
 set -eu

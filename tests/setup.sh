@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Sourced by run.sh scripts: installs Debian packages that are missing, with the rights to do so; else says what to type.
 
 # need_packages PACKAGE...: status 1 when some are missing and could not be installed.

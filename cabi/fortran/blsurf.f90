@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 program blsurf
   use blsurf_m
   call blsurf_s

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The program of RT-0232 around a module cad_m of the user, unchanged (RT-0232 sec. 3.1 and 5):
 !>
 !>     program blsurf

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What carreau.h declares, as plain Python data: functions, structs, callbacks, constants, and what it says of them."""
 import re
 

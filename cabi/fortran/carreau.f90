@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran 2003 face of cabi/include/carreau.h: the same names, the same order of arguments, the status last. What each
 !> routine means, its units and its errors are written there. Different here:
 !>   - vertices, triangles, edges, faces and parameters count from 1;

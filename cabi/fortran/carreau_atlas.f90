@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran 2003 face of cabi/include/carreau_atlas.h: loops and annuli of the plane with smooth parameters, and C1 atlases
 !! of triangulated surfaces. What each routine means and its errors are written there. Different here: vertices, clusters and
 !! charts count from 1.

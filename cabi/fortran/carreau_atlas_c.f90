@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The functions and structs of carreau_atlas.h as Fortran sees them. Private to module carreau_atlas.
 !! Written by generate.py from carreau_atlas.h: do not edit. After a change of the header:
 !!   python3 cabi/fortran/generate.py cabi/include/carreau_atlas.h cabi/fortran/carreau_atlas_c.f90

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The functions and structs of carreau.h as Fortran sees them. Private to module carreau.
 !! Written by generate.py from carreau.h: do not edit. After a change of the header:
 !!   python3 cabi/fortran/generate.py cabi/include/carreau.h cabi/fortran/carreau_c.f90

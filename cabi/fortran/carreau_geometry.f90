@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran 2003 face of cabi/include/carreau_geometry.h: several geometries in
 !! a session, Bezier patches, molecules, grids, triangles and plane domains. What each routine means and its errors are written
 !! there. Different here: points and curves count from 1, and a control point 0 is a free end; arguments that may be NULL

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The functions and structs of carreau_geometry.h as Fortran sees them. Private to module carreau_geometry.
 !! Written by generate.py from carreau_geometry.h: do not edit. After a change of the header:
 !!   python3 cabi/fortran/generate.py cabi/include/carreau_geometry.h cabi/fortran/carreau_geometry_c.f90

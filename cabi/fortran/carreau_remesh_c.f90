@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The functions and structs of carreau_remesh.h as Fortran sees them. Private to module carreau_remesh.
 !! Written by generate.py from carreau_remesh.h: do not edit. After a change of the header:
 !!   python3 cabi/fortran/generate.py cabi/include/carreau_remesh.h cabi/fortran/carreau_remesh_c.f90

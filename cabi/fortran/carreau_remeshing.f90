@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Fortran 2003 face of cabi/include/carreau_remesh.h: pieces that deform, break and touch tools are meshed anew. What
 !! each routine means and its errors are written there. Different here: vertices, points of tools and components count
 !! from 1; arrays that are not allocated are not given.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes the bindings of the functions and structs of a header as Fortran 2003: carreau_c.f90 of carreau.h,
 carreau_geometry_c.f90 of carreau_geometry.h, carreau_cad_c.f90 of carreau_cad.h.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* clang-format off */
 /* carreau.h: meshes of surfaces made of parametric patches, driven by callbacks. C99, and C++ as well.
  *

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// carreau.hpp: carreau.h for C++20, header only. Handles free themselves, arrays come in as spans and go out as vectors, callbacks
 /// are std::function, and a status that is not CARREAU_OK becomes a carreau::Error.
 ///

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* carreau_atlas.h: loops and annuli of the plane with smooth parameters, and C1 atlases of triangulated surfaces (G. Atlas, chapter 5).
  * C99, and C++ as well.
  *

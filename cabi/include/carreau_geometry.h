@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* carreau_geometry.h: geometries that the library evaluates itself, without callbacks. C99, and C++ as well.
  *
  *   carreau_session_create(&session);

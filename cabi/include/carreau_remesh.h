@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* carreau_remesh.h: pieces of the plane that deform, break and touch tools are meshed anew, increment by increment
  * (HDR sec. 3.4). The solver is the caller's. C99, and C++ as well.
  *

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes what the package carreau knows of the C interface: _declarations.py (ctypes) and _records.py (results as tuples
 with names).
 

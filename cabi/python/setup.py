@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The wheel of carreau: Python, and the library inside (carreau/lib), so that it serves every Python 3.
 
 The library comes from a build that is there (CARREAU_BUILD names its folder), or is built here by CMake without what other

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loops, annuli and atlases.
 #include <bit>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bezier patches.
 #include "arguments.h"
 #include "carreau_geometry.h"

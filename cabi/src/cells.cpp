@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements of a mesh by kind.
 #include "arguments.h"
 #include "carreau.h"

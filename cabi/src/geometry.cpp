@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several geometries in one session.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The only place where an exception becomes a status.
 #pragma once
 

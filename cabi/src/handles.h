@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the opaque handles of carreau.h hold.
 #pragma once
 

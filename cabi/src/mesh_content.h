@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a mesh handle holds, whether a session made it or a file.
 #pragma once
 

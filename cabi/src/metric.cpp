@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Algebra of metrics for hosts.
 #include <Eigen/Dense>
 #include <algorithm>

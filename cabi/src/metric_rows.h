@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vectors and metrics as rows of numbers.
 #pragma once
 

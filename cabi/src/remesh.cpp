@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pieces that are meshed anew, increment by increment.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bl2d_env.h"
 
 #include <charconv>

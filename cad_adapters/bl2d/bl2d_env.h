@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bl2d.env: which domain, which step of its adaptation.
 #pragma once
 

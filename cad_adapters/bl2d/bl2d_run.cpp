@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bl2d_run.h"
 
 #include <carreau_geometry.h>

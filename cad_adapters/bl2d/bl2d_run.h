@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One step after another: a domain and sizes to a mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bl2d: meshes of plane domains as BL2D-V2 made them, step by step of an adaptation. Exit codes: 0 done, 2 not.
 #include <cstdio>
 #include <exception>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a file holds: counts, names, colours, places.
 #include "handle.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files: read, added to sessions, closed.
 #include <cmath>
 #include <mutex>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the handle of carreau_cad.h holds, and the only place where an exception becomes a status.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What of a file is hard to mesh, and figures of its faces.
 #include <cstdio>
 

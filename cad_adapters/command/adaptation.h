@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau adapt`: what the next mesh follows, files of the last one or a formula.
 #pragma once
 

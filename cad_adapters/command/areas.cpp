@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau areas`: areas and volumes of molecules in closed form.
 #include <carreau_geometry.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "atlas_input.h"
 
 #include <carreau_atlas.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Closed triangulated surfaces as geometry: the C1 surface of an atlas over them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bezier patches, which the library evaluates itself.
 #include <carreau_geometry.h>
 

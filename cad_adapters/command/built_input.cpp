@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "built_input.h"
 
 #include <carreau_geometry.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Inputs whose geometry the library evaluates itself, in a session of their own that answers where points are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A STEP, IGES or BREP file of carreau_cad.h for as long as a command needs it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // STEP, IGES and BREP files as input.
 #include <algorithm>
 #include <cstdio>

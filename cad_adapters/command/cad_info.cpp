@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau info` on STEP, IGES and BREP files.
 #include <cstdio>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A file of geometry as a host of the C interface, whatever its format.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // In place of cad_input_opencascade.cpp where OpenCASCADE is not built in.
 #include "cad_input.h"
 #include "commands.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau check`: what a mesh in a file is worth.
 #include <cinttypes>
 #include <cstdio>

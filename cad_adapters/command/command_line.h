@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The command line: sub-commands and their options. Help, completion of shells and the check of the manual pages are
 // made from it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the sub-commands do. Each returns the exit code, and throws Failure when it cannot be done.
 #pragma once
 

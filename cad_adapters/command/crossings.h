@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles that cross, by the faces that they belong to.
 #pragma once
 

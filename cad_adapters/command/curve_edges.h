@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges prescribed on curves: --curve-edges and --curve-vertices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a mesh delivers as JSON.
 #pragma once
 

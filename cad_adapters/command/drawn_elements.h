@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements as the flat triangles of a picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit ellipses of metrics on a mesh, as RR-2818 fig. 20 to 32 have them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Colours of faces, and the lines between them, as pictures and reports show both.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The faces of a file, so that a person finds his.
 #pragma once
 

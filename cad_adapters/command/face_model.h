@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A model in memory: what a session is told of faces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "failed_faces.h"
 
 #include <sys/stat.h>

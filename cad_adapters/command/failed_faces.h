@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What there is of faces that cannot be meshed, for their owner to look at.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why the command cannot do what it is asked.
 #pragma once
 

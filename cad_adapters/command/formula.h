@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Formulas of places, as `--size-map` takes them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces by formulas: z = f(x, y), Cartesian (HDR sec. 4.8), or x, y and z of u and v.
 #pragma once
 

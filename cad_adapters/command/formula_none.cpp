@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // In place of formula.cpp where muParser is not built in.
 #include <limits>
 

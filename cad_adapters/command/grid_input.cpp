@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "grid_input.h"
 
 #include <carreau_geometry.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a geometry in a shared library does to the process that calls it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau info` on Bezier patches and on faces with a shared library; CAD files have a report of their own.
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a command says of its geometry besides the name of the file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau: meshes of CAD files, pictures and checks of meshes, fields that govern them, and the list of parameters.
 // Exit codes: 0 done, 1 the mesh has defects or lacks faces, 2 the command line or a file cannot be used, or there is
 // no mesh.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau mesh`: from geometry to mesh files.
 #include <algorithm>
 #include <chrono>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All that `carreau check` and reports look at in a mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From the options of `carreau mesh` to the parameters of a session.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is right and wrong with a mesh, beside the figures of carreau_mesh_quality.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `carreau mesh` has done: for a person, and for a program.
 #pragma once
 

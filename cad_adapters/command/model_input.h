@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What inputs have in common whose model is in memory: Bezier patches, and faces with a shared library.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Molecules, whose surfaces the library evaluates itself.
 #include "molecule_input.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Molecules as geometry, and their areas.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "atlas_input.h"
 #include "cad_input.h"
 #include "failure.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options that several commands have.
 #include "option_groups.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Options that several commands have. Each function adds a group to a command, and what it fills lives as long.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several files that appear together, whole, or not at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces of a file x.pardom whose geometry is in a shared library, as a host of the C interface.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sentences for command lines that cannot be parsed.
 #pragma once
 

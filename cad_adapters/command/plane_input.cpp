@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane domains, which the library evaluates itself.
 #include "plane_input.h"
 

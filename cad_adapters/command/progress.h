@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a run tells the person who waits for it, on the standard error stream.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A z-buffer for triangles of one colour with dark lines along their sides.
 #pragma once
 

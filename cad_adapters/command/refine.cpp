@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau refine`: triangles cut finer on the smooth surface over them.
 #include <cstdio>
 #include <nlohmann/json.hpp>

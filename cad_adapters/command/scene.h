@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a mesh to shaded triangles on a picture.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A session of the C interface for as long as a command needs it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A geometry in a shared library: the routines of a module cad_m.
 #pragma once
 

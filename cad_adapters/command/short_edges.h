@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges below the lower bound of sizes: short curves and narrow zones of the input ask for them whatever the bound is.
 #pragma once
 

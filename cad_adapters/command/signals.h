@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What Ctrl-C, `kill` and a closed terminal do.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that vary from place to place: `--size-map`, and `--face-size` for geometries that do not answer it themselves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a picture is taken from, and how the mesh is fitted into it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The callbacks of a BrepHost.
 #include <gp_Pnt.hxx>
 #include <gp_Pnt2d.hxx>

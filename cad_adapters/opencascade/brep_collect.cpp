@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a BrepHost takes from a shape: topology, names, doubts.
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>

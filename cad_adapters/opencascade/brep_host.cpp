@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "brep_host.h"
 
 #include <BRepBndLib.hxx>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A boundary representation of OpenCASCADE as a host of the C interface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a BrepHost knows of its shape, and the callbacks that a session gets. Private to BrepHost.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A domain of the (u, v) plane cut along lines of constant parameter.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "entity_check.h"
 
 #include <IGESBasic_SingularSubfigure.hxx>

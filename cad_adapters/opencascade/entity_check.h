@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which entities of a STEP or IGES file do not become part of the shape: OpenCASCADE passes over them without a word.
 #pragma once
 

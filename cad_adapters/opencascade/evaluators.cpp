@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "evaluators.h"
 
 #include <TColStd_Array1OfReal.hxx>

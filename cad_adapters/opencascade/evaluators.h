@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Positions and derivatives of faces and of the curves in their parameter planes, from any thread.
 #pragma once
 

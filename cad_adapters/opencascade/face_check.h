@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whether the numbers of a face are such that anything can be computed from them.
 #pragma once
 

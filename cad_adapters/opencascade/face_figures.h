@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The faces of a shape, one by one: what a person knows a face by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Standard_ErrorHandler.hxx makes OCC_CATCH_SIGNALS do something only when asked.
 #if !defined(OCC_CONVERT_SIGNALS)  // its packages define it for some configurations
 #define OCC_CONVERT_SIGNALS

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faults inside OpenCASCADE (a memory access or a division that the processor refuses) as exceptions.
 #pragma once
 

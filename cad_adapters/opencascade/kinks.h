@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Creases inside faces: surfaces whose normal jumps where B-splines have knots of full multiplicity.
 #pragma once
 

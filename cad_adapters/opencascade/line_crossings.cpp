@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "line_crossings.h"
 
 #include <Geom2dAdaptor_Curve.hxx>

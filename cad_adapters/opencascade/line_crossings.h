@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where curves of a parameter plane cross lines of constant u or v.
 #pragma once
 

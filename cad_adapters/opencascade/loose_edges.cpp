@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "loose_edges.h"
 
 #include <BRep_Tool.hxx>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges of a shape that no face has: curves of space, from any thread.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "missing_curves.h"
 
 #include <BRep_Tool.hxx>

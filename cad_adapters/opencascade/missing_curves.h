@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves of the parameter plane that a file leaves out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "natural_bounds.h"
 
 #include <BRepBuilderAPI_MakeFace.hxx>

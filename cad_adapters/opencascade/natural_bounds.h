@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces that are the whole of a closed or bounded surface, which files may say by no wire at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CAD files through OpenCASCADE.
 #pragma once
 

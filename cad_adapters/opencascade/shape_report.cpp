@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shape_report.h"
 
 #include <BRepAdaptor_Curve.hxx>

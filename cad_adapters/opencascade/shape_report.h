@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a shape holds, and what of it is hard to mesh: before anything is meshed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loops that OpenCASCADE's readers cut open at a seam: their ends are two vertices at one place.
 #pragma once
 

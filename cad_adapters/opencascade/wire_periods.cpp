@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "wire_periods.h"
 
 #include <BRep_Tool.hxx>

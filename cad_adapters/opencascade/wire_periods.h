@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loops that OpenCASCADE's reader leaves open on periodic surfaces.
 #pragma once
 

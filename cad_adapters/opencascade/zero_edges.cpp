@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "zero_edges.h"
 
 #include <StepGeom_BSplineCurve.hxx>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges of a STEP file that are a point.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Estimates for a field that can be evaluated anywhere in the plane, not only at the vertices of a mesh.
 #pragma once
 

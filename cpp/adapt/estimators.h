@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a scalar field on a mesh to the sizes or metrics of a better mesh (HDR sec. 3.4.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "adapt/recovery.h"
 
 #include <Eigen/QR>

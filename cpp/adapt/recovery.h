@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Derivatives of a field that is known at the vertices of a mesh.
 #pragma once
 

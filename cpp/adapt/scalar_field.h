@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A scalar field on a triangle mesh: what estimators and transfers start from.
 #pragma once
 

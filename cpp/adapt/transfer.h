@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From one mesh to the next: values at vertices, and how well a mesh carries a field.
 #pragma once
 

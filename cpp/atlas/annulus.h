@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An annulus of the plane, described by (tau, phi): from 0 at the inner to 1 at the outer border, and around (Atlas
 // sec. 5.3, 5.4).
 #pragma once

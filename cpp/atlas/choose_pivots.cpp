@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which pivots: one, those of the pseudo-skeleton with mends, or those beside each vertex.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An increasing function between two values with given slopes: two parabolas, whose inverse has a closed form.
 #pragma once
 

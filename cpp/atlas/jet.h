@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers that carry their derivatives to order two by two parameters, so that one formula gives all of them exactly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A loop of the plane with an orthoradial parameter (Atlas sec. 5.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The outer border of an annulus as pivots see it: changed where it must be (Atlas sec. 5.3.2.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A loop in pieces, each described in the polar basis of a pivot (Atlas sec. 5.2.3), and the annulus on it
 // (sec. 5.3.3, 5.4).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pivots: centres of polar bases that describe a loop piece by piece (Atlas sec. 5.2.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Simple polygons: what a loop of the plane is given as. All decisions are exact.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The pseudo-skeleton of a polygon: a wall inside it, and where pivots of the inside may stand (Atlas sec. 5.2.2.2).
 #pragma once
 

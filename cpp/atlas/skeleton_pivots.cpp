@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pivots by the pseudo-skeleton (Atlas sec. 5.2.2.3 to 5.2.2.5, 5.3.2.2).
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "atlas/smooth_borders.h"
 
 #include <cmath>

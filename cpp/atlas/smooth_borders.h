@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Smooth borders inside a polygonal annulus (Atlas sec. 5.4.2, 5.4.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Many points of a face, a batch at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a host's geometry looks like to the engine.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Geometries side by side, each with references of its own, as one.
 #pragma once
 

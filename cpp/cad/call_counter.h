@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Counters of calls that several threads may advance at a time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A host's geometry that can be trusted: every value is looked at before the engine sees it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Registered derivatives against finite differences.
 #pragma once
 

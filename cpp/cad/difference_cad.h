@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Derivatives that a host does not give, by finite differences of those that it gives.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // First and second fundamental forms of a surface, principal curvatures and directions.
 #pragma once
 

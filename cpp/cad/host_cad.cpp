@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "cad/host_cad.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A host's geometry given by plain function pointers, as the C ABI registers it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Wanted sizes and metrics that a host gives by plain function pointers, as the C ABI registers them.
 #pragma once
 

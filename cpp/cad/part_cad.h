@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A host some of whose curves are used in parts.
 #pragma once
 

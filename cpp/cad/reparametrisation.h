@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Other parameters for a face whose own run very unevenly.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "cad/stencil.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One-dimensional finite-difference formulas.
 #pragma once
 

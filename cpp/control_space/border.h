@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Values near the boundary of the domain, where nodes outside of it cannot be sampled. Private to the builder.
 #pragma once
 

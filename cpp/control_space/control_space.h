@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The metric field of one parameter domain, sampled once and then evaluated without callbacks.
 #pragma once
 

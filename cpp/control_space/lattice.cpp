@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "control_space/lattice.h"
 
 #include <algorithm>

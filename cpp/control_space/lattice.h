@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The nodes of a control space under construction. Private to the builder.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What samples say about the nodes of a cell. Private to the builder of control spaces.
 #pragma once
 

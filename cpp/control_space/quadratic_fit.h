@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The value at the origin of the quadratic polynomial that fits samples best.
 #pragma once
 

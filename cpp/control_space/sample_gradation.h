@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gradation between the samples of a control space (Borouchaki, Hecht and Frey; HDR sec. 1.1.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit normals of a surface, known at samples of its parameters, between them. Private to plane/ and surface/.
 #pragma once
 

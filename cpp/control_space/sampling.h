@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Decides where a control space is sampled. Private to size/.
 #pragma once
 

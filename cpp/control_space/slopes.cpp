@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of sampling that is about gradation.
 #include <algorithm>
 #include <cmath>

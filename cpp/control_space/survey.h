@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A first look at a domain and at the field over it, before there is a grid. Private to size/.
 #pragma once
 

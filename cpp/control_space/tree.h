@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The cells of a control space under construction. Private to size/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a mesh has far fewer vertices than the field asks for.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From samples to the piecewise polynomial of a control space. Private to size/.
 #pragma once
 

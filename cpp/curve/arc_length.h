@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arc length along a sampled curve: the part of a support that needs no host.
 #pragma once
 

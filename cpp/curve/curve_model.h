@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A model's curves with their supports: what the curve steps work on.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "curve/curve_sizes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes along a whole curve, sampled so that interpolation between samples can stand for them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One discretisation for each curve of space, carried into every parameter domain that holds it (HDR sec. 4.5.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "curve/edge_accuracy.h"
 
 #include <algorithm>

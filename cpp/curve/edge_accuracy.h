@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How an edge of a discretised curve approximates its arc (HDR sec. 2.6).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cutting a table of cumulated lengths into equal parts. Private to curve/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "curve/exact_arc.h"
 
 #include <algorithm>

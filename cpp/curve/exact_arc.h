@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arc length of a curve of a face by quadrature (HDR eq. 2.3 and sec. 2.4), where that of a support is not exact
 // enough.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A curve of the plane or of space with metrics at points of it: the unit discretisation of RR-2818 sec. 4.
 #pragma once
 

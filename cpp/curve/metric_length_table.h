@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lengths along a curve in a variable metric, and the points found on the way (RR-2818 sec. 4.4-4.6).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "curve/prescribed_edges.h"
 
 #include <algorithm>

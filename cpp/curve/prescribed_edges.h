@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges of a curve that are told in place of sizes: their number, a progression, or all parameters (HDR sec. 2.1, 2.3).
 #pragma once
 

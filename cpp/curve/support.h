@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Polyline supports of curves (HDR sec. 2.5 and 4.5.3).
 #pragma once
 

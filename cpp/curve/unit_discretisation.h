@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit discretisation of a curve in a size field (RR-2818 sec. 4-5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Colours of previews, in linear light (what EXR files hold).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a host says at points of a face, where it may fail.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "fields/field_shape.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parameter domain of a face whose fields are sampled, also of one that could not be meshed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What governed the mesh of a face, sampled on a grid of its parameter box and written as images (EXR).
 #pragma once
 

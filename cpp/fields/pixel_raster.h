@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which pixels of a grid over the parameter plane lie in a domain, in which triangle, and on which line.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the sizes of a face come from: physical, geometric, bounds or gradation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A geometry that the engine evaluates itself, without a host.
 #pragma once
 

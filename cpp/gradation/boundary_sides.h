@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sides of domains as people see them: boundaries between two corners.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that grow from the edges of a boundary.
 #pragma once
 

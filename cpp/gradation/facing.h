@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Narrow zones in space: faces that share nothing and come near each other (HDR sec. 1.1.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gradation of an isotropic size field over a composite surface (Borouchaki, Hecht and Frey; HDR sec. 1.1.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "gradation/graded_field.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A graded size field over a composite surface, evaluated anywhere.
 #pragma once
 

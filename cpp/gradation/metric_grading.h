@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gradation of metrics over a composite surface, directions kept (Borouchaki, Hecht and Frey; HDR sec. 1.1.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places of a gradation's graph that belong to one vertex, and how vectors come from one to another. Private to the
 // gradations.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Narrow zones: how near boundaries come to each other, measured in space along the surface (HDR sec. 1.1.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Dijkstra's order, in which all gradations hand sizes on.
 #pragma once
 

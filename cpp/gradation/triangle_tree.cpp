@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "gradation/triangle_tree.h"
 
 #include <algorithm>

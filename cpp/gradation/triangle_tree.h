@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Nearest triangle of a plane triangulation, in logarithmic time.
 #pragma once
 

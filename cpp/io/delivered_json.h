@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The summary of what was delivered, as JSON.
 #pragma once
 

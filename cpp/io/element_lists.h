@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The elements of a mesh by kind, as formats with a section a kind want them.
 #pragma once
 

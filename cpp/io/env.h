@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // blsurf.env: pairs of words (RT-0232 sec. 3.3). Syntax only; names and values are judged by the session.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // OpenEXR files of named channels, written block by block.
 #pragma once
 

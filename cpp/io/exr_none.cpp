@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // In place of exr.cpp where OpenEXR is not built in.
 #include "io/exr.h"
 #include "support/error.h"

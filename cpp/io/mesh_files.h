@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Mesh files. Writers make the whole file under a temporary name and rename it, so that an older file survives a
 // failure.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One function a format; the mesh has passed the checks of mesh_bytes. For mesh_files.cpp and the tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // x.pardom: parameter domains and references (RT-0232 sec. 3.2, fig. 11).
 #pragma once
 

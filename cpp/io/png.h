@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // PNG files of 8-bit sRGB, written block by block.
 #pragma once
 

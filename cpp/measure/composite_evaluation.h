@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a run delivered, against what it was asked.
 #pragma once
 

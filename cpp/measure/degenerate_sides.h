@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sides of a parameter domain that are one point of space.
 #pragma once
 

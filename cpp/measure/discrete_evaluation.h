@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes of surfaces given as triangles, against what was asked.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "measure/element_evaluation.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What elements other than straight triangles deliver.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Values beyond a limit that no other mesh would keep.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "measure/mesh_evaluation.h"
 
 #include <algorithm>

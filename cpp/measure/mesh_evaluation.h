@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was delivered: lengths, shapes and deviations of a mesh, measured on the real surface.
 #pragma once
 

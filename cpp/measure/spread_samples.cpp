@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "measure/spread_samples.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places of the surface over triangles whose corners are of several charts.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Kinds of elements, and the order of their nodes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh whose edges are swapped, split and collapsed and whose vertices are moved; each edit can be undone.
 #pragma once
 

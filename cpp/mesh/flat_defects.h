@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Defects of a mesh that came from a file: references are all that is known of its faces.
 #pragma once
 

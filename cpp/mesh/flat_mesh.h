@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh as files and the C ABI see it: flat lists, references, fields.
 #pragma once
 

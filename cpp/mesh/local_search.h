@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Local searches for a better mesh: in which order things are looked at, what is tried, and when it is enough.
 //
 // What is better is the caller's. Nothing here depends on time, threads or addresses: the same mesh gets the same

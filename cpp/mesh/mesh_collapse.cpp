@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // EditableMesh: vertices that become one with a neighbour.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // EditableMesh: what changes the mesh, and how that is undone.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Input and output of the plane mesher.
 #pragma once
 

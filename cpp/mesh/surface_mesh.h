@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The conforming mesh of a composite surface.
 #pragma once
 

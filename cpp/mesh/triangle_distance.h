@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Distance from a point to a triangle of space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The nearest point of a triangle mesh, in logarithmic time.
 #pragma once
 

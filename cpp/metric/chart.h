@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Normal coordinates of a metric field about a point, to second order.
 #pragma once
 

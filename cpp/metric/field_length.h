@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Length of a segment in a field of metrics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "metric/largest_ellipsoid.h"
 
 #include <Eigen/Cholesky>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The largest ellipsoid inside the unit balls of many metrics (HDR sec. 2.5.4).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Decompositions, interpolation and intersection of plane metrics: what is not needed millions of times.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Decompositions, interpolation and intersection of metrics of space; ways to combine metrics.
 #pragma once
 

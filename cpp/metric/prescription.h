@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a host, a background mesh or an estimator says about the wanted size or metric at one place.
 #pragma once
 

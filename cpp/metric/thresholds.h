@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // When a parametrisation is degenerate, for all who ask: one answer.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several geometries in one model: their references side by side.
 #pragma once
 

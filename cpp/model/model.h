@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces, curves and points with their references: the content of x.pardom (RT-0232 sec. 3.2).
 #pragma once
 

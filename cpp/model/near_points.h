@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Points of space that are one within a tolerance.
 #pragma once
 

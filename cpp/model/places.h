@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where things of a model stand: for the sentences of errors and remarks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where curves must be cut so that gluing finds all that is common (HDR sec. 4.5.1).
 #pragma once
 

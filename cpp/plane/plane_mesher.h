@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit mesh of a plane domain in a metric field (RR-2928 sec. 2.2).
 #pragma once
 

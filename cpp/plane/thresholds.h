@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The thresholds of the plane mesher in one table: value, unit, reason, and what supports it (README, "Thresholds").
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "predicates/big_integer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Integers as large as four coordinates multiplied together. Private to predicates/: the refuge for coordinates so
 // large or so small that products of doubles would overflow or underflow.
 #pragma once

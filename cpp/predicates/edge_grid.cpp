@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "predicates/edge_grid.h"
 
 #include <algorithm>

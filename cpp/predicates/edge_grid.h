@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A grid over the edges of a planar domain: which edges meet a cell.
 #pragma once
 

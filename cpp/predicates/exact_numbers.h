@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coordinates as exact numbers: when expansions do, and as integers when not. Private to predicates/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sums of doubles that represent a number exactly ([shewchuk-1997] sec. 2). Private to predicates/.
 //
 // Valid while no operation overflows or underflows: the caller looks at the exponents.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // On which side of a plane a point lies, exactly: as the predicates of the plane (predicates.h).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "predicates/polygon_locator.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Point-in-polygon by the even-odd rule, exact, for many points.
 #pragma once
 

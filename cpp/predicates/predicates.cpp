@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "predicates/predicates.h"
 
 #include "predicates/exact_numbers.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Exact signs. No other room of the engine compares a determinant with zero to decide a topology.
 //
 // Each predicate is first evaluated in plain doubles with a bound of its rounding errors ([shewchuk-1997] sec. 4,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The loop of RR-2928 sec. 2.2 and HDR sec. 1.2: mesh, estimate, a new field on the mesh's vertices, mesh again.
 #pragma once
 

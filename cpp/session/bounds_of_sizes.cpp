@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "session/bounds_of_sizes.h"
 
 #include <algorithm>

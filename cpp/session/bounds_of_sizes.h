@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an adaptation leaves open of a session while it makes a mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The check of the host's derivatives before a run.
 #pragma once
 

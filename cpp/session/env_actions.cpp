@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The actions of blsurf.env (RT-0232 sec. 3.3, fig. 12).
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What `call export` writes (RT-0232 sec. 4).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parameters of a run as attributes of the images of its fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A step of the loop of HDR sec. 1.2 by files: fields on the last mesh, the next mesh, the fields on it.
 #pragma once
 

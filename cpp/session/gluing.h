@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // References found in space, for hosts that do not know them (RT-0232 sec. 3.2, HDR sec. 4.5.1).
 #pragma once
 

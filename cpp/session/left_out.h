@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces that a run goes without (parameter failing_faces).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a session says before and after a run. Private to session/.
 #pragma once
 

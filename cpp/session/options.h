@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the parameters of a session mean for a run. Private to session/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The variables that govern a run (RT-0232 sec. 3.3 fig. 13) and our own, in one table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A session: a host's geometry, a model, parameters, and the mesh made of them. The only room that knows the order of
 // the steps.
 #pragma once

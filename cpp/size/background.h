@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Background meshes: sizes or metrics at the vertices of a mesh, anywhere by interpolation.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Radii of curvature of surfaces and of curves on them (declared in size_rules.h).
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that keep a mesh close to a surface: isotropic, or by both principal radii (HDR sec. 2.6, 4.3; RR-2928
 // sec. 5.2).
 #pragma once

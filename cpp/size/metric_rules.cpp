@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that may differ by direction: sources of prescriptions, anisotropic geometry, and their combination.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "size/size_rules.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Wanted sizes at points, on curves and on surfaces (RT-0232 sec. 3.1.3).
 #pragma once
 

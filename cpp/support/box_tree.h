@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boxes around things of space, halved down to a few: what is near a point, or meets a segment or box, in logarithmic
 // time.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Errors of the engine: one class a cause, each carrying the entities that it is about.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gauss quadrature on [0, 1] and on triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Threads that help the calling one: oneTBB's where it is built in, else some of the standard library.
 #pragma once
 

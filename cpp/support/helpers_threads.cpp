@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // In place of helpers_tbb.cpp where oneTBB is not built in.
 #include <condition_variable>
 #include <deque>

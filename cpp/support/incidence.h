@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which of many small sets a thing belongs to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The one infinity: sizes that nothing bounds, boxes that hold nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Messages, progress and the request to stop: what a long run tells its caller, and hears from it.
 #pragma once
 

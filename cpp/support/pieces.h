@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Long ranges a piece at a time.
 #pragma once
 

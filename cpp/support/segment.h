@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Nearest points of segments, in the plane and in space.
 #pragma once
 

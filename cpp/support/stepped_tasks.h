@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Independent tasks made of steps, in one or more threads: some steps only the calling thread may run.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small fixed-size vectors: Eigen's, unaligned, so that arrays of them are arrays of plain numbers.
 #pragma once
 

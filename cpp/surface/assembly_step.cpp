@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The last step: one mesh of all patches, its statuses, narrow faces that vanish.
 #include <algorithm>
 #include <numeric>

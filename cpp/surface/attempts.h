@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshing again what smaller triangles may mend: the best mesh stays. Private to surface/.
 #pragma once
 

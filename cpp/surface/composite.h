@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Mesh of a composite surface: supports, sizes, curves, domains, patches, assembly (design: "From input to mesh").
 #pragma once
 

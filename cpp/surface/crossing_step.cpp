@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles of faces that are close to each other: chords that cross although the surfaces do not.
 #include <algorithm>
 #include <array>

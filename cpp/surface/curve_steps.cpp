@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The steps before the patches: gradation, curves, narrow faces, boundaries.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements other than straight triangles, made of the whole mesh.
 #include <algorithm>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One face on its way through sampling, plane mesh and lift.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a mesh of a composite surface is to be like.
 #pragma once
 

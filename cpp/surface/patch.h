@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One patch: what is asked for, and its mesh.
 #pragma once
 

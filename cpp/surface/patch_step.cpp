@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The patches: sample, mesh, lift of every face, on several threads.
 #include <algorithm>
 #include <memory>

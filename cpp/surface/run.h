@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A run over a composite surface: what its steps hand to one another. Private to surface/.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Imposed deformation: totally damaged elements go (HDR sec. 3.4.2).
 #pragma once
 

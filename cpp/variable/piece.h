@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A piece of the plane that is known by its mesh only (HDR sec. 3.4.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A piece that deforms, breaks and touches tools is meshed anew (HDR sec. 3.4).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where a displacement has pushed the piece through itself.
 #pragma once
 

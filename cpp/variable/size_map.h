@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The size wanted at each place of the piece: H of HDR sec. 3.4.1, the least of all maps, graded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Thresholds of this room: what they are, in which unit, why, and what supports them.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """run.py BUILD [--long] [--only NAME]...: runs the benchmarks whose tables docs/benchmarks.md shows, one after another, and writes their figures with the
 machine, its load, the versions and the date of the commit to docs/benchmarks/run.json.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """make.py BUILD [PAGE]...: makes the pictures of the gallery and of the tutorials, or of the pages given, by the commands that stand above them.
 BUILD: a build with tests, where the command and the libraries are up to date; they are installed in a folder that is removed again. Needs
 Debian's pngquant and, for the wheel, python3-gmsh."""

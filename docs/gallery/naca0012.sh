@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # naca0012.sh FOLDER: the loop of RR-2818 sec. 6.4 around the profile NACA 0012, by files, as a solver runs it: three adaptations to values at the
 # vertices of the mesh before. The field stands in for the flow at Mach 0.8 and 1.25 degrees: a strong shock above, a weak one below, stagnation at
 # the nose. FOLDER gets naca0.mesh to naca3.mesh with their .sol, and a picture. The program carreau is in PATH.

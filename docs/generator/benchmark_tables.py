@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The tables of docs/benchmarks.md, from the run that docs/benchmarks/run.py has written: `<!-- table: surface -->` is the place of one."""
 import json
 import os

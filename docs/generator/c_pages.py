@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pages of the C interface: one for each section of each header."""
 import re
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a header of the C interface declares, in its order, each with the comment that is about it.
 
 The headers follow one style: `/* ---- X ---- */` begins a section; a comment is about all declarations that follow it without

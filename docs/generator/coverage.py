@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """coverage.py [--xml FOLDER]: the share of public names that are documented. A name is when it has a description; when it states its errors where it
 returns a status (in its comment, in one above it, or by the rule of its section); and, if it is called, when a program that tests run shows a
 call. Prints a line for each interface and one for each name that falls short, and fails when there is one.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The C++ interface: Doxygen reads the headers, Breathe makes the pages."""
 import glob
 import os

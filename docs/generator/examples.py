@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Calls of functions in programs that tests run, each with the few lines around it."""
 import os
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A Sphinx domain of Fortran: subroutines, functions, types, interfaces of callbacks, constants of modules. Sphinx has none."""
 from sphinx import addnodes
 from sphinx.directives import ObjectDescription

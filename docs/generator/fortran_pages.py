@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pages of the Fortran modules: one for each section. What the C interface says of the entity of the same name is said here, too."""
 from c_pages import example_lines, file_name
 from text import heading, indented, summary

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The public entities of a Fortran module of the library, each with the comment (`!>`, `!!`) above it."""
 import re
 from dataclasses import dataclass, field

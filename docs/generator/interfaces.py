@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The headers and modules of the library, and what follows from all of them together."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where the files of the repository stand among the pages, and the links of Markdown that follow."""
 import os
 import re

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """stage.py FOLDER: writes there what Sphinx makes pages of: the pages of docs/, README and its like, READMEs of rooms, manual pages, the
 reference of each interface from its sources, listings of the programs that pages name."""
 import os

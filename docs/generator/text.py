@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The plain text of comments as reStructuredText: names become links, rows of columns become tables, errors a paragraph."""
 import re
 import textwrap

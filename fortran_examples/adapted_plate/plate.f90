@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Adaptation in Fortran, without callbacks: a plate with a hole whose "solver" gives a front along a circle. Each round takes values at the
 !> vertices, gets metrics for them, makes the next mesh, and carries the values over, as a solver that restarts would want.
 program plate

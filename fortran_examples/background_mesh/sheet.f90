@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Sizes from background meshes, in Fortran and without callbacks. A sheet z = (x^2 + y^2)/2 over [-1, 1]^2, one patch of
 !> Bezier, is meshed three times: by sizes at the vertices of tetrahedra around it, as a solver of volumes has them; by
 !> metrics at the vertices of triangles; and by sizes at the vertices of edges along its border alone.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The three annuli of Atlas fig. 5.26 to 5.28: pictures of the lines of both parameters, the pivots and the pseudo-skeleton, and
  * the parameters themselves as OpenEXR files.
  *

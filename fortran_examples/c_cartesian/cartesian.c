@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Cartesian surfaces (HDR sec. 4.8): the graph of z = f(x, y) over a plane domain, which is meshed so that the
  * triangles carry f. f = tanh((sin x - y) / 0.03) over the disc of radius 3 (HDR eq. 4.95), by four estimates of the
  * error: the largest curvature, both curvatures, the relative and the absolute error by the Hessian (HDR fig. 4.35

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Meshes of a square that are fine along a Lissajous curve (HDR sec. 1.1.2, fig. 1.9 and 1.10). The size at P is 0.3
  * times the distance of P from the curve, in all directions; or so across the curve and four times as large along it;
  * bounded in both cases. Sizes and metrics come from callbacks. The program measures lengths of edges in the metric,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Sizes that are fine along a Lissajous curve (HDR sec. 1.1.2): shared by the examples. */
 #ifndef LISSAJOUS_FIELD_H
 #define LISSAJOUS_FIELD_H

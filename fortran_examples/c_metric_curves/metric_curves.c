@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Curves in metrics that vary along them, as in sections 6.2 and 6.3 of RR-2818: a segment with five metrics (its
  * figures 24 to 27) and a closed curve of the plane with nine (like its figures 28 to 32, whose data the report does
  * not give), each with the three laws of interpolation; then a helix of space. Every curve is cut into edges of equal

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A field in the place of the flow around the profile at Mach 0.8 and 1.25 degrees: shared by the examples. */
 #ifndef NACA0012_FIELD_H
 #define NACA0012_FIELD_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Paraboloid z = (u^2 + v^2) / 2 over a square (RT-0232 sec. 6.1) by the C interface: geometry, model and mesh stay in
  * memory, no file is touched. All sizes are the defaults. The program checks the mesh itself, and fails if it is wrong.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A loop by sizes at vertices (HDR sec. 1.2, fig. 1.11), without callbacks: the square of fig. 1.9 from arrays, and for
  * each mesh after the first the sizes of that figure at the vertices of the mesh before; then the same with the metrics
  * of fig. 1.10. The third mesh confirms the second one. */

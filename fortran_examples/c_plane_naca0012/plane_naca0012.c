@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The loop around the profile NACA 0012 (RR-2818 sec. 6.4) on a plane domain from arrays: the contour is read from the
  * file that is named, two splines of Catmull and Rom between its leading edge and both ends of its blunt trailing edge;
  * the far boundary is a spline through 32 points of a circle. The field stands in for the flow. The program prints the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Torus of radii 2 and 0.7 by the C interface, from memory only: one face whose sides are sewn to each other by two
  * seams, one vertex where they cross. The mesh is closed. The program checks it from the arrays, and fails if it is
  * wrong; a second mesh, of half the size, shows that the error of the area is of second order. */

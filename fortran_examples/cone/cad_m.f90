@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cone of height 2 and radius 1, one patch: a seam, and the side v = 0 is one point of space, the apex.
 module cad_m
   implicit none

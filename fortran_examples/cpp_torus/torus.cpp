@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Torus of radii 2 and 0.7 by the C++ interface: one face whose sides are sewn to each other by two seams. Its geometry is a lambda for
 // many points at a time. The program checks the mesh, and fails if it is wrong.
 #include <carreau.hpp>

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Cylinder of radius 1 and height 3, one patch: the sides u = 0 and u = 2 pi are one curve of space, a seam.
 module cad_m
   implicit none

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The Brazilian test of HDR sec. 3.4.6: a disc of 50 mm is pressed between two planes, the upper one moving .1 mm an
 !! increment, sizes from 1 to 6 mm. Usage: forming_brazilian [displacement of the tool in mm [name of the files]]
 program brazilian

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Orthogonal cutting of HDR sec. 3.4.6: a tool of rake 5 degrees and edge radius .2 mm takes 2 mm off a block, sizes from
 !! .1 to 10 mm. Usage: forming_cutting [displacement of the tool in mm [name of the files]]
 program cutting

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> From the solver's state to carreau_remesh and back, and a series of files for ParaView.
 module remeshing_m
   use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A small explicit solver: elasto-plastic plane strain with damage, linear triangles, rigid tools. It is here to show how
 !! a host calls carreau_remesh; it is no tool of mechanics.
 !!

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Rigid tools of the two examples: wedges with a rounded edge, and half planes, which are wedges of 180 degrees.
 module tools_m
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t

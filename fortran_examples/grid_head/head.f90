@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A head scanned on a cylinder, as HDR sec. 4.4.3 and 4.7.1 have Voltaire's: 180 angles, 144 heights, noise of half a
 !> percent, smoothed by Taubin's filter without shrinking. Meshed uniformly with two sizes, and by its curvature:
 !> isotropic, the same graded, and by direction.

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Klein bottle (RT-0232 sec. 3.1.1): four squares; the sides u = 0 and u = 2 pi meet with their orientations reversed.
 module cad_m
   implicit none

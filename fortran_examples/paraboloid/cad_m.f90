@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Paraboloid z = (u^2 + v^2) / 2 over a square (RT-0232 sec. 6.1). Curves 5 and above lie inside: 20 segments and 16 arcs of circles.
 module cad_m
   implicit none

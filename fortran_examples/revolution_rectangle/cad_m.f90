@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Surface of revolution (RT-0232 sec. 2.1 example 3), first parametrisation: (phi, t) in a rectangle, X(t) = t (2 - t), Y(t) = t^2.
 !> The side t = 0 is one point of space.
 module cad_m

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Unit sphere by stereographic projection (RT-0232 sec. 2.1 example 2): its lower half (face 1) from the North Pole, its upper half
 !> (face 2) from the South Pole, turned so that both normals point outwards, each a disc of radius 2; the equator is glued.
 module cad_m

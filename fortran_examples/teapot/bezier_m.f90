@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Bicubic Bezier patches read from a file in the BPT layout.
 module bezier_m
   implicit none

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The Utah teapot, complete: 32 bicubic Bezier patches (RT-0232 sec. 6.2). Each patch is the unit square.
 module cad_m
   use bezier_m

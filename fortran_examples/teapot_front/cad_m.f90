@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Four patches of the front of the Utah teapot, references 1, 4 (rim), 5 and 8 (body), with the lines u = 0.3 and u = 0.8
 !> imposed inside the rim, and the borders of the body patches moved to where the spout enters (RT-0232 sec. 6.2, fig. 18 to
 !> 23). The sizes of figures 21 to 23 are chosen by the environment variable TEAPOT_SIZES: "patch" (a size for each patch) or

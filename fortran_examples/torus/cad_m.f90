@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Torus of radii 2 and 0.7, one patch: two seams, one vertex. References are found by gluing.
 module cad_m
   implicit none

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bench_threads FILE SIZE [REPEATS]: wall time of carreau_mesh_generate on a CAD file, the least of all repeats, with
 // one thread and with several, by turns.
 #include <brep_host.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces that bend inside are meshed as if they ended there, and stay what they are for everybody else.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

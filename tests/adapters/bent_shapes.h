@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces that bend inside: one surface over what a person sees as several faces.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A part as people draw them: a plate of 60 x 40 x 8 with round corners, a boss on a fillet, a bore and four holes.
 #pragma once
 

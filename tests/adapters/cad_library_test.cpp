@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // libcarreau_cad as a program sees it: carreau_cad.h, and files that make_shapes makes (CARREAU_TEST_SHAPES).
 #include <carreau_cad.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """command_broken_test.py CARREAU MAKE_SHAPES: `carreau mesh` on files that are broken: a sentence and a status each."""
 import json
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """command_formats_test.py CARREAU MAKE_SHAPES READERS: names and references of `carreau mesh` survive in all formats that can hold them.
 The files are read by readers of the folder READERS, which share no code with the library; Gmsh, if it is there, reads its own."""
 import collections

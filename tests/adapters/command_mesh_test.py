@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """command_mesh_test.py CARREAU MAKE_SHAPES SLOW_RENAME: `carreau mesh` on files that OpenCASCADE makes."""
 import json
 import math

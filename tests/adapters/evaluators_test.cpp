@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Adaptors of OpenCASCADE remember what they evaluated last; Evaluators must not show it.
 #include <evaluators.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faults inside OpenCASCADE: errors of a face for a program that asks for it, and nobody else's business.
 #include <faults.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which feature of the input forces a flat triangle: what the sweep excuses, and says.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges that faces do not share in the file, or share with images that disagree.
 #include <gtest/gtest.h>
 #include <shape_file.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // make_flanges FILE.brep [FLANGES HOLES RINGS LENGTH]: a pipeline, as an assembly of many detailed faces: a long tube,
 // pairs of flanges on it, and bolts with threads of rings through their holes; 4 12 6 400: 1187 faces. For
 //   carreau mesh FILE.brep --angle 15 --anisotropic --max 5% --json

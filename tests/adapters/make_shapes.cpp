@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // make_shapes FOLDER: files for the tests of the command, made by OpenCASCADE itself.
 //   NAME.step, NAME.brep   each shape of the torture set
 //   assembly.step          two boxes of one part "block", placed apart, and a "ball", in an assembly "rig"

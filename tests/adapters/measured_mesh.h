@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A shape meshed through the C interface, and what can be measured on the result.
 #pragma once
 

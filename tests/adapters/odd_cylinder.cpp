@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "odd_cylinder.h"
 
 #include <BRepPrimAPI_MakeCylinder.hxx>

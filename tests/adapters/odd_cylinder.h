@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A solid one face of which OpenCASCADE evaluates in a way of the test's own.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What files of other programs hold: edges without curves in parameter planes, thin plates, edges of nearly no length.
 #include <gtest/gtest.h>
 #include <shape_file.h>

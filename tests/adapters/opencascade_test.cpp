@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CAD shapes through the adapter and the C interface, against what OpenCASCADE says of them.
 #include <extent.h>
 #include <gtest/gtest.h>

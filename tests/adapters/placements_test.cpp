@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Assemblies with placements, units, and faces that several solids share: read back from files and meshed.
 #include <gtest/gtest.h>
 #include <shape_file.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shapes that are hard on a mesher, made by OpenCASCADE's own constructors.
 #pragma once
 

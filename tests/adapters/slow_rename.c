@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* For LD_PRELOAD: each file takes SLOW_RENAME microseconds to get its name. */
 #define _GNU_SOURCE
 #include <dlfcn.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """zero_edges_test.py CARREAU MAKE_SHAPES: edges of no length in a STEP file are no reason to lose a face."""
 import json
 import os

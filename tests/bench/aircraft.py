@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """aircraft.py CARREAU FOLDER [--fine]: an aircraft out of 57 grids, adapted to sizes that are smallest on two paraboloids.
 
 A like of HDR sec. 4.7.4, whose grids of a Boeing are not public: fuselage with poles at nose and tail, wings, tailplanes and fin

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Time of our algebra against Eigen's for the same: "bench_algebra". What is not faster here is kept for its accuracy
 // (tests/cpp/metric/eigen_comparison_test.cpp).
 #include <Eigen/Cholesky>

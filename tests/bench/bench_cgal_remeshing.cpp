@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // CGAL's isotropic remeshing of a surface of triangles: bench_cgal_remeshing IN OUT.off SIZE SHARP_ANGLE.
 // Prints the seconds of the remeshing, without reading and writing.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a control space costs and how well it interpolates: samples and build time for each vertex of the mesh to come,
 // time of at(), errors of lengths. Usage: bench_control_space [factor on sizes, default 1]
 #include <algorithm>

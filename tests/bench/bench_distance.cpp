@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // bench_distance A B ANGLE: how far the mesh A is from B, and B from A (vertices, middles of edges and triangles), and
 // how far points of the sharp lines of B are from those of A.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What fields cost: nanoseconds a triangle of the plane mesher and of the control space for size fields and anisotropic
 // fields of ratio 10, and both together against a mesh of uniform size in space with about as many triangles, all in
 // one run and in turns. Usage: bench_fields [ROUNDS [CASE]].

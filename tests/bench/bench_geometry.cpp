@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Built-in geometries beside callbacks: the same surfaces, asked directly and through the callbacks of a C host. One line of JSON
 // a case and road: seconds of a million evaluations of each order, and of meshing, by the processor's clock (one thread).
 // Usage: bench_geometry [REPEAT]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit meshes of surfaces under smooth size fields: quality, true lengths and time of each. bench_graded [SURFACE
 // [FIELD [SLOPE [TRIANGLES [FILE]]]]]; "all" for any surface or field; without a slope 0.26 (gradation 1.3) with 20 000
 // triangles and 0.11 with 100 000.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles a second and metric quality in anisotropic fields: bench_metric CASE H RATIO [RUNS].
 // For comparisons: "bench_metric CASE H RATIO RUNS FILE" writes the mesh as well and prints JSON; "bench_metric CASE H
 // RATIO 0 FILE" measures a mesh that another program has made. FILE: the numbers of vertices and triangles, x y of each

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles a second and quality of the plane mesher alone: bench_plane CASE H [runs] [algebraic].
 #include <algorithm>
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quadrilaterals a second and their quality, in the plane alone: bench_quads CASE H [runs] [triangles] [PICTURE.svg].
 #include <algorithm>
 #include <cstdio>

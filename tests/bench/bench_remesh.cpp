@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Milliseconds a remeshing of a pressed disc against the number of its triangles: bench_remesh [runs]. Columns: without
 // fields; with damage, velocities and six values in triangles; with the error estimate of a nodal field besides.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surface meshing of analytic cases: one line of JSON a case. Usage: bench_surface [CASE [SIZE [REPEAT]]]
 // Times are those of the processor (the engine runs in one thread), so that a busy machine does not count.
 // CASE: paraboloid, hemisphere, torus, teapot; all of them at their standard sizes without arguments.

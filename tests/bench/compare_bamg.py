@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes a plane anisotropic field by Gmsh's BAMG, by FreeFem++'s adaptmesh and by Carreau, in one run, and prints speed and
 quality in the metric.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """compare_discrete.py BUILD FILE... [--size SHARE] [--sharp DEGREES]: surfaces given as triangles, by Carreau, Gmsh and CGAL in one run.
 
 Gmsh: merge, classifySurfaces, createGeometry, generate(2); CGAL: detect_sharp_edges, isotropic_remeshing. One thread each; seconds are those of

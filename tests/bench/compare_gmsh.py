@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes the same surfaces by Gmsh's Frontal-Delaunay and by Carreau, in one run, and prints speed and quality.
 
     apt-get install gmsh python3-gmsh python3-numpy

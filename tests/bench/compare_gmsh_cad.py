@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes CAD files by Gmsh's Frontal-Delaunay and by `carreau mesh`, in one run, and prints a table of speed and quality.
 
     apt-get install gmsh python3-gmsh python3-numpy

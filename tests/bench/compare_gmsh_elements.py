@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Curved triangles of Gmsh (order 2, with and without its optimisation) and of `carreau mesh --element p2`, in one run.
 
     apt-get install gmsh python3-gmsh python3-numpy

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Quadrilaterals of Gmsh and of `carreau mesh` on the same shapes, in one run: speed, quality, scaled Jacobian.
 
     apt-get install gmsh python3-gmsh python3-numpy

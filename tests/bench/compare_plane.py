@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes a plane domain of one size by Gmsh's Frontal-Delaunay, by its BAMG and by `carreau plane`, in one run, and prints speed
 and quality.
 

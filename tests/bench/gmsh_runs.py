@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the comparisons with Gmsh share: its sessions, its triangles, the quality of triangles, time of processes."""
 import argparse
 import contextlib

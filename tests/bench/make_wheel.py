@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Makes a part like the steering wheel of HDR fig. 4.27, a rim with a hub and three spokes whose surfaces are cut into many patches for
 no reason, by Gmsh's binding to OpenCASCADE.
 

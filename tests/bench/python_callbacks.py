@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """python_callbacks.py [SIZE...]: what a geometry costs by callbacks in C, in NumPy (batched) and in Python (scalar): a torus, the median
 of fifteen runs by turns in a new session each; then with a size at every place. Seconds of the processor, by one thread; what a point costs
 more is the difference to C, by the number of evaluations. In a clone with a build:

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """report_frames.py CARREAU TEAPOT [SIZE...]: reports of the teapot, one a size of edges (0.035: some 100 000 triangles, 0.011: a million): bytes,
 time until it can be used, time and draw calls of a picture in a headless Chromium whose WebGL is SwiftShader's, by the processor alone."""
 import json

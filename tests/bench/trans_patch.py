@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes files with `carreau mesh`, with and without --independent, and prints both side by side.
 
     python3 tests/bench/trans_patch.py CARREAU FILE... [--share 2%]... [--repeat N] [--json FILE]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Background meshes, estimators, transfer and the loop of adaptation through the interface.
 #include <cmath>
 #include <cstdio>

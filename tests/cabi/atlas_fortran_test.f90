@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Loops, annuli and an atlas through module carreau_atlas: there and back, transitions, a mesh.
 program atlas_fortran_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The program of RT-0232 sec. 5 around an unchanged cad_m: its files, its messages, its exit codes.
 
     blsurf_test.py <blsurf> <folder with x.pardom>

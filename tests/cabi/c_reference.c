@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The paraboloid meshed in C, for the Fortran test to compare with. */
 #include "hosts.h"
 

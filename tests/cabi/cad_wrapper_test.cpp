@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau_cad.hpp: a sphere of radius 1, by the command that reads it and by all questions to its file.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The module carreau has a public procedure for every function of carreau.h, and the same constants.
 
     check_names.py <carreau.h> <carreau.f90>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The shared library exports exactly the functions of cabi/abi/symbols.txt, each under the version VERSION.
 
     check_symbols.py <libcarreau.so> <symbols.txt> --version VERSION [--refresh] [--nm NM]

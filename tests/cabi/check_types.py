@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """gfortran and the C compiler read carreau_c.f90 and carreau.h alike: the same layout of every struct, the same types of
 every argument and result. The script that writes carreau_c.f90 is not trusted with it.
 

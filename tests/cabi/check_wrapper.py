@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Every function of the C interface can be had from the C++ headers: each name of a list of symbols is called in one of them.
 
     check_wrapper.py <symbols.txt> <header or folder>...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves in metrics through the interface.
 #include <cmath>
 #include <limits>

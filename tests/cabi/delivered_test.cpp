@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was delivered, through the C interface.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges prescribed on curves, and wires, through the C interface.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Domains that cannot be meshed, alone and among others that can.
 #include "abi_fixture.h"
 

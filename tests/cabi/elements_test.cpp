@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements through the interface: kinds, nodes, (u, v), quality, files.
 #include <algorithm>
 #include <cmath>

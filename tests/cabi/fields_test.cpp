@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau_write_exr, read back with OpenEXR.
 #include <filesystem>
 #include <random>

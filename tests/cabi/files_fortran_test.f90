@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 ! files_fortran_test CLONE: each geometry of module carreau_geometry that comes from a file, and what is exact about it.
 program files_fortran_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t

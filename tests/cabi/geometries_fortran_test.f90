@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 ! Bezier patches, callbacks beside them, and meshes from arrays, from Fortran.
 module plate
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr

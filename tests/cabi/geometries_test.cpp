@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several geometries in one session: Bezier patches, molecules and callbacks side by side.
 #include <carreau_geometry.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Structured grids through the interface: meshes, files, mistakes.
 #include <carreau_geometry.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau.h is C++ too, from C++11 on.
 #include "carreau.h"
 

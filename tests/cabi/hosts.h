@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Hosts in C for the tests of the interface: geometry in closed form, counted, and able to fail on purpose. */
 #ifndef CARREAU_TESTS_HOSTS_H
 #define CARREAU_TESTS_HOSTS_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A host that goes wrong at its n-th callback, for every n of a run.
 #include <algorithm>
 #include <cmath>

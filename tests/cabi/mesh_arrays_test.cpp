@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes from arrays of the caller.
 #include <carreau.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Algebra of metrics through the interface: closed forms in the plane and in space, and what is refused.
 #include <cmath>
 #include <numbers>

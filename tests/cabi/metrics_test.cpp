@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Metric callbacks of a host: what they may answer, and what they may not.
 #include <cmath>
 #include <limits>

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 ! model_fortran_test: two squares of the plane as a model: read back, written, named, joined, left out; their mesh by files of sizes and fields.
 module squares
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr

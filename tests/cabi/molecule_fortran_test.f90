@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> Areas of two balls through module carreau_geometry: those in closed form.
 program molecule_fortran_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t

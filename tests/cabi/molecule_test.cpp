@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Molecules through the interface: areas, meshes, mistakes.
 #include <carreau_geometry.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces and curves that are parts of others.
 #include <algorithm>
 #include <cmath>

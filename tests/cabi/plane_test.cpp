@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane domains of the C interface: arrays in, arrays out.
 #include <carreau_geometry.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau_remesh as a host sees it.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces given as triangles through the interface: arrays, files, mistakes.
 #include <carreau_geometry.h>
 

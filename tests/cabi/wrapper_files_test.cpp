@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau.hpp: files, models, backgrounds, routines of cad_m; atlases.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A paraboloid by carreau.hpp: face 1 over a square, four curves, as paraboloid_cad of hosts.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // carreau.hpp: the meshes of the C interface, exceptions across it, lifetimes, and every group of functions once.
 #include <cmath>
 #include <cstdio>

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 ! Must not compile: the compiler checks callbacks against the interfaces of module carreau.
 module wrong_m
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t

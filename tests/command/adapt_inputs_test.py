@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """adapt_inputs_test.py CARREAU TEAPOT HOST [MAKE_SHAPES]: `carreau adapt` takes every kind of geometry and every kind of background mesh:
 triangles, tetrahedra, edges of curves. MAKE_SHAPES makes STEP files."""
 import itertools

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """adapt_test.py CARREAU FORMULAS PAGE TEAPOT: `carreau adapt`: the loop of the page docs/adaptation.md as it stands there, sizes and metrics by
 files, several fields at once, surfaces in space, a sentence for each mistake. FORMULAS is 1 when the program has muParser."""
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """atlas_test.py CARREAU: `carreau mesh --surface atlas` on a torus of triangles, and on files that are none."""
 import math
 import os

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A geometry that ends its program, or tries to, in its FAULT-th way. */
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """bad_hosts_test.py CARREAU HOST...: geometries in shared libraries that end their program: by a null pointer, abort(), exit(0), recursion."""
 import os
 import shutil

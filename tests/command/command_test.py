@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """command_test.py CARREAU: the program `carreau`: pictures, checks, parameters, exit codes."""
 import json
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """first_hour_test.py CARREAU TEAPOT.BPT: what a person meets first: wrong options, help, JSON, faces that are looked for, pictures."""
 import json
 import math

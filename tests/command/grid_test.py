@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """grid_test.py CARREAU DATA: structured grids by `carreau mesh`, `info` and `fields`. DATA: tests/data/grid."""
 import json
 import math

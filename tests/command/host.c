@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* The paraboloid of RT-0232 sec. 6.1 as a shared library: the least that is needed, under plain names. */
 #include <math.h>
 #include <stdint.h>

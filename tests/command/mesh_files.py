@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Independent readers of what `carreau mesh` writes: vertices, triangles with the name or reference of their face."""
 import base64
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """mesh_test.py CARREAU FORMULAS TEAPOT HOST...: `carreau mesh` without OpenCASCADE: Bezier patches, and hosts in shared libraries. FORMULAS:
 1 when the program has them. Each host is the paraboloid z = (x^2 + y^2) / 2 over [-2.5, 2.5]^2; face 2 of the first one fails."""
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """molecule_test.py CARREAU DATA: `carreau areas`, and `carreau mesh` on molecules. DATA: tests/data/molecule."""
 import json
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """plane_test.py CARREAU BL2D: plane domains by files: areas and references, the loop of bl2d.env, a sentence for each mistake."""
 import math
 import os

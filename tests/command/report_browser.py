@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A headless Chromium, driven by selenium, for pages of reports. WebGL is SwiftShader's: drawn by the processor."""
 import os
 import shutil

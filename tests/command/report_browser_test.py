@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """report_browser_test.py CARREAU TEAPOT [PICTURES]: what a browser makes of reports. PICTURES: a folder for what it shows.
 --has: exit status 0 when there is a browser."""
 import sys

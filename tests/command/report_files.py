@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Reads pages of `carreau report`: their markup, and the mesh that they hold."""
 import base64
 import json

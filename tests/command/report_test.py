@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """report_test.py CARREAU TEAPOT: pages of `carreau report` and of `carreau mesh -o x.html`, read by a program of their own."""
 import base64
 import hashlib

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """triangles_test.py CARREAU: surfaces given as triangles, from file to mesh; a sentence for each mistake."""
 import json
 import math

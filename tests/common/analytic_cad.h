@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Geometry in closed form for tests and benchmarks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // EXR files read back with OpenEXR's own C++ library: not with what wrote them.
 #pragma once
 

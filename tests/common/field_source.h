@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A source of prescriptions made of functions.
 #pragma once
 

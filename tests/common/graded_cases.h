@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces under smooth isotropic size fields whose slope is bounded: what a unit mesh must be good at everywhere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // BL2D's .data.
 #include "plane_fuzz_check.h"
 

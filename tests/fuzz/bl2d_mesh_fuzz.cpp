@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // BL2D's .bl2d: a mesh that was read is written and read back to the same text; and its .h.
 #include <cstdint>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Any bytes are Bezier patches or a FileError that names file and line.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Any bytes are pairs of words or a FileError that names file and line.
 #include <cstdint>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Any bytes are a formula that can be evaluated again and again, or a Failure.
 #include <cmath>
 #include <cstdint>

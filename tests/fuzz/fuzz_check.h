@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A property that does not hold ends the fuzzer like a crash, so that the input is kept.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Any bytes are a mesh or a FileError that names the file (ASCII Medit format).
 #include "mesh_fuzz_check.h"
 

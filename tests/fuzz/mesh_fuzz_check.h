@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What holds for every mesh that was read: all formats take it, and give back what they hold.
 #pragma once
 

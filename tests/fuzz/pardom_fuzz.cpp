@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Any bytes are a model or a FileError that names the file; a model is written and read back to the same text.
 #include <cstdint>
 

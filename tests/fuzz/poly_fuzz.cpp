@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangle's .poly.
 #include "plane_fuzz_check.h"
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # cmake -DPROGRAM= -DCORPUS= -DWORK= -DRUNS= -P run_fuzz.cmake: runs a fuzz target on a fresh copy of its corpus
 # (libFuzzer adds to the folder it is given). An input that fails is kept in WORK, and its name is printed.
 file(REMOVE_RECURSE ${WORK})

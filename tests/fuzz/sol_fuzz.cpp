@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The ASCII form of solutions.
 #include "sol_fuzz_check.h"
 

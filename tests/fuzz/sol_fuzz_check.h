@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What holds for every solution that was read: both forms give it back.
 #pragma once
 

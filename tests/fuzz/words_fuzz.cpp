@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Any word of the command line is a length, an assignment or numbers of pixels, or a Failure that names the option.
 #include <cmath>
 #include <cstdint>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The layers of cpp/: no include runs upwards. CONTRIBUTING.md lists the rooms, each of which may use those before it."""
 
 import pathlib

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # by_hand.sh TREE WORK FORTRAN: the program of the manual by the command line of README, with sources of the installed tree;
 # then the same with its modules and libraries.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # cpack.sh CPACK BUILD WORK COMMAND: the archive and the package that cpack makes hold what is installed; the archive's command runs where
 # it was unpacked, and the package names the libraries that it needs.
 set -eu

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Each file of an installed tree belongs to exactly one package of debian/, and each pattern there finds a file.
 
     debian_files.py TREE PROJECT [PATTERN_THAT_MAY_FIND_NONE...]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Installs BUILD somewhere, then moves the tree to TREE. Old files must not hide what is no longer installed.
 file(REMOVE_RECURSE "${TREE}" "${TREE}.first")
 # The list of what a person has installed is his.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # installed_files.sh TREE WORK FORTRAN COMMAND CAD PYTHON: what an installed tree must hold, and must not.
 set -eu
 tree=$1 fortran=$3 command=$4 cad=$5 python=$6

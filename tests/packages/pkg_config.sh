@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # pkg_config.sh TREE WORK PKG_CONFIG CC [CAD]: a C program by pkg-config and the compiler alone.
 set -eu
 tree=$1 work=$2 pkg_config=$3 cc=$4 cad=${5:-0}

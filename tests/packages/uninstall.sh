@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # uninstall.sh CMAKE BUILD WORK: what `cmake --install` puts into a tree, the target uninstall takes away; files of others stay.
 set -eu
 cmake=$1 build=$2 work=$3

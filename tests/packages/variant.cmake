@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # A static library without OpenEXR and oneTBB: it is built, installed and moved; programs in C use it by CMake, by pkg-config and by
 # hand. Variables: SOURCE, WORK, TESTS (this folder), CC, PKG_CONFIG, GENERATOR.
 file(REMOVE_RECURSE "${WORK}")

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs with the library of the build: CARREAU_LIBRARY_PATH, PYTHONPATH and others come from CMake."""
 import os
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* Surfaces in C, to be compared with the same formulas in Python: every operation is rounded as there. */
 #include <math.h>
 #include <stddef.h>

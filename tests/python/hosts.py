@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What tests and benchmarks have in common: surfaces in Python, and those of host.c."""
 import ctypes
 import math

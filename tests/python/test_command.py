@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The words of carreau.mesh mean what they mean to `carreau mesh`: the same meshes, bit for bit."""
 import os
 import subprocess

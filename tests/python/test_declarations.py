@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What ctypes is told is what the headers say, and what the compiler makes of them."""
 import ctypes
 import glob

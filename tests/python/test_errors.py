@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What goes wrong is an exception with its place, and leaves the session of use."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Examples and listings run as they stand."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Types are checked, and everything public is described."""
 import inspect
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Ctrl-C ends a run at once, wherever it is, and the session is of use after it."""
 import os
 import signal

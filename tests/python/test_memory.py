@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Nothing is copied that need not be, nothing leaks, and nothing goes that is still in use."""
 import ctypes
 import gc

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of meshes: what is drawn is where it is, and nearest to the eye."""
 import struct
 import zlib

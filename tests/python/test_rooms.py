@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a session and the modules do besides meshes of callbacks, by mathematics."""
 import math
 import os

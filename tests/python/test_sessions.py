@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Parameters and files of sessions, charts of atlases, questions to CAD files, domains."""
 import math
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Callbacks in Python are asked for what C is asked for, one by one or many at a time."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The package as users have it: as a wheel in a virtual environment, and as `cmake --install` puts it."""
 import glob
 import importlib.util

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """calculix_test.py CARREAU CCX: CalculiX solves problems on shells that `carreau mesh` wrote as .inp, and finds their closed forms."""
 import math
 import os

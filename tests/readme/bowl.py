@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """bowl.py MESH: the mesh of README's samples is the paraboloid over a disc of radius 2, with edges of 0.1."""
 import math
 import sys

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """commands.py README WORK BUILD MAKE_SHAPES SOURCE [--refresh]: every command of README is run as pasted, every program built and run
 in each way that README has, and the listings compared with what is printed now. --refresh: writes the listings that differ into README.
 

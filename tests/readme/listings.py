@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Listings of commands, each after `$ `, with what they print; … stands for any lines."""
 import re
 import sys

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """page.py PAGE WORK BUILD MAKE_SHAPES SOURCE PREFIX [--refresh]: runs every listing of a page of docs/, in its order and in one folder; what BUILD has
 made is installed in PREFIX.
 

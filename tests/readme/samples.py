@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """samples.py README FOLDER: writes the blocks ```c, ```cpp and ```fortran of README as FOLDER/sample.c, .cpp and .f90, and those
 that use carreau_cad as FOLDER/step.c, FOLDER/step.cpp and FOLDER/step.f90.
 

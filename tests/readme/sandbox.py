@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A folder in which commands of pages run as pasted: a clone with the files that they name, what was built in place of build/release, and
 `apt-get`, `sudo` and `cmake` that change nothing outside."""
 import math

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """step.py PROGRAM CARREAU PART WORK: a program of README meshes PART as the command does, and says why it cannot when there is no file."""
 import os
 import shutil

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// From a field to a mesh that carries it: see carreau.hpp.
 #ifndef CARREAU_ADAPTATION_HPP
 #define CARREAU_ADAPTATION_HPP

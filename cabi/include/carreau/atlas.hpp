@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Loops and annuli of the plane, C1 atlases of triangulated surfaces: carreau_atlas.h, see carreau.hpp.
 #ifndef CARREAU_ATLAS_HPP
 #define CARREAU_ATLAS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Geometry, sizes and metrics by std::function: see carreau.hpp.
 #ifndef CARREAU_CALLBACKS_HPP
 #define CARREAU_CALLBACKS_HPP

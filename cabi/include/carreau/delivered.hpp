@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a mesh is worth against what was prescribed: see carreau.hpp.
 #ifndef CARREAU_DELIVERED_HPP
 #define CARREAU_DELIVERED_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Points, status values and exceptions of the C++ interface: see carreau.hpp.
 #ifndef CARREAU_ERROR_HPP
 #define CARREAU_ERROR_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Geometries that the library evaluates itself: carreau_geometry.h, see carreau.hpp.
 #ifndef CARREAU_GEOMETRY_HPP
 #define CARREAU_GEOMETRY_HPP

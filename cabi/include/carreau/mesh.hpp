@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Meshes: see carreau.hpp.
 #ifndef CARREAU_MESH_HPP
 #define CARREAU_MESH_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Algebra of metrics and curves in metrics: see carreau.hpp.
 #ifndef CARREAU_METRIC_HPP
 #define CARREAU_METRIC_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Pieces that deform, break and touch tools: carreau_remesh.h, see carreau.hpp.
 #ifndef CARREAU_REMESH_HPP
 #define CARREAU_REMESH_HPP

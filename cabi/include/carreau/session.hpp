@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Sessions: see carreau.hpp.
 #ifndef CARREAU_SESSION_HPP
 #define CARREAU_SESSION_HPP

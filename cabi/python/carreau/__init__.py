@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Carreau: conforming meshes of surfaces made of parametric patches.
 
     import carreau

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """NumPy arrays as arguments of the library, and its memory as NumPy arrays: nothing is copied on the way."""
 from __future__ import annotations
 

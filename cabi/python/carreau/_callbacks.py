@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Functions of the user as callbacks: each gets the arguments that its parameters name."""
 from __future__ import annotations
 

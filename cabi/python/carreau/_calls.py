@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Calls of the library: a status becomes an exception, a struct a tuple with names."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The C interface as ctypes sees it.
 
 Written by cabi/python/generate.py: not to be edited."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a session takes as geometry, but for files of CAD."""
 from __future__ import annotations
 

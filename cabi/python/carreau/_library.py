@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """libcarreau and libcarreau_cad: found, loaded once, their functions declared."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the library tells, as tuples with names. Lengths are model lengths, angles degrees, times seconds.
 
 Written by cabi/python/generate.py: not to be edited."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A run of the library: exceptions of callbacks end it, and so does Ctrl-C, at once."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a session does with its mesh: sizes from fields, adaptation, images, what was delivered."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """C1 surfaces near closed triangulated ones: atlases of charts."""
 from __future__ import annotations
 

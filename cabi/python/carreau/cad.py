@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """STEP, IGES and BREP files, by libcarreau_cad."""
 from __future__ import annotations
 

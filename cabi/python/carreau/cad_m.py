@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Models x.pardom with the routines of a module cad_m (RT-0232) in a shared library."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The C interface as it is, for what has no words of its own here: every function of the headers, by ctypes.
 
     from carreau import capi

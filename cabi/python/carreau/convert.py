@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes for other packages."""
 from __future__ import annotations
 

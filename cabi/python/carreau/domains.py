@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Curves of the parameter plane, and the domains that they bound."""
 from __future__ import annotations
 

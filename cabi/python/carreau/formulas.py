@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Formulas as text, evaluated with NumPy: those of the command (muParser), and nothing that could do harm."""
 from __future__ import annotations
 

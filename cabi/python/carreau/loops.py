@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Loops and annuli of the plane with smooth parameters, of which atlases are made (docs/atlas.md)."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Meshes: arrays, quality, defects, files, pictures."""
 from __future__ import annotations
 

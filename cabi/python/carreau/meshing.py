@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """carreau.mesh and its like: from geometry and a few words to a mesh."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Algebra of metrics, of many at a time: rows of 3 numbers (xx xy yy) in the plane, of 6 (xx xy xz yy yz zz) in space.
 
 A metric M is positive definite, in 1 / model length^2. A vector d has the length sqrt(d^T M d) in it; a size h along an

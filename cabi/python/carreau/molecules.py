@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Areas and volumes of molecules, in closed form."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Domains of the plane: curves through points, holes, subdomains."""
 from __future__ import annotations
 

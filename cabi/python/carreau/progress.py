@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Progress of a run: a bar on the error output, or whatever a function makes of it."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pieces of the plane that deform, break and touch tools, meshed anew increment by increment (docs/remesh.md)."""
 from __future__ import annotations
 

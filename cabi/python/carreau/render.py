@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of meshes: a z-buffer in NumPy, and PNG by zlib."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Sessions: geometry, parameters and the mesh made of them."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Wanted sizes and metrics by functions of the place."""
 from __future__ import annotations
 

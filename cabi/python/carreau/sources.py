@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What carreau.mesh takes: files, arrays, formulas, patches, sessions."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Surfaces by functions of (u, v): patches, and their callbacks."""
 from __future__ import annotations
 

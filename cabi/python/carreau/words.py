@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """From words to parameters of a session, with the choices of the command `carreau mesh`."""
 from __future__ import annotations
 

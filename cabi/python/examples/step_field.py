@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """step_field.py PART.step: meshes a part, then adapts the mesh to a field that falls off from one of its corners."""
 import sys
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """A torus by NumPy, with sizes by a function of the place: torus.vtu, torus.png."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> The functions and structs of carreau_cad.h as Fortran sees them. Private to module carreau_cad.
 !! Written by generate.py from carreau_cad.h: do not edit. After a change of the header:
 !!   python3 cabi/fortran/generate.py cad_adapters/cad/include/carreau_cad.h cad_adapters/cad/fortran/carreau_cad_c.f90

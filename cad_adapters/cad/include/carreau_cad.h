@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* carreau_cad.h: STEP, IGES and BREP files as the geometry of a session. C99, and C++ as well. Library libcarreau_cad.
  *
  *   carreau_session_create(&session);

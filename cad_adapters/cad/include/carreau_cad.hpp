@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// carreau_cad.hpp: carreau_cad.h for C++20, header only, in the manner of carreau.hpp. Link libcarreau_cad.
 ///
 ///     carreau::Session session;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sections with a row a face or an element.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How values are spread, as numbers and as a drawing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers as text in a page: whole numbers become planes of bytes, zlib's stream, base64.
 #pragma once
 

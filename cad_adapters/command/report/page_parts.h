@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The files of report/viewer, as the build puts them into the program.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `carreau report`: a mesh in a file as a page that people open.
 #include "commands.h"
 #include "json_output.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page: its frame, with the parts of one report in their places.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The sections of a report: each is "" where there is nothing to tell.
 #pragma once
 

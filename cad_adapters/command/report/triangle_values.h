@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a report knows of each triangle: its shape, its size, its distance and angle to the surface.
 #pragma once
 

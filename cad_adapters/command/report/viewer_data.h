@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mesh as the viewer of a report reads it.
 #pragma once
 

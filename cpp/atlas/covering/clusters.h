@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A partition of the vertices of a triangulation into clusters that make a well-formed covering (Atlas sec. 5.5).
 #pragma once
 

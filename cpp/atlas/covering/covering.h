@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Domains of the plane for the regions of a triangulation, with C1 transitions and a partition of unity (Atlas
 // sec. 5.5).
 #pragma once

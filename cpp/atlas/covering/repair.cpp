@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Moves of single vertices between clusters, until a covering is well formed.
 #include <algorithm>
 #include <set>

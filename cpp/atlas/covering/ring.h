@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a cluster of vertices shares with others: the ring of triangles around its pure zone (Atlas sec. 5.5).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "atlas/covering/ring_chart.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Borders of a region in its plane, with phi at the vertices of the inner one.
 #pragma once
 

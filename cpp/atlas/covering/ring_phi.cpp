@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "atlas/covering/ring_phi.h"
 
 #include "atlas/covering/shared_triangle.h"

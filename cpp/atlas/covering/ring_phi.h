@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The parameter around a ring, the same for both clusters of a double zone (Atlas sec. 5.5.1.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The triangle T on which three regions meet (Atlas sec. 5.5.1.2): equilateral, of side 1, a region at each corner.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A closed triangulated surface and who is beside whom.
 #pragma once
 

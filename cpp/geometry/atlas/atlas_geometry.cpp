@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An atlas as a geometry of the engine.
 #include <map>
 

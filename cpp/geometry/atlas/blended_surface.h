@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A C1 surface near a triangulation: height fields over the charts of an atlas, blended by its partition of unity.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/height_field.h"
 
 #include <Eigen/Cholesky>

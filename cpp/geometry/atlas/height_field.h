@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A quadratic height field over the plane of a chart.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bezier patches as a geometry that the engine evaluates itself.
 #pragma once
 

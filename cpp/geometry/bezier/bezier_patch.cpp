@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/bezier/bezier_patch.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/discrete/discrete_cad.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A discrete surface as an evaluator of the engine.
 #pragma once
 

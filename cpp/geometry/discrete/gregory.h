@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quartic Gregory triangles (Walton, Meek 1996).
 #pragma once
 

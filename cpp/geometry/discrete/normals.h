@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Normals of regions at vertices, and curves over edges (HDR sec. 4.9.2).
 #pragma once
 

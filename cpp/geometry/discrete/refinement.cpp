@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/discrete/refinement.h"
 
 #include <algorithm>

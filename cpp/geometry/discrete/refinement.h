@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles of a discrete surface, cut finer (HDR sec. 4.9.3).
 #pragma once
 

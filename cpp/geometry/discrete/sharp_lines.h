@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lines on which a triangulation is sharp, and their corners (HDR sec. 4.9.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A surface that is smooth almost everywhere over triangles (HDR sec. 4.9.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles as somebody gave them, mended: neighbours, orientation, what is wrong.
 #pragma once
 

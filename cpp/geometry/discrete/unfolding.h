@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tangents around vertices that turn back (HDR eq. 4.101 to 4.103).
 #pragma once
 

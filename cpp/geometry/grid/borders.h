@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which edges on the borders of blocks are one in space, and the curves that they make.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which cells of a block are there, how they hang together, and what bounds them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/grid/coons_surface.h"
 
 #include <algorithm>

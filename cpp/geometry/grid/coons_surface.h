@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A surface that is bicubic on each cell of a grid and C1 between cells (HDR sec. 4.7.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Derivatives at the nodes of a grid by finite differences (HDR sec. 4.7.2).
 #pragma once
 

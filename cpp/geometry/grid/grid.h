@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Structured grids of points as geometry (HDR sec. 4.7).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Grids as an evaluator of the engine.
 #pragma once
 

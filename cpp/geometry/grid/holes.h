@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Missing nodes that have others all around them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The C1 surface through the nodes of each block, and what blocks have in common on their borders.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One orientation for blocks that hang together.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/grid/shared_derivatives.h"
 
 namespace carreau::grid {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Derivatives at nodes that several blocks have in common.
 #pragma once
 

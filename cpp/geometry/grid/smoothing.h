@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Smoothing that does not shrink (HDR sec. 4.7.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Areas and volumes in closed form.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What spheres leave of each other: circles, vertices, arcs and exposed components (HDR sec. 4.6.2).
 #pragma once
 

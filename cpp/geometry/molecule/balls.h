@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Balls, and what of them can be seen at all.
 #pragma once
 

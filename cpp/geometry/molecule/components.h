@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loops of arcs, and which of them bound one exposed part. A step of arrange().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Adds faces to a model and their patches to an evaluator.
 #pragma once
 

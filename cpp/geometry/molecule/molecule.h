@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces of molecules (HDR sec. 4.6).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/molecule/patch_cad.h"
 
 #include "support/error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Patches of a molecular surface as an evaluator of the engine.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From where an exposed part of a sphere is projected.
 #pragma once
 

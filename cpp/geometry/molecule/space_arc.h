@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arcs of circles in space, and loops of them on a sphere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of spheres in stereographic charts (HDR eq. 4.86).
 #pragma once
 

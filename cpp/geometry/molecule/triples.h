@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Points of three spheres, and whether balls cover points. Steps of arrange().
 #pragma once
 

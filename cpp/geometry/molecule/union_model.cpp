@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The boundary of a union of balls as faces, curves and points.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/plane/catmull_rom.h"
 
 namespace carreau {

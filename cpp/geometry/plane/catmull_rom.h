@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Splines of Catmull and Rom through points of the plane (RR-2818 sec. 3.2).
 #pragma once
 

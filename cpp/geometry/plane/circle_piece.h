@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // An arc of a circle of the plane, f(t) = c + r (cos(a + s t), sin(a + s t)) on [0, 1].
 #pragma once
 

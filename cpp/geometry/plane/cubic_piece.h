@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A piece of a plane spline, f(t) = a0 + a1 t + a2 t^2 + a3 t^3 on [0, 1]: RR-2818 sec. 3.3-3.7.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The curves of a plane domain, cut where others end, and polylines that stand for them.
 #pragma once
 

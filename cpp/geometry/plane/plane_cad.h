@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The evaluator of a plane domain: S(u, v) = (u, v, 0), and arcs of splines.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where polylines meet that should not.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A domain of the plane as arrays or a file give it: points, curves through them, and on which side it lies.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Which faces of a plane graph are subdomains.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The faces into which polylines cut the plane.
 #pragma once
 

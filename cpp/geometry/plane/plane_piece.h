@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A piece of a curve of the plane on [0, 1]: of a spline, or an arc of a circle.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes and metrics wanted at the points of a plane domain, and along its curves (RR-2818 sec. 4.1, 4.3.3).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/bezier/bezier_reader.h"
 
 #include <charconv>

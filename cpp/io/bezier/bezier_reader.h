@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bezier patches in text files, as those of the Utah teapot (.bpt).
 #pragma once
 

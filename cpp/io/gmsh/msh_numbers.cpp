@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/gmsh/msh_numbers.h"
 
 #include <cmath>

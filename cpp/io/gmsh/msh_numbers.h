@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Numbers of Gmsh's files: words in the ASCII form, raw bytes in the binary one. Its sections are named by lines of
 // text in both.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gmsh's format, versions 4.1 and 2.2, ASCII and binary (reference manual, "MSH file format").
 #include <algorithm>
 #include <map>

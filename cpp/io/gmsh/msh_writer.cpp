@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gmsh's ASCII format, versions 4.1 and 2.2 (reference manual, "MSH file format"): one surface a triangle reference,
 // one curve an edge reference, one point a vertex reference that no other vertex has.
 #include <algorithm>

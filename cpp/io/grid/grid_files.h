@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Readers of structured grids: PLOT3D, heights, cylindrical scans, lists of nodes.
 #pragma once
 

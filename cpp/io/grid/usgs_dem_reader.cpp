@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The elevation models of USGS: records of 1024 characters.
 #include <cmath>
 #include <limits>

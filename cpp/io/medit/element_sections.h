@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The elements of a Medit file, text or binary: a section a kind, each at most once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Facts of the GMF binary format (`.meshb`; the public description is that of libMeshb): a file is the number 1 in the
 // writer's byte order, a version, then sections: code, position of the next section, content. `End` is the last.
 //

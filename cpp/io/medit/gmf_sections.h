@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sections of a GMF binary file (.meshb, .solb), read with errors that name the byte.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/medit/element_sections.h"
 #include "io/medit/medit_words.h"
 #include "io/mesh_files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sections of Medit's ASCII formats (.mesh, .sol).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Solution files of Medit: values at the vertices of a mesh in another file.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reader of the loop _atom_site of mmCIF files (PDBx/mmCIF dictionary; syntax of CIF 1.1).
 #include <algorithm>
 #include <charconv>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Readers of molecules: .xyzr, .xyz, .pdb and .cif.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Reader of .pdb: the columns of the format 3.3, sections ATOM, HETATM, MODEL.
 #include <charconv>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Readers of .xyzr and .xyz, and the choice of a reader.
 #include <charconv>
 

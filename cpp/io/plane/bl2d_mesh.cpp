@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // BL2D's .bl2d, what its solvers read: `p1`, three counts, vertices, edges, triangles, each with its reference.
 #include <array>
 

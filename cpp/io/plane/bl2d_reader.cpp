@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of BL2D: .data, .g, and sizes .hg, .hc, .h.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of plane domains: Triangle's .poly, plane meshes whose edges are the boundary, BL2D's .data and .g.
 #pragma once
 

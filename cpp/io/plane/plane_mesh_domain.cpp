@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane meshes as domains, polygons as splines, files by suffix.
 #include <algorithm>
 #include <cmath>

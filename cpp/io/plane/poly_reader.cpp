@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangle's .poly files: points, segments, holes, regions; J. R. Shewchuk's description of the format.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Words of the files of plane domains, with their lines.
 #pragma once
 

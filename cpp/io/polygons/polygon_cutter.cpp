@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/polygons/polygon_cutter.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // OFF and Wavefront OBJ as text, PLY as bytes: triangles and straight quadrilaterals. OBJ has a group a face and lines along curves;
 // the others have neither. A property of faces would hold references in PLY, but not every reader of its bytes skips one.
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bulk data of Nastran: GRID, shells, and lines as edges; small, large and free fields. Other cards are skipped. The property
 // of an element is the reference of its face.
 #include <algorithm>

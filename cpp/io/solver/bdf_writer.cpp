@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bulk data of Nastran (MSC Nastran quick reference guide): GRID, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL for edges. Faces
 // are properties; names are sets of the case control section.
 #include <map>

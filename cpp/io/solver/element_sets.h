@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A mesh as solvers want it: elements with numbers, in named sets.
 #pragma once
 

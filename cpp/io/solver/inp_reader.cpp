@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Input of Abaqus and CalculiX: nodes, shells and sets. Other keywords are skipped with their lines.
 #include <cmath>
 #include <map>

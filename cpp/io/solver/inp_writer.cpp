@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Input of Abaqus and CalculiX (Abaqus keywords reference; G. Dhondt, CalculiX CrunchiX user's manual): nodes, shells, sets.
 #include "io/mesh_writers.h"
 #include "io/solver/element_sets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the readers of solvers' files share: nodes and elements by number, named sets, fields between commas.
 #pragma once
 

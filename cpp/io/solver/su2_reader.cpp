@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // SU2's native format: elements of the plane with markers as curves, or the markers of a volume as the faces of its surface.
 #include <algorithm>
 #include <array>

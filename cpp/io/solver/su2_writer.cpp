@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // SU2's native format (SU2 documentation, "Mesh File"). A mesh of the plane z = 0: elements, and a marker a curve. A surface in
 // space: it bounds a volume that is not there, so that there are no elements, and its faces are markers.
 #include "io/mesh_writers.h"

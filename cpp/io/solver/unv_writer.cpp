@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Universal files of I-DEAS (SDRC, "Universal dataset number" 2411, 2412, 2467; University of Cincinnati's collection): nodes in
 // double precision, thin shells and beams, groups of elements.
 #include <cstdio>

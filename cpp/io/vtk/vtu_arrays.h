@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arrays of a VTK XML file: numbers as text, as base64, or as bytes behind the XML.
 #pragma once
 

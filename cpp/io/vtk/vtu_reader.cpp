@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // VTK XML (UnstructuredGrid): points, triangles, lines; references and fields of the file's arrays.
 #include <algorithm>
 #include <cmath>

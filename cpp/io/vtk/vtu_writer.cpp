@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // VTK XML (UnstructuredGrid, version 1.0): the arrays follow the XML as raw bytes ("appended"), each preceded by its
 // length in bytes; `offset` counts from the byte after the underscore.
 #include <bit>

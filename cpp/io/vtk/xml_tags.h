@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tags of an XML file, one after the other: as much of XML as VTK's files need.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Compressed arrays of VTK XML files: blocks of zlib behind a header that tells their sizes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What makes elements other than straight triangles unusable. For find_defects().
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Jacobians of elements, by their Bernstein coefficients: where all are positive the element is valid everywhere, not
 // at some points only.
 #pragma once

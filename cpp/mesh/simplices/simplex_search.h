@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The nearest point of a mesh of tetrahedra, triangles and edges together, in logarithmic time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tetrahedra, triangles and edges as one list, and what bounds tetrahedra.
 #pragma once
 

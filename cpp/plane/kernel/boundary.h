@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangulation of the imposed vertices and edges, outside removed ("maillage frontalier", RR-2928 sec. 2.2).
 #pragma once
 

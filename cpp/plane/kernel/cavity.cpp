@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The generalised Delaunay kernel: a cavity is dug about a new point and filled with a star of triangles.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a domain must satisfy before it is triangulated, and sentences about its edges.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Makes an edge between two vertices of a triangulation exist.
 #pragma once
 

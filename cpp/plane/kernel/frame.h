@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coordinates of the size of one, whatever the host's: the mesher works in them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Delaunay in the metric of the vertices, however many swaps it takes.
 #pragma once
 

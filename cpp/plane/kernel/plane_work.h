@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the passes over the mesh of one domain have in common.
 #pragma once
 

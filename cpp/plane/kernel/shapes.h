@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measures of a triangulation's edges and triangles: in mean tensors of the vertices; where the field bends, from
 // lengths in the tensors halfway, and in charts.
 #pragma once

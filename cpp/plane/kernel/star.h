@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The triangles around a vertex, and what is done with them as a whole.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The triangulation that the plane mesher works on: flat arrays of plain numbers.
 #pragma once
 

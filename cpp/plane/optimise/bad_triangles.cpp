@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "plane/optimise/bad_triangles.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles that passes over the whole mesh have left bad or crowded, one by one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pairs of vertices of degrees five and seven, where a layer of the advancing front ends. Where sizes grow some must
 // be; of the others many find a partner a few edges away that they cancel with.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Degrees of vertices, and swaps that bring them towards six.
 #pragma once
 

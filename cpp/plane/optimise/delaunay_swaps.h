@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Swaps to the Delaunay criterion in the metric.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles without area. Where straight edges cannot follow the field, a vertex put on an edge that is not swapped
 // leaves a triangle between the edge and its own halves, whose lengths, each by a tensor of its own, speak for it, or
 // against all that could take its place. There the plane alone decides.

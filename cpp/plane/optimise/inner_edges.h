@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A walk over the edges of a large mesh that finds memory in order. Private to plane/optimise.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bad triangles that no single change mends: each change around them is tried with the moves and swaps that make room
 // for it, worst triangles first, and the best one is kept.
 #pragma once

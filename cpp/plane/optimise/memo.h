@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was found out about triangles, edges and stars, for as long as their vertices stay where they are. Private to
 // plane/.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Changes of the mesh around one bad triangle: each is kept only if it makes what it touches better.
 #pragma once
 

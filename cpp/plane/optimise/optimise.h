@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Swaps and moves that make triangles equilateral in the metric, and degrees six.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The triangles around a bad one that the local search changes, what they cost, and how they were.
 #pragma once
 

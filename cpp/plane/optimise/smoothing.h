@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Moves of all vertices at once, each some of the way to where its triangles would be equilateral.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Moves and swaps by which a zone makes the best of a change.
 #pragma once
 

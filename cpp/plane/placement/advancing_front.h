@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Points placed layer by layer from the boundary.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Algebraic placement: points at unit distances on edges (RR-2928 sec. 2.2).
 #pragma once
 

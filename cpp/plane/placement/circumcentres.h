@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Circumcentre insertion: points in triangles that are left too large.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Directions in which squares are to lie: tangent to the boundary, smooth inside.
 #pragma once
 

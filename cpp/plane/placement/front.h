@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The front: edges between triangles that are small enough and those that are not.
 #pragma once
 

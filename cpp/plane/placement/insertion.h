@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Insertion of points into triangles that are too large.
 #pragma once
 

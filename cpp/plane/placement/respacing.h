@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A layer keeps the number of points of the one before; where the metric wants more or fewer, some are added or merged.
 #pragma once
 

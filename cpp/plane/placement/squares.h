@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Points placed for quadrilaterals: those of a lattice of unit squares that follows a field of crosses.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places of small sizes that lie amid triangles whose vertices do not know of them.
 #pragma once
 

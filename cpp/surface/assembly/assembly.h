@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From patches to one conforming mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Internal curves as cracks: each side has vertices of its own (RT-0232 sec. 2.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Narrow faces that vanish from a mesh.
 #pragma once
 

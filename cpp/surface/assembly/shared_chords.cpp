@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/assembly/shared_chords.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Inner edges by which patches would touch each other away from their curves.
 #pragma once
 

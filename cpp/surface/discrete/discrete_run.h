@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes of surfaces given as triangles: made again in space, on the smooth surface over them.
 #pragma once
 

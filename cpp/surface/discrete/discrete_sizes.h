@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes of meshes of surfaces given as triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles of a discrete surface as a mesh of the engine, fine enough for the sizes that are wanted.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From discretised curves to the discretised parameter domain of a face.
 #pragma once
 

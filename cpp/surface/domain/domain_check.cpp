@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/domain/domain_check.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Detection of what makes a discretised parameter domain impossible or bad to mesh, and of the edges to
 // refine to mend it (HDR sec. 3.3.1-3.3.3, RT-0232 sec. 3.3 CheckCloseEdges and its sisters).
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges that are long beside what is close to them (HDR sec. 3.3.2).
 #include <algorithm>
 #include <array>

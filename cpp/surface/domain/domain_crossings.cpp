@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges that meet where they should not (HDR sec. 3.3.1).
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the checks of a domain share: which edges meet at a vertex. Private to domain_*.cpp.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loops of a domain: do they close, which way are they turned, what lies outside.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices of a boundary that come near its edges in space.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/elements/curve_middles.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Middles of the edges of curves, once for all faces that hold them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements whose Jacobian is not positive: nodes inside their face move until it is.
 #include <algorithm>
 #include <array>

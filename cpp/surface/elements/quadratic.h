@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements of second order: nodes on the edges of a mesh of first order.
 #pragma once
 

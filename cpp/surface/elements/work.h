@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the steps work on that make elements out of the triangles of a whole mesh.
 #pragma once
 

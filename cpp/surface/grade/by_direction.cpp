@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of the gradation that is about sizes that differ by direction.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One graph of the gradation of a model: a mesh of its own whose vertices know what is prescribed. Private to this
 // room.
 #pragma once

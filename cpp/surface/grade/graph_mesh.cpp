@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mesh of a face in the graph, and what the host says while its control space is sampled.
 #include "plane/plane_mesher.h"
 #include "support/infinity.h"

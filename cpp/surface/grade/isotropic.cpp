@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The part of the gradation that is about one size at each vertex.
 #include <algorithm>
 #include <cmath>

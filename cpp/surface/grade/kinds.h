@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that are the same in all directions, and sizes that are not: what the drivers of size_grading ask of either.
 // Private to this room.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bounds by how far boundaries and faces are from each other.
 #include <algorithm>
 #include <cmath>

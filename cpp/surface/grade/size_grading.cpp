@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/grade/size_grading.h"
 
 #include <algorithm>

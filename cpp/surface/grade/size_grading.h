@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gradation over a whole model: across curves and patches, on curves as on surfaces (HDR sec. 1.1.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After assembly: edges that meet at a vertex and differ too much in length.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/improve/adjacent_sizes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After assembly: edges along which sizes that differ by direction change too much.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/improve/assembled_search.h"
 
 #include <algorithm>

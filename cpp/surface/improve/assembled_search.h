@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What searches for better edges on an assembled mesh share, whatever is better: budget, places tried, sizes
 // afterwards.
 #pragma once

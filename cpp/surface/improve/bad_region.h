@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Where the shapes of triangles in space are to be improved, after the lift.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/improve/corner_agreement.h"
 
 #include <algorithm>

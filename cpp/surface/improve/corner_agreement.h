@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How far triangles leave the surface, by what is known at their corners.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After the lift: triangles that turn their backs on the surface, or leave it by more than was promised.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After the lift: shapes of triangles in space, by swaps and moves in turn.
 #pragma once
 

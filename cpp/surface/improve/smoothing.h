@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices moved for the shapes of triangles in space, after the lift.
 #pragma once
 

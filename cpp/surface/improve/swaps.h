@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edge swaps judged in space, after the lift.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mesh of before as an atlas of the surface: from a place of one face to a place of another.
 #pragma once
 

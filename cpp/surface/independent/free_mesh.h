@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles of all faces in one mesh of space, each vertex with its place on the surface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes whose sizes are what was asked for, whatever the patches (HDR sec. 4.5.5).
 #pragma once
 

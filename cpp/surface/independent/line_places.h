@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices of sharp lines: where they are on the curves of the host, and where else they may be.
 #pragma once
 

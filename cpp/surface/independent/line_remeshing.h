@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sharp lines are cut anew, whatever curves they are of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a free mesh back to faces, curves and (u, v).
 #pragma once
 

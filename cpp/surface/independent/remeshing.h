@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Lengths and shapes as they are wanted, all over a free mesh.
 #pragma once
 

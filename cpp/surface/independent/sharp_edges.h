@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What stays of the borders of patches: sharp edges, corners, and lines between them (HDR sec. 4.5.5).
 #pragma once
 

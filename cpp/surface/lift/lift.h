@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a plane mesh to the surface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Steep places of fields in space, found on a lifted mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After the lift: how far triangles lean against the surface.
 #pragma once
 

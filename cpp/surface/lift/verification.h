@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // After the lift: do lengths in space agree with those that the control space promised?
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One layer of triangles between the two sides of a narrow face.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices of both sides of a narrow face at the same places.
 #include <algorithm>
 #include <cmath>

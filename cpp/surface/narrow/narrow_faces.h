@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces that are narrower than the triangles that are wanted: matched sides, one layer of triangles, or none.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/narrow/side_ruler.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places on a chain of curves of one face, by length.
 #pragma once
 

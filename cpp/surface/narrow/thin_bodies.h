@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Narrow faces that are the thickness of a body.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fewer vertices that have more or fewer than four quadrilaterals around.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A face on its way to quadrilaterals.
 #pragma once
 

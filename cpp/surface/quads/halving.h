@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All-quadrilateral meshes: edges are cut in two, triangles in three, quadrilaterals in four.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Matchings of large weight in the dual graph of triangles.
 #pragma once
 

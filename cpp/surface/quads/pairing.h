@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles joined two by two (HDR sec. 3.3.4).
 #pragma once
 

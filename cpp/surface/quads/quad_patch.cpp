@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/quads/quad_patch.h"
 
 #include "surface/quads/thresholds.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quadrilaterals and triangles of one face, in its parameter plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/quads/quad_shape.h"
 
 #include <algorithm>

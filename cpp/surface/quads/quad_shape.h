@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shapes of quadrilaterals (HDR sec. 1.1.1).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quadrilaterals made of the triangles of a whole mesh (RT-0232 sec. 7, HDR sec. 3.3.4).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices of quadrilaterals moved in the parameter plane.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vertices of quadrilaterals that are poor in space, where charts have told them to be good.
 #pragma once
 

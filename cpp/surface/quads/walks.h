@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles that are left walk through quadrilaterals until two meet.
 #pragma once
 

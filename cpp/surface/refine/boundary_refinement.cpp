@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/refine/boundary_refinement.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Refinement of discretised curves until every parameter domain can be meshed (HDR sec. 3.3.1-3.3.3).
 #pragma once
 

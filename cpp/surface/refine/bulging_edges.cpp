@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/refine/bulging_edges.h"
 
 #include <algorithm>

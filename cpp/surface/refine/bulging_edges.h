@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges of boundaries that are so coarse beside the width of a face that triangles between its sides would be turned
 // over.
 #pragma once

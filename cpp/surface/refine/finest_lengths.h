@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How short the edges at each vertex of the curves were. Private to surface/.
 #pragma once
 

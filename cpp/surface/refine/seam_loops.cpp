@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/refine/seam_loops.h"
 
 #include <algorithm>

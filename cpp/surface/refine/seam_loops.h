@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Thin waists and tubes that a seam closes.
 #pragma once
 

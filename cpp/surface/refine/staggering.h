@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strips of one layer of triangles: vertices of one side face the middles of edges of the other one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strips of a face that are narrow in space beside their edges, however far their sides are on the surface.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/reparametrise/even_parameters.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parameters in which an extreme parametrisation is an ordinary one.
 #pragma once
 

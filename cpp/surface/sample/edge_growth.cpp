@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/sample/edge_growth.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Growth from short edges of a boundary, as far as a control space can follow it.
 #pragma once
 

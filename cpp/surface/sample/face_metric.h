@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The metric that is prescribed inside a face.
 #pragma once
 

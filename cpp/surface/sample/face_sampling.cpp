@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/sample/face_sampling.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The metric of a face, sampled over its domain.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Physical size inside a face where the host does not answer: interpolated from the discretised interfaces (RT-0232
 // sec. 3.1.3 a).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The boundary is cut again, into edges of unit length (HDR sec. 3.4.4).
 #pragma once
 

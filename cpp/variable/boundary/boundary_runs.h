@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs of the boundary between its corners (HDR sec. 3.4.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that the geometry of the boundary asks for: H_g of HDR sec. 3.4.1.
 #pragma once
 

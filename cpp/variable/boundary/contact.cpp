@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "variable/boundary/contact.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The boundary of a piece, and where it touches tools: bound deformation (HDR sec. 3.4.2).
 #pragma once
 

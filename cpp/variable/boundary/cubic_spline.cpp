@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "variable/boundary/cubic_spline.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cubic splines through points of the plane, twice continuously differentiable (HDR sec. 3.4.2, after de Boor).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "variable/boundary/run_curve.h"
 
 #include "support/segment.h"

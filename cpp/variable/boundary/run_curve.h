@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The geometry of a run: a spline, a polygon, or a tool (HDR sec. 3.4.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rigid tools: polylines with rounded corners (HDR sec. 3.4.1, bound deformation).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Areas that the triangles of two meshes of the plane have in common.
 #pragma once
 

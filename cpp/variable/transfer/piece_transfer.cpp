@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "variable/transfer/piece_transfer.h"
 
 #include "variable/transfer/slopes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fields on the old mesh of a piece become fields on the new one.
 #pragma once
 

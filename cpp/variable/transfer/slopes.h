@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Linear functions in triangles from their mean values, limited: values between those of the triangles around.
 #pragma once
 

@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 ! The paraboloid of RT-0232 sec. 6.1 as a user of the program writes it: no bind(c), no intent, default kinds. Its routines
 ! for radii end the program, as the manual's do: they must not be called.
 module cad_m

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Estimators against closed forms: quadratics, spheres, cylinders.
 #include "adapt/estimators.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes for tests of estimators and transfers: made without a mesher, irregular, the same everywhere.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Transfer between meshes, interpolation errors and estimates by differences against closed forms.
 #include "adapt/transfer.h"
 

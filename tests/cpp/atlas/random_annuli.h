@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Annuli to test with: the three figures of the paper's kind, and random ones.
 #pragma once
 

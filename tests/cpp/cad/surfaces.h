@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces with known curvatures, and a Cad made of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Analytic metric fields on parameter domains, for the tests and the benchmark of the control space.
 #pragma once
 

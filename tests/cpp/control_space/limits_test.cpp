@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Degenerate, thin and hostile domains and samplers; limits of the control space.
 #include <gtest/gtest.h>
 

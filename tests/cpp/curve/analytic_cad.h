@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A host made of closed forms, which counts its calls.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "curve/discrete_curve.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves in variable metrics: the examples of RR-2818 sec. 6.2 (figures 24-27) and 6.3 (28-32).
 #include "curve/metric_curve.h"
 

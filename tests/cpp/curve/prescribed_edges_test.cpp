@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges told in place of sizes: closed forms, exact lengths, one discretisation for all uses (HDR sec. 2.1, 2.3).
 #include "curve/prescribed_edges.h"
 

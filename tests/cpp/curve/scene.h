@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves of closed forms with what the curve steps want of a model.
 #pragma once
 

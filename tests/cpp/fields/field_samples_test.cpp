@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sampling of hosts that fail.
 #include "fields/field_samples.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fields written by a session, read back with OpenEXR, against closed forms.
 #include "fields/fields.h"
 

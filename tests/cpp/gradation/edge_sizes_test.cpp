@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that grow from edges of space.
 #include "gradation/edge_sizes.h"
 

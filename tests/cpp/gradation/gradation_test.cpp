@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cones of the gradation: plane, sphere, seam, crease, joined patches; bounds, order, bad input.
 #include "gradation/gradation.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places in plane triangulations, against all triangles one by one.
 #include "gradation/triangle_tree.h"
 

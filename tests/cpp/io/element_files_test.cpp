@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Quadrilaterals and elements of second order in files.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every format is read back as it was written; files of other programs, and broken ones.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes with known vertices: grids over parameter rectangles, lifted and joined.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measures against closed forms, on meshes whose vertices are known.
 #include "measure/mesh_evaluation.h"
 

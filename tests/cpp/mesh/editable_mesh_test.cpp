@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edits keep the topology, the imposed edges and the adjacency, and can be undone bit for bit.
 #include "mesh/editable_mesh.h"
 

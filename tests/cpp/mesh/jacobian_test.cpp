@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Jacobians of elements: Bernstein coefficients against derivatives of the element's own map.
 #include "mesh/elements/jacobian.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders, budgets and ends of searches.
 #include "mesh/local_search.h"
 

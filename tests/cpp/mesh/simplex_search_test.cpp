@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Places of meshes of tetrahedra, triangles and edges, against all of them one by one.
 #include "mesh/simplices/simplex_search.h"
 

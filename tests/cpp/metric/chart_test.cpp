@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Charts of metrics that are induced by maps of the plane onto itself: distances in space are then known exactly.
 #include "metric/chart.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Why some algebra of this room is not Eigen's: tensors whose decompositions are known exactly, with the bound that ours
 // keeps and what Eigen's solvers make of the same entries.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "metric/field_length.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The largest ellipsoid inside many: closed forms, conditions of optimality, invariance.
 #include "metric/largest_ellipsoid.h"
 

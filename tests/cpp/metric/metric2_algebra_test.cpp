@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "metric/metric2_algebra.h"
 
 #include <gtest/gtest.h>

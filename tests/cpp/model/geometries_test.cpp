@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // References of several geometries in one model.
 #include "model/geometries.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Models whose geometry is known, and their traces.
 #pragma once
 

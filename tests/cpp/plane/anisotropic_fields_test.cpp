@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit meshes in anisotropic fields: lengths and quality measured in the field itself.
 #include <gtest/gtest.h>
 

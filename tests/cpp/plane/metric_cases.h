@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane domains with anisotropic fields in closed form, with unit boundaries, and how well a mesh follows them.
 #pragma once
 

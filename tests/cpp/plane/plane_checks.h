@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every plane mesh must be, and how good it is.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What mesh_plane promises on any domain: a valid mesh, limits, cancellation, determinism.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The figures that the plane mesher must reach: Q2 in space (HDR eq. 1.6), edge lengths over sizes, degrees.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "predicates/orientation_3d.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What was delivered, as a session tells it: asked when wanted, said, written.
 #include <gtest/gtest.h>
 #include <unistd.h>

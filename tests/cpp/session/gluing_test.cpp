@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Curves that are common in part only: cut, glued and meshed (HDR sec. 4.5.1, fig. 4.18-4.20).
 #include "session/gluing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges prescribed on curves, through a whole run: all faces keep them, the mesh conforms, what disagrees is told.
 #include <gtest/gtest.h>
 

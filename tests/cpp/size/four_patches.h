@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Four patches about a point, for tests of sizes.
 #pragma once
 

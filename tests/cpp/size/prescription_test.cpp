@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes that differ by direction: geometric metrics, sources, and how they are combined.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The box tree against all boxes one by one.
 #include "support/box_tree.h"
 

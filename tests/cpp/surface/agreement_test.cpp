@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // No triangle of a mesh turns its back on the surface, whatever rule its sizes come from.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces whose curvature or parametrisation is singular at a place of their boundary: sizes by the geometry are
 // bounded there, whatever rule they come from, and no gradation makes them vanish.
 #include <gtest/gtest.h>

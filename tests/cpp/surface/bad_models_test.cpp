@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Hosts whose faces, curves and references do not fit together: a sentence, or one face that fails alone.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coarse chords of surfaces close to each other cross; smaller triangles do not.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sizes larger than the surface's own features: patches must not touch each other away from their curves.
 #include <gtest/gtest.h>
 

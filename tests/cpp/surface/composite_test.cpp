@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole surfaces: conformity, the papers' figures, quality, calls.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Internal curves as cracks: both sides are free, tips hold.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit meshes by both principal radii of whole surfaces: poles where sizes differ by direction, ridges, inflections on
 // the samples of curves.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes of analytic surfaces whose sizes come from their curvature.
 #pragma once
 

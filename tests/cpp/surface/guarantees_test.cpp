@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes by A0 and A1 keep what they promise, measured on the surfaces (HDR sec. 4.3; geo_guarantee = 1).
 #include <gtest/gtest.h>
 

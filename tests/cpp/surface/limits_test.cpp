@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes that would have too many triangles: what is refused, and what is bounded.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a run needs in memory above the mesh that it makes: bytes asked for, counted exactly.
 #include <gtest/gtest.h>
 #include <malloc.h>

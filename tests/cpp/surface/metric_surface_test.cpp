@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole surfaces under metrics: unit edges, deviations that were asked for, fewer triangles.
 #include <gtest/gtest.h>
 

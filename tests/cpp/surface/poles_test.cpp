@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Poles and seams at any size: fans of three triangles or more, no torn border, no gap.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A session about to mesh an analytic model by edges of one size.
 #pragma once
 

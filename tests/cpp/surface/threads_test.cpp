@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mesh does not depend on the number of threads, and a host that is not re-entrant never sees another one.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

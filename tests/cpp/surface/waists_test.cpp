@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A torus whose hole is ten thousand times narrower than its tube: around the waist sizes change manifold along edges.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A disc that nothing happens to.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The two examples of HDR sec. 3.4.6 with displacements and damage given by formulas in place of a solver.
 #pragma once
 

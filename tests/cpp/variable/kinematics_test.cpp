@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // HDR sec. 3.4.6 with given displacement and damage.
 #include "kinematics.h"
 

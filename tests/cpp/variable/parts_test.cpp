@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The steps of HDR sec. 3.4 one by one: splines, tools, erosion, contact, runs, cut.
 #include <gtest/gtest.h>
 

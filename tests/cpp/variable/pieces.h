@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pieces to deform, and what every remeshed piece must be.
 #pragma once
 

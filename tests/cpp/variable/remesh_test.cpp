@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A whole increment: fields, sizes, bad input.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A customer's program: the unit square in space, meshed from memory with edges of length 0.1. */
 #include <carreau.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
 /* A customer of libcarreau_cad: meshes a sphere of radius 1 (sphere.brep beside the program, or a path), and is told of a file
  * that is none. */
 #include <carreau_cad.h>

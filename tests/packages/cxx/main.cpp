@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The mesh of a square by the installed headers for C++.
 #include <carreau.hpp>
 

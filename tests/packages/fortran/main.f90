@@ -1,3 +1,4 @@
+! SPDX-License-Identifier: BSD-3-Clause
 !> A customer's geometry: the unit square in space.
 module square
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t

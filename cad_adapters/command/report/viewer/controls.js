@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Pointer, wheel and keys on the canvas.
 
 const degree = Math.PI / 180;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The data of the page: numbers as planes of bytes, zlib's stream, base64 (packing.h tells the same from the other side).
 
 /** What the numbers are: counts, box, faces, scales. */

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Starts all of it. Without WebGL, or where the data cannot be read, tables and histograms stay, and a sentence tells why.
 
 /**

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The page around the view: what was picked, the legend, tables, buttons.
 
 const byId = (id) => document.getElementById(id);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles on a canvas, by WebGL 2: one draw call a picture, one more for the triangle that is picked.
 
 const vertexShader = `#version 300 es

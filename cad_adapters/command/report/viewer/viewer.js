@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The view: what is drawn, what is picked, where it flies to.
 
 const textOf = (x) => (Number.isFinite(x) ? Number(x.toPrecision(4)).toString() : 'none');

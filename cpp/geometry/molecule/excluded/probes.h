@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Probes that touch three balls: concave triangles, and where they cross (HDR sec. 4.6.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The solvent excluded surface as faces, curves and points (HDR sec. 4.6.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/molecule/excluded/torus_patch.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parts of tori that a probe leaves between two balls (HDR sec. 4.6.2).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/blended_surface.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bezier patches against the polynomials that they are.
 #include <gtest/gtest.h>
 

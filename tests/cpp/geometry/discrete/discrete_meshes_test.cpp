@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces given as triangles through the session.
 #include <gtest/gtest.h>
 

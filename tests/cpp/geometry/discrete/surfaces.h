@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangulated surfaces in closed form.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is glued, what is left out, and what is refused.
 #include <gtest/gtest.h>
 

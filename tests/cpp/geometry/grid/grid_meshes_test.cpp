@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Grids through the ordinary pipeline.
 #include <gtest/gtest.h>
 

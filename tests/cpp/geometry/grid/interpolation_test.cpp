@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Coons patches through the nodes of grids (HDR sec. 4.7.2).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Taubin's filter against its closed form (HDR sec. 4.7.1).
 #include "geometry/grid/smoothing.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Arcs of circles against closed forms, alone and as curves of plane domains.
 #include "geometry/plane/circle_piece.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Splines of Catmull and Rom: radii and counts in closed form, loops, cusps, the tolerance of polylines.
 #include "geometry/plane/cubic_piece.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane domains: which faces there are, their references, and a sentence for each mistake.
 #include "geometry/plane/plane_geometry.h"
 

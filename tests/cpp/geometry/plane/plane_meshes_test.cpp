@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane domains through the ordinary pipeline: figures of HDR and RR-2818.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/grid/grid_files.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of plane domains: what they say, and a sentence with the line for each mistake.
 #include "io/plane/plane_files.h"
 

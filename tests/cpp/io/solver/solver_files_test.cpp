@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Files of solvers: .inp, .bdf, .unv, .su2.
 #include <algorithm>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangulation of imposed vertices and edges alone: what it is, and what it refuses.
 #include <gtest/gtest.h>
 

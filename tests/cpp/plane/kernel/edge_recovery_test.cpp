@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Edges made to exist in a triangulation of random points.
 #include "plane/kernel/edge_recovery.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Walks from a triangle to the one that holds a point.
 #include <gtest/gtest.h>
 

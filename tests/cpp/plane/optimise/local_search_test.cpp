@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Changes that are tried around the worst triangles (PlaneMesherOptions::shape_trials).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Keys by which the optimiser knows triangles, edges and stars again.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Points for quadrilaterals: where a lattice fits, they are its points.
 #include <gtest/gtest.h>
 

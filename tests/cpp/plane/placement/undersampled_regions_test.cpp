@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small sizes amid large ones, where no boundary and no row comes near: the mesh finds them.
 #include <gtest/gtest.h>
 

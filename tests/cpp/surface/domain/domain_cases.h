@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Domains for the tests of the domain checks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The figures of HDR sec. 3.3.1-3.3.3 in spirit, and the end of every refinement.
 #include <gtest/gtest.h>
 

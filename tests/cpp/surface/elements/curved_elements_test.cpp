@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Elements of second order: on the surface, shared, valid, and of the order that they promise.
 #include <gtest/gtest.h>
 

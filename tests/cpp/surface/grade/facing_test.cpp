@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Narrow zones between faces that share nothing: layers across gaps of space.
 #include <gtest/gtest.h>
 

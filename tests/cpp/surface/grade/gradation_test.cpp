@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Gradation over whole models: closed forms, bounds on the field and on the mesh.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Unit meshes of surfaces under smooth size fields, sizes h to 10 h: near 20 000 triangles with gradation 1.3 (a slope
 // of 0.26), near 100 000 with a slope of 0.11. Lengths are measured on the surfaces, against the field itself.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Narrow zones hold at least the layers of triangles that are asked for (parameter proximity), counted in the mesh.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Adjacent edges whose lengths differ too much.
 #include "surface/improve/adjacent_lengths.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fillets two rows of triangles wide: the vertices of the middle row carry the curvature.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shapes in space where the parameter plane misleads: at poles, and where the metric changes much within an edge.
 #include <gtest/gtest.h>
 

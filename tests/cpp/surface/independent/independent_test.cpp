@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes that are independent of their patches (HDR sec. 4.5.5): as those of the same surface in one piece, never worse.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Surfaces that are cut into many patches for no reason.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What stays of borders, and what sharp_angle lets go.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Spots of a background mesh in space that are narrower than the edges around them are found, wherever they lie (one in
 // seven is not by the samples of the field and vertices of the mesh alone).
 #include <gtest/gtest.h>

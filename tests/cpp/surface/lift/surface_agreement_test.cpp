@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Triangles that would lean against the surface, or fold over: long sizes are bounded, and what stays is told.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the sampling of the metric misses, the lifted vertices find: the patch is then sampled there and meshed again.
 #include <gtest/gtest.h>
 

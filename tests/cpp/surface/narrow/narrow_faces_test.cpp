@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Faces narrower than the size: matched sides and one layer of triangles, or none and one curve in place of two.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Topology of quadrilaterals: what is wrong is mended, and what is right stays.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Matchings beside the best ones, which small graphs and paths tell.
 #include <gtest/gtest.h>
 

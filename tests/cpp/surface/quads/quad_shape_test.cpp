@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shapes in closed form (HDR sec. 1.1.1).
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Meshes of quadrilaterals, from a model to the result.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Smoothing finds lattices again, and turns nothing over.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boundaries that no refinement can mend, or that need none: curves are not cut for ever, and not for nothing.
 #include <gtest/gtest.h>
 

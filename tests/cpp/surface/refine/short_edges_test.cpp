@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Boundary edges that are shorter than the size: triangles grow from them inside.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Strips of one layer of triangles, whose sides face each other.
 #include <gtest/gtest.h>
 

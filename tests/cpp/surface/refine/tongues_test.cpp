@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tongues of faces that end where a curve touches another one: their tips are as narrow as the tongues are long.
 #include <gtest/gtest.h>
 

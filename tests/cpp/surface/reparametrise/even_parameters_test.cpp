@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Parametrisations whose speed changes by a million within next to nothing: meshes like those of ordinary ones.
 #include <gtest/gtest.h>
 

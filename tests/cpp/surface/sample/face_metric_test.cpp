@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is prescribed inside a face, where its parametrisation is degenerate.
 #include "surface/sample/face_metric.h"
 

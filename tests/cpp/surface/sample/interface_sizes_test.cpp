@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "surface/sample/interface_sizes.h"
 
 #include <gtest/gtest.h>
