@@ -4,12 +4,12 @@ set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 . "$root/tests/setup.sh"
 # clang and libclang-rt-dev: fuzzing. openexr, python3-vtk9, python3-gmsh, python3-meshio: they read our files.
-# libcgal-dev: its predicates find the same triangles that cross.
+# libcgal-dev: its predicates find the same triangles that cross. libopenmpi-dev, openmpi-bin: many processes.
 need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils locales \
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev libocct-modeling-algorithms-dev \
   libocct-modeling-data-dev libocct-foundation-dev \
   libgtest-dev libmuparser-dev libpng-dev zlib1g-dev libcli11-dev libeigen3-dev libopenexr-dev libtbb-dev nlohmann-json3-dev openexr zsh fish groff-base clang libclang-rt-dev \
-  python3-vtk9 python3-gmsh python3-meshio libcgal-dev
+  libopenmpi-dev openmpi-bin python3-vtk9 python3-gmsh python3-meshio libcgal-dev
 build=$root/build/release
 configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_TESTS=ON -DCARREAU_FORTRAN=ON -DCARREAU_BENCH=ON -DCARREAU_TEST_VARIANTS=ON
 cmake --build "$build" -j "$(processors)"
