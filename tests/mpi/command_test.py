@@ -66,7 +66,7 @@ def ranks_of(launcher):
 
 
 def killed(folder, which):
-    started = subprocess.Popen(mpirun.command(MPIRUN, RANKS, [CARREAU, "mesh", TEAPOT, "--size", "0.004", "-o", f"{folder}/x.pvtu",
+    started = subprocess.Popen(mpirun.command(MPIRUN, RANKS, [CARREAU, "mesh", TEAPOT, "--size", "0.012", "-o", f"{folder}/x.pvtu",
                                                               "-o", f"{folder}/x.meshb"]),
                                env=mpirun.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
@@ -74,7 +74,7 @@ def killed(folder, which):
         while len(ranks := ranks_of(started.pid)) < RANKS and time.monotonic() < deadline:
             time.sleep(0.02)
         assert len(ranks) == RANKS, ranks
-        time.sleep(1)
+        time.sleep(0.5)
         os.kill(ranks[which], signal.SIGKILL)
         _, errors = started.communicate(timeout=60)
     finally:

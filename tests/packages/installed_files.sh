@@ -19,7 +19,7 @@ fi
 mpi_header=
 if [ -e include/carreau_mpi.h ]; then
   mpi_header="include/carreau_mpi.h "
-  need lib/libcarreau_mpi.so
+  need lib/libcarreau_mpi.so lib/pkgconfig/carreau-mpi.pc
 fi
 cad_header=
 if [ "$cad" = 1 ]; then

@@ -150,29 +150,23 @@ SharedError mesh_own_share(const DealtFaces& faces, Sent& sent, Monitor& monitor
   return {};
 }
 
-/// Views of what all processes have sent, by job.
-struct Received {
-  std::vector<std::string> packets;
-  std::vector<std::string> by_job;  ///< empty: nobody has meshed it
-};
-
-Received read_all(std::vector<std::string> packets, std::size_t n) {
-  Received received{std::move(packets), std::vector<std::string>(n)};
-  for (std::size_t r = 0; r < received.packets.size(); ++r) {
-    PacketReader reader(received.packets[r]);
-    if (reader.integer() != packet_version)
-      throw Error("rank " + std::to_string(r) + " runs another version of the library");
-    if (const SharedError error{reader.text()}; error.any()) error.raise("rank " + std::to_string(r) + ": ");
+/// What all processes have sent, by job: empty where nobody has meshed it. Throws the error of a process itself.
+std::vector<std::string> by_job(std::vector<std::string> packets, std::size_t n) {
+  std::vector<std::string> faces(n);
+  for (std::size_t r = 0; r < packets.size(); ++r) {
+    PacketReader reader(packets[r]);
+    const std::string teller = "rank " + std::to_string(r);
+    if (reader.integer() != packet_version) throw Error(teller + " runs another version of the library");
+    if (const SharedError error{reader.text()}; error.any()) error.raise(teller + ": ");
     for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
       std::string face = reader.text();
-      PacketReader job(face);
-      const auto i = static_cast<std::uint64_t>(job.integer());
-      if (i >= n) throw Error("rank " + std::to_string(r) + " has sent a face that nobody knows");
-      received.by_job[i] = std::move(face);
+      const auto i = static_cast<std::uint64_t>(PacketReader(face).integer());
+      if (i >= n) throw Error(teller + " has sent a face that nobody knows");
+      faces[i] = std::move(face);
     }
-    received.packets[r] = {};
+    packets[r] = {};  // there may be little memory left
   }
-  return received;
+  return faces;
 }
 
 void deliver(const DealtFaces& faces, std::size_t i, const std::string& bytes, Monitor& monitor) {
@@ -191,9 +185,9 @@ void deliver(const DealtFaces& faces, std::size_t i, const std::string& bytes, M
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
   Sent sent;
   const SharedError error = mesh_own_share(faces, sent, monitor);
-  Received received = read_all(faces.team.exchange("patches", sent.packed(error)), faces.jobs.size());
-  for (std::size_t i = 0; i < faces.jobs.size(); ++i) {
-    const std::string bytes = std::exchange(received.by_job[i], {});
+  std::vector<std::string> all = by_job(faces.team.exchange("patches", sent.packed(error)), faces.jobs.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string bytes = std::exchange(all[i], {});
     if (bytes.empty()) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
     deliver(faces, i, bytes, monitor);
   }
