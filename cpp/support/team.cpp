@@ -61,6 +61,7 @@ SharedError SharedError::of(const std::exception_ptr& error) {
 }
 
 void SharedError::raise(const std::string& teller) const {
+  if (!any()) throw LimitError(teller + "there is not enough memory");
   PacketReader packet(bytes);
   const auto kind = static_cast<ErrorKind>(packet.integer());
   const Where where = packet.where();
@@ -111,7 +112,13 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
   packet.put(++step_);
   packet.put(step);
   packet.put(mine);
-  const std::vector<std::string> all = link_.exchange(packet.bytes());
+  std::vector<std::string> all;
+  try {
+    all = link_.exchange(packet.bytes());
+  } catch (const Error&) {  // in all processes
+    over_ = true;
+    throw;
+  }
   refuse_leavers(all);
   std::vector<std::string> given;
   for (std::size_t r = 0; r < all.size(); ++r) {
@@ -135,7 +142,7 @@ void Team::refuse_leavers(const std::vector<std::string>& all) {
     PacketReader reader(all[r]);
     if (!reader.flag()) continue;
     over_ = true;
-    SharedError{reader.text()}.raise(teller(static_cast<int>(r)));
+    SharedError{reader.at_end() ? "" : reader.text()}.raise(teller(static_cast<int>(r)));
   }
 }
 
@@ -152,12 +159,18 @@ void Team::require_same(std::string_view step, std::string_view mine, const std:
 void Team::leave(const SharedError& error) noexcept {
   if (over_) return;
   over_ = true;
+  constexpr std::int64_t yes = 1;  // as PacketWriter puts it
+  std::string_view told(reinterpret_cast<const char*>(&yes), sizeof yes);
+  PacketWriter packet;
   try {
-    PacketWriter packet;
     packet.put(true);
     packet.put(std::string_view(error.bytes));
-    link_.exchange(packet.bytes());
-  } catch (...) {  // the link itself has failed, and its owner knows
+    told = packet.bytes();
+  } catch (...) {  // no memory: that this process leaves must do
+  }
+  try {
+    link_.exchange(told);
+  } catch (...) {  // the others have been told, or the link has failed for them, too
   }
 }
 

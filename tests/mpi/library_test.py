@@ -4,13 +4,12 @@
     library_test.py <mpirun> <ranks> <ranks_program>
 """
 import os
-import resource
 import sys
 import tempfile
 
 from mpirun import run
 
-MPIRUN, RANKS, PROGRAM = sys.argv[1], int(sys.argv[2]), sys.argv[3]
+MPIRUN, RANKS, PROGRAM = sys.argv[1], int(sys.argv[2]), os.path.abspath(sys.argv[3])
 
 
 def holds(case, *arguments, **more):
@@ -23,12 +22,6 @@ def content(path):
         return file.read()
 
 
-def small_files():
-    resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
-    import signal
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-
-
 for case in ["same", "parts", "status", "stop", "no_memory"] + (["other_curves", "other_inside"] if RANKS > 1 else []):
     holds(case)
 
@@ -39,6 +32,11 @@ with tempfile.TemporaryDirectory() as folder:
     assert sorted(os.listdir(folder)) == expected, os.listdir(folder)
     for suffix in (".mesh", ".meshb"):
         assert content(f"{folder}/one{suffix}") == content(f"{folder}/ranks{suffix}"), suffix
+
+# Nothing is left of what a full disk did not take.
+with tempfile.TemporaryDirectory() as folder:
+    holds("full_disk", folder)
+    assert not os.listdir(folder), os.listdir(folder)
 
 # A rank that dies ends all of them.
 with tempfile.TemporaryDirectory() as folder:

@@ -1,12 +1,12 @@
 // One rank of the tests of libcarreau_mpi: `ranks_program <case> [<folder>]`. Ends with 0 when what the case promises holds
 // on this rank; says on the error output what does not.
 #include <mpi.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -15,27 +15,8 @@
 
 namespace {
 
-bool memory_is_short() noexcept;
-
-}  // namespace
-
-// Of the library, too: a shared library asks the program's.
-void* operator new(std::size_t size) {
-  constexpr std::size_t large = 1 << 12;
-  void* const memory = size >= large && memory_is_short() ? nullptr : std::malloc(size != 0 ? size : 1);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-
-namespace {
-
 using mpi_tests::Fault;
 using mpi_tests::Waves;
-
-Waves* limited = nullptr;
-bool memory_is_short() noexcept { return limited != nullptr && limited->memory_is_short; }
 
 int rank = 0, size = 1, failures = 0;
 
@@ -119,9 +100,8 @@ void same_meshes() {
 void fails(Fault fault, carreau_status expected, const std::string& words) {
   const bool last = rank == size - 1;
   Run run({}, last ? fault : Fault::none);
-  if (last && fault == Fault::no_memory) limited = &run.waves;
   const carreau_status status = carreau_mesh_generate_mpi(run.session, world());
-  run.waves.memory_is_short = false, limited = nullptr;
+  mpi_tests::memory_is_short = false;
   const bool short_of_memory = last && fault == Fault::no_memory && status == CARREAU_ERR_MEMORY;
   expect(short_of_memory || status == expected, "the status is " + std::to_string(status) + ": " + run.sentence());
   expect(run.sentence().find(words) != std::string::npos, "'" + words + "' is in '" + run.sentence() + "'");
@@ -248,10 +228,14 @@ void files(const std::string& folder) {
   expect(carreau_mpi_write(empty.session, world(), (folder + "/x.meshb").c_str()) == CARREAU_ERR_SEQUENCE, "no mesh");
 }
 
-// Files may not be larger than so: what a full disk does.
+// Files may not be larger than so: to the library it is a full disk.
 void full_disk(const std::string& folder) {
   Run run;
   expect(carreau_mesh_generate_mpi(run.session, world()) == CARREAU_OK, run.sentence());
+  constexpr rlim_t most = 4096;
+  const rlimit limit{most, most};
+  std::signal(SIGXFSZ, SIG_IGN);
+  expect(setrlimit(RLIMIT_FSIZE, &limit) == 0, "files are limited");
   for (const char* name : {"/x.meshb", "/x.pvtu"}) {
     expect(carreau_mpi_write(run.session, world(), (folder + name).c_str()) == CARREAU_ERR_FILE, "the file is too large");
     expect(run.sentence().find("/x") != std::string::npos, run.sentence());

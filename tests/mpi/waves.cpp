@@ -16,7 +16,7 @@ std::int32_t misbehave(Waves& waves, std::int32_t face, double u, double v) {
   if (face != waves.face || !is_inside(u, v)) return 0;
   if (waves.fault == Fault::status_inside) return 43;
   if (waves.fault == Fault::stop) carreau_stop(waves.session);
-  if (waves.fault == Fault::no_memory) waves.memory_is_short = true;
+  if (waves.fault == Fault::no_memory) memory_is_short = true;
   if (waves.fault == Fault::dies) std::raise(SIGKILL);
   return 0;
 }

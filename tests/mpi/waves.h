@@ -2,6 +2,7 @@
 // to fail or to differ on purpose.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 #include "carreau.h"
@@ -16,7 +17,7 @@ enum class Fault {
   status,         ///< `surface` fails, from the first call on
   status_inside,  ///< `surface` fails inside `face`
   stop,           ///< carreau_stop, inside `face`
-  no_memory,      ///< large allocations fail, from a call inside `face` on (memory_is_short)
+  no_memory,      ///< large allocations fail, from a call inside `face` on
   dies            ///< the process is killed, inside `face`
 };
 
@@ -25,8 +26,10 @@ struct Waves {
   Fault fault = Fault::none;
   std::int32_t face = 6;
   carreau_session* session = nullptr;
-  bool memory_is_short = false;
 };
+
+/// Large allocations of the program and its libraries throw std::bad_alloc (short_memory.cpp).
+extern std::atomic<bool> memory_is_short;
 
 /// Gives geometry and model to the session; `waves` must outlive it.
 carreau_status give(carreau_session* session, Waves& waves);
