@@ -221,7 +221,7 @@ int mesh(const MeshOptions& options) {
   } catch (const std::exception& error) {
     why = error.what();
   }
-  throw Failure(ranks->leave_failed(why));
+  return ranks->leave_failed(why);
 }
 
 }  // namespace command

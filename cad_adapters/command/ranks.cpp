@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "failure.h"
+#include "terminal.h"
 #include "text_file.h"
 
 namespace command {
@@ -99,24 +100,28 @@ std::vector<std::string> Ranks::all_files(const std::vector<std::string>& output
   return all;
 }
 
+// mpirun ends all ranks when one has ended with another code than 0: what is to be printed must be out before.
 int Ranks::leave(int code) const {
+  std::fflush(stdout);
   std::int32_t greatest = code, speaker = rank_, alone = 0;
   CARREAU_MPI_FUNCTION(carreau_mpi_leave)(code, patience_seconds, &greatest, &speaker, &alone);
+  CARREAU_MPI_FUNCTION(carreau_mpi_finish)();
   return greatest;
 }
 
-std::string Ranks::leave_failed(const std::string& sentence) const {
+int Ranks::leave_failed(const std::string& why) const {
+  std::fflush(stdout);
   std::int32_t greatest = unusable, speaker = rank_, alone = 0;
   CARREAU_MPI_FUNCTION(carreau_mpi_leave)(unusable, patience_seconds, &greatest, &speaker, &alone);
-  if (speaker != rank_) return "";
-  const std::string told = speaks() ? sentence : "rank " + std::to_string(rank_) + ": " + sentence;
-  if (alone == 0) {
+  if (speaker == rank_) {
     dup2(error_output_, STDERR_FILENO);
-    return told;
+    print_marked("carreau", colour::red, (speaks() ? why : "rank " + std::to_string(rank_) + ": " + why).c_str());
   }
-  dprintf(error_output_, "carreau: %s\n", told.c_str());
-  CARREAU_MPI_FUNCTION(carreau_mpi_abort)(unusable);
-  return told;
+  if (alone != 0)
+    CARREAU_MPI_FUNCTION(carreau_mpi_abort)(unusable);
+  else
+    CARREAU_MPI_FUNCTION(carreau_mpi_finish)();
+  return unusable;
 }
 
 }  // namespace command

@@ -30,11 +30,11 @@ class Ranks {
   /// Files of `outputs` and those that come with them: pieces of .pvtu, in the order of the ranks, behind all outputs.
   [[nodiscard]] std::vector<std::string> all_files(const std::vector<std::string>& outputs) const;
 
-  /// The end of the program: the greatest exit code of all ranks.
+  /// The end of the program, after all that it prints: the greatest exit code of all ranks.
   int leave(int code) const;
-  /// The end after a failure. Where other ranks have not failed it ends them, and tells why as this rank's; else the
-  /// first of those that have failed tells why, and this returns on all: with the sentence on that rank.
-  std::string leave_failed(const std::string& sentence) const;
+  /// The end after a failure: the exit code. The first of the ranks that have failed says why; where the others have not
+  /// failed it ends them.
+  int leave_failed(const std::string& why) const;
 
  private:
   Ranks();

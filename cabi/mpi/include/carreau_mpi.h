@@ -83,12 +83,15 @@ CARREAU_API carreau_status carreau_part_vertices(const carreau_part* part, int64
 /* For programs that load this library when they run: MPI_Init_thread, unless that has been done, and the handle, rank and
  * size of MPI_COMM_WORLD. Errors: CALLBACK (MPI has failed). */
 CARREAU_API carreau_status carreau_mpi_start(int32_t* out_comm, int32_t* out_rank, int32_t* out_size);
-/* The end of such a program: waits until all ranks are here and finalises MPI. `code` is the rank's exit code, *out_code
- * the greatest of all, *out_speaker the least rank that has this code and should say why. A rank that has failed (code
- * > 1) does not wait for others for more than `seconds`, since they may wait for it: *out_speaker is the rank itself
- * then, and the program must say why and call carreau_mpi_abort. */
+/* Before the end of such a program: waits until all ranks are here. `code` is the rank's exit code, *out_code the greatest
+ * of all, *out_speaker the least rank that has this code and should say why. A rank that has failed (code > 1) does not
+ * wait for others for more than `seconds`, since they may wait for it: *out_alone is 1 then, *out_speaker the rank
+ * itself, and the program must say why and call carreau_mpi_abort. Errors: CALLBACK (MPI has failed). */
 CARREAU_API carreau_status carreau_mpi_leave(int32_t code, double seconds, int32_t* out_code, int32_t* out_speaker,
                                              int32_t* out_alone);
+/* The end, after carreau_mpi_leave: waits for all ranks again, so that none is ended while it speaks, and finalises MPI.
+ * Errors: CALLBACK (MPI has failed). */
+CARREAU_API carreau_status carreau_mpi_finish(void);
 /* Ends all ranks of the program at once. */
 CARREAU_API void carreau_mpi_abort(int32_t code);
 

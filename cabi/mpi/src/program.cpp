@@ -44,7 +44,12 @@ carreau_status carreau_mpi_leave(int32_t code, double seconds, int32_t* out_code
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   *out_code = worst[0], *out_speaker = worst[1];
-  return MPI_Finalize() == MPI_SUCCESS ? CARREAU_OK : CARREAU_ERR_CALLBACK;
+  return CARREAU_OK;
+}
+
+carreau_status carreau_mpi_finish(void) {
+  const bool met = MPI_Barrier(MPI_COMM_WORLD) == MPI_SUCCESS;
+  return met && MPI_Finalize() == MPI_SUCCESS ? CARREAU_OK : CARREAU_ERR_CALLBACK;
 }
 
 void carreau_mpi_abort(int32_t code) { MPI_Abort(MPI_COMM_WORLD, code); }
