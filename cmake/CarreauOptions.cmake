@@ -47,6 +47,16 @@ carreau_option(CARREAU_OPENEXR "Fields as OpenEXR images" "${OpenEXR_FOUND}"
 find_package(TBB 2021 QUIET)
 carreau_option(CARREAU_TBB "Threads of oneTBB" "${TBB_FOUND}"
   "oneTBB" "it was not found (libtbb-dev), threads of the standard library do its work")
+if(PROJECT_IS_TOP_LEVEL)
+  find_package(MPI QUIET COMPONENTS C)
+  carreau_option(CARREAU_MPI "libcarreau_mpi: meshes by many processes" "${MPI_C_FOUND}"
+    "libcarreau_mpi (mpirun carreau mesh)" "MPI was not found (libopenmpi-dev)")
+else()
+  option(CARREAU_MPI "libcarreau_mpi" OFF)
+endif()
+if(CARREAU_MPI)
+  find_package(MPI REQUIRED COMPONENTS C)
+endif()
 check_language(Fortran)
 carreau_option(CARREAU_FORTRAN "Fortran modules and examples" "${CMAKE_Fortran_COMPILER}"
   "Fortran modules and examples" "there is no Fortran compiler (gfortran)")

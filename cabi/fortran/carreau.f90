@@ -24,6 +24,7 @@ module carreau
   public :: carreau_release_fn
   public :: carreau_surface_metric_fn, carreau_surface_metric_batch_fn, carreau_curve_metric_fn, carreau_point_metric_fn
   public :: carreau_message_fn, carreau_progress_fn
+  public :: carreau_team_take_fn, carreau_team_exchange_fn, carreau_bytes_fn
   public :: carreau_status_name, carreau_status_meaning, carreau_version, carreau_version_number
   public :: carreau_session_create, carreau_session_free, carreau_last_error, carreau_last_error_place
   public :: carreau_set_error
@@ -38,6 +39,7 @@ module carreau
   public :: carreau_set_integer, carreau_set_real, carreau_set_text, carreau_set_word, carreau_read_env
   public :: carreau_get_integer, carreau_get_real, carreau_get_text, carreau_reset_parameter, carreau_reset_parameters
   public :: carreau_set_message_callback, carreau_set_progress_callback, carreau_stop
+  public :: carreau_set_team, carreau_mesh_encode
   public :: carreau_mesh_generate, carreau_run_env, carreau_session_report
   public :: carreau_session_mesh, carreau_mesh_create, carreau_mesh_free, carreau_mesh_last_error
   public :: carreau_mesh_from_arrays
@@ -426,6 +428,37 @@ module carreau
       type(c_ptr), value :: user
     end subroutine carreau_release_fn
 
+    !> Adds count to what all ranks share.
+    function carreau_team_take_fn(count, before, user) result(status) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      integer(c_int64_t), value :: count
+      integer(c_int64_t), intent(out) :: before
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_team_take_fn
+
+    !> bytes: the address of n bytes; sizes: as many as there are ranks; all_bytes: the address of those of all.
+    function carreau_team_exchange_fn(n, bytes, sizes, all_bytes, user) result(status) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      integer(c_int64_t), value :: n
+      type(c_ptr), value :: bytes
+      integer(c_int64_t), intent(out) :: sizes(*)
+      type(c_ptr), intent(out) :: all_bytes
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function carreau_team_exchange_fn
+
+    !> bytes: the address of n bytes of a file from `position` on, which counts from 0.
+    function carreau_bytes_fn(position, n, bytes, user) result(status) bind(c)
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      integer(c_int64_t), value :: position, n
+      type(c_ptr), value :: bytes, user
+      integer(c_int32_t) :: status
+    end function carreau_bytes_fn
+
     !> carreau_string(text) is the sentence.
     subroutine carreau_message_fn(level, text, user) bind(c)
       import :: c_int32_t, c_ptr
@@ -600,6 +633,35 @@ contains
     if (present(release)) callbacks%release = c_funloc(release)
     status = c_set_cad(session%handle, callbacks)
   end subroutine carreau_set_cad
+
+  !> rank: from 0. any_thread: .false. when it is left out.
+  subroutine carreau_set_team(session, rank, size, take, exchange, status, user, any_thread, release)
+    type(carreau_session), intent(in) :: session
+    integer(c_int32_t), intent(in) :: rank, size
+    procedure(carreau_team_take_fn) :: take
+    procedure(carreau_team_exchange_fn) :: exchange
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr), intent(in), optional :: user
+    logical, intent(in), optional :: any_thread
+    procedure(carreau_release_fn), optional :: release
+    type(c_team) :: team
+    team%struct_size = bytes_of_team()
+    team%rank = rank
+    team%size = size
+    team%take = c_funloc(take)
+    team%exchange = c_funloc(exchange)
+    if (present(user)) team%user = user
+    if (present(any_thread)) team%any_thread = merge(1_c_int32_t, 0_c_int32_t, any_thread)
+    if (present(release)) team%release = c_funloc(release)
+    status = c_set_team(session%handle, team)
+  end subroutine carreau_set_team
+
+  !> Where `size` is an argument the function of this name is not there.
+  pure function bytes_of_team() result(bytes)
+    integer(c_size_t) :: bytes
+    type(c_team) :: team
+    bytes = size(transfer(team, [c_null_char]))
+  end function bytes_of_team
 
   !> status: `error`, or CARREAU_ERR_ARGUMENT
   subroutine carreau_set_error(session, error, sentence, status)
@@ -1196,6 +1258,18 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = c_mesh_write(mesh%handle, c_text(path))
   end subroutine carreau_mesh_write
+
+  subroutine carreau_mesh_encode(mesh, suffix, sink, status, user)
+    type(carreau_mesh), intent(in) :: mesh
+    character(len=*), intent(in) :: suffix
+    procedure(carreau_bytes_fn) :: sink
+    integer(c_int32_t), intent(out) :: status
+    type(c_ptr), intent(in), optional :: user
+    type(c_ptr) :: c_user
+    c_user = c_null_ptr
+    if (present(user)) c_user = user
+    status = c_mesh_encode(mesh%handle, c_text(suffix), c_funloc(sink), c_user)
+  end subroutine carreau_mesh_encode
 
   subroutine carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     type(carreau_mesh), intent(in) :: mesh

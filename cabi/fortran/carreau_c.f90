@@ -50,6 +50,13 @@ module carreau_c
     integer(c_int32_t) :: type = 0, diag_relative = 0
   end type c_parameter
 
+  type, bind(c) :: c_team
+    integer(c_size_t) :: struct_size = 0
+    type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: rank = 0, size = 0, any_thread = 0, reserved = 0
+    type(c_funptr) :: take = c_null_funptr, exchange = c_null_funptr, release = c_null_funptr
+  end type c_team
+
   !> What the last successful run did.
   type, bind(c) :: c_report
     integer(c_size_t) :: struct_size = 0
@@ -601,6 +608,15 @@ module carreau_c
       type(c_ptr), value :: session
     end subroutine c_stop
 
+    !> Makes the session part of a team, in place of an earlier one; NULL: it is alone, as at the start.
+    function c_set_team(session, team) result(status) bind(c, name="carreau_set_team")
+      import :: c_int32_t, c_ptr, c_team
+      implicit none
+      type(c_ptr), value :: session
+      type(c_team), intent(in) :: team
+      integer(c_int32_t) :: status
+    end function c_set_team
+
     !> Makes the mesh of the model ("call inimesh").
     function c_mesh_generate(session) result(status) bind(c, name="carreau_mesh_generate")
       import :: c_int32_t, c_ptr
@@ -832,6 +848,18 @@ module carreau_c
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: status
     end function c_mesh_write
+
+    !> Gives the bytes that carreau_mesh_write would write to a file with this suffix (".meshb"), in ascending
+    !! positions, to `sink`: for files that the host writes itself.
+    function c_mesh_encode(mesh, suffix, sink, user) result(status) bind(c, name="carreau_mesh_encode")
+      import :: c_char, c_funptr, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      character(kind=c_char), intent(in) :: suffix(*)
+      type(c_funptr), value :: sink
+      type(c_ptr), value :: user
+      integer(c_int32_t) :: status
+    end function c_mesh_encode
 
     !> Counts vertices (n), triangles (m), edges of curves (k), and faces (f).
     function c_mesh_count(mesh, vertices, triangles, edges, faces) result(status) bind(c, name="carreau_mesh_count")

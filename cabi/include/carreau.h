@@ -471,6 +471,39 @@ CARREAU_API carreau_status carreau_set_progress_callback(carreau_session* sessio
  * NULL is allowed. */
 CARREAU_API void carreau_stop(carreau_session* session);
 
+/* ---- Many processes ---- */
+
+/* Processes (ranks, from 0) can make one mesh together. This is the interface for whatever connects them; libcarreau_mpi
+ * does it by MPI (carreau_mpi.h). Every rank has a session with the same geometry, model and parameters, and the callbacks
+ * of its own; all call carreau_mesh_generate together. Faces are dealt out, every rank gets the whole mesh, and it is
+ * that of one process, bit for bit. An error of one rank ends the run of all. Where a rank's callbacks or parameters
+ * are others the run ends with CARREAU_ERR_MODEL or CARREAU_ERR_INTERNAL and a sentence that names the rank.
+ *
+ * A callback returns 0, CARREAU_ERR_MEMORY when some rank has not enough memory (the run ends with CARREAU_ERR_LIMIT), or
+ * any other value when it has failed (CARREAU_ERR_CALLBACK). exchange must fail on all ranks or on none. */
+
+/* Adds `count` to a number that all ranks share, and gives what it was before. */
+typedef int32_t (*carreau_team_take_fn)(int64_t count, int64_t* out_before, void* user);
+/* Waits until all ranks are here, and makes that number 0. Every rank gives n bytes, and gets those of all: out_sizes[r]
+ * bytes of rank r, one rank behind the other from *out_bytes, which stay until the next call. */
+typedef int32_t (*carreau_team_exchange_fn)(int64_t n, const void* bytes, int64_t* out_sizes, const void** out_bytes,
+                                            void* user);
+
+typedef struct carreau_team {
+  size_t struct_size;
+  void* user;         /* handed to every callback; never looked at */
+  int32_t rank, size; /* 0 <= rank < size */
+  int32_t any_thread; /* 1: take may be called from several threads at a time; 0: from the caller's thread only */
+  int32_t reserved;   /* 0 */
+  carreau_team_take_fn take;         /* needed */
+  carreau_team_exchange_fn exchange; /* needed */
+  void (*release)(void* user);       /* called once, when the session has another team or is freed; may be NULL */
+} carreau_team;
+
+/* Makes the session part of a team, in place of an earlier one; NULL: it is alone, as at the start. Copies the struct.
+ * Errors: ARGUMENT (a callback is missing, rank, size, struct_size). */
+CARREAU_API carreau_status carreau_set_team(carreau_session* session, const carreau_team* team);
+
 /* ---- Run ---- */
 
 /* Makes the mesh of the model ("call inimesh"). On an error an earlier mesh stays, and the session can be used again.
@@ -727,6 +760,13 @@ CARREAU_API carreau_status carreau_mesh_from_arrays(carreau_mesh* mesh, const ca
  * .exr gets the fields of a session, as by carreau_write_exr with multi_part. A mesh from a file has binary .stl. The
  * file is complete, or as it was before. Errors: FILE; ARGUMENT (suffix, refs). */
 CARREAU_API carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path);
+
+/* Gets n bytes of a file from `position` on. Returns 0, or any other value to end the call. */
+typedef int32_t (*carreau_bytes_fn)(int64_t position, int64_t n, const void* bytes, void* user);
+/* Gives the bytes that carreau_mesh_write would write to a file with this suffix (".meshb"), in ascending positions, to
+ * `sink`: for files that the host writes itself. Not ".exr". Errors: ARGUMENT (suffix, refs); CALLBACK (what sink
+ * returned). */
+CARREAU_API carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* suffix, carreau_bytes_fn sink, void* user);
 
 /* Counts vertices (n), triangles (m), edges of curves (k), and faces (f). Any pointer but mesh may be NULL. Errors:
  * ARGUMENT, SEQUENCE (no mesh). */

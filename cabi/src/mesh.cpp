@@ -142,6 +142,19 @@ carreau_status carreau_mesh_write(carreau_mesh* mesh, const char* path) {
   });
 }
 
+carreau_status carreau_mesh_encode(carreau_mesh* mesh, const char* suffix, carreau_bytes_fn sink, void* user) {
+  return guarded(mesh, [&] {
+    required(suffix, "suffix");
+    if (sink == nullptr) throw InvalidArgument("the argument sink is NULL");
+    require_content(*mesh);
+    const carreau::MeshFormat format = carreau::mesh_format_of(suffix);
+    const std::string bytes =
+        mesh->session != nullptr ? mesh->session->session.encoded(format) : carreau::mesh_bytes(mesh->flat, format);
+    if (const std::int32_t returned = sink(0, std::int64_t(bytes.size()), bytes.data(), user); returned != 0)
+      throw carreau::CallbackError("the sink of the bytes of a file has returned " + std::to_string(returned));
+  });
+}
+
 carreau_status carreau_mesh_count(carreau_mesh* mesh, int64_t* out_vertices, int64_t* out_triangles, int64_t* out_edges,
                                   int64_t* out_faces) {
   return guarded(mesh, [&] {

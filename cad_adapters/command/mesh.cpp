@@ -12,6 +12,7 @@
 #include "mesh_summary.h"
 #include "output_files.h"
 #include "progress.h"
+#include "ranks.h"
 #include "report/report_content.h"
 #include "session_handle.h"
 #include "signals.h"
@@ -144,18 +145,26 @@ std::string page_of(const MeshRun& run) {
   return report_page(content);
 }
 
+/// Pieces that come with a file are behind the outputs in `paths`: with it they are written.
 void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vector<std::string>& paths,
-               Progress& progress) {
+               const Ranks* ranks, Progress& progress) {
   carreau_exr_options fields{};
   fields.struct_size = sizeof fields;
   fields.longest = 256;  // a face has 26 channels: hundreds of faces must fit a disk
   fields.multi_part = 1;
-  const double each = (1 - meshed_at) / static_cast<double>(paths.size());
+  const std::size_t outputs = run.options.outputs.size();
+  const double each = (1 - meshed_at) / static_cast<double>(outputs);
   double done = meshed_at;
-  for (const std::string& path : paths) {
+  for (std::size_t i = 0; i < outputs; ++i) {
+    const std::string& path = paths[i];
     progress.part(done, done + each);
     done += each;
-    if (suffix_of(path) == ".exr")
+    const bool alone = suffix_of(path) == ".exr" || is_solution(path) || is_report(path);
+    if (ranks != nullptr && !alone)
+      ranks->write(run.session, path);
+    else if (ranks != nullptr && !ranks->speaks())
+      continue;
+    else if (suffix_of(path) == ".exr")
       require(run.session, carreau_write_exr(run.session, path.c_str(), &fields));
     else if (is_report(path))
       write_text(path, page_of(run));
@@ -166,12 +175,20 @@ void write_all(const MeshRun& run, const Adaptation& adaptation, const std::vect
   }
 }
 
-}  // namespace
-
-int mesh(const MeshOptions& given) {
-  catch_signals();
-  Adaptation adaptation(given.adapt);
+/// One rank tells and gives files their names.
+MeshOptions options_of_rank(const MeshOptions& given, const Ranks* ranks) {
   MeshOptions options = given;
+  if (ranks == nullptr) return options;
+  if (options.threads == 0) options.threads = ranks->threads();
+  if (ranks->speaks()) return options;
+  options.quiet = true, options.json = false;
+  options.dump_failed.clear();
+  return options;
+}
+
+int mesh_in(const MeshOptions& given, const Ranks* ranks) {
+  Adaptation adaptation(given.adapt);
+  MeshOptions options = options_of_rank(given, ranks);
   options.outputs = adaptation.with_fields(given.outputs);
   check_words(options);  // what means nothing is told before a long reading
   SizeMap map(options.size_map);
@@ -182,7 +199,9 @@ int mesh(const MeshOptions& given) {
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
-  OutputFiles outputs(options.outputs, suffixes, read);
+  if (ranks != nullptr) suffixes.emplace_back(".pvtu");
+  const std::vector<std::string> files = ranks != nullptr ? ranks->all_files(options.outputs) : options.outputs;
+  OutputFiles outputs(files, suffixes, read);
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
   progress.line("reading " + options.input);
@@ -193,6 +212,7 @@ int mesh(const MeshOptions& given) {
           ? open_plane(options.input, options.plane)
           : open_input(options.input, options, [&](double fraction) { progress.reading(fraction); });
   const SessionHandle session = make_session();
+  if (ranks != nullptr) ranks->attach(session.get());
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};
   run.seconds_reading = reading.seconds();
   progress.part(progress.reached() > 0 ? read_at : 0, meshed_at);
@@ -212,7 +232,11 @@ int mesh(const MeshOptions& given) {
   run.warnings = progress.warnings();
   if (has_report(options)) measure(run.session);
   const Stopwatch writing;
-  outputs.write([&](const std::vector<std::string>& hidden) { write_all(run, adaptation, hidden, progress); });
+  const auto write = [&](const std::vector<std::string>& paths) { write_all(run, adaptation, paths, ranks, progress); };
+  if (ranks == nullptr || ranks->speaks())
+    outputs.write(write);
+  else
+    write(files);
   run.seconds_writing = writing.seconds();
   if (!options.quiet) {
     for (const std::string& line : summary_lines(run)) progress.line(line);
@@ -224,6 +248,23 @@ int mesh(const MeshOptions& given) {
   for (const std::string& sentence : {lost, failed})
     if (!sentence.empty()) progress.error(sentence);
   return some_faces;
+}
+
+}  // namespace
+
+int mesh(const MeshOptions& options) {
+  catch_signals();
+  const std::unique_ptr<Ranks> ranks = Ranks::join(options.outputs);
+  if (!ranks) return mesh_in(options, nullptr);
+  std::string why;
+  try {
+    return ranks->leave(mesh_in(options, ranks.get()));
+  } catch (const std::bad_alloc&) {
+    why = "there is not enough memory";
+  } catch (const std::exception& error) {
+    why = error.what();
+  }
+  return ranks->leave_failed(why);
 }
 
 }  // namespace command

@@ -14,6 +14,7 @@
 #include "metric/chart.h"
 #include "metric/metric2.h"
 #include "support/monitor.h"
+#include "support/packet.h"
 
 namespace carreau {
 
@@ -98,6 +99,10 @@ class ControlSpace {
     return leaves_.capacity() * sizeof(Leaf) + measures_.capacity() * sizeof(double) +
            table_.capacity() * sizeof(std::int32_t) + children_.capacity() * sizeof(children_[0]);
   }
+
+  /// As bytes for another process, and back. The second throws Error for bytes that are no space.
+  void put(PacketWriter& packet) const;
+  static ControlSpace from(PacketReader& packet);
 
  private:
   friend class ControlSpaceWriter;

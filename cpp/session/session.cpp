@@ -26,7 +26,9 @@
 #include "session/options.h"
 #include "support/format.h"
 #include "support/infinity.h"
+#include "support/packet.h"
 #include "support/part_monitor.h"
+#include "support/team.h"
 #include "surface/discrete/discrete_run.h"
 
 namespace carreau {
@@ -63,6 +65,8 @@ struct Session::State {
   std::shared_ptr<Cad> cad;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
+  std::shared_ptr<TeamLink> team_link;
+  std::unique_ptr<Team> team;  // of team_link; null: this process is alone
   BackgroundReport background_report;
   SurfaceMesh previous;
   bool has_previous = false;
@@ -197,6 +201,33 @@ const BackgroundReport& Session::background_report() const noexcept { return sta
 
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
 
+namespace {
+
+// Steps after the patches are made by every process itself, from what its own host says.
+void require_same_mesh(Team& team, const SurfaceMesh& mesh) {
+  PacketWriter packet;
+  packet.put(mesh.vertices);
+  packet.put(mesh.mid_vertices);
+  packet.put(mesh.vertex_ref);
+  for (const FaceMesh& face : mesh.faces) {
+    packet.put(static_cast<std::int64_t>(face.status));
+    packet.put(face.vertex);
+    packet.put(face.uv);
+    for (const auto& corners : face.triangles) packet.put(std::vector<std::int32_t>(corners.begin(), corners.end()));
+  }
+  team.require_same("mesh", checksum(packet.bytes()), [](int rank) {
+    return "the mesh of rank " + std::to_string(rank) +
+           " is another one than that of rank 0: its callbacks or parameters differ, or its host does not answer twice the same";
+  });
+}
+
+}  // namespace
+
+void Session::set_team(std::shared_ptr<TeamLink> link) {
+  state_->team = link ? std::make_unique<Team>(*link) : nullptr;
+  state_->team_link = std::move(link);
+}
+
 void Session::set_model(Model model) {
   if (leaves_out(state_->parameters)) leave_out_defects(model);
   state_->check_model(model);
@@ -241,6 +272,13 @@ const std::vector<Interface>& Session::interfaces() const { return (void)mesh(),
 const ModelSupports& Session::supports() const { return (void)mesh(), state_->meshed.supports; }
 
 void Session::make_mesh(double from, double to) {
+  if (Team* const team = state_->team.get(); team != nullptr)
+    team->run([&] { make_mesh_alone(from, to); });
+  else
+    make_mesh_alone(from, to);
+}
+
+void Session::make_mesh_alone(double from, double to) {
   State& s = *state_;
   s.tried_parameters = s.parameters;
   s.last_failed = true;
@@ -285,6 +323,7 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   for (const std::string& remark : remarks) s.monitor.message(Level::warning, remark);
   CompositeOptions options = composite_options(s.parameters, supports.diag);
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, known.plane, s.background);
+  options.team = s.team.get();
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   report_short_curves(model, supports, options.eps_ends, s.monitor);
@@ -310,6 +349,7 @@ void Session::make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, 
   const auto& surface = dynamic_cast<const discrete::DiscreteCad&>(*s.cad);
   CompositeOptions options = composite_options(s.parameters, surface.discrete().mesh().diagonal());
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, model.plane, s.background);
+  options.team = s.team.get();
   options.size.sources = s.sources(background.get());
   for (PrescriptionSource* source : options.size.sources) source->begin_run(options.size.law);
   CompositeResult result = mesh_discrete(model, surface, cad, options, making);
@@ -328,6 +368,8 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
                           Monitor& measuring) {
   State& s = *state_;
   const bool measured = s.parameters.integer("measure") != 0;
+  if (s.team) require_same_mesh(*s.team, result.mesh);
+  options.team = nullptr;  // the mesh outlives it
   std::vector<Interface> interfaces = list_interfaces(model, topology, result.gaps, s.glued);
   for (const PrescriptionSource* source : options.size.sources)
     for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);
@@ -465,13 +507,16 @@ void Session::write(const std::string& path) {
     write_fields_of_mesh(path, options);
     return;
   }
-  const MeshFormat format = mesh_format_of(path);
+  write_file(path, encoded(mesh_format_of(path)));
+}
+
+std::string Session::encoded(MeshFormat format) {
   const MeshEvaluation* measures = nullptr;  // other formats have no place for them
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  write_mesh(exported(measures), path, format,
-             {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1});
+  return mesh_bytes(exported(measures), format,
+                    {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1});
 }
 
 }  // namespace carreau

@@ -10,6 +10,7 @@
 
 #include "cad/cad.h"
 #include "fields/fields.h"
+#include "io/mesh_files.h"
 #include "measure/mesh_evaluation.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
@@ -19,6 +20,7 @@
 #include "session/parameters.h"
 #include "size/background.h"
 #include "support/monitor.h"
+#include "support/team.h"
 #include "surface/composite.h"
 
 namespace carreau {
@@ -46,6 +48,10 @@ class Session {
   /// break one are left out when the parameter failing_faces says so.
   void set_model(Model model);
   void load_pardom(const std::string& path);
+  /// Processes that make meshes together from now on; nullptr: this one alone, as at the start. All of them must have
+  /// the same geometry, model and parameters, and call make_mesh() together: each throws what one throws. Differences
+  /// that show in curves or in the mesh are errors.
+  void set_team(std::shared_ptr<TeamLink> link);
   void clear_model() noexcept;  ///< the mesh made of it stays
   [[nodiscard]] const Model& model() const noexcept;
 
@@ -83,6 +89,8 @@ class Session {
   /// Writes exported() to a file; format by suffix. A .vtu holds what delivered() knows, when it was asked or the
   /// parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
   void write(const std::string& path);
+  /// The bytes of such a file of a mesh.
+  std::string encoded(MeshFormat format);
 
   /// What governed each face's mesh, sampled and written as images (session/fields.h): returns the names of the files.
   /// Of the mesh; of the model alone as it is now, without triangles, when options.raw says so, when there is no mesh,
@@ -112,6 +120,7 @@ class Session {
   void read_env(const std::string& path);
 
  private:
+  void make_mesh_alone(double from, double to);
   void make_mesh_of(Model& known, Monitor& run);
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);
   void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "support/packet.h"
+#include "support/team.h"
 #include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
@@ -52,6 +54,15 @@ void even_out(CompositeRun& run) {
     even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
 }
 
+// Machines differ in memory, and the mesh must not depend on the one that made it.
+std::int64_t least_of(Team& team, std::int64_t most_triangles) {
+  PacketWriter packet;
+  packet.put(most_triangles);
+  for (const std::string& of_rank : team.exchange("begin", packet.bytes()))
+    most_triangles = std::min(most_triangles, PacketReader(of_rank).integer());
+  return most_triangles;
+}
+
 // Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.
 void place_on_curves(CompositeRun& run) {
   const SurfaceMesh& mesh = run.result.mesh;
@@ -96,6 +107,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
                                const CompositeOptions& options, Monitor& monitor) {
   const auto start = std::chrono::steady_clock::now();
   CompositeRun run(model, topology, supports, cad, options, monitor);
+  if (options.team != nullptr) run.options.max_triangles = least_of(*options.team, run.options.max_triangles);
   grade_sizes(run);
   discretise_curves(run);
   find_narrow(run);

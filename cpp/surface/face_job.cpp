@@ -83,6 +83,20 @@ void FaceJob::step(Monitor& monitor) {
   }
 }
 
+FaceOutcome FaceJob::take_outcome() {
+  FaceOutcome outcome{.patch = {},
+                      .space = std::move(space_),
+                      .failure = std::move(failure_),
+                      .remark = std::move(remark_),
+                      .beyond_limit = std::move(beyond_limit_),
+                      .seconds_sampling = report_.seconds_sampling,
+                      .seconds_plane = report_.seconds_plane,
+                      .seconds_lift = report_.seconds_lift,
+                      .corrections = report_.corrections};
+  if (outcome.failure.empty()) outcome.patch = std::move(mesh_);
+  return outcome;
+}
+
 void FaceJob::fail(const std::string& what) {
   failure_ = what.starts_with("face ") ? what : Where{.face = input_.ref}.prefix() + what;
   next_ = Step::none;

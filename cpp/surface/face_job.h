@@ -15,6 +15,7 @@
 #include "surface/options.h"
 #include "surface/result.h"
 #include "surface/sample/face_sampling.h"
+#include "surface/team/face_outcome.h"
 
 namespace carreau {
 
@@ -35,18 +36,8 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
-  /// Why the domain could not be meshed; empty when it was.
-  [[nodiscard]] const std::string& failure() const noexcept { return failure_; }
-  /// Set when it failed because its mesh has more triangles than are allowed.
-  [[nodiscard]] const std::optional<LimitError>& beyond_limit() const noexcept { return beyond_limit_; }
-  /// What is to be known of a mesh that could only be made in another way; empty: nothing.
-  [[nodiscard]] const std::string& remark() const noexcept { return remark_; }
-  /// Times and corrections.
-  [[nodiscard]] const CompositeReport& report() const noexcept { return report_; }
-  /// After a finish without failure. Once.
-  PatchMesh take() { return std::move(*mesh_); }
-  /// What was meshed in; empty when it could not be sampled. After a finish, once.
-  std::optional<ControlSpace> take_space() { return std::move(space_); }
+  /// What came of the face. After a finish, once.
+  FaceOutcome take_outcome();
 
  private:
   enum class Step { sample, mesh, lift, none };

@@ -9,6 +9,8 @@
 
 namespace carreau {
 
+class Team;
+
 /// What becomes of faces whose two long sides are nearer to each other than a share of the prescribed size.
 enum class NarrowFaces : int {
   keep,       ///< nothing special
@@ -56,6 +58,8 @@ struct CompositeOptions {
   /// Threads at work, the caller's among them. The mesh does not depend on it. A host that is not re-entrant is called
   /// from the caller's thread only.
   int threads = 1;
+  /// Processes that make the mesh together, null: this one alone. The mesh does not depend on it.
+  Team* team = nullptr;
 };
 
 /// Whether several threads may ask the host: it allows that, and no source of prescriptions is asked.

@@ -7,6 +7,7 @@
 
 #include "surface/face_job.h"
 #include "surface/run.h"
+#include "surface/team/dealt_faces.h"
 #include "surface/thresholds.h"
 
 namespace carreau {
@@ -41,8 +42,6 @@ struct PatchJobs {
   std::vector<EdgeSizes> short_edges = {};            // by face
   std::int64_t left = 0;                              // triangles still allowed
   std::optional<LimitError> first_beyond_limit = {};  // of faces that have too many by themselves
-
-  FaceJob& job(std::size_t i) { return static_cast<FaceJob&>(*jobs[i]); }
 };
 
 EdgeSizes edges_to_grow_from(const CompositeRun& run, std::size_t f, const std::vector<Vec3>& on_curves) {
@@ -97,34 +96,58 @@ void tell_progress(PatchJobs& work, std::size_t next) {
                 curves_share + patches_share * static_cast<double>(next) / static_cast<double>(work.jobs.size()));
 }
 
-void keep_patch(PatchJobs& work, std::size_t i) {
+void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
   CompositeRun& run = work.run;
-  const std::size_t f = work.face_of[i];
-  run.patches[f] = work.job(i).take();
-  if (!work.job(i).remark().empty()) run.remarks[f] = work.job(i).remark();
+  run.patches[f] = std::move(outcome.patch);
+  if (!outcome.remark.empty()) run.remarks[f] = outcome.remark;
   work.left -= static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
   const std::int64_t most = run.options.max_triangles;
   if (work.left < 0)
     refuse_triangles(Where{.face = run.model.faces[f].ref}, static_cast<double>(most - work.left), most);
 }
 
-void finish(PatchJobs& work, std::size_t i) {
+void finish(PatchJobs& work, std::size_t i, FaceOutcome outcome) {
   CompositeRun& run = work.run;
   const std::size_t f = work.face_of[i];
-  const CompositeReport& did = work.job(i).report();
   CompositeReport& all = run.result.report;
-  all.seconds_sampling += did.seconds_sampling;
-  all.seconds_plane += did.seconds_plane;
-  all.seconds_lift += did.seconds_lift;
-  all.corrections += did.corrections;
-  run.result.spaces[f] = work.job(i).take_space();
-  if (work.job(i).failure().empty())
-    keep_patch(work, i);
+  all.seconds_sampling += outcome.seconds_sampling;
+  all.seconds_plane += outcome.seconds_plane;
+  all.seconds_lift += outcome.seconds_lift;
+  all.corrections += outcome.corrections;
+  run.result.spaces[f] = std::move(outcome.space);
+  if (!work.first_beyond_limit) work.first_beyond_limit = outcome.beyond_limit;
+  if (outcome.failure.empty())
+    keep_patch(work, f, outcome);
   else
-    run.fail(f, work.job(i).failure());
-  if (!work.first_beyond_limit) work.first_beyond_limit = work.job(i).beyond_limit();
+    run.fail(f, outcome.failure);
   work.jobs[i].reset();
   tell_progress(work, i + 1);
+}
+
+void mesh_here(PatchJobs& work) {
+  CompositeRun& run = work.run;
+  tell_progress(work, 0);
+  const auto finished = [&](std::size_t i) { finish(work, i, static_cast<FaceJob&>(*work.jobs[i]).take_outcome()); };
+  run_stepped(work.jobs, {.threads = run.options.threads, .order = order_of_jobs(work), .on_finished = finished},
+              run.monitor);
+}
+
+// Progress is that of the faces begun, by whichever process: outcomes come all at once.
+void mesh_in_team(PatchJobs& work, Team& team) {
+  CompositeRun& run = work.run;
+  require_same_curves(team, run);
+  mesh_dealt({.team = team,
+              .jobs = work.jobs,
+              .order = order_of_jobs(work),
+              .threads = run.options.threads,
+              .on_begun =
+                  [&](std::size_t i, std::size_t begun) {
+                    run.tell(Phase::patches, run.model.faces[work.face_of[i]].ref,
+                             curves_share + patches_share * static_cast<double>(begun) / static_cast<double>(work.jobs.size()));
+                  },
+              .on_finished = [&](std::size_t i, FaceOutcome outcome) { finish(work, i, std::move(outcome)); }},
+             run.monitor);
+  require_same_surfaces(team, run);
 }
 
 void start_result(CompositeRun& run) {
@@ -167,12 +190,10 @@ void mesh_patches(CompositeRun& run) {
   PatchJobs work{.run = run};
   work.left = run.options.max_triangles;
   make_jobs(work);
-  tell_progress(work, 0);
-  run_stepped(work.jobs,
-              {.threads = run.options.threads,
-               .order = order_of_jobs(work),
-               .on_finished = [&](std::size_t i) { finish(work, i); }},
-              run.monitor);
+  if (run.options.team != nullptr)
+    mesh_in_team(work, *run.options.team);
+  else
+    mesh_here(work);
   const bool none = std::none_of(run.patches.begin(), run.patches.end(), [](const auto& p) { return p.has_value(); });
   if (none && work.first_beyond_limit) throw LimitError(*work.first_beyond_limit);
 }

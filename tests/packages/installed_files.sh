@@ -16,6 +16,12 @@ if [ "$fortran" = 1 ]; then
   need share/carreau/fortran/carreau.f90 share/carreau/fortran/blsurf_m.f90 lib/libcarreau_fortran.a \
     lib/fortran/modules/carreau/*/carreau.mod lib/pkgconfig/carreau-fortran.pc share/man/man1/blsurf.1
 fi
+# Where MPI was found.
+mpi_header=
+if [ -e include/carreau_mpi.h ]; then
+  mpi_header="include/carreau_mpi.h "
+  need lib/libcarreau_mpi.so lib/pkgconfig/carreau-mpi.pc
+fi
 cad_header=
 if [ "$cad" = 1 ]; then
   cad_header="include/carreau_cad.h include/carreau_cad.hpp "
@@ -43,7 +49,7 @@ done
 # The headers, and no file that knows where it was built.
 headers=$(find include -type f | LC_ALL=C sort | tr '\n' ' ')
 wrapper=$(for part in adaptation atlas callbacks delivered error geometry mesh metric remesh session; do printf 'include/carreau/%s.hpp ' $part; done)
-wanted="include/carreau.h include/carreau.hpp ${wrapper}include/carreau_atlas.h ${cad_header}include/carreau_geometry.h include/carreau_remesh.h "
+wanted="include/carreau.h include/carreau.hpp ${wrapper}include/carreau_atlas.h ${cad_header}include/carreau_geometry.h ${mpi_header}include/carreau_remesh.h "
 [ "$headers" = "$wanted" ] || { echo "headers: $headers"; fail=1; }
 if grep -rlI -e "$tree.first" .; then
   echo "these files hold the path of the first installation"

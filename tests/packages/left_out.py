@@ -9,7 +9,7 @@ import sys
 
 CMAKE, SOURCE, WORK = sys.argv[1:4]
 BARE = ["-DCMAKE_Fortran_COMPILER=NOTFOUND", "-DCARREAU_MUPARSER=OFF"] + [
-    f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("GTest", "OpenEXR", "TBB", "OpenCASCADE")]
+    f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("GTest", "OpenEXR", "TBB", "OpenCASCADE", "MPI")]
 
 
 def configure(name, *options):
@@ -34,7 +34,7 @@ status, lines, errors, build = configure("bare", *BARE)
 assert status == 0, errors
 rows = left_out(lines)
 print(rows)
-for what, word in ((".exr files", "libopenexr-dev"), ("oneTBB", "libtbb-dev"), ("Fortran modules and examples", "gfortran"),
+for what, word in ((".exr files", "libopenexr-dev"), ("oneTBB", "libtbb-dev"), ("libcarreau_mpi (mpirun carreau mesh)", "libopenmpi-dev"), ("Fortran modules and examples", "gfortran"),
                    ("libcarreau_cad (STEP, IGES and BREP files)", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), ("tests", "libgtest-dev")):
     assert word in rows[what], (what, rows)
 assert os.path.exists(os.path.join(build, "build.ninja"))

@@ -68,6 +68,20 @@ class Mesh {
 
   void read(const std::string& path) { done(carreau_mesh_read(mesh_, path.c_str())); }
   void write(const std::string& path) const { done(carreau_mesh_write(mesh_, path.c_str())); }
+  /// What write() would put into a file with this suffix (".meshb").
+  [[nodiscard]] std::string encode(const std::string& suffix) const {
+    std::string bytes;
+    const carreau_bytes_fn append = [](std::int64_t, std::int64_t n, const void* part, void* user) -> std::int32_t {
+      try {
+        static_cast<std::string*>(user)->append(static_cast<const char*>(part), static_cast<std::size_t>(n));
+        return 0;
+      } catch (...) { // no memory
+        return 1;
+      }
+    };
+    done(carreau_mesh_encode(mesh_, suffix.c_str(), append, &bytes));
+    return bytes;
+  }
   void from_arrays(const MeshArrays& arrays) {
     if (!sizes_agree(arrays)) detail::fail(CARREAU_ERR_ARGUMENT, "The arrays of a mesh have numbers of rows that do not agree.");
     auto in = detail::sized<carreau_mesh_arrays>();

@@ -176,6 +176,11 @@ class Session {
   void reset(const std::string& name) { done(carreau_reset_parameter(get(), name.c_str())); }
   void reset() { done(carreau_reset_parameters(get())); }
 
+  // ---- Many processes ----
+
+  /// Ranks that make meshes together from now on; nullptr: this process is alone.
+  void set_team(const carreau_team* team) { done(carreau_set_team(get(), team)); }
+
   // ---- Messages, progress, stop ----
 
   /// Level CARREAU_LEVEL_... and a sentence. An empty function: none. An exception of it stops the run.

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The part of a mesh that is one rank's.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "carreau_mpi.h"
+
+/// Rows as carreau_mpi.h tells them: own ones first.
+struct carreau_part {
+  std::int64_t own_triangles = 0, own_vertices = 0;
+  std::vector<std::int64_t> triangle;  ///< numbers in the mesh
+  std::vector<std::int32_t> triangle_owner, triangle_layer;
+  std::vector<std::array<std::int32_t, 3>> corners;  ///< numbers in the part
+  std::vector<std::int64_t> vertex;                  ///< numbers in the mesh
+  std::vector<std::int32_t> vertex_owner;
+  std::vector<std::int64_t> row;
+};
+
+namespace carreau_mpi {
+
+/// What parts are made of.
+struct WholeMesh {
+  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+};
+
+/// Throws Failure with the sentence of the mesh.
+WholeMesh whole_mesh(carreau_mesh* mesh);
+
+/// The rank of each triangle: parts of floor or ceil of m / size triangles.
+std::vector<std::int32_t> bisect(const WholeMesh& mesh, int size);
+
+/// `layers` >= 0.
+carreau_part part_of(const WholeMesh& mesh, int rank, int size, int layers);
+
+}  // namespace carreau_mpi

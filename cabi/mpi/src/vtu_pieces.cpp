@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "vtu_pieces.h"
+
+#include <cstring>
+#include <sstream>
+#include <string_view>
+
+namespace carreau_mpi {
+
+namespace {
+
+// vtkDataSetAttributes::DUPLICATECELL and DUPLICATEPOINT.
+constexpr std::uint8_t duplicate = 1;
+constexpr std::uint8_t vtk_triangle = 5;
+
+constexpr const char* file_attributes =
+    R"(version="1.0" byte_order="LittleEndian" header_type="UInt64")";
+
+/// The arrays of a file: what it says of them, and their bytes behind.
+class Arrays {
+ public:
+  /// An element <DataArray> of `values`.
+  template <typename T>
+  void add(std::string_view type, std::string_view name, int components, const std::vector<T>& values) {
+    text_ << "<DataArray type=\"" << type << "\" Name=\"" << name << "\" NumberOfComponents=\"" << components
+          << "\" format=\"appended\" offset=\"" << bytes_.size() << "\"/>\n";
+    append(std::uint64_t{values.size() * sizeof(T)});
+    for (const T value : values) append(value);
+  }
+  void line(std::string_view text) { text_ << text << "\n"; }
+
+  /// The whole file.
+  [[nodiscard]] std::string file() const {
+    return text_.str() + "<AppendedData encoding=\"raw\">\n_" + bytes_ + "\n</AppendedData>\n</VTKFile>\n";
+  }
+
+ private:
+  template <typename T>
+  void append(T value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    bytes_.append(raw, sizeof value);
+  }
+
+  std::ostringstream text_;
+  std::string bytes_;
+};
+
+std::vector<double> places(const WholeMesh& mesh, const carreau_part& part) {
+  std::vector<double> xyz;
+  for (const std::int64_t v : part.vertex)
+    for (const double x : mesh.vertices[static_cast<std::size_t>(v)]) xyz.push_back(x);
+  return xyz;
+}
+
+std::vector<std::uint8_t> ghosts(const std::vector<std::int32_t>& owners, int rank) {
+  std::vector<std::uint8_t> types;
+  for (const std::int32_t owner : owners) types.push_back(owner == rank ? 0 : duplicate);
+  return types;
+}
+
+void add_cells(Arrays& arrays, const carreau_part& part) {
+  std::vector<std::int64_t> nodes, ends;
+  for (const auto& corners : part.corners) {
+    nodes.insert(nodes.end(), corners.begin(), corners.end());
+    ends.push_back(static_cast<std::int64_t>(nodes.size()));
+  }
+  arrays.line("<Cells>");
+  arrays.add("Int64", "connectivity", 1, nodes);
+  arrays.add("Int64", "offsets", 1, ends);
+  arrays.add("UInt8", "types", 1, std::vector<std::uint8_t>(part.corners.size(), vtk_triangle));
+  arrays.line("</Cells>");
+}
+
+/// What all pieces have, as the master file says it.
+constexpr const char* declared_arrays =
+    "<PPointData GlobalIds=\"GlobalPointIds\">\n"
+    "<PDataArray type=\"Int64\" Name=\"GlobalPointIds\"/>\n"
+    "<PDataArray type=\"UInt8\" Name=\"vtkGhostType\"/>\n"
+    "<PDataArray type=\"Int32\" Name=\"owner\"/>\n"
+    "</PPointData>\n"
+    "<PCellData GlobalIds=\"GlobalElementIds\">\n"
+    "<PDataArray type=\"Int64\" Name=\"GlobalElementIds\"/>\n"
+    "<PDataArray type=\"UInt8\" Name=\"vtkGhostType\"/>\n"
+    "<PDataArray type=\"Int32\" Name=\"reference\"/>\n"
+    "<PDataArray type=\"Int32\" Name=\"owner\"/>\n"
+    "</PCellData>\n"
+    "<PPoints>\n<PDataArray type=\"Float64\" Name=\"Points\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
+
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name)
+    text += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return text;
+}
+
+}  // namespace
+
+std::string vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& refs, const carreau_part& part, int rank) {
+  Arrays arrays;
+  arrays.line("<?xml version=\"1.0\"?>");
+  arrays.line("<VTKFile type=\"UnstructuredGrid\" " + std::string(file_attributes) + ">");
+  arrays.line("<UnstructuredGrid>");
+  arrays.line("<Piece NumberOfPoints=\"" + std::to_string(part.vertex.size()) + "\" NumberOfCells=\"" +
+              std::to_string(part.triangle.size()) + "\">");
+  arrays.line("<PointData GlobalIds=\"GlobalPointIds\">");
+  arrays.add("Int64", "GlobalPointIds", 1, part.vertex);
+  arrays.add("UInt8", "vtkGhostType", 1, ghosts(part.vertex_owner, rank));
+  arrays.add("Int32", "owner", 1, part.vertex_owner);
+  arrays.line("</PointData>");
+  std::vector<std::int32_t> own_refs;
+  for (const std::int64_t t : part.triangle) own_refs.push_back(refs[static_cast<std::size_t>(t)]);
+  arrays.line("<CellData GlobalIds=\"GlobalElementIds\">");
+  arrays.add("Int64", "GlobalElementIds", 1, part.triangle);
+  arrays.add("UInt8", "vtkGhostType", 1, ghosts(part.triangle_owner, rank));
+  arrays.add("Int32", "reference", 1, own_refs);
+  arrays.add("Int32", "owner", 1, part.triangle_owner);
+  arrays.line("</CellData>");
+  arrays.line("<Points>");
+  arrays.add("Float64", "Points", 3, places(mesh, part));
+  arrays.line("</Points>");
+  add_cells(arrays, part);
+  arrays.line("</Piece>");
+  arrays.line("</UnstructuredGrid>");
+  return arrays.file();
+}
+
+std::string name_of_piece(const std::string& path, int rank) {
+  return path.substr(0, path.find_last_of('.')) + "_" + std::to_string(rank) + ".vtu";
+}
+
+std::string pvtu_text(const std::string& path, int size) {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" " + std::string(file_attributes) +
+                     ">\n<PUnstructuredGrid GhostLevel=\"1\">\n" + declared_arrays;
+  for (int r = 0; r < size; ++r) {
+    const std::string piece = name_of_piece(path, r);
+    text += "<Piece Source=\"" + escaped(piece.substr(piece.find_last_of('/') + 1)) + "\"/>\n";
+  }
+  return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+}  // namespace carreau_mpi

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mesh in parts as VTK reads it: one file a rank, and one that names them.
+#pragma once
+
+#include <string>
+
+#include "part.h"
+
+namespace carreau_mpi {
+
+/// The file of one part, as bytes (VTK XML, raw appended data). `refs`: of the triangles of the whole mesh.
+std::string vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& refs, const carreau_part& part, int rank);
+
+/// "a/x.pvtu" and 3: "a/x_3.vtu".
+std::string name_of_piece(const std::string& path, int rank);
+
+/// The file that names the pieces of "x.pvtu", which lie beside it.
+std::string pvtu_text(const std::string& path, int size);
+
+}  // namespace carreau_mpi

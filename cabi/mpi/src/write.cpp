@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that all ranks write together.
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "calls.h"
+#include "vtu_pieces.h"
+
+using namespace carreau_mpi;
+
+namespace {
+
+void require(carreau_mesh* mesh, carreau_status status) {
+  if (status != CARREAU_OK) throw Failure(status, carreau_mesh_last_error(mesh));
+}
+
+std::string suffix_of(const std::string& path) {
+  const std::size_t dot = path.find_last_of('.'), slash = path.find_last_of('/');
+  std::string suffix = dot == std::string::npos || (slash != std::string::npos && dot < slash) ? "" : path.substr(dot);
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return suffix;
+}
+
+/// As carreau_mesh_write names what is not complete.
+std::string temporary_of(const std::string& path) { return path + ".0.tmp"; }
+
+/// The text of rank 0 on all ranks.
+std::string of_first_rank(const Communicator& comm, std::string text) {
+  std::int64_t n = static_cast<std::int64_t>(text.size());
+  check(MPI_Bcast(&n, 1, MPI_INT64_T, 0, comm), "tell a name");
+  text.resize(static_cast<std::size_t>(n));
+  check(MPI_Bcast(text.data(), static_cast<int>(n), MPI_CHAR, 0, comm), "tell a name");
+  return text;
+}
+
+/// Runs body() on every rank, and throws the failure of the least rank that has one on all of them.
+template <typename Body>
+void together(const Communicator& comm, Body&& body) {
+  int status = CARREAU_OK;
+  std::string sentence;
+  try {
+    body();
+  } catch (const Failure& failure) {
+    status = failure.status, sentence = failure.what();
+  } catch (const std::bad_alloc&) {
+    status = CARREAU_ERR_MEMORY, sentence = "rank " + std::to_string(comm.rank()) + " has not enough memory to write its part";
+  } catch (const std::exception& error) {
+    status = CARREAU_ERR_INTERNAL, sentence = error.what();
+  }
+  int first = status == CARREAU_OK ? comm.size() : comm.rank();
+  check(MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, comm), "agree about errors");
+  if (first == comm.size()) return;
+  check(MPI_Bcast(&status, 1, MPI_INT, first, comm), "tell an error");
+  std::int64_t n = static_cast<std::int64_t>(sentence.size());
+  check(MPI_Bcast(&n, 1, MPI_INT64_T, first, comm), "tell an error");
+  sentence.resize(static_cast<std::size_t>(n));
+  check(MPI_Bcast(sentence.data(), static_cast<int>(n), MPI_CHAR, first, comm), "tell an error");
+  throw Failure(status, sentence);
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw Failure(CARREAU_ERR_FILE, "cannot write '" + path + "': " + why);
+}
+
+void write_alone(const std::string& temporary, const std::string& path, const std::string& bytes) {
+  errno = 0;
+  std::FILE* const file = std::fopen(temporary.c_str(), "wb");
+  if (file == nullptr) refuse(path, std::strerror(errno));
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  const int why = errno;
+  const bool closed = std::fclose(file) == 0;  // a full disk is often reported only here
+  if (!written || !closed) refuse(path, std::strerror(written ? errno : why));
+}
+
+void give_name(const std::string& path) {
+  if (std::rename(temporary_of(path).c_str(), path.c_str()) != 0) refuse(path, std::strerror(errno));
+}
+
+void write_pvtu(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {
+  const std::string piece = name_of_piece(path, comm.rank());
+  try {
+    together(comm, [&] {
+      const WholeMesh whole = whole_mesh(mesh);
+      std::vector<std::int32_t> refs(whole.triangles.size());
+      require(mesh, carreau_mesh_triangle_refs(mesh, static_cast<std::int64_t>(refs.size()), refs.data()));
+      constexpr int layers = 1;
+      const carreau_part part = part_of(whole, comm.rank(), comm.size(), layers);
+      write_alone(temporary_of(piece), piece, vtu_of_part(whole, refs, part, comm.rank()));
+      if (comm.rank() == 0) write_alone(temporary_of(path), path, pvtu_text(path, comm.size()));
+    });
+  } catch (...) {
+    std::remove(temporary_of(piece).c_str());
+    if (comm.rank() == 0) std::remove(temporary_of(path).c_str());
+    throw;
+  }
+  together(comm, [&] { give_name(piece); });
+  together(comm, [&] {  // what names the pieces appears when they are all there
+    if (comm.rank() == 0) give_name(path);
+  });
+}
+
+/// The bytes of a file that are one rank's: what all encode is the same.
+struct Slice {
+  std::int64_t begin = 0, end = 0;
+  std::int64_t total = 0;
+  std::string bytes;
+};
+
+struct SliceRequest {
+  int rank, size;
+  Slice slice;
+};
+
+std::int32_t keep_slice(std::int64_t, std::int64_t n, const void* bytes, void* user) {
+  try {
+    auto& request = *static_cast<SliceRequest*>(user);
+    Slice& slice = request.slice;
+    slice.total = n;
+    slice.begin = n / request.size * request.rank + std::min<std::int64_t>(n % request.size, request.rank);
+    slice.end = n / request.size * (request.rank + 1) + std::min<std::int64_t>(n % request.size, request.rank + 1);
+    slice.bytes.assign(static_cast<const char*>(bytes) + slice.begin, static_cast<std::size_t>(slice.end - slice.begin));
+    return 0;
+  } catch (...) {
+    return CARREAU_ERR_MEMORY;
+  }
+}
+
+void write_slice(MPI_File file, const std::string& path, const Slice& slice) {
+  constexpr std::size_t most = std::size_t{1} << 30;  // counts of MPI are of 32 bits
+  for (std::size_t done = 0; done < slice.bytes.size(); done += most) {
+    const int n = static_cast<int>(std::min(most, slice.bytes.size() - done));
+    MPI_Status status;
+    int written = 0;
+    const int code = MPI_File_write_at(file, slice.begin + static_cast<MPI_Offset>(done), slice.bytes.data() + done, n,
+                                       MPI_BYTE, &status);
+    if (code == MPI_SUCCESS) MPI_Get_count(&status, MPI_BYTE, &written);
+    if (code != MPI_SUCCESS || written != n)
+      refuse(path, errno != 0 ? std::strerror(errno) : "MPI could not write all bytes; the disk may be full");
+  }
+}
+
+void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {
+  SliceRequest request{comm.rank(), comm.size(), {}};
+  together(comm, [&] { require(mesh, carreau_mesh_encode(mesh, suffix_of(path).c_str(), keep_slice, &request)); });
+  const std::string temporary = temporary_of(path);
+  MPI_File file = MPI_FILE_NULL;
+  try {
+    together(comm, [&] {
+      if (comm.rank() == 0) write_alone(temporary, path, "");  // an older one ends here, and why it cannot be written
+    });
+    const int opened = MPI_File_open(comm, temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file);
+    together(comm, [&] {
+      if (opened != MPI_SUCCESS) refuse(path, "MPI could not open it on rank " + std::to_string(comm.rank()));
+    });
+    together(comm, [&] {
+      errno = 0;
+      write_slice(file, path, request.slice);
+    });
+    const int closed = MPI_File_close(&file);
+    together(comm, [&] {
+      struct stat status {};
+      if (closed != MPI_SUCCESS) refuse(path, "MPI could not close it");
+      if (comm.rank() == 0 && (stat(temporary.c_str(), &status) != 0 || status.st_size != request.slice.total))
+        refuse(path, "its size is not that of its bytes; the disk may be full");
+    });
+    together(comm, [&] {
+      if (comm.rank() == 0) give_name(path);
+    });
+  } catch (...) {
+    if (file != MPI_FILE_NULL) MPI_File_close(&file);
+    if (comm.rank() == 0) std::remove(temporary.c_str());
+    throw;
+  }
+}
+
+void write(carreau_session* session, std::int32_t handle, const char* given) {
+  const Communicator comm(handle);
+  carreau_mesh* mesh = nullptr;
+  together(comm, [&] {
+    if (given == nullptr) throw Failure(CARREAU_ERR_ARGUMENT, "the argument path is NULL");
+    if (const carreau_status status = carreau_session_mesh(session, &mesh); status != CARREAU_OK)
+      throw Failure(status, carreau_last_error(session));
+  });
+  const std::string path = of_first_rank(comm, given);
+  if (suffix_of(path) == ".pvtu")
+    write_pvtu(comm, mesh, path);
+  else
+    write_bytes(comm, mesh, path);
+}
+
+}  // namespace
+
+carreau_status carreau_mpi_write(carreau_session* session, int32_t comm, const char* path) {
+  return guarded(session, [&] { write(session, comm, path); });
+}

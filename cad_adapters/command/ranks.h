@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The processes that mpirun has started: they mesh together, and the first one speaks.
+#pragma once
+
+#include <carreau_mpi.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace command {
+
+class Ranks {
+ public:
+  /// The processes of this run; null where this one is alone and no output needs others (.pvtu). Throws Failure where
+  /// there are others and libcarreau_mpi is not there.
+  static std::unique_ptr<Ranks> join(const std::vector<std::string>& outputs);
+  Ranks(const Ranks&) = delete;
+  Ranks& operator=(const Ranks&) = delete;
+
+  [[nodiscard]] int size() const noexcept { return size_; }
+  /// The first one: it tells, and gives files their names. What others print is not seen.
+  [[nodiscard]] bool speaks() const noexcept { return rank_ == 0; }
+  /// Threads for each rank of this machine, when all its cores are shared evenly.
+  [[nodiscard]] int threads() const noexcept;
+
+  /// All meshes of the session are made by all ranks. Throws Failure.
+  void attach(carreau_session* session) const;
+  /// Writes the mesh by all ranks, to the path of the first one. Throws Failure.
+  void write(carreau_session* session, const std::string& path) const;
+  /// Files of `outputs` and those that come with them: pieces of .pvtu, in the order of the ranks, behind all outputs.
+  [[nodiscard]] std::vector<std::string> all_files(const std::vector<std::string>& outputs) const;
+
+  /// The end of the program, after all that it prints: the greatest exit code of all ranks.
+  int leave(int code) const;
+  /// The end after a failure: the exit code. The first of the ranks that have failed says why; where the others have not
+  /// failed it ends them.
+  int leave_failed(const std::string& why) const;
+
+ private:
+  Ranks();
+
+  void* library_ = nullptr;
+  int comm_ = 0, rank_ = 0, size_ = 1;
+  int error_output_ = 2;  // where this rank can speak
+};
+
+}  // namespace command

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Faces dealt out to the processes of a team. Private to surface/.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "support/team.h"
+#include "surface/face_job.h"
+#include "surface/run.h"
+
+namespace carreau {
+
+/// What all processes know of the faces to mesh; the same in each of them.
+struct DealtFaces {
+  Team& team;
+  std::span<std::unique_ptr<SteppedTask>> jobs;  ///< FaceJob; one that this process has meshed is null afterwards
+  std::vector<std::size_t> order;                ///< indices of jobs, longest first
+  int threads = 1;
+  /// Called from the thread that runs when job `i` is begun, the `begun`-th of all processes.
+  std::function<void(std::size_t i, std::size_t begun)> on_begun;
+  /// Called for 0, 1, 2, ... in every process, with the same outcomes.
+  std::function<void(std::size_t i, FaceOutcome)> on_finished;
+};
+
+/// Each process takes a face whenever a thread of it has none, then all tell each other what came of them. The error of
+/// the first face in order comes out of all processes, after the outcomes before it; that of a process that has none
+/// of its faces to blame (a stop, no memory) comes first. Messages of faces reach all hosts, in order of the faces.
+void mesh_dealt(const DealtFaces& faces, Monitor& monitor);
+
+/// Throws Error, which names process and curve, where a process has cut one in another way than the first process: its
+/// callbacks or parameters are others.
+void require_same_curves(Team& team, const CompositeRun& run);
+
+/// The same of what hosts say at a few vertices of each patch: their positions and prescribed sizes.
+void require_same_surfaces(Team& team, const CompositeRun& run);
+
+}  // namespace carreau

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/team/face_outcome.h"
+
+namespace carreau {
+
+namespace {
+
+void put(PacketWriter& packet, const PatchMesh& patch) {
+  packet.put(patch.plane.vertices);
+  packet.put(static_cast<std::int64_t>(patch.plane.triangles.size()));
+  for (const auto& triangle : patch.plane.triangles)
+    for (const std::int32_t v : triangle) packet.put(std::int64_t{v});
+  packet.put(patch.xyz);
+  packet.put(patch.size);
+  packet.put(static_cast<std::int64_t>(patch.excesses.size()));
+  for (const EdgeExcess& e : patch.excesses) packet.put(e.ratio), packet.put(e.from), packet.put(e.to);
+  packet.put(patch.normal);
+}
+
+PatchMesh patch_of(PacketReader& packet) {
+  PatchMesh patch;
+  patch.plane.vertices = packet.plane_points();
+  patch.plane.triangles.resize(packet.count(3 * sizeof(std::int64_t)));
+  for (auto& triangle : patch.plane.triangles)
+    for (std::int32_t& v : triangle) v = static_cast<std::int32_t>(packet.integer());
+  patch.xyz = packet.points();
+  patch.size = packet.reals();
+  patch.excesses.resize(packet.count(5 * sizeof(double)));
+  for (EdgeExcess& e : patch.excesses) e.ratio = packet.real(), e.from = packet.plane_point(), e.to = packet.plane_point();
+  patch.normal = packet.points();
+  return patch;
+}
+
+LimitError limit_of(PacketReader& packet) {
+  const Where where = packet.where();
+  const std::string sentence = packet.text(), prefix = where.prefix();
+  return {where, sentence.starts_with(prefix) ? sentence.substr(prefix.size()) : sentence};
+}
+
+}  // namespace
+
+void FaceOutcome::put(PacketWriter& packet) const {
+  packet.put(patch.has_value());
+  if (patch) carreau::put(packet, *patch);
+  packet.put(space.has_value());
+  if (space) space->put(packet);
+  packet.put(std::string_view(failure));
+  packet.put(std::string_view(remark));
+  packet.put(beyond_limit.has_value());
+  if (beyond_limit) packet.put(beyond_limit->where()), packet.put(std::string_view(beyond_limit->what()));
+  packet.put(seconds_sampling), packet.put(seconds_plane), packet.put(seconds_lift);
+  packet.put(std::int64_t{corrections});
+}
+
+FaceOutcome FaceOutcome::from(PacketReader& packet) {
+  FaceOutcome outcome;
+  if (packet.flag()) outcome.patch = patch_of(packet);
+  if (packet.flag()) outcome.space = ControlSpace::from(packet);
+  outcome.failure = packet.text();
+  outcome.remark = packet.text();
+  if (packet.flag()) outcome.beyond_limit = limit_of(packet);
+  outcome.seconds_sampling = packet.real(), outcome.seconds_plane = packet.real(), outcome.seconds_lift = packet.real();
+  outcome.corrections = static_cast<int>(packet.integer());
+  return outcome;
+}
+
+}  // namespace carreau

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What comes of one face: made here or by another process. Private to surface/.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "control_space/control_space.h"
+#include "support/error.h"
+#include "support/packet.h"
+#include "surface/patch.h"
+
+namespace carreau {
+
+struct FaceOutcome {
+  std::optional<PatchMesh> patch;          ///< empty: the face failed
+  std::optional<ControlSpace> space;       ///< what was meshed in; empty when it could not be sampled
+  std::string failure;                     ///< why the domain could not be meshed; empty when it was
+  std::string remark;                      ///< what is to be known of a mesh that could only be made in another way
+  std::optional<LimitError> beyond_limit;  ///< set when it failed because its mesh has too many triangles
+  /// Of CompositeReport.
+  double seconds_sampling = 0, seconds_plane = 0, seconds_lift = 0;
+  int corrections = 0;
+
+  /// As bytes for another process, and back. The second throws Error for bytes that are no outcome.
+  void put(PacketWriter& packet) const;
+  static FaceOutcome from(PacketReader& packet);
+};
+
+}  // namespace carreau

@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""`mpirun carreau mesh` writes what `carreau mesh` writes, byte for byte; VTK reads every triangle of the .pvtu once; a rank
+that is killed leaves no file.
+
+    command_test.py <mpirun> <ranks> <carreau> <teapot.bpt> <python with VTK, or NONE>
+"""
+import glob
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import mpirun
+
+MPIRUN, RANKS, CARREAU, TEAPOT, VTK = sys.argv[1], int(sys.argv[2]), *sys.argv[3:6]
+HERE = os.path.dirname(os.path.abspath(__file__))
+RUNS = [["--size", "0.2"], ["--angle", "8", "--gradation", "1.3"], ["--size", "0.25", "--independent"]]
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def alone(*arguments, **more):
+    return subprocess.run([CARREAU, *arguments], capture_output=True, text=True, timeout=280, **more)
+
+
+def same_files(folder):
+    for i, options in enumerate(RUNS):
+        one, many = f"{folder}/one{i}.meshb", f"{folder}/many{i}.meshb"
+        first = alone("mesh", TEAPOT, *options, "-o", one, "-o", f"{folder}/one{i}.vtu")
+        done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, *options, "-o", many, "-o", f"{folder}/many{i}.pvtu")
+        assert done.returncode == first.returncode == 0, done.stdout + done.stderr
+        assert content(one) == content(many), options
+        # One rank speaks.
+        assert (done.stdout + done.stderr).count("32 faces, 128 sides") == 1, done.stdout + done.stderr
+    assert not glob.glob(f"{folder}/.carreau-*"), os.listdir(folder)
+    if VTK != "NONE":
+        subprocess.run([VTK, f"{HERE}/read_pvtu.py", f"{folder}/many0.pvtu", f"{folder}/one0.vtu", str(RANKS)], check=True)
+
+
+def bad_input(folder):
+    before = sorted(os.listdir(folder))
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", f"{folder}/none.bpt", "--size", "1", "-o", f"{folder}/x.pvtu")
+    assert done.returncode == 2 and done.stderr.count("carreau: cannot read") == 1, (done.returncode, done.stderr)
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", TEAPOT, "--size", "1", "-o", f"{folder}/none/x.pvtu")
+    assert done.returncode == 2 and done.stderr.count("carreau: '") == 1, (done.returncode, done.stderr)
+    assert sorted(os.listdir(folder)) == before
+
+
+def ranks_of(launcher):
+    """Processes below mpirun that are the command."""
+    found = []
+    for stat in glob.glob("/proc/[0-9]*/stat"):
+        try:
+            fields = content(stat).decode().rsplit(")", 1)[1].split()
+            name = os.readlink(os.path.dirname(stat) + "/exe")
+        except OSError:
+            continue  # it has ended
+        if int(fields[1]) == launcher and os.path.basename(name) == "carreau":
+            found.append(int(stat.split("/")[2]))
+    return sorted(found)
+
+
+def killed(folder, which):
+    started = subprocess.Popen(mpirun.command(MPIRUN, RANKS, [CARREAU, "mesh", TEAPOT, "--size", "0.012", "-o", f"{folder}/x.pvtu",
+                                                              "-o", f"{folder}/x.meshb"]),
+                               env=mpirun.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        deadline = time.monotonic() + 60
+        while len(ranks := ranks_of(started.pid)) < RANKS and time.monotonic() < deadline:
+            time.sleep(0.02)
+        assert len(ranks) == RANKS, ranks
+        time.sleep(0.5)
+        os.kill(ranks[which], signal.SIGKILL)
+        _, errors = started.communicate(timeout=60)
+    finally:
+        started.kill()
+    assert started.returncode != 0 and "signal 9" in errors, (started.returncode, errors)
+    assert not os.listdir(folder), os.listdir(folder)
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    same_files(temporary)
+    bad_input(temporary)
+for rank in {0, RANKS - 1}:
+    with tempfile.TemporaryDirectory() as temporary:
+        killed(temporary, rank)
+print("the command holds on", RANKS, "ranks")

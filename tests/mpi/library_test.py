@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The cases of ranks_program.cpp hold on all ranks; files of all ranks are those of one process.
+
+    library_test.py <mpirun> <ranks> <ranks_program>
+"""
+import os
+import sys
+import tempfile
+
+from mpirun import run
+
+MPIRUN, RANKS, PROGRAM = sys.argv[1], int(sys.argv[2]), os.path.abspath(sys.argv[3])
+
+
+def holds(case, *arguments, **more):
+    done = run(MPIRUN, RANKS, PROGRAM, case, *arguments, **more)
+    assert done.returncode == 0, f"{case}: {done.stdout}{done.stderr}"
+
+
+def content(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+for case in ["same", "parts", "status", "stop", "no_memory"] + (["other_curves", "other_inside"] if RANKS > 1 else []):
+    holds(case)
+
+with tempfile.TemporaryDirectory() as folder:
+    holds("files", folder)
+    expected = sorted(["one.mesh", "one.meshb", "ranks.mesh", "ranks.meshb", "ranks.pvtu"] +
+                      [f"ranks_{r}.vtu" for r in range(RANKS)])
+    assert sorted(os.listdir(folder)) == expected, os.listdir(folder)
+    for suffix in (".mesh", ".meshb"):
+        assert content(f"{folder}/one{suffix}") == content(f"{folder}/ranks{suffix}"), suffix
+
+# Nothing is left of what a full disk did not take.
+with tempfile.TemporaryDirectory() as folder:
+    holds("full_disk", folder)
+    assert not os.listdir(folder), os.listdir(folder)
+
+# A rank that dies ends all of them.
+with tempfile.TemporaryDirectory() as folder:
+    done = run(MPIRUN, RANKS, PROGRAM, "dies", cwd=folder)
+    assert done.returncode != 0 and not os.listdir(folder), (done.returncode, os.listdir(folder))
+    assert "signal 9" in done.stderr, done.stderr
+print("all cases hold on", RANKS, "ranks")

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// One rank of the tests of libcarreau_mpi: `ranks_program <case> [<folder>]`. Ends with 0 when what the case promises holds
+// on this rank; says on the error output what does not.
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "carreau_mpi.h"
+#include "waves.h"
+
+namespace {
+
+using mpi_tests::Fault;
+using mpi_tests::Waves;
+
+int rank = 0, size = 1, failures = 0;
+
+void expect(bool holds, const std::string& what) {
+  if (holds) return;
+  ++failures;
+  std::fprintf(stderr, "rank %d of %d: not true: %s\n", rank, size, what.c_str());
+}
+
+std::int32_t world() { return MPI_Comm_c2f(MPI_COMM_WORLD); }
+
+/// A session of the waves, with parameters "name=word".
+struct Run {
+  explicit Run(const std::vector<std::string>& settings = {}, Fault fault = Fault::none) {
+    waves.fault = fault;
+    expect(carreau_session_create(&session) == CARREAU_OK, "a session is made");
+    expect(mpi_tests::give(session, waves) == CARREAU_OK, "the model is taken");
+    std::vector<std::string> all{"hphydef=0.1"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    for (const std::string& setting : all) {
+      const std::size_t at = setting.find('=');
+      expect(carreau_set_word(session, setting.substr(0, at).c_str(), setting.substr(at + 1).c_str()) == CARREAU_OK,
+             setting + ": " + carreau_last_error(session));
+    }
+  }
+  ~Run() { carreau_session_free(session); }
+  Run(const Run&) = delete;
+  Run& operator=(const Run&) = delete;
+
+  [[nodiscard]] carreau_mesh* mesh() const {
+    carreau_mesh* mesh = nullptr;
+    expect(carreau_session_mesh(session, &mesh) == CARREAU_OK, "there is a mesh");
+    return mesh;
+  }
+  [[nodiscard]] std::string sentence() const { return carreau_last_error(session); }
+
+  Waves waves;
+  carreau_session* session = nullptr;
+};
+
+std::string encoded(carreau_mesh* mesh) {
+  std::string bytes;
+  const carreau_bytes_fn append = [](std::int64_t, std::int64_t n, const void* part, void* user) -> std::int32_t {
+    static_cast<std::string*>(user)->append(static_cast<const char*>(part), static_cast<std::size_t>(n));
+    return 0;
+  };
+  expect(carreau_mesh_encode(mesh, ".meshb", append, &bytes) == CARREAU_OK, "the mesh is encoded");
+  std::int64_t n = 0, m = 0;
+  carreau_mesh_count(mesh, &n, &m, nullptr, nullptr);
+  std::vector<double> values(static_cast<std::size_t>(n) + 6 * static_cast<std::size_t>(m));
+  expect(carreau_mesh_vertex_sizes(mesh, n, values.data()) == CARREAU_OK, "sizes are known");
+  expect(carreau_mesh_corner_uv(mesh, m, values.data() + n) == CARREAU_OK, "(u, v) are known");
+  return bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+}
+
+// The mesh of all ranks is that of one process, bit for bit, with its sizes and parameters, its status and sentence.
+void same(const std::vector<std::string>& settings, Fault fault = Fault::none) {
+  const std::string what = settings.empty() ? "default" : settings.front();
+  Run alone(settings, fault), together(settings, fault);
+  const carreau_status status = carreau_mesh_generate(alone.session);
+  const std::string sentence = alone.sentence();
+  expect(carreau_mesh_generate_mpi(together.session, world()) == status, what + ": the same status; " + together.sentence());
+  expect(together.sentence() == sentence, what + ": the same sentence; " + together.sentence());
+  expect(status == (fault == Fault::none ? CARREAU_OK : CARREAU_ERR_PARTIAL), what + ": " + sentence);
+  expect(encoded(alone.mesh()) == encoded(together.mesh()), what + ": the same mesh");
+}
+
+void same_meshes() {
+  same({});
+  same({"threads=2"});
+  same({"hgeo_flag=1", "angle_mesh=4"});
+  same({"hgeo_flag=1", "gradation=1.2"});
+  same({"patches=independent"});
+  same({"element=q1.0"});
+  same({"element=p2"});
+  same({"shape_trials=1"});
+  same({"failing_faces=leave_out"}, Fault::status_inside);
+}
+
+/// What the last rank does is an error of all: these statuses, and these words somewhere in the sentence.
+void fails(Fault fault, carreau_status expected, const std::string& words) {
+  const bool last = rank == size - 1;
+  Run run({}, last ? fault : Fault::none);
+  const carreau_status status = carreau_mesh_generate_mpi(run.session, world());
+  mpi_tests::memory_is_short = false;
+  const bool short_of_memory = last && fault == Fault::no_memory && status == CARREAU_ERR_MEMORY;
+  expect(short_of_memory || status == expected, "the status is " + std::to_string(status) + ": " + run.sentence());
+  expect(run.sentence().find(words) != std::string::npos, "'" + words + "' is in '" + run.sentence() + "'");
+  carreau_mesh* mesh = nullptr;
+  expect(carreau_session_mesh(run.session, &mesh) == CARREAU_ERR_SEQUENCE, "there is no mesh");
+  // Ranks that went wrong once can mesh again.
+  run.waves.fault = Fault::none;
+  expect(carreau_mesh_generate_mpi(run.session, world()) == CARREAU_OK, "the next run is sound: " + run.sentence());
+}
+
+/// Values of all ranks, one behind the other.
+template <typename T>
+std::vector<T> gathered(const std::vector<T>& mine, MPI_Datatype type) {
+  int n = static_cast<int>(mine.size());
+  std::vector<int> counts(static_cast<std::size_t>(size)), starts(static_cast<std::size_t>(size), 0);
+  MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  for (std::size_t r = 1; r < counts.size(); ++r) starts[r] = starts[r - 1] + counts[r - 1];
+  std::vector<T> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  MPI_Allgatherv(mine.data(), n, type, all.data(), counts.data(), starts.data(), type, MPI_COMM_WORLD);
+  return all;
+}
+
+struct Part {
+  Part(carreau_mesh* mesh, int layers) {
+    carreau_part* part = nullptr;
+    expect(carreau_part_create(mesh, rank, size, layers, &part) == CARREAU_OK, "there is a part");
+    std::int64_t triangle_count = 0, vertex_count = 0;
+    expect(carreau_part_count(part, &own_triangles, &triangle_count, &own_vertices, &vertex_count) == CARREAU_OK, "counts");
+    const auto m = static_cast<std::size_t>(triangle_count), n = static_cast<std::size_t>(vertex_count);
+    triangles.resize(m), triangle_owners.resize(m), layer.resize(m), corners.resize(3 * m);
+    vertices.resize(n), vertex_owners.resize(n), rows.resize(n);
+    expect(carreau_part_triangles(part, triangle_count, triangles.data(), triangle_owners.data(), layer.data(),
+                                  corners.data()) == CARREAU_OK, "triangles");
+    expect(carreau_part_vertices(part, vertex_count, vertices.data(), vertex_owners.data(), rows.data()) == CARREAU_OK,
+           "vertices");
+    expect(m == 0 || carreau_part_triangles(part, triangle_count - 1, triangles.data(), nullptr, nullptr, nullptr) ==
+                         CARREAU_ERR_ARGUMENT, "an array that is too small is refused");
+    carreau_part_free(part);
+  }
+  std::int64_t own_triangles = 0, own_vertices = 0;
+  std::vector<std::int64_t> triangles, vertices, rows;
+  std::vector<std::int32_t> triangle_owners, layer, corners, vertex_owners;
+};
+
+// Every triangle and vertex has one owner, who is the same for all; rows are those of a distributed vector.
+void check_owners(const Part& part, std::int64_t n, std::int64_t m) {
+  const std::vector<std::int64_t> own(part.triangles.begin(), part.triangles.begin() + part.own_triangles);
+  std::map<std::int64_t, int> times;
+  for (const std::int64_t t : gathered(own, MPI_INT64_T)) ++times[t];
+  expect(static_cast<std::int64_t>(times.size()) == m, "each triangle has an owner");
+  for (const auto& [t, count] : times) expect(count == 1 && t >= 0 && t < m, "a triangle has one owner");
+  const std::vector<std::int64_t> counts = gathered(std::vector<std::int64_t>{part.own_triangles}, MPI_INT64_T);
+  for (const std::int64_t count : counts) expect(count >= m / size && count <= m / size + 1, "parts are of equal size");
+  const std::vector<std::int64_t> vertices = gathered(part.vertices, MPI_INT64_T), rows = gathered(part.rows, MPI_INT64_T);
+  const std::vector<std::int32_t> owners = gathered(part.vertex_owners, MPI_INT32_T);
+  std::map<std::int64_t, std::pair<std::int64_t, std::int32_t>> known;
+  std::map<std::int64_t, std::int32_t> owner_of_row;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto entry = known.emplace(vertices[i], std::pair{rows[i], owners[i]}).first->second;
+    expect(entry == std::pair{rows[i], owners[i]}, "all ranks say the same of a vertex");
+    owner_of_row[rows[i]] = owners[i];
+  }
+  expect(static_cast<std::int64_t>(owner_of_row.size()) == n, "each vertex has a row");
+  std::int32_t last = 0;
+  for (const auto& [row, owner] : owner_of_row) {
+    expect(owner >= last, "rows of a rank are consecutive");
+    last = owner;
+  }
+}
+
+// By brute force on the whole mesh.
+void check_ghosts(const Part& part, const std::vector<std::int32_t>& triangles, int layers) {
+  const std::size_t m = triangles.size() / 3;
+  std::map<std::int64_t, std::int32_t> layer;
+  for (std::size_t i = 0; i < part.triangles.size(); ++i) layer[part.triangles[i]] = part.layer[i];
+  for (std::size_t t = 0; t < m; ++t) {
+    const auto found = layer.find(static_cast<std::int64_t>(t));
+    const std::int32_t own = found != layer.end() ? found->second : layers + 1;
+    std::int32_t nearest = layers + 1;
+    for (std::size_t other = 0; other < m && own > 0; ++other) {
+      const auto it = layer.find(static_cast<std::int64_t>(other));
+      if (it == layer.end()) continue;
+      for (std::size_t i = 0; i < 9; ++i)
+        if (triangles[3 * t + i / 3] == triangles[3 * other + i % 3]) nearest = std::min(nearest, it->second);
+    }
+    if (own > 0) expect(own == std::min(nearest + 1, layers + 1) || (own == layers + 1 && nearest >= layers), "a ghost is in its layer");
+  }
+  for (std::size_t i = 0; i < part.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      expect(part.vertices[static_cast<std::size_t>(part.corners[3 * i + k])] ==
+                 triangles[3 * static_cast<std::size_t>(part.triangles[i]) + k], "corners are those of the mesh");
+}
+
+void parts() {
+  Run run({"hphydef=0.35"});
+  expect(carreau_mesh_generate_mpi(run.session, world()) == CARREAU_OK, run.sentence());
+  std::int64_t n = 0, m = 0;
+  carreau_mesh_count(run.mesh(), &n, &m, nullptr, nullptr);
+  std::vector<std::int32_t> triangles(3 * static_cast<std::size_t>(m));
+  carreau_mesh_triangles(run.mesh(), m, triangles.data());
+  for (const int layers : {0, 1, 2}) {
+    const Part part(run.mesh(), layers);
+    check_owners(part, n, m);
+    check_ghosts(part, triangles, layers);
+  }
+  carreau_part* none = nullptr;
+  expect(carreau_part_create(run.mesh(), size, size, 0, &none) == CARREAU_ERR_ARGUMENT, "a rank that is none is refused");
+}
+
+void files(const std::string& folder) {
+  Run run;
+  expect(carreau_mesh_generate_mpi(run.session, world()) == CARREAU_OK, run.sentence());
+  for (const char* name : {"/ranks.meshb", "/ranks.mesh", "/ranks.pvtu"})
+    expect(carreau_mpi_write(run.session, world(), (folder + name).c_str()) == CARREAU_OK, run.sentence());
+  if (rank == 0)
+    for (const char* name : {"/one.meshb", "/one.mesh"})
+      expect(carreau_mesh_write(run.mesh(), (folder + name).c_str()) == CARREAU_OK, "one process writes");
+  for (const char* name : {"/none/x.meshb", "/none/x.pvtu"}) {
+    expect(carreau_mpi_write(run.session, world(), (folder + name).c_str()) == CARREAU_ERR_FILE, "there is no such folder");
+    expect(run.sentence().find("/none/x") != std::string::npos, run.sentence());
+  }
+  expect(carreau_mpi_write(run.session, world(), (folder + "/x.what").c_str()) == CARREAU_ERR_ARGUMENT, "no such suffix");
+  Run empty;
+  expect(carreau_mpi_write(empty.session, world(), (folder + "/x.meshb").c_str()) == CARREAU_ERR_SEQUENCE, "no mesh");
+}
+
+// Files may not be larger than so: to the library it is a full disk.
+void full_disk(const std::string& folder) {
+  Run run;
+  expect(carreau_mesh_generate_mpi(run.session, world()) == CARREAU_OK, run.sentence());
+  constexpr rlim_t most = 4096;
+  const rlimit limit{most, most};
+  std::signal(SIGXFSZ, SIG_IGN);
+  expect(setrlimit(RLIMIT_FSIZE, &limit) == 0, "files are limited");
+  for (const char* name : {"/x.meshb", "/x.pvtu"}) {
+    expect(carreau_mpi_write(run.session, world(), (folder + name).c_str()) == CARREAU_ERR_FILE, "the file is too large");
+    expect(run.sentence().find("/x") != std::string::npos, run.sentence());
+  }
+}
+
+void run_case(const std::string& name, const std::string& folder) {
+  if (name == "same")
+    same_meshes();
+  else if (name == "parts")
+    parts();
+  else if (name == "files")
+    files(folder);
+  else if (name == "full_disk")
+    full_disk(folder);
+  else if (name == "other_curves")
+    fails(Fault::other_curves, CARREAU_ERR_MODEL, "on rank " + std::to_string(size - 1));
+  else if (name == "other_inside")
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 6 is another one on rank " + std::to_string(size - 1));
+  else if (name == "status")
+    fails(Fault::status, CARREAU_ERR_CALLBACK, "42");
+  else if (name == "stop")
+    fails(Fault::stop, CARREAU_ERR_CANCELLED, "stopped");
+  else if (name == "no_memory")
+    fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
+  else if (name == "dies")
+    fails(Fault::dies, CARREAU_OK, "nobody comes here");
+  else
+    expect(false, "there is a case '" + name + "'");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_MULTIPLE, &provided);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  run_case(argc > 1 ? argv[1] : "", argc > 2 ? argv[2] : "");
+  MPI_Finalize();
+  return failures == 0 ? 0 : 1;
+}
