@@ -163,7 +163,10 @@ carreau_point_metric_fn = CFUNCTYPE(c_int32, c_int32, c_void_p, c_void_p, c_void
 carreau_surface_metric_batch_fn = CFUNCTYPE(c_int32, c_int32, c_int64, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p)
 carreau_message_fn = CFUNCTYPE(None, c_int32, c_char_p, c_void_p)
 carreau_progress_fn = CFUNCTYPE(c_int32, c_int32, c_int32, c_double, c_void_p)
+carreau_team_take_fn = CFUNCTYPE(c_int32, c_int64, c_void_p, c_void_p)
+carreau_team_exchange_fn = CFUNCTYPE(c_int32, c_int64, c_void_p, c_void_p, c_void_p, c_void_p)
 carreau_field_fn = CFUNCTYPE(c_int32, c_int64, c_void_p, c_void_p, c_void_p)
+carreau_bytes_fn = CFUNCTYPE(c_int32, c_int64, c_int64, c_void_p, c_void_p)
 carreau_cad_progress_fn = CFUNCTYPE(c_int32, c_double, c_void_p)
 
 
@@ -245,6 +248,20 @@ class carreau_parameter(Structure):
         ("default_number", c_double),
         ("type", c_int32),
         ("diag_relative", c_int32),
+    ]
+
+
+class carreau_team(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("user", c_void_p),
+        ("rank", c_int32),
+        ("size", c_int32),
+        ("any_thread", c_int32),
+        ("reserved", c_int32),
+        ("take", carreau_team_take_fn),
+        ("exchange", carreau_team_exchange_fn),
+        ("release", CFUNCTYPE(None, c_void_p)),
     ]
 
 
@@ -891,6 +908,7 @@ CARREAU = {
     "carreau_set_message_callback": (c_int32, [c_void_p, carreau_message_fn, c_void_p]),
     "carreau_set_progress_callback": (c_int32, [c_void_p, carreau_progress_fn, c_void_p]),
     "carreau_stop": (None, [c_void_p]),
+    "carreau_set_team": (c_int32, [c_void_p, POINTER(carreau_team)]),
     "carreau_mesh_generate": (c_int32, [c_void_p]),
     "carreau_run_env": (c_int32, [c_void_p, c_char_p]),
     "carreau_session_report": (c_int32, [c_void_p, POINTER(carreau_report)]),
@@ -915,6 +933,7 @@ CARREAU = {
     "carreau_mesh_read": (c_int32, [c_void_p, c_char_p]),
     "carreau_mesh_from_arrays": (c_int32, [c_void_p, POINTER(carreau_mesh_arrays)]),
     "carreau_mesh_write": (c_int32, [c_void_p, c_char_p]),
+    "carreau_mesh_encode": (c_int32, [c_void_p, c_char_p, carreau_bytes_fn, c_void_p]),
     "carreau_mesh_count": (c_int32, [c_void_p, POINTER(c_int64), POINTER(c_int64), POINTER(c_int64), POINTER(c_int64)]),
     "carreau_mesh_dimension": (c_int32, [c_void_p, POINTER(c_int32)]),
     "carreau_mesh_vertices": (c_int32, [c_void_p, c_int64, Doubles]),
