@@ -489,6 +489,7 @@ typedef int32_t (*carreau_team_take_fn)(int64_t count, int64_t* out_before, void
 typedef int32_t (*carreau_team_exchange_fn)(int64_t n, const void* bytes, int64_t* out_sizes, const void** out_bytes,
                                             void* user);
 
+/* The place of a rank among the others, and how it talks to them. */
 typedef struct carreau_team {
   size_t struct_size;
   void* user;         /* handed to every callback; never looked at */
