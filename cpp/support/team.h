@@ -13,7 +13,7 @@
 
 namespace carreau {
 
-/// How the processes of a team reach each other: one class a communication library. Functions throw when it fails.
+/// How the processes of a team reach each other: one class a communication library.
 class TeamLink {
  public:
   virtual ~TeamLink() = default;
@@ -22,15 +22,16 @@ class TeamLink {
   [[nodiscard]] virtual int size() const noexcept = 0;
   /// take() may be called from several threads at a time; false: only from the thread that runs.
   [[nodiscard]] virtual bool takes_from_any_thread() const noexcept = 0;
-  /// Adds `count` to a number that all processes share, and gives what it was before. exchange() makes it 0.
+  /// Adds `count` to a number that all processes share, and gives what it was before. exchange() makes it 0. Throws Error.
   virtual std::int64_t take(std::int64_t count) = 0;
-  /// Waits for all processes, and gives what each has given, by rank.
+  /// Waits for all processes, and gives what each has given, by rank. Throws Error when it has failed, which it does in
+  /// all processes or in none, and std::bad_alloc in one that has no memory for the answer.
   virtual std::vector<std::string> exchange(std::string_view mine) = 0;
 };
 
 /// The error of one process, to be thrown in all of them.
 struct SharedError {
-  std::string bytes;  ///< empty: none
+  std::string bytes;  ///< empty: none, or no memory to tell it
 
   /// Of an exception.
   static SharedError of(const std::exception_ptr& error);
