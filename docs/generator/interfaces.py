@@ -7,10 +7,10 @@ import fortran_source
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 HEADERS = ["cabi/include/carreau.h", "cabi/include/carreau_geometry.h", "cabi/include/carreau_atlas.h", "cabi/include/carreau_remesh.h",
-           "cad_adapters/cad/include/carreau_cad.h"]
+           "cad_adapters/cad/include/carreau_cad.h", "cabi/mpi/include/carreau_mpi.h"]
 MODULES = ["cabi/fortran/carreau.f90", "cabi/fortran/carreau_geometry.f90", "cabi/fortran/carreau_atlas.f90", "cabi/fortran/carreau_remeshing.f90",
            "cad_adapters/cad/fortran/carreau_cad.f90", "cabi/fortran/blsurf_m.f90"]
-SYMBOLS = ["cabi/abi/symbols.txt", "cad_adapters/cad/abi/symbols.txt"]
+SYMBOLS = ["cabi/abi/symbols.txt", "cad_adapters/cad/abi/symbols.txt", "cabi/mpi/abi/symbols.txt"]
 CPP_HEADERS = ["cabi/include/carreau.hpp", "cabi/include/carreau", "cad_adapters/cad/include/carreau_cad.hpp"]
 PYTHON_PACKAGE = "cabi/python/carreau"
 
