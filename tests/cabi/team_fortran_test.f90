@@ -70,7 +70,8 @@ contains
   function triangles() result(n)
     integer(c_int64_t) :: n, vertices, edges, faces
     call carreau_mesh_generate(session, status)
-    if (status /= CARREAU_OK) error stop carreau_last_error(session)
+    if (status /= CARREAU_OK) write (*, '(a)') carreau_last_error(session)
+    if (status /= CARREAU_OK) error stop 'there is no mesh'
     call carreau_session_mesh(session, mesh, status)
     call carreau_mesh_count(mesh, vertices, n, edges, faces, status)
   end function triangles
