@@ -50,6 +50,7 @@ module carreau_c
     integer(c_int32_t) :: type = 0, diag_relative = 0
   end type c_parameter
 
+  !> The place of a rank among the others, and how it talks to them.
   type, bind(c) :: c_team
     integer(c_size_t) :: struct_size = 0
     type(c_ptr) :: user = c_null_ptr

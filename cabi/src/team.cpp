@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Processes that make one mesh together: the host's callbacks as the engine's link.
-#include "support/team.h"
+#include "support/ranks/team.h"
 
 #include "arguments.h"
 #include "carreau.h"

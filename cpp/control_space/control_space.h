@@ -14,7 +14,7 @@
 #include "metric/chart.h"
 #include "metric/metric2.h"
 #include "support/monitor.h"
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 
 namespace carreau {
 

@@ -26,9 +26,9 @@
 #include "session/options.h"
 #include "support/format.h"
 #include "support/infinity.h"
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 #include "support/part_monitor.h"
-#include "support/team.h"
+#include "support/ranks/team.h"
 #include "surface/discrete/discrete_run.h"
 
 namespace carreau {

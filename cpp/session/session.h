@@ -20,7 +20,7 @@
 #include "session/parameters.h"
 #include "size/background.h"
 #include "support/monitor.h"
-#include "support/team.h"
+#include "support/ranks/team.h"
 #include "surface/composite.h"
 
 namespace carreau {

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <utility>
 
-#include "support/packet.h"
-#include "support/team.h"
+#include "support/ranks/packet.h"
+#include "support/ranks/team.h"
 #include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"

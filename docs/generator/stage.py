@@ -45,7 +45,8 @@ class Stage:
     def markdown(self):
         """All pages of Markdown and the pictures beside those of docs/."""
         for folder, folders, names in os.walk(ROOT):
-            folders[:] = sorted(name for name in folders if name not in SKIPPED and not name.startswith(("build-", ".")))
+            folders[:] = sorted(name for name in folders if name not in SKIPPED and not name.startswith(("build-", ".")) and
+                                not os.path.exists(os.path.join(folder, name, "CMakeCache.txt")))  # a build, whatever its name
             for name in sorted(names):
                 path = os.path.relpath(os.path.join(folder, name), ROOT)
                 if name.endswith(".md"):

@@ -30,7 +30,7 @@ def check_step(folder):
 
 
 def mesh_step(text):
-    links = re.findall(r"`((?:cc|c\+\+|gfortran) step\.[^`]*)`", text)
+    links = re.findall(r"`((?:cc|c\+\+|gfortran) (?:-std=c\+\+20 )?step\.[^`]*)`", text)
     assert len(links) == 3, links
     for command in links:
         SANDBOX.run(command)

@@ -30,7 +30,8 @@ def write(text, folder, name):
 def missing_links(page):
     """A sentence on the links of a page that lead nowhere, or ""."""
     with open(page, encoding="utf-8") as file:
-        links = re.findall(r"\]\((?!https?:|#)([^)#]+)(?:#[^)]*)?\)", file.read())
+        prose = re.sub(r"^```.*?^```$", "", file.read(), flags=re.MULTILINE | re.DOTALL)  # [](...) is C++, too
+    links = re.findall(r"\]\((?!https?:|#)([^)#]+)(?:#[^)]*)?\)", prose)
     folder = os.path.dirname(os.path.abspath(page))
     missing = [link for link in links if not os.path.exists(os.path.join(folder, link))]
     return f"{page} links to files that do not exist: {missing}" if missing else ""

@@ -36,7 +36,9 @@ bool parse_real(std::string_view field, double& value) {
 
 class BdfReader {
  public:
-  BdfReader(std::string_view text, const std::string& name) : in_(text, name), nodes_(in_), groups_(in_) {}
+  BdfReader(std::string_view text, const std::string& name) : in_(text, name), nodes_(in_), groups_(in_) {
+    refuse_zero_bytes(in_, text);
+  }
 
   FlatMesh read() {
     skip_to_bulk();

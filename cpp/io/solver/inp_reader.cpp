@@ -28,7 +28,9 @@ struct Keyword {
 
 class InpReader {
  public:
-  InpReader(std::string_view text, const std::string& name) : in_(text, name), nodes_(in_), groups_(in_) {}
+  InpReader(std::string_view text, const std::string& name) : in_(text, name), nodes_(in_), groups_(in_) {
+    refuse_zero_bytes(in_, text);
+  }
 
   FlatMesh read() {
     Keyword keyword;

@@ -34,6 +34,11 @@ void append(const SolverElement& element, std::int32_t ref, const SolverNodes& n
 
 }  // namespace
 
+void refuse_zero_bytes(const Words& in, std::string_view text) {
+  const std::size_t at = text.find('\0');
+  if (at != std::string_view::npos) in.fail(text.data() + at, "a byte of value zero stands here: this is no text");
+}
+
 std::string_view next_field(std::string_view& line) noexcept {
   const std::size_t comma = line.find(',');
   const std::string_view field = trimmed(line.substr(0, comma));

@@ -15,6 +15,9 @@
 
 namespace carreau {
 
+/// Throws FileError where `text`, which `in` reads, has a zero byte: names would end there in other files.
+void refuse_zero_bytes(const Words& in, std::string_view text);
+
 /// What stands before the first comma, without blanks; takes it and the comma from the line.
 std::string_view next_field(std::string_view& line) noexcept;
 

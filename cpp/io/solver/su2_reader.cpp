@@ -32,7 +32,9 @@ bool reference_in(std::string_view tag, std::string_view before, std::int32_t& r
 
 class Su2Reader {
  public:
-  Su2Reader(std::string_view text, const std::string& name) : in_(text, name, '%') {}
+  Su2Reader(std::string_view text, const std::string& name) : in_(text, name, '%') {
+    refuse_zero_bytes(in_, text);
+  }
 
   FlatMesh read() {
     for (std::string_view word = in_.word(); !word.empty(); word = in_.word()) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "support/error.h"
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {

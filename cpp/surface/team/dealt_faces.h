@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "support/team.h"
+#include "support/ranks/team.h"
 #include "surface/face_job.h"
 #include "surface/run.h"
 

@@ -7,7 +7,7 @@
 
 #include "control_space/control_space.h"
 #include "support/error.h"
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 #include "surface/patch.h"
 
 namespace carreau {

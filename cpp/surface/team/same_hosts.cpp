@@ -2,7 +2,7 @@
 // Whether the hosts of all processes say the same.
 #include <algorithm>
 
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 #include "surface/team/dealt_faces.h"
 
 namespace carreau {

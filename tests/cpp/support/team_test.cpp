@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A team of threads, each a process with its own Team.
-#include "support/team.h"
+#include "support/ranks/team.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "support/error.h"
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 
 namespace carreau {
 namespace {

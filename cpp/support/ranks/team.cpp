@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/team.h"
+#include "support/ranks/team.h"
 
 #include <array>
 #include <new>
 
 #include "support/error.h"
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 
 namespace carreau {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "support/packet.h"
+#include "support/ranks/packet.h"
 
 #include <cstring>
 
