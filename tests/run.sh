@@ -7,7 +7,7 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
 # clang and libclang-rt-dev: fuzzing. openexr, python3-vtk9, python3-gmsh, python3-meshio: they read our files.
 # chromium, chromium-driver, python3-selenium: a browser that shows reports. calculix-ccx: a solver that reads our .inp.
 # libcgal-dev: its predicates find the same triangles that cross. python3-sphinx and what follows: the pages.
-# libopenmpi-dev, openmpi-bin: many processes.
+# libopenmpi-dev, openmpi-bin: many processes. dpkg-dev, file: cpack asks them what a package depends on.
 need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils locales \
   libocct-data-exchange-dev libocct-ocaf-dev libocct-visualization-dev libocct-modeling-algorithms-dev \
   libocct-modeling-data-dev libocct-foundation-dev \
@@ -15,7 +15,7 @@ need_packages g++ gcc gfortran cmake ninja-build pkg-config python3 binutils loc
   python3-vtk9 python3-gmsh python3-meshio libcgal-dev python3-numpy python3-pytest python3-pip python3-setuptools python3-wheel python3-venv mypy \
   chromium chromium-driver python3-selenium calculix-ccx \
   python3-sphinx python3-myst-parser furo doxygen python3-breathe \
-  libopenmpi-dev openmpi-bin
+  libopenmpi-dev openmpi-bin dpkg-dev file
 build=$root/build/release
 configure "$root" "$build" -DCMAKE_BUILD_TYPE=Release -DCARREAU_TESTS=ON -DCARREAU_FORTRAN=ON -DCARREAU_BENCH=ON -DCARREAU_TEST_VARIANTS=ON
 cmake --build "$build" -j "$(processors)"
