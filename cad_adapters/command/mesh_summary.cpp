@@ -22,13 +22,6 @@ carreau_quality quality_of(carreau_mesh* mesh) {
   return q;
 }
 
-carreau_report report_of(carreau_session* session) {
-  carreau_report r{};
-  r.struct_size = sizeof r;
-  require(session, carreau_session_report(session, &r));
-  return r;
-}
-
 std::int32_t threads_of(carreau_session* session) {
   std::int32_t threads = 1;
   require(session, carreau_get_integer(session, "threads", &threads));
@@ -176,6 +169,13 @@ std::string gradation_line(const MeshRun& run) {
 }
 
 }  // namespace
+
+carreau_report report_of(carreau_session* session) {
+  carreau_report r{};
+  r.struct_size = sizeof r;
+  require(session, carreau_session_report(session, &r));
+  return r;
+}
 
 std::string failed_faces(const std::vector<FaceResult>& faces) {
   constexpr int listed = 20;

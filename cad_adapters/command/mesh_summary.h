@@ -16,6 +16,9 @@
 
 namespace command {
 
+/// What the last run of a session did.
+carreau_report report_of(carreau_session* session);
+
 /// A run with its results, besides what session and mesh know.
 struct MeshRun {
   const MeshOptions& options;

@@ -26,10 +26,10 @@
 #include "session/options.h"
 #include "support/format.h"
 #include "support/infinity.h"
-#include "support/ranks/packet.h"
 #include "support/part_monitor.h"
 #include "support/ranks/team.h"
 #include "surface/discrete/discrete_run.h"
+#include "surface/team/same_hosts.h"
 
 namespace carreau {
 
@@ -200,28 +200,6 @@ void Session::set_background(std::shared_ptr<BackgroundField> background) {
 const BackgroundReport& Session::background_report() const noexcept { return state_->background_report; }
 
 bool Session::has_model_from_host() const noexcept { return !state_->model.faces.empty() && !state_->model_from_env; }
-
-namespace {
-
-// Steps after the patches are made by every process itself, from what its own host says.
-void require_same_mesh(Team& team, const SurfaceMesh& mesh) {
-  PacketWriter packet;
-  packet.put(mesh.vertices);
-  packet.put(mesh.mid_vertices);
-  packet.put(mesh.vertex_ref);
-  for (const FaceMesh& face : mesh.faces) {
-    packet.put(static_cast<std::int64_t>(face.status));
-    packet.put(face.vertex);
-    packet.put(face.uv);
-    for (const auto& corners : face.triangles) packet.put(std::vector<std::int32_t>(corners.begin(), corners.end()));
-  }
-  team.require_same("mesh", checksum(packet.bytes()), [](int rank) {
-    return "the mesh of rank " + std::to_string(rank) +
-           " is another one than that of rank 0: its callbacks or parameters differ, or its host does not answer twice the same";
-  });
-}
-
-}  // namespace
 
 void Session::set_team(std::shared_ptr<TeamLink> link) {
   state_->team = link ? std::make_unique<Team>(*link) : nullptr;

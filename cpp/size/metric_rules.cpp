@@ -291,10 +291,13 @@ SurfaceJet SizeRules::surface_jet(int face, unsigned want, const Vec2& uv) const
 void SizeRules::metrics_on_surface(int face, std::span<const Vec2> uv, std::span<const SurfaceJet> jets,
                                    const std::function<double(Vec2)>& fallback, std::span<Metric2> metric) const {
   const bool geometric = uses_curvature(), physical = parameters_.physical != PhysicalSizes::ignored;
-  std::vector<Vec3> xyz(uv.size(), Vec3::Zero());
-  if (needs_positions())
-    for (std::size_t i = 0; i < uv.size(); ++i) xyz[i] = jets[i].s;
-  const std::vector<Prescription> told = told_on_surface(face, uv, xyz);
+  std::vector<Prescription> told;
+  if (asks_sources()) {
+    std::vector<Vec3> xyz(uv.size(), Vec3::Zero());
+    if (needs_positions())
+      for (std::size_t i = 0; i < uv.size(); ++i) xyz[i] = jets[i].s;
+    told = told_on_surface(face, uv, xyz);
+  }
   const std::size_t sources = told.size() / std::max<std::size_t>(uv.size(), 1);
   const bool by_boundary = parameters_.physical == PhysicalSizes::asked || asks_curves_only();
   const auto answers_at = [&](std::size_t i) {

@@ -5,13 +5,12 @@
 #include <chrono>
 #include <utility>
 
-#include "support/ranks/packet.h"
-#include "support/ranks/team.h"
 #include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
 #include "surface/independent/independent.h"
 #include "surface/run.h"
+#include "surface/team/same_hosts.h"
 #include "surface/thresholds.h"
 
 namespace carreau {
@@ -52,15 +51,6 @@ void even_out(CompositeRun& run) {
                    run.result, run.monitor);
   else
     even_out_lengths(adjacent_lengths * options.gradation, run.rules, run.cad, run.result, run.monitor);
-}
-
-// Machines differ in memory, and the mesh must not depend on the one that made it.
-std::int64_t least_of(Team& team, std::int64_t most_triangles) {
-  PacketWriter packet;
-  packet.put(most_triangles);
-  for (const std::string& of_rank : team.exchange("begin", packet.bytes()))
-    most_triangles = std::min(most_triangles, PacketReader(of_rank).integer());
-  return most_triangles;
 }
 
 // Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.

@@ -8,6 +8,7 @@
 #include "surface/face_job.h"
 #include "surface/run.h"
 #include "surface/team/dealt_faces.h"
+#include "surface/team/same_hosts.h"
 #include "surface/thresholds.h"
 
 namespace carreau {

@@ -5,13 +5,12 @@ triangles, tetrahedra, edges of curves. MAKE_SHAPES makes STEP files."""
 import itertools
 import math
 import os
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from mesh_files import Mesh, read_mesh, read_sol, write_sol
+from work_folder import WorkFolder
 
 PROGRAM, TEAPOT, HOST, *SHAPES = map(os.path.abspath, sys.argv[1:])
 
@@ -68,28 +67,8 @@ def write_cells(path, dimension, vertices, name, cells):
     return mesh
 
 
-class Inputs(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="carreau inputs ")
-
-    def tearDown(self):
-        shutil.rmtree(self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-        return name
-
-    def run_program(self, *words):
-        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=240)
-
-    def done(self, *words):
-        result = self.run_program(*words)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stderr
+class Inputs(WorkFolder):
+    program = PROGRAM
 
     def geometries(self):
         """Name, words that name the input, command of the first mesh."""

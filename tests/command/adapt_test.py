@@ -5,13 +5,12 @@ files, several fields at once, surfaces in space, a sentence for each mistake. F
 import math
 import os
 import re
-import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 from mesh_files import read_mesh, read_png, read_sol, write_sol
+from work_folder import WorkFolder
 
 PROGRAM, PAGE, TEAPOT = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[3]), os.path.abspath(sys.argv[4])
 FORMULAS = sys.argv[2] in ("1", "ON", "TRUE")
@@ -19,28 +18,12 @@ FORMULAS = sys.argv[2] in ("1", "ON", "TRUE")
 SQUARE = "4 2 0 0\n1 -1 -1\n2 1 -1\n3 1 1\n4 -1 1\n4 1\n1 1 2 1\n2 2 3 2\n3 3 4 3\n4 4 1 4\n0\n"
 
 
-class Adapt(unittest.TestCase):
+class Adapt(WorkFolder):
+    program = PROGRAM
+
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="carreau adapt ")
+        super().setUp()
         self.write("square.poly", SQUARE)
-
-    def tearDown(self):
-        shutil.rmtree(self.folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), "w") as file:
-            file.write(text)
-
-    def run_program(self, *words):
-        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=120)
-
-    def done(self, *words):
-        result = self.run_program(*words)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result.stderr
 
     def fails(self, *words, sentence):
         before = sorted(os.listdir(self.folder))

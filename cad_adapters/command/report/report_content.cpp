@@ -3,18 +3,12 @@
 
 #include <cmath>
 
+#include "mesh_summary.h"
 #include "report/html_text.h"
 #include "session_handle.h"
 
 namespace command {
 namespace {
-
-double diagonal_of(carreau_session* session) {
-  carreau_report report{};
-  report.struct_size = sizeof report;
-  require(session, carreau_session_report(session, &report));
-  return report.diag;
-}
 
 AskedValue text_value(carreau_session* session, const carreau_parameter& p) {
   const char* value = "";
@@ -49,7 +43,7 @@ ReportContent content_of(carreau_mesh* mesh, const Crossings* known) {
 }
 
 std::vector<AskedValue> asked_of(carreau_session* session) {
-  const double diagonal = diagonal_of(session);
+  const double diagonal = report_of(session).diag;
   std::vector<AskedValue> asked;
   for (std::int32_t i = 0; i < carreau_parameter_count(); ++i) {
     carreau_parameter p{};

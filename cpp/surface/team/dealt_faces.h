@@ -30,11 +30,4 @@ struct DealtFaces {
 /// of its faces to blame (a stop, no memory) comes first. Messages of faces reach all hosts, in order of the faces.
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor);
 
-/// Throws Error, which names process and curve, where a process has cut one in another way than the first process: its
-/// callbacks or parameters are others.
-void require_same_curves(Team& team, const CompositeRun& run);
-
-/// The same of what hosts say at a few vertices of each patch: their positions and prescribed sizes.
-void require_same_surfaces(Team& team, const CompositeRun& run);
-
 }  // namespace carreau

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the hosts of all processes say the same.
+#include "surface/team/same_hosts.h"
+
 #include <algorithm>
 
 #include "support/ranks/packet.h"
-#include "surface/team/dealt_faces.h"
 
 namespace carreau {
 
@@ -65,6 +65,14 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
 
 }  // namespace
 
+std::int64_t least_of(Team& team, std::int64_t most_triangles) {
+  PacketWriter packet;
+  packet.put(most_triangles);
+  for (const std::string& of_rank : team.exchange("begin", packet.bytes()))
+    most_triangles = std::min(most_triangles, PacketReader(of_rank).integer());
+  return most_triangles;
+}
+
 void require_same_curves(Team& team, const CompositeRun& run) {
   std::string sums;
   for (const DiscreteCurve& curve : run.curves) sums += checksum_of(curve);
@@ -77,6 +85,23 @@ void require_same_curves(Team& team, const CompositeRun& run) {
     throw InvalidModel(which + " is another one on rank " + std::to_string(r) +
                        " than on rank 0: its callbacks or parameters differ; all ranks must mesh the same model");
   }
+}
+
+void require_same_mesh(Team& team, const SurfaceMesh& mesh) {
+  PacketWriter packet;
+  packet.put(mesh.vertices);
+  packet.put(mesh.mid_vertices);
+  packet.put(mesh.vertex_ref);
+  for (const FaceMesh& face : mesh.faces) {
+    packet.put(static_cast<std::int64_t>(face.status));
+    packet.put(face.vertex);
+    packet.put(face.uv);
+    for (const auto& corners : face.triangles) packet.put(std::vector<std::int32_t>(corners.begin(), corners.end()));
+  }
+  team.require_same("mesh", checksum(packet.bytes()), [](int rank) {
+    return "the mesh of rank " + std::to_string(rank) +
+           " is another one than that of rank 0: its callbacks or parameters differ, or its host does not answer twice the same";
+  });
 }
 
 void require_same_surfaces(Team& team, const CompositeRun& run) {
