@@ -32,9 +32,11 @@ solve() { # values at the vertices of $1.mesh, in the place of a solver
 
 carreau plane naca.poly --smooth=60 -o naca0.mesh --size 0.8 --angle 4 --min 0.004 --gradation 1.25 -q
 solve naca0
-for i in 1 2 3; do
+i=0
+for stretch in 3.4 6.8 8.5; do # the largest of the maps of the report
+  i=$((i + 1))
   carreau adapt naca.poly --smooth=60 --mesh naca$((i - 1)).mesh --sol naca$((i - 1)).sol -o naca$i.mesh \
-    --shape anisotropic --tolerance 0.0015 --min 0.004 --max 0.8 --gradation 1.4 -q
+    --shape anisotropic --tolerance 0.0015 --ratio $stretch --min 0.004 --max 0.8 --gradation 1.4 -q
   solve naca$i
 done
 carreau picture naca3.mesh -o naca0012.png --size 900x600 --around 0.5,0,0,0.75

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Curves in metrics that vary along them, as in sections 6.2 and 6.3 of RR-2818: a segment with five metrics (its
- * figures 24 to 27) and a closed curve of the plane with nine (like its figures 28 to 32, whose data the report does
+/* Curves in metrics that vary along them, as in section 6 of RR-2818: a segment with five sizes (its figures 20 to 23),
+ * one with five metrics (24 to 27) and a closed curve of the plane with nine (like its figures 28 to 32, whose data the report does
  * not give), each with the three laws of interpolation; then a helix of space. Every curve is cut into edges of equal
  * length in the metric. The program measures each edge again, by a rule of its own, and fails when one is off by 2 %.
- * metric_curves <folder>: a picture (SVG) of each plane curve there, with its cuts and unit circles of the metric. */
+ * metric_curves <folder>: a picture (SVG) of each plane curve there, with its cuts and unit circles of the metric; of the
+ * sizes, h(s) over squares that stand on the edges. */
 #include <carreau.h>
 #include <inttypes.h>
 #include <math.h>
@@ -33,6 +34,13 @@ static void set_segment(struct plane_curve* curve) {
   static const double h1[] = {0.7, 1.1, 0.3, 1.5, 1}, h2[] = {0.25, 0.15, 0.3, 0.4, 0.35};
   *curve = (struct plane_curve){.name = "segment", .n = 2, .m = 5, .points = {{0, 0}, {7.5, 0}}};
   for (int i = 0; i < 5; ++i) curve->abscissae[i] = s[i], set_metric(curve->metrics[i], angle[i], h1[i], h2[i]);
+}
+
+/* RR-2818 sec. 6.1, its table. */
+static void set_sizes(struct plane_curve* curve) {
+  static const double s[] = {0, 3, 4, 8, 10}, h[] = {1.5, 0.5, 2, 0.1, 0.7};
+  *curve = (struct plane_curve){.name = "sizes", .n = 2, .m = 5, .points = {{0, 0}, {10, 0}}};
+  for (int i = 0; i < 5; ++i) curve->abscissae[i] = s[i], set_metric(curve->metrics[i], 0, h[i], h[i]);
 }
 
 static void set_closed_curve(struct plane_curve* curve) {
@@ -115,19 +123,66 @@ static double measured_length(const struct plane_curve* curve, int law, double f
 static void draw_circle(FILE* file, const double* centre, const struct plane_curve* curve, double s, int law) {
   const int64_t k = metrics_around(curve, s);
   const double t = (s - curve->abscissae[k]) / (curve->abscissae[k + 1] - curve->abscissae[k]);
+  /* The metric from three lengths, and its factor M = L L^T: x = L^-T (cos, sin). */
+  const double along[3][2] = {{1, 0}, {0, 1}, {1, 1}};
+  double q[3];
+  for (int i = 0; i < 3; ++i) q[i] = squared_length(curve->metrics[k], curve->metrics[k + 1], t, law, along[i]);
+  const double l11 = sqrt(q[0]), l21 = (q[2] - q[0] - q[1]) / 2 / l11, l22 = sqrt(q[1] - l21 * l21);
   fprintf(file, "<polygon class=\"metric\" points=\"");
   for (int i = 0; i < 48; ++i) {
-    const double x[2] = {cos(2 * pi * i / 48), sin(2 * pi * i / 48)};
-    const double r = 1 / sqrt(squared_length(curve->metrics[k], curve->metrics[k + 1], t, law, x));
-    fprintf(file, "%.3f,%.3f ", centre[0] + r * x[0], -centre[1] - r * x[1]);
+    const double y = sin(2 * pi * i / 48) / l22, x = (cos(2 * pi * i / 48) - l21 * y) / l11;
+    fprintf(file, "%.3f,%.3f ", centre[0] + x, -centre[1] - y);
   }
   fprintf(file, "\"/>\n");
+}
+
+static double size_at(const struct plane_curve* curve, int law, double s) {
+  const int64_t k = metrics_around(curve, s);
+  const double t = (s - curve->abscissae[k]) / (curve->abscissae[k + 1] - curve->abscissae[k]), x[2] = {1, 0};
+  return 1 / sqrt(squared_length(curve->metrics[k], curve->metrics[k + 1], t, law, x));
+}
+
+/* The theorem of RR-2818 sec. 6.1: the curve u h(s) passes through each square that stands on an edge of length u. */
+static int passes_through_squares(const struct plane_curve* curve, int law, int64_t n, const double* cuts, double u) {
+  for (int64_t i = 0; i < n; ++i) {
+    double least = HUGE_VAL, most = 0;
+    for (int j = 0; j <= 100; ++j) {
+      const double h = size_at(curve, law, cuts[i] + (cuts[i + 1] - cuts[i]) * j / 100);
+      least = fmin(least, h), most = fmax(most, h);
+    }
+    const double side = (cuts[i + 1] - cuts[i]) / u;
+    if (side < least * 0.999 || side > most * 1.001) return 0;
+  }
+  return 1;
+}
+
+/* h(s) over the squares. */
+static int draw_squares(const char* path, const struct plane_curve* curve, int law, int64_t n, const double* cuts) {
+  FILE* file = fopen(path, "w");
+  if (!file) return 1;
+  fprintf(file,
+          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"1000\" viewBox=\"-.1 -2.2 10.2 2.4\">\n"
+          "<style>rect{fill:#4a90d922;stroke:#4a90d9;stroke-width:.012}polyline{fill:none;stroke:#222;"
+          "stroke-width:.02}circle{fill:#c0392b}</style>\n");
+  for (int64_t i = 0; i < n; ++i) {
+    const double d = cuts[i + 1] - cuts[i];
+    fprintf(file, "<rect x=\"%.4f\" y=\"%.4f\" width=\"%.4f\" height=\"%.4f\"/>\n", cuts[i], -d, d, d);
+  }
+  fprintf(file, "<polyline points=\"");
+  for (int i = 0; i <= 400; ++i) fprintf(file, "%.3f,%.4f ", i / 40.0, -size_at(curve, law, i / 40.0));
+  fprintf(file, "\"/>\n");
+  for (int64_t k = 0; k < curve->m; ++k)
+    fprintf(file, "<circle cx=\"%.4f\" cy=\"%.4f\" r=\".04\"/>\n", curve->abscissae[k],
+            -size_at(curve, law, curve->abscissae[k]));
+  fprintf(file, "</svg>\n");
+  return fclose(file) != 0;
 }
 
 static int draw(const char* folder, const struct plane_curve* curve, int law, int64_t n, const double* cuts) {
   char path[4096];
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   if (snprintf(path, sizeof path, "%s/%s_%s.svg", folder, curve->name, law_names[law]) >= (int)sizeof path) return 1;
+  if (strcmp(curve->name, "sizes") == 0) return draw_squares(path, curve, law, n, cuts);
   FILE* file = fopen(path, "w");
   if (!file) return 1;
   for (int64_t i = 0; i < curve->n; ++i)
@@ -187,6 +242,10 @@ static int run_plane_curve(carreau_session* session, const struct plane_curve* c
   printf("%-8s %-10s %3" PRId64 " edges, common length u = %.4f, each edge from %+.2f %% to %+.2f %% of it\n",
          curve->name, law_names[law], n, u, 100 * (least / u - 1), 100 * (most / u - 1));
   int wrong = fabs(length / sum - 1) > 0.002 || least < 0.98 * u || most > 1.02 * u;
+  if (strcmp(curve->name, "sizes") == 0) {
+    static const int64_t of_the_report[] = {17, 26, 21};
+    wrong |= n != of_the_report[law] || !passes_through_squares(curve, law, n, cuts, u);
+  }
   if (folder && draw(folder, curve, law, n, cuts))
     wrong = 1, fprintf(stderr, "no picture could be written in %s\n", folder);
   free(cuts);
@@ -224,13 +283,14 @@ static int run_helix(carreau_session* session) {
 }
 
 int main(int argc, char** argv) {
-  static struct plane_curve curves[2];
+  static struct plane_curve curves[3];
   carreau_session* session = NULL;
   int wrong = 0;
   if (carreau_session_create(&session) != CARREAU_OK) return 1;
-  set_segment(&curves[0]);
-  set_closed_curve(&curves[1]);
-  for (int i = 0; i < 2; ++i)
+  set_sizes(&curves[0]);
+  set_segment(&curves[1]);
+  set_closed_curve(&curves[2]);
+  for (int i = 0; i < 3; ++i)
     for (int law = 0; law < 3; ++law) wrong |= run_plane_curve(session, &curves[i], law, argc > 1 ? argv[1] : NULL);
   wrong |= run_helix(session);
   if (wrong) fprintf(stderr, "an edge or a length is not what it should be\n");

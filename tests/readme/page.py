@@ -35,12 +35,12 @@ def file_of(block):
 
 
 def pictures_of(block):
-    return re.findall(r"[\w.]+\.png", block)
+    return re.findall(r"[\w.]+\.(?:png|svg)", block)
 
 
 def pictures_of_gallery(source):
     with open(os.path.join(source, "docs/gallery.md"), encoding="utf-8") as file:
-        return re.findall(r"!\[[^\]]*\]\((?:gallery/)?([^)/]+\.png)\)", file.read())
+        return re.findall(r"!\[[^\]]*\]\((?:gallery/)?([^)/]+\.(?:png|svg))\)", file.read())
 
 
 def show(page, sandbox, shown):
@@ -48,7 +48,7 @@ def show(page, sandbox, shown):
         made, target = os.path.join(sandbox.clone, os.path.basename(name)), os.path.join(os.path.dirname(os.path.abspath(page)), name)
         if not os.path.exists(made):
             continue
-        if os.path.getsize(made) > LARGEST:  # 256 colours will do
+        if made.endswith(".png") and os.path.getsize(made) > LARGEST:  # 256 colours will do
             subprocess.run(["pngquant", "--force", "--speed", "1", "--output", made, "256", made], check=True)
         if os.path.getsize(made) > LARGEST:
             sys.exit(f"{name} has {os.path.getsize(made)} bytes, more than {LARGEST}")
@@ -74,7 +74,7 @@ def main():
         elif language.split(" ")[0] not in SHOWN:
             sys.exit(f"{page}: ```{language} is a listing that nobody runs")
         run += language in ("sh", "console")
-    shown = re.findall(r"!\[[^\]]*\]\((\S+\.png)\)", text)
+    shown = re.findall(r"!\[[^\]]*\]\((\S+\.(?:png|svg))\)", text)
     later += [] if page.endswith("gallery.md") else pictures_of_gallery(source)
     missing = [name for name in shown if not sandbox.size(os.path.basename(name)) and os.path.basename(name) not in later]
     if missing:
