@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "command_line.h"
+#include "heap.h"
 #include "terminal.h"
 
 namespace {
@@ -36,6 +37,7 @@ int flushed(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  prepare_heap();
   open_standard_files();
   try {
     command::CommandLine line;

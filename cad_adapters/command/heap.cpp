@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "heap.h"
+
+#if defined(__linux__)
+#include <features.h>
+#endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#endif
+
+namespace command {
+
+#if defined(__GLIBC__)
+void prepare_heap() {
+  constexpr int large = 64 << 20;   // bytes: arrays from here on are mapped one by one, and given back at once
+  constexpr int ahead = 128 << 20;  // addresses only, until they are used
+  constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
+  mallopt(M_MMAP_THRESHOLD, large);
+  mallopt(M_TRIM_THRESHOLD, 8 * ahead - 1);
+  mallopt(M_TOP_PAD, ahead);
+  void* const first = std::malloc(2 * page);  // makes the heap grow
+  if (first == nullptr) return;
+  const std::uintptr_t from = (reinterpret_cast<std::uintptr_t>(first) + page - 1) & ~(page - 1);
+  const std::uintptr_t to = reinterpret_cast<std::uintptr_t>(sbrk(0)) & ~(page - 1);
+  if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
+  std::free(first);
+}
+#else
+void prepare_heap() {}
+#endif
+
+}  // namespace command
