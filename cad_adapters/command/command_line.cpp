@@ -17,7 +17,7 @@
 namespace command {
 namespace {
 
-constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .su2, .off, .obj or .ply";
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj or .ply";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
     ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
