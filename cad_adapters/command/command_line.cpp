@@ -261,8 +261,8 @@ void CommandLine::add_picture() {
       ->add_option(
           "--color", paint_,
           "face: their own colours when the file has some, else as reference; reference: a colour a reference, "
-          "another one than its neighbours; quality: red 0 to green 1; size: red the smallest triangles, green "
-          "the largest; none: grey")
+          "another one than its neighbours; quality: violet 0 to yellow 1; size: violet the smallest triangles, "
+          "yellow the largest; none: grey")
       ->check(CLI::IsMember({"face", "reference", "quality", "size", "none"}))
       ->capture_default_str();
   picture->add_flag("--edges,!--no-edges", picture_.scene.edges,
