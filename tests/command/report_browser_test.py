@@ -215,10 +215,11 @@ class Pages(unittest.TestCase):
         self.open("plates.html")
         levels = self.browser.run("""
           const pace = new carreauReport.Pace(true), seen = [];
-          for (const took of [100, 20, 100, 100, 100, 100, 100, 20, 5, 5, 5]) { pace.note(took); seen.push([pace.density(), pace.isCoarse(), pace.isFineAtRest()]); }
+          for (const took of [100, 20, 100, 100, 100, 100, 100, 5]) { pace.note(took, true); seen.push([pace.density(), pace.isCoarse(), pace.isFineAtRest()]); }
+          for (const took of [100, 20]) { pace.note(took, false); seen.push([pace.density(), pace.isCoarse(), pace.isFineAtRest()]); }
           return seen;""")
         whole, fewer, coarse = [1, False, True], [0.5, False, True], [0.5, True, False]
-        self.assertEqual(levels, [whole] * 3 + [fewer] * 2 + [coarse] * 3 + [fewer] + [whole] * 2)
+        self.assertEqual(levels, [whole] * 3 + [fewer] * 2 + [coarse] * 4 + [whole])
 
     def test_faces_and_tables_answer(self):
         self.open("teapot.html")

@@ -17,12 +17,12 @@ class Pace {
 
   isFineAtRest() { return this.level < 2; }
 
-  /** Of a picture while the mesh moved, milliseconds: two that are too slow lead to the next level, a fast one back to the one before. */
-  note(took) {
-    const slowest = 45, fast = 6;
-    this.slow = took > slowest ? this.slow + 1 : 0;
+  /** Milliseconds of a picture. Two that are too slow while the mesh moves lead to the next level, one of all that is fast at rest back. */
+  note(took, moving) {
+    const slowest = 45;
+    this.slow = moving && took > slowest ? this.slow + 1 : 0;
     if (this.slow > 1 && this.level < this.last) ++this.level, this.slow = 0;
-    else if (took < fast && this.level > 0) --this.level;
+    if (!moving && took < slowest) this.level = 0;
   }
 }
 
@@ -72,7 +72,7 @@ class Viewer {
     this.placeRing();
     this.renderer.finished().then((took) => {
       this.drawing = false;
-      if (moving) pace.note(took);
+      pace.note(took, moving);
       if (this.late && !this.frame) this.frame = requestAnimationFrame(() => this.drawFrame());
       this.late = false;
     });
