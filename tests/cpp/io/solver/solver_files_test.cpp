@@ -122,7 +122,9 @@ TEST(SolverFiles, UnvGivesEverythingBack) {
     for (std::size_t e = 0; e < 2; ++e) {
       const std::size_t own = back.edge_refs[e] == 5 ? 0 : 1;
       EXPECT_EQ(back.edges[e], mesh.edges[own]);
-      if (quadratic) EXPECT_EQ(back.edge_mids.at(e), mesh.edge_mids[own]);
+      if (quadratic) {
+        EXPECT_EQ(back.edge_mids.at(e), mesh.edge_mids[own]);
+      }
     }
     ASSERT_EQ(back.faces.size(), 1u);
     EXPECT_EQ(back.faces[0].ref, 3);
