@@ -295,7 +295,7 @@ TEST(SolverFiles, NameTheLineOfWhatIsWrong) {
   EXPECT_NE(sentence(read_mesh_unv, unv_square + "    -1\n  2412\n").find("ends inside a dataset"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_unv, unv_square + "    -1\n    58\n1 2\n").find("dataset '58' has no end"), std::string::npos);
   const auto with_element = [](const std::string& lines) { return unv_square + "    -1\n  2412\n" + lines + "    -1\n"; };
-  EXPECT_NE(sentence(read_mesh_unv, with_element("1 91 1 1 7 3\n10 20 50\n")).find("line 17: node 50 is named"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, with_element("1 91 1 1 7 3\n10 20 50\n")).find("line 18: node 50 is named"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_unv, with_element("1 93 1 1 7 9\n1 2 3 4 5 6 7 8 9\n")).find("descriptor 93 has 9 nodes"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_unv, with_element("1 999 1 1 7 1\n10\n")).find("descriptor 999 are not known"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_unv, with_element("1 91 1 1 7 3\n10 20 30\n1 91 1 1 7 3\n10 30 40\n")).find("element 1 comes twice"), std::string::npos);
