@@ -23,5 +23,5 @@ if(CARREAU_OPENCASCADE)
 endif()
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/triggers)
 # Those of debian/ hold the same files.
-set(CPACK_DEBIAN_PACKAGE_CONFLICTS "libcarreau0, libcarreau-dev, libcarreau-cad0, libcarreau-cad-dev, python3-carreau")
+set(CPACK_DEBIAN_PACKAGE_CONFLICTS "libcarreau0, libcarreau-dev, libcarreau-cad0, libcarreau-cad-dev, libcarreau-mpi0, libcarreau-mpi-dev, python3-carreau")
 include(CPack)

@@ -726,8 +726,8 @@ CARREAU_API const char* carreau_mesh_last_error(const carreau_mesh* mesh);
 
 /* Replaces the content by that of a file. The suffix tells the format: .mesh, .meshb (Medit), .vtu (VTK, also
  * compressed by zlib), .stl (text or binary; equal points become one vertex), .msh, .msh2 (Gmsh 4.1 and 2.2, ASCII and
- * binary), .inp (Abaqus, CalculiX), .bdf (Nastran), .su2, .off (text), .obj, .ply (text and binary), whose polygons
- * become triangles. What carreau_mesh_write has written comes back: points, exactly but for binary .stl, and references and
+ * binary), .inp (Abaqus, CalculiX), .bdf (Nastran), .unv (I-DEAS), .su2, .off (text), .obj, .ply (text and binary), whose
+ * polygons become triangles. What carreau_mesh_write has written comes back: points, exactly but for binary .stl, and references and
  * names where the format holds them. These are all of them, with status and colour of faces, in .vtu; references of
  * faces and curves, and of corners if positive, in .msh; solids as faces in .stl. On an error the old content stays.
  * Errors: FILE; ARGUMENT (suffix, mesh of a session). */

@@ -17,7 +17,7 @@
 namespace command {
 namespace {
 
-constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .su2, .off, .obj or .ply";
+constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj or .ply";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
     ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
@@ -261,8 +261,8 @@ void CommandLine::add_picture() {
       ->add_option(
           "--color", paint_,
           "face: their own colours when the file has some, else as reference; reference: a colour a reference, "
-          "another one than its neighbours; quality: red 0 to green 1; size: red the smallest triangles, green "
-          "the largest; none: grey")
+          "another one than its neighbours; quality: violet 0 to yellow 1; size: violet the smallest triangles, "
+          "yellow the largest; none: grey")
       ->check(CLI::IsMember({"face", "reference", "quality", "size", "none"}))
       ->capture_default_str();
   picture->add_flag("--edges,!--no-edges", picture_.scene.edges,

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <unordered_set>
 
+#include "colour_scale.h"
 #include "drawn_elements.h"
 #include "face_colours.h"
 #include "mesh_report.h"
@@ -89,7 +89,7 @@ class Painter {
       if (!finite(x[i])) return;
     }
     Colour colour = colour_of(element, x);
-    const bool dark = is_dark(colour) && (options_.paint == Paint::face || options_.paint == Paint::reference);
+    const bool dark = is_dark(colour);
     if (dark)
       for (float& c : colour) c += 0.02f;  // black has no shades
     std::array<Line, 4> lines;
@@ -152,14 +152,7 @@ class Painter {
 
 }  // namespace
 
-Colour scale_colour(double q) {
-  static constexpr int stops[] = {0x7f0d23, 0xd73027, 0xfc8d59, 0xfee08b, 0xd9ef8b, 0x91cf60, 0x3aa99f};
-  const double x = std::clamp(q, 0.0, 1.0) * (std::size(stops) - 1);
-  const auto i = std::min(static_cast<std::size_t>(x), std::size(stops) - 2);
-  const auto t = static_cast<float>(x - static_cast<double>(i));
-  const Colour a = srgb(stops[i]), b = srgb(stops[i + 1]);
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
-}
+Colour scale_colour(double x) { return srgb(scale_rgb(x)); }
 
 SizeScale::SizeScale(const MeshArrays& mesh) {
   for (const auto& t : mesh.triangles) {

@@ -131,7 +131,7 @@ std::vector<FaceLook> TrianglesInput::faces() const {
 
 bool is_triangles(const std::string& path) {
   const std::string suffix = suffix_of(path);
-  const char* const known[] = {".stl", ".off", ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".msh", ".msh2", ".inp", ".bdf", ".su2"};
+  const char* const known[] = {".stl", ".off", ".obj", ".ply", ".mesh", ".meshb", ".vtu", ".msh", ".msh2", ".inp", ".bdf", ".unv", ".su2"};
   return std::any_of(std::begin(known), std::end(known), [&](const char* each) { return suffix == each; });
 }
 

@@ -26,7 +26,7 @@ constexpr Format formats[] = {
     {".vtu", MeshFormat::vtu, read_mesh_vtu},    {".stl", MeshFormat::stl, read_mesh_stl},
     {".msh", MeshFormat::msh, read_mesh_msh},    {".msh2", MeshFormat::msh2, read_mesh_msh},
     {".bl2d", MeshFormat::bl2d, read_mesh_bl2d}, {".inp", MeshFormat::inp, read_mesh_inp},
-    {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, nullptr},
+    {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, read_mesh_unv},
     {".su2", MeshFormat::su2, read_mesh_su2},    {".off", MeshFormat::off, read_mesh_off},
     {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply}};
 
@@ -154,7 +154,6 @@ void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format
 
 FlatMesh read_mesh(const std::string& path) {
   const Format& format = known_format(path);
-  if (format.read == nullptr) throw InvalidArgument("'" + path + "' cannot be read: " + format.suffix + " is written only");
   return format.read(read_file(path), path);
 }
 

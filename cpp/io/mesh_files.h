@@ -14,7 +14,7 @@ namespace carreau {
 /// XML (`.vtu`, with references and fields as point and cell data), STL (`.stl`, triangles only).
 /// Gmsh ASCII (`.msh`, version 4.1; `.msh2`, version 2.2; both with physical names).
 /// BL2D (`.bl2d`, meshes of the plane z = 0).
-/// Solvers: Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`, written only), SU2 (`.su2`), with named sets.
+/// Solvers: Abaqus and CalculiX (`.inp`), Nastran (`.bdf`), I-DEAS (`.unv`), SU2 (`.su2`), with named sets.
 /// Polygons: OFF (`.off`), Wavefront (`.obj`, a group a face), PLY (`.ply`, binary).
 enum class MeshFormat { mesh, meshb, vtu, stl, msh, msh2, bl2d, inp, bdf, unv, su2, off, obj, ply };
 
@@ -38,7 +38,7 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
 /// Throws what mesh_bytes throws, and FileError. The older file is then as it was.
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options = {});
 
-/// Reads a file by its suffix: one of those of mesh_format_of() but .unv. Throws InvalidArgument for another suffix, FileError with
+/// Reads a file by its suffix: one of those of mesh_format_of(). Throws InvalidArgument for another suffix, FileError with
 /// file and line, or file and byte. Vertices, edges and triangles are taken, their references, names of faces and, of
 /// .vtu, fields, as far as the format holds them; meshes of dimension 2 come from Medit's files and BL2D's only.
 FlatMesh read_mesh(const std::string& path);
@@ -65,6 +65,9 @@ FlatMesh read_mesh_ply(std::string_view content, const std::string& name);
 FlatMesh read_mesh_inp(std::string_view text, const std::string& name);
 /// Nastran: GRID in the basic system, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PLOTEL, CBAR, CBEAM, CROD; properties are references.
 FlatMesh read_mesh_bdf(std::string_view text, const std::string& name);
+/// I-DEAS: datasets 2411 and 781 (nodes), 2412 (shells, plane elements, beams as edges), 2467 and its sisters (groups). Groups
+/// of shells are faces ("face_7" has reference 7), those of beams curves; without groups properties are the references.
+FlatMesh read_mesh_unv(std::string_view text, const std::string& name);
 /// SU2: of the plane elements and, as curves, markers; of space the markers, as faces.
 FlatMesh read_mesh_su2(std::string_view text, const std::string& name);
 /// BL2D: vertices, edges and triangles of the plane, with references.

@@ -31,17 +31,24 @@ def measure(folder, size):
         browser.frames()
         opened = time.time() - start
         rows = {}
-        for name, fine, density in (("at rest", True, 1), ("moving", False, 1), ("moving, half as many pixels a side", False, 0.5)):
+        ways = (("at rest", True, 1, False), ("moving", False, 1, False), ("moving, half as many pixels a side", False, 0.5, False),
+                ("moving, half as many pixels a side, the coarse mesh of a large one", False, 0.5, True))
+        start = time.time()
+        browser.run("if (viewer.renderer.hasCoarse()) viewer.renderer.coarseSet()")
+        made = time.time() - start
+        for name, fine, density, coarse in ways:
             before = browser.processor_seconds()
-            times = browser.run("return carreauReport.timesOfFrames(viewer, ...arguments)", FRAMES, fine, density)
+            times = browser.run("return carreauReport.timesOfFrames(viewer, ...arguments)", FRAMES, fine, density, coarse)
             rows[name] = statistics.median(times), (browser.processor_seconds() - before) / FRAMES
         pick = browser.run("const start = performance.now(); viewer.pickAt(0.5, 0.5); return performance.now() - start")
+        coarse = browser.run("return viewer.renderer.coarse ? viewer.renderer.coarse.triangles : 0")
         canvas, calls, buffers = browser.run("return [[viewer.canvas.width, viewer.canvas.height], viewer.renderer.drawCalls, viewer.renderer.bytes]")
         card = browser.run("const gl = viewer.renderer.gl; return gl.getParameter(gl.getExtension('WEBGL_debug_renderer_info').UNMASKED_RENDERER_WEBGL)")
     triangles = told["mesh"]["triangles"]
     print(f"{triangles} triangles: report {os.path.getsize(path) / 1e6:.2f} MB ({os.path.getsize(path) / triangles:.1f} bytes a triangle), of the mesh alone "
           f"{os.path.getsize(os.path.join(folder, 'again.html')) / 1e6:.2f} MB in {written:.2f} s; .mesh {os.path.getsize(os.path.join(folder, 't.mesh')) / 1e6:.2f} MB\n"
-          f"  opened in {opened:.2f} s; canvas {canvas[0]} x {canvas[1]}; {calls} draw calls, {sum(buffers.values()) / 1e6:.1f} MB on the card, pick {pick:.0f} ms")
+          f"  opened in {opened:.2f} s; canvas {canvas[0]} x {canvas[1]}; {calls} draw calls, {sum(buffers.values()) / 1e6:.1f} MB on the card, pick {pick:.0f} ms"
+          + (f"; coarse mesh of {coarse} triangles in {made:.2f} s" if coarse else ""))
     for name, (wall, processor) in rows.items():
         print(f"  {name}: {1000 / wall:.1f} pictures a second, {1000 * processor:.0f} ms of processors each")
     print("  " + card, flush=True)

@@ -84,8 +84,9 @@ class Command(unittest.TestCase):
                           .replace("0 1 1 0\n", ""))
         middle = self.picture("--view", "top", "--size", "200x200", "--color", "quality", "--no-edges", mesh=even)[130][100]
         right = self.picture("--view", "top", "--size", "200x200", "--color", "quality", "--no-edges")[140][140]
-        self.assertGreater(middle[2], middle[0])  # green-blue: 1
-        self.assertGreater(right[0], right[2])    # Q2 = sqrt(3) / 2 = 0.87: yellow-green
+        self.assertGreater(middle[0], middle[1])  # yellow: 1
+        self.assertGreater(right[1], right[0])    # Q2 = sqrt(3) / 2 = 0.87: yellow-green
+        self.assertGreater(min(middle[0], right[0]), max(middle[2], right[2]) + 50)
 
     def test_what_is_in_front_hides_what_is_behind(self):
         # A second square, of reference 3, above the first.
@@ -121,14 +122,14 @@ class Command(unittest.TestCase):
         q2 = 4 * math.sqrt(3) * 0.5 / 4
         self.assertEqual(values["shape Q2"], f"mean {q2:.4f}, first percentile {q2:.4f}, worst {q2:.4f}")
 
-    def test_sizes_of_triangles_have_colours_from_red_to_green(self):
-        # Beside a large triangle a small one, by 100 in area: red the small one.
+    def test_sizes_of_triangles_have_colours_from_violet_to_yellow(self):
+        # Beside a large triangle a small one, by 100 in area: violet the small one.
         two = self.write("two.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n10 0 0 0\n5 8.66 0 0\n12 0 0 0\n13 0 0 0\n"
                          "12.5 .866 0 0\nTriangles 2\n1 2 3 1\n4 5 6 1\nEnd\n")
         rows = self.picture("--view", "top", "--size", "320x220", "--color", "size", "--no-edges", mesh=two)
         colours = {pixel for row in rows for pixel in row}
-        self.assertTrue(any(r > 2 * g and r > 2 * b and g < 60 for r, g, b in colours))  # dark red
-        self.assertTrue(any(g > 1.3 * r and b > r for r, g, b in colours))               # green-blue
+        self.assertTrue(any(r > 1.5 * g and b > 1.5 * g and g < 60 for r, g, b in colours))  # dark violet
+        self.assertTrue(any(r > g > 2 * b for r, g, b in colours))                           # yellow
 
     def check_json(self, name, vertices, triangles, *options, code=0):
         text = (f"MeshVersionFormatted 2\nDimension 3\nVertices {len(vertices)}\n" + "".join(f"{x} {y} {z} 0\n" for x, y, z in vertices) +

@@ -191,9 +191,14 @@ class FirstHour(unittest.TestCase):
         self.assertTrue(all(min(colour) > 220 for colour in white))
         for image in (quality, sizes):
             colours = {image[j][i] for j, i in lower_left}
-            self.assertTrue(any(red > 150 and green < 80 for red, green, _ in colours))  # the lower end
-            self.assertTrue(any(red < 90 and green > 140 for red, green, _ in colours))  # the upper one
-            self.assertTrue(any(max(colour) < 60 for colour in colours))                 # numbers
+            self.assertTrue(any(max(colour) < 60 for colour in colours))  # numbers
+            # The bar: from dark violet to yellow, lighter with each step, so that it is read without hues, too.
+            bar = max(([image[j][i] for i in range(0, 320)] for j in range(850, 900)), key=lambda row: len(set(row)))
+            bar = [colour for colour in bar if max(colour) - min(colour) > 30]
+            self.assertLess(max(abs(a - b) for a, b in zip(bar[0], (0x44, 0x01, 0x54))), 6)
+            self.assertLess(max(abs(a - b) for a, b in zip(bar[-1], (0xfd, 0xe7, 0x25))), 6)
+            light = [sum(weight * (value / 255) ** 2.2 for weight, value in zip((0.2126, 0.7152, 0.0722), colour)) for colour in bar]
+            self.assertTrue(all(b > a - 2e-3 for a, b in zip(light, light[1:])))
         self.assertEqual(without[100][600], quality[100][600])
 
     def test_fields_show_the_mesh_of_carreau_mesh(self):

@@ -178,6 +178,49 @@ class Pages(unittest.TestCase):
             self.picture("teapot_" + key)
         self.assertEqual(len(set(seen.values())), 5)
 
+    def test_the_coarse_mesh_of_a_large_one_lies_where_it_lies(self):
+        torus = "x = cos(u) * (2 + cos(v)); y = sin(u) * (2 + cos(v)); z = sin(v)"
+        subprocess.run([PROGRAM, "mesh", torus, "--domain", "box:0,0,6.283185307,6.283185307", "--size", "0.029", "-q", "-o", "torus.mesh"], cwd=self.home, check=True, timeout=300)
+        subprocess.run([PROGRAM, "report", "torus.mesh", "-o", "torus.html"], cwd=self.home, check=True, timeout=300)
+        self.open("torus.html")
+        self.assertTrue(self.browser.run("return viewer.renderer.hasCoarse()"))
+        # Its area, and of the sides of its triangles those that two have.
+        area, even, triangles, given = self.browser.run("""
+          const { mesh } = viewer, { corners, from } = carreauReport.coarseMesh(mesh, 20000), sides = new Map();
+          const place = (v) => [0, 1, 2].map((x) => mesh.positions[3 * v + x] * mesh.head.box.quantum[x]);
+          let area = 0;
+          for (let i = 0; i < corners.length; i += 3) {
+            const [a, b, c] = [0, 1, 2].map((k) => place(corners[i + k])), p = a.map((x, k) => b[k] - x), q = a.map((x, k) => c[k] - x);
+            area += Math.hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]) / 2;
+            for (let k = 0; k < 3; ++k) {
+              const key = [corners[i + k], corners[i + (k + 1) % 3]].sort((x, y) => x - y).join();
+              sides.set(key, (sides.get(key) || 0) + 1);
+            }
+          }
+          return [area, [...sides.values()].filter((n) => n === 2).length / sides.size, from.length, mesh.head.triangles];""")
+        self.assertGreater(given, 180000)
+        self.assertTrue(10000 < triangles < 30000, triangles)
+        self.assertAlmostEqual(area / (8 * math.pi ** 2), 1, delta=0.02)
+        self.assertGreater(even, 0.99)
+        covered = [self.browser.run("""
+          const { gl } = viewer.renderer, { width, height } = viewer.canvas, pixels = new Uint8Array(4 * width * height);
+          viewer.renderer.draw(viewer.camera, false, arguments[0]);
+          gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          return pixels.filter((x, i) => i % 4 === 3 && x > 0).length / (width * height);""", coarse) for coarse in (False, True)]
+        self.assertAlmostEqual(covered[1] / covered[0], 1, delta=0.01)
+        self.click(0.5 * self.browser.driver.find_element(By.ID, "canvas").rect["width"], 10)
+        self.assertEqual(self.browser.run("return viewer.renderer.drawCalls"), 1)
+
+    def test_slow_pictures_lead_to_less_and_fast_ones_back(self):
+        self.open("plates.html")
+        levels = self.browser.run("""
+          const pace = new carreauReport.Pace(true), seen = [];
+          for (const took of [100, 20, 100, 100, 100, 100, 100, 5]) { pace.note(took, true); seen.push([pace.density(), pace.isCoarse(), pace.isFineAtRest()]); }
+          for (const took of [100, 20]) { pace.note(took, false); seen.push([pace.density(), pace.isCoarse(), pace.isFineAtRest()]); }
+          return seen;""")
+        whole, fewer, coarse = [1, False, True], [0.5, False, True], [0.5, True, False]
+        self.assertEqual(levels, [whole] * 3 + [fewer] * 2 + [coarse] * 4 + [whole])
+
     def test_faces_and_tables_answer(self):
         self.open("teapot.html")
         driver = self.browser.driver

@@ -64,22 +64,23 @@ def test_depth_is_that_of_the_point_and_not_of_the_triangle():
     assert not np.array_equal(pixels[row, left], pixels[row, right]) and hue(pixels[row, left]).shape == (3,)
 
 
-def test_values_are_colours_from_blue_to_red():
+def test_values_are_colours_from_violet_to_yellow():
     mesh = carreau.mesh("z = 0 * x", size=0.2)
     for values in (mesh.vertices[:, 0], mesh.vertices[mesh.triangles][:, :, 0].mean(axis=1)):
         pixels = pixels_of(mesh.picture(view="top", colors=values, edges=False)).astype(int)
         rows, columns = np.nonzero(drawn(pixels))
         left, right = (pixels[240, columns.min() + 3], pixels[240, columns.max() - 3])
-        assert left[2] > left[0] + 50 and right[0] > right[2] + 50
+        assert left[2] > left[1] + 30 and right[0] > right[2] + 50 and right[1] > right[2] + 50
+        assert right.sum() > left.sum() + 100  # and from dark to light
     with pytest.raises(ValueError, match="for each vertex"):
         mesh.picture(colors=[1, 2, 3])
 
 
 def test_quality_and_notebooks(tmp_path):
     mesh = carreau.mesh("z = x * y", size=0.2)
-    green = pixels_of(mesh.picture(tmp_path / "x.png", colors="quality", edges=False, view="top"))
-    inside = green[green.shape[0] // 2, green.shape[1] // 2].astype(int)
-    assert inside[1] > inside[0] and (tmp_path / "x.png").stat().st_size > 100
+    yellow = pixels_of(mesh.picture(tmp_path / "x.png", colors="quality", edges=False, view="top"))
+    inside = yellow[yellow.shape[0] // 2, yellow.shape[1] // 2].astype(int)
+    assert min(inside[:2]) > inside[2] + 50 and (tmp_path / "x.png").stat().st_size > 100
     assert mesh._repr_png_()[:4] == b"\x89PNG"
     html = mesh._repr_html_()
     assert "data:image/png;base64," in html and f"<td style='text-align:left'>{len(mesh.triangles)}</td>" in html

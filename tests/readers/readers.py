@@ -174,8 +174,8 @@ def elements_by_gmsh(path):
         gmsh.finalize()
 
 
-# Our command does not read these, or makes triangles of their polygons: the mesh is that of the other files.
-PLAIN = (".unv", ".off", ".obj", ".ply")
+# Our command makes triangles of the polygons of these: the mesh is that of the other files.
+PLAIN = (".off", ".obj", ".ply")
 # Formats of which they know quadrilaterals, curved triangles and curved quadrilaterals.
 ELEMENT_READERS = {"vtk": (elements_by_vtk, {"q1": ("vtu",), "p2": ("vtu",), "q2": ("vtu",)}),
                    "gmsh": (elements_by_gmsh, {"q1": ("msh", "msh2", "mesh", "unv", "bdf"), "p2": ("msh", "msh2", "mesh", "unv"), "q2": ("msh", "msh2", "unv")}),
@@ -221,8 +221,29 @@ def check(folder, geometry, options):
         print(READER, form, len(points), "points", len(triangles), "triangles")
 
 
+def check_su2_of_space(folder):
+    """Of a surface in space faces are markers, and there is nothing else."""
+    import meshio
+    corner, name = os.path.join(folder, "space.bpt"), os.path.join(folder, "space.su2")
+    with open(corner, "w") as file:
+        file.write(CORNER)
+    for element, kinds in (("p1", ("triangle",)), ("q1.1", ("quad",)), ("q1.0", ("quad", "triangle"))):
+        done = subprocess.run([PROGRAM, "mesh", corner, "-o", name, "--size", "0.3", "--element", element, "--json"], check=True, capture_output=True, text=True)
+        told = json.loads(done.stdout)
+        mesh = meshio.read(name)
+        areas = {}
+        for block, tags in zip(mesh.cells, mesh.cell_data["su2:tag"]):
+            assert block.type in kinds, (element, block.type)
+            for nodes, tag in zip(block.data.tolist(), tags.tolist()):
+                halves = [nodes[:3]] if len(nodes) == 3 else [nodes[:3], [nodes[0], *nodes[2:]]]
+                areas[tag] = areas.get(tag, 0) + area(mesh.points.tolist(), halves)
+        assert len(mesh.points) == told["mesh"]["vertices"], (element, len(mesh.points))
+        assert len(areas) == 3 and all(abs(each - 1) < 1e-12 for each in areas.values()), (element, areas)
+        print("meshio su2 of space", element, {block.type: len(block.data) for block in mesh.cells})
+
+
 def check_su2(folder):
-    """A plane mesh: meshio does not take the NELEM= 0 of a surface in space."""
+    """A mesh of the plane: elements, and markers of curves."""
     import meshio
     plates, name = os.path.join(folder, "plates.bpt"), os.path.join(folder, "plates.su2")
     with open(plates, "w") as file:
@@ -243,6 +264,7 @@ def check_su2(folder):
 with tempfile.TemporaryDirectory(prefix="carreau readers ") as home:
     if READER == "meshio":
         check_su2(home)
+        check_su2_of_space(home)
     corner = os.path.join(home, "corner.bpt")
     with open(corner, "w") as file:
         file.write(CORNER)

@@ -40,20 +40,24 @@ def _palette(index: NDArray[Any]) -> Reals:
     return np.stack([0.78 + 0.16 * np.cos(hue - shift) for shift in (0, 2.0944, 4.1888)], axis=-1)
 
 
-def _heat(value: Reals) -> Reals:
-    """From red at 0 by yellow to green at 1."""
-    v = np.clip(value, 0, 1)
-    return np.stack([np.minimum(1, 2 - 2 * v) * 0.95, np.minimum(1, 2 * v) * 0.85, 0.25 + 0 * v], axis=-1)
+# Viridis (S. van der Walt, N. Smith, E. Firing; matplotlib, CC0), as in pictures and reports of the command: read by people who do not tell red from green, too.
+SCALE = np.array([[int(stop[i:i + 2], 16) / 255 for i in (0, 2, 4)] for stop in (
+    "440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c 1fa088 28ae80 3fbc73 5ec962 84d44b addc30 d8e219 fde725").split()])
 
 
-def _rainbow(values: Reals) -> Reals:
-    """From blue, the smallest, by white to red; NaN is grey."""
+def _scale(share: Reals) -> Reals:
+    """From dark violet at 0 over blue-green to yellow at 1; NaN is grey."""
+    at = np.clip(share, 0, 1) * (len(SCALE) - 1)
+    color = np.stack([np.interp(at, np.arange(len(SCALE)), SCALE[:, k]) for k in range(3)], axis=-1)
+    return np.where(np.isnan(share)[:, None], 0.6, color)
+
+
+def _range(values: Reals) -> Reals:
+    """Shares of the range of values, 0 to 1."""
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
-    s = (values - low) / (high - low if high > low else 1)
-    ends = np.where(s[:, None] < 0.5, (0.23, 0.40, 0.90), (0.88, 0.25, 0.20))
-    color: Reals = ends + (1 - ends) * (1 - np.abs(2 * s - 1))[:, None] * 0.9
-    return np.where(np.isnan(s)[:, None], 0.6, color)
+    share: Reals = (values - low) / (high - low if high > low else 1)
+    return share
 
 
 def _base(mesh: "Mesh", size: Reals, colors: Any) -> Reals:
@@ -64,11 +68,11 @@ def _base(mesh: "Mesh", size: Reals, colors: Any) -> Reals:
             values = values[mesh.triangles].mean(axis=1)
         if values.shape != (len(mesh.triangles),):
             raise ValueError(f"colors has the shape {values.shape}: a number for each vertex, or for each triangle")
-        return _rainbow(values)
+        return _scale(_range(values))
     if colors == "quality":
         p = mesh.vertices[mesh.triangles]
         squares = sum(((p[:, i] - p[:, i - 1]) ** 2).sum(axis=1) for i in range(3))
-        return _heat(2 * np.sqrt(3) * size / np.where(squares > 0, squares, 1))
+        return _scale(2 * np.sqrt(3) * size / np.where(squares > 0, squares, 1))
     if colors == "face":
         return _palette(np.unique(mesh.face_ids, return_inverse=True)[1])
     raise ValueError(f"colors is face, quality or an array, not '{colors}'")
@@ -161,8 +165,8 @@ def picture(mesh: "Mesh", width: int = 640, height: int = 480, view: Union[None,
     view     "iso", "top", "bottom", "front", "back", "right", "left", or the direction towards the eye; None: "iso", of a
              plane mesh "top"
     edges    draws the sides of triangles
-    colors   "face"; "quality": from red (Q2 = 0) to green (1); or a number for each vertex (n) or triangle (m), from blue,
-             the smallest, to red
+    colors   "face"; "quality": from violet (Q2 = 0) to yellow (1); or a number for each vertex (n) or triangle (m), from
+             violet, the smallest, to yellow
     """
     canvas = _Canvas(width * SAMPLES, height * SAMPLES)
     if len(mesh.triangles):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # cmake -DFOLDER=... -DOUT=page_parts.cpp -P embed.cmake: the files of the page of a report as texts of the program.
 # Scripts become one, in this order, inside one function; hashes let the page run and show these two and nothing else.
-set(scripts decode camera colours renderer controls viewer page main)
+set(scripts decode camera colours clusters renderer controls viewer page main)
 
 set(script "\n(() => {\n'use strict';\n")
 foreach(name IN LISTS scripts)

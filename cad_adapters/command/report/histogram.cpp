@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "report/colours.h"
+#include "colour_scale.h"
 #include "report/html_text.h"
 
 namespace command {
@@ -36,7 +36,7 @@ std::string bar(const Histogram& h, std::size_t i, std::int64_t most) {
   std::snprintf(text, sizeof text,
                 "<rect x=\"%g\" y=\"%.2f\" width=\"%g\" height=\"%.2f\" fill=\"%s\"><title>%s: %s</title></rect>\n",
                 static_cast<double>(i) * bar_width + 1, drawn_height - height, bar_width - 2, height,
-                scale_hex((static_cast<double>(i) + 0.5) / histogram_classes).c_str(), range_text(h, i).c_str(),
+                hex_text(scale_rgb((static_cast<double>(i) + 0.5) / histogram_classes)).c_str(), range_text(h, i).c_str(),
                 count_text(h.counts[i]).c_str());
   return text;
 }

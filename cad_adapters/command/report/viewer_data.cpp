@@ -6,8 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "colour_scale.h"
 #include "face_colours.h"
-#include "report/colours.h"
 #include "report/packing.h"
 #include "view.h"
 

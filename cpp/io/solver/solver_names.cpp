@@ -14,17 +14,6 @@ namespace carreau {
 
 namespace {
 
-/// The reference in "face_7" or "face_m7" in capitals; false: it is another name.
-bool reference_in(const std::string& name, std::int32_t& ref) {
-  if (!name.starts_with("FACE_")) return false;
-  const bool minus = name.substr(5).starts_with("M");
-  const std::string digits = name.substr(minus ? 6 : 5);
-  int n = 0;
-  if (digits.empty() || digits.front() < '0' || digits.front() > '9' || !parse_number(digits, n)) return false;
-  ref = minus ? -n : n;
-  return true;
-}
-
 template <std::size_t N>
 void append(const SolverElement& element, std::int32_t ref, const SolverNodes& nodes, ElementList<N>& list) {
   auto& own = list.nodes.emplace_back();
@@ -37,6 +26,17 @@ void append(const SolverElement& element, std::int32_t ref, const SolverNodes& n
 void refuse_zero_bytes(const Words& in, std::string_view text) {
   const std::size_t at = text.find('\0');
   if (at != std::string_view::npos) in.fail(text.data() + at, "a byte of value zero stands here: this is no text");
+}
+
+bool reference_in(std::string_view name, std::string_view before, std::int32_t& ref) {
+  if (in_capitals(name.substr(0, before.size())) != in_capitals(before)) return false;
+  name.remove_prefix(std::min(before.size(), name.size()));
+  const bool minus = name.starts_with('m') || name.starts_with('M');
+  if (minus) name.remove_prefix(1);
+  int n = 0;
+  if (name.empty() || name.front() < '0' || name.front() > '9' || !parse_number(name, n)) return false;
+  ref = minus ? -n : n;
+  return true;
 }
 
 std::string_view next_field(std::string_view& line) noexcept {
@@ -87,7 +87,7 @@ void SolverGroups::number_sets() {
     const std::string name = in_capitals(element.set);
     std::int32_t ref = 0;
     if (element.set.empty() || refs_.contains(name)) continue;
-    if (reference_in(name, ref))
+    if (reference_in(name, "face_", ref))
       refs_[name] = ref;
     else
       refs_[name] = 0, others.push_back(element.set);

@@ -18,6 +18,9 @@ namespace carreau {
 /// Throws FileError where `text`, which `in` reads, has a zero byte: names would end there in other files.
 void refuse_zero_bytes(const Words& in, std::string_view text);
 
+/// Of "face_7", where `before` is "face_", 7, and of "face_m7" -7, capitals or not; false: it is another name.
+bool reference_in(std::string_view name, std::string_view before, std::int32_t& ref);
+
 /// What stands before the first comma, without blanks; takes it and the comma from the line.
 std::string_view next_field(std::string_view& line) noexcept;
 

@@ -18,18 +18,6 @@ namespace {
 
 constexpr int line_type = 3, triangle_type = 5, quad_type = 9;
 
-/// The end of "curve_5" and "face_5", and of "face_m5" as -5; false: it is another name.
-bool reference_in(std::string_view tag, std::string_view before, std::int32_t& ref) {
-  if (!tag.starts_with(before)) return false;
-  tag.remove_prefix(before.size());
-  const bool minus = tag.starts_with('m');
-  if (minus) tag.remove_prefix(1);
-  int n = 0;
-  if (tag.empty() || tag.front() < '0' || tag.front() > '9' || !parse_number(tag, n)) return false;
-  ref = minus ? -n : n;
-  return true;
-}
-
 class Su2Reader {
  public:
   Su2Reader(std::string_view text, const std::string& name) : in_(text, name, '%') {

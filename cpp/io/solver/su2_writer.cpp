@@ -22,6 +22,14 @@ void add_cell(const Cell& cell, std::string& text) {
   add_element(corners == 4 ? quad_type : triangle_type, cell.nodes.data(), corners, text);
 }
 
+void add_plane_elements(const ElementSets& sets, std::string& text) {
+  std::size_t elements = 0, number = 0;
+  for (const FaceSet& face : sets.faces) elements += face.cells.size();
+  text += "NELEM= " + std::to_string(elements) + "\n";
+  for (const FaceSet& face : sets.faces)
+    for (const Cell& cell : face.cells) add_cell(cell, text), text.append(" ").append(std::to_string(number++)).append("\n");
+}
+
 void add_points(const FlatMesh& mesh, bool flat, std::string& text) {
   text += "NPOIN= " + std::to_string(mesh.vertices.size()) + "\n";
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -76,13 +84,7 @@ std::string su2_text(const FlatMesh& mesh) {
   bool flat = true;
   for (const Vec3& p : mesh.vertices) flat = flat && (mesh.dimension == 2 || p.z() == 0);
   std::string text = flat ? "NDIME= 2\n" : "NDIME= 3\n";
-  std::size_t elements = 0;
-  for (const FaceSet& face : sets.faces) elements += flat ? face.cells.size() : 0;
-  text += "NELEM= " + std::to_string(elements) + "\n";
-  std::size_t number = 0;
-  if (flat)
-    for (const FaceSet& face : sets.faces)
-      for (const Cell& cell : face.cells) add_cell(cell, text), text.append(" ").append(std::to_string(number++)).append("\n");
+  if (flat) add_plane_elements(sets, text);  // no count of 0 in space: meshio does not take it
   add_points(mesh, flat, text);
   if (flat)
     add_curve_markers(sets, text);

@@ -3,16 +3,16 @@
 
 /**
  * For tests and measurements: the time of each of n pictures, milliseconds, the mesh turning; each is waited for. `fine`: as
- * when it rests; `density`: pixels of the drawing for one of the page, 0.5 while it moves on slow machines.
+ * when it rests; `density`: pixels of the drawing for one of the page, 0.5 while it moves on slow machines; `coarse`: as a large mesh then.
  */
-function timesOfFrames(viewer, n, fine, density) {
+function timesOfFrames(viewer, n, fine, density, coarse) {
   const { renderer, camera } = viewer;
   const pixel = new Uint8Array(4), times = [];
   renderer.resize(density);
   for (let i = 0; i < n; ++i) {
     const start = performance.now();
     camera.turn(0.05, 0.02);
-    renderer.draw(camera, fine);
+    renderer.draw(camera, fine, coarse);
     renderer.gl.readPixels(0, 0, 1, 1, renderer.gl.RGBA, renderer.gl.UNSIGNED_BYTE, pixel);
     times.push(performance.now() - start);
   }
@@ -40,4 +40,4 @@ const ready = start().catch((error) => {
   document.querySelectorAll('button.show').forEach((button) => { button.disabled = true; });
   return null;
 });
-window.carreauReport = { ready, timesOfFrames, factsOf, readMesh };
+window.carreauReport = { ready, timesOfFrames, factsOf, readMesh, coarseMesh, Pace };

@@ -78,18 +78,22 @@ function compiled(gl, fragment) {
   return { program, toClip: at('toClip'), toPixels: at('toPixels'), colours: at('colours'), edges: at('edges'), chosen: at('chosen') };
 }
 
-/** Corner by corner of each triangle: 16 bits a coordinate where the data has as many, else single precision. */
-function cornerArray(mesh) {
+/** Corner by corner of triangles: 16 bits a coordinate where the data has as many, else single precision. */
+function cornerArray(mesh, corners) {
   const narrow = mesh.most === 0xffff;
   const step = narrow ? 4 : 3;  // bytes of an attribute are a multiple of four
-  const array = narrow ? new Uint16Array(step * mesh.corners.length) : new Float32Array(step * mesh.corners.length);
+  const array = narrow ? new Uint16Array(step * corners.length) : new Float32Array(step * corners.length);
   const scale = narrow ? 1 : 1 / mesh.most;
-  for (let i = 0; i < mesh.corners.length; ++i) {
-    const from = 3 * mesh.corners[i];
+  for (let i = 0; i < corners.length; ++i) {
+    const from = 3 * corners[i];
     for (let x = 0; x < 3; ++x) array[step * i + x] = mesh.positions[from + x] * scale;
   }
   return { array, narrow };
 }
+
+const coarseCount = 60000;            // triangles of the coarse mesh, about
+const coarseFrom = 3 * coarseCount;   // a mesh of fewer has none
+const allHidden = 0b111000;           // sides without lines
 
 class Renderer {
   /** Throws Error when there is no WebGL 2. */
@@ -106,25 +110,69 @@ class Renderer {
   /** All that is on the graphics card; again when it was lost. */
   upload() {
     const gl = this.gl;
-    this.fine = null;
+    this.fine = this.coarse = null;
     this.drawing = compiled(gl, fragmentShader);
     this.picking = compiled(gl, pickShader);
-    const { array, narrow } = cornerArray(this.mesh);
+    this.whole = this.makeSet(this.mesh.corners);
+    this.bytes = this.whole.bytes;
+    gl.enable(gl.DEPTH_TEST);
+  }
+
+  /** Triangles on the card: their corners, and a texture for their colours. */
+  makeSet(corners) {
+    const gl = this.gl;
+    const { array, narrow } = cornerArray(this.mesh, corners);
+    const set = { vertices: gl.createVertexArray(), texture: gl.createTexture(), triangles: corners.length / 3 };
+    gl.bindVertexArray(set.vertices);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
     gl.enableVertexAttribArray(0);
     gl.vertexAttribPointer(0, 3, narrow ? gl.UNSIGNED_SHORT : gl.FLOAT, narrow, narrow ? 8 : 12, 0);
-    gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+    gl.bindTexture(gl.TEXTURE_2D, set.texture);
     for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
-    this.rows = Math.ceil(this.mesh.head.triangles / textureWidth);
-    this.bytes = { corners: array.byteLength, colours: 4 * textureWidth * this.rows };
-    gl.enable(gl.DEPTH_TEST);
+    set.rows = Math.max(1, Math.ceil(set.triangles / textureWidth));
+    set.bytes = { corners: array.byteLength, colours: 4 * textureWidth * set.rows };
+    return set;
+  }
+
+  bind(set) {
+    this.gl.bindVertexArray(set.vertices);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, set.texture);
+  }
+
+  setColours(set, colours) {
+    const gl = this.gl;
+    this.bind(set);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, textureWidth, set.rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
   }
 
   paint(key, face) {
-    const gl = this.gl;
-    const colours = coloursOf(this.mesh, key, face, this.bytes.colours);
-    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, textureWidth, this.rows, 0, gl.RGBA, gl.UNSIGNED_BYTE, colours);
+    this.painted = [key, face];
+    this.setColours(this.whole, coloursOf(this.mesh, key, face, this.whole.bytes.colours));
+    if (this.coarse) this.paintCoarse();
+  }
+
+  /** Each coarse triangle has the colour of the one that it is made of, without lines. */
+  paintCoarse() {
+    const all = coloursOf(this.mesh, ...this.painted, this.whole.bytes.colours);
+    const own = new Uint8Array(this.coarse.bytes.colours);
+    this.coarse.from.forEach((t, i) => {
+      own.set(all.subarray(4 * t, 4 * t + 3), 4 * i);
+      own[4 * i + 3] = allHidden;
+    });
+    this.setColours(this.coarse, own);
+  }
+
+  hasCoarse() { return this.mesh.head.triangles >= coarseFrom; }
+
+  /** Made when it is first wanted: fast machines never do. */
+  coarseSet() {
+    if (!this.coarse) {
+      const { corners, from } = coarseMesh(this.mesh, coarseCount);
+      this.coarse = { ...this.makeSet(corners), from };
+      this.paintCoarse();
+    }
+    return this.coarse;
   }
 
   /** Pixels of the drawing for one of the page: fewer while it moves and the machine is slow. */
@@ -177,12 +225,16 @@ class Renderer {
     stores.forEach((store) => this.gl.deleteRenderbuffer(store));
   }
 
-  /** `fine`: with smooth outlines, which take several times as long where the processor draws: not while the mesh moves. */
-  draw(camera, fine) {
+  /**
+   * `fine`: with smooth outlines, which take several times as long where the processor draws: not while the mesh moves. `coarse`: the
+   * coarse mesh in the place of the whole one.
+   */
+  draw(camera, fine, coarse = false) {
     const gl = this.gl;
     const { width, height } = this.canvas;
+    const set = coarse && this.hasCoarse() ? this.coarseSet() : this.whole;
     gl.bindFramebuffer(gl.FRAMEBUFFER, fine ? this.fineFrame() : null);
-    this.drawAll(camera);
+    this.drawAll(camera, set);
     if (!fine) return;
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.fine.frame);
     gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
@@ -190,16 +242,28 @@ class Renderer {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
-  drawAll(camera) {
+  /** Milliseconds from now until the card has drawn all that was asked of it so far. */
+  async finished() {
+    const gl = this.gl, start = performance.now();
+    const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    while (sync && !gl.isContextLost() && gl.clientWaitSync(sync, 0, 0) === gl.TIMEOUT_EXPIRED) await new Promise((done) => { setTimeout(done, 1); });
+    gl.deleteSync(sync);
+    return performance.now() - start;
+  }
+
+  drawAll(camera, set) {
     const gl = this.gl;
+    this.bind(set);
     this.use(this.drawing, camera);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniform1i(this.drawing.edges, this.edges);
     gl.uniform1i(this.drawing.chosen, false);
-    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.mesh.head.triangles);
+    gl.drawArrays(gl.TRIANGLES, 0, 3 * set.triangles);
     this.drawCalls = 1;
     if (this.chosen < 0) return;
+    this.bind(this.whole);
     gl.uniform1i(this.drawing.chosen, true);
     gl.depthFunc(gl.ALWAYS);
     gl.drawArrays(gl.TRIANGLES, 3 * this.chosen, 3);
@@ -215,6 +279,7 @@ class Renderer {
     const column = Math.min(width - 1, Math.floor(x * width)), row = Math.min(height - 1, Math.floor((1 - y) * height));
     gl.enable(gl.SCISSOR_TEST);
     gl.scissor(column, row, 1, 1);
+    this.bind(this.whole);
     this.use(this.picking, camera);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.drawArrays(gl.TRIANGLES, 0, 3 * this.mesh.head.triangles);

@@ -3,6 +3,29 @@
 
 const textOf = (x) => (Number.isFinite(x) ? Number(x.toPrecision(4)).toString() : 'none');
 
+/** How much is drawn while the mesh moves: all; a quarter of the pixels; of a large mesh the coarse one, with a quarter of the pixels. */
+class Pace {
+  constructor(hasCoarse) {
+    this.last = hasCoarse ? 2 : 1;
+    this.level = 0;
+    this.slow = 0;
+  }
+
+  density() { return this.level > 0 ? 0.5 : 1; }
+
+  isCoarse() { return this.level > 1; }
+
+  isFineAtRest() { return this.level < 2; }
+
+  /** Milliseconds of a picture. Two that are too slow while the mesh moves lead to the next level, one of all that is fast at rest back. */
+  note(took, moving) {
+    const slowest = 45;
+    this.slow = moving && took > slowest ? this.slow + 1 : 0;
+    if (this.slow > 1 && this.level < this.last) ++this.level, this.slow = 0;
+    if (!moving && took < slowest) this.level = 0;
+  }
+}
+
 class Viewer {
   constructor(mesh) {
     this.mesh = mesh;
@@ -10,7 +33,7 @@ class Viewer {
     this.renderer = new Renderer(this.canvas, mesh);
     this.camera = new Camera(mesh.head.box.low, mesh.extent);
     this.face = -1;
-    this.slow = false;
+    this.pace = new Pace(this.renderer.hasCoarse());
     this.worst = [...document.querySelectorAll('#worst button[data-triangle]')].map((button) => Number(button.dataset.triangle));
     this.at = -1;
     this.controls = new Controls(this.canvas, this);
@@ -28,22 +51,31 @@ class Viewer {
     });
   }
 
-  /** Once a frame at most. `moving`: fewer pixels on slow machines, until it rests. */
+  /** Once a frame at most, and not before the last picture is there. `moving`: less is drawn on slow machines, until it rests. */
   redraw(moving) {
     this.moving = moving;
     clearTimeout(this.resting);
     if (moving) this.resting = setTimeout(() => this.redraw(false), 250);
-    if (!this.frame) this.frame = requestAnimationFrame((now) => this.drawFrame(now));
+    if (!this.frame) this.frame = requestAnimationFrame(() => this.drawFrame());
   }
 
-  drawFrame(now) {
+  drawFrame() {
     this.frame = 0;
-    const slowest = 45;  // milliseconds a frame
-    if (this.moving && this.last && now - this.last < 1000) this.slow = now - this.last > slowest || (this.slow && now - this.last > slowest / 3);
-    this.last = this.moving ? now : 0;
-    this.renderer.resize(Math.min(2, devicePixelRatio) * (this.moving && this.slow ? 0.5 : 1));
-    this.renderer.draw(this.camera, !this.moving);
+    if (this.drawing) {
+      this.late = true;
+      return;
+    }
+    const { moving, pace } = this;
+    this.drawing = true;
+    this.renderer.resize(Math.min(2, devicePixelRatio) * (moving ? pace.density() : 1));
+    this.renderer.draw(this.camera, !moving && pace.isFineAtRest(), moving && pace.isCoarse());
     this.placeRing();
+    this.renderer.finished().then((took) => {
+      this.drawing = false;
+      pace.note(took, moving);
+      if (this.late && !this.frame) this.frame = requestAnimationFrame(() => this.drawFrame());
+      this.late = false;
+    });
   }
 
   /** A ring on the page around the triangle that is picked, however small it is. */

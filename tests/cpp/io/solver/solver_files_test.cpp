@@ -110,6 +110,28 @@ TEST(SolverFiles, DoublesOfUsualSizeComeBackExactlyFromInp) {
   EXPECT_EQ(read_mesh_inp(inp_text(mesh), "x").vertices, mesh.vertices);
 }
 
+TEST(SolverFiles, UnvGivesEverythingBack) {
+  for (const bool quadratic : {false, true}) {
+    FlatMesh mesh = plate(quadratic);
+    mesh.edges.push_back({2, 4}), mesh.edge_refs.push_back(-6);
+    if (quadratic) mesh.edge_mids.push_back(3);
+    const FlatMesh back = read_mesh_unv(unv_text(mesh), "x");
+    EXPECT_EQ(elements_of(back), elements_of(mesh));
+    EXPECT_EQ(back.vertices, mesh.vertices);
+    EXPECT_EQ(std::set(back.edge_refs.begin(), back.edge_refs.end()), (std::set<std::int32_t>{-6, 5}));
+    for (std::size_t e = 0; e < 2; ++e) {
+      const std::size_t own = back.edge_refs[e] == 5 ? 0 : 1;
+      EXPECT_EQ(back.edges[e], mesh.edges[own]);
+      if (quadratic) {
+        EXPECT_EQ(back.edge_mids.at(e), mesh.edge_mids[own]);
+      }
+    }
+    ASSERT_EQ(back.faces.size(), 1u);
+    EXPECT_EQ(back.faces[0].ref, 3);
+    EXPECT_EQ(back.faces[0].name, "bore_left");
+  }
+}
+
 TEST(SolverFiles, InpKeepsNamesOfFaces) {
   const FlatMesh back = read_mesh_inp(inp_text(plate(false)), "x");
   ASSERT_EQ(back.faces.size(), 1u);
@@ -215,6 +237,46 @@ TEST(SolverFiles, BdfOfOtherPrograms) {
   EXPECT_EQ(mesh.edge_refs, std::vector<std::int32_t>{5});
 }
 
+/// Nodes 10, 20, 30, 40 of a unit square.
+const std::string unv_square =
+    "    -1\n   164\n         1SI: Meters            2\n    -1\n    -1\n  2411\n"
+    "        10         1         1        11\n   0.0000000000000000D+00   0.0000000000000000D+00   0.0000000000000000D+00\n"
+    "        20         1         1        11\n   1.0000000000000000D+00   0.0000000000000000D+00   0.0000000000000000D+00\n"
+    "        40         1         1        11\n   0.0000000000000000D+00   1.0000000000000000D+00   0.0000000000000000D+00\n"
+    "        30         1         1        11\n   1.0000000000000000E+00   1.0000000000000000E+00   0.0000000000000000E+00\n    -1\n";
+
+TEST(SolverFiles, UnvOfOtherProgramsWithoutGroups) {
+  const FlatMesh mesh = read_mesh_unv(unv_square +
+      "    -1\n  2412\n         1        11         4         1         7         2\n         0         0         0\n        10        20\n"
+      "         2        41         7         1         7         3\n        10        20        30\n"
+      "         3       111         9         1         7         4\n        10        20        30        40\n"
+      "         5        91         8         1         7         3\n        10        30        40\n    -1\n", "x");
+  EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{7, 8}));
+  EXPECT_EQ(mesh.edges, (std::vector<std::array<std::int32_t, 2>>{{0, 1}}));
+  EXPECT_EQ(mesh.edge_refs, std::vector<std::int32_t>{4});
+}
+
+TEST(SolverFiles, UnvGroupsAreFacesAndCurves) {
+  const std::string elements = unv_square +
+      "    -1\n  2412\n         1        21         1         1         7         2\n         0         1         1\n        10        20\n"
+      "         2        91         1         1         7         3\n        10        20        30\n"
+      "         3        91         1         1         7         3\n        10        30        40\n    -1\n";
+  const FlatMesh mesh = read_mesh_unv(elements +
+      "    -1\n  2477\n         1         0         0         0         0         0         0         1\nLeft side\n"
+      "         8         3         0         0\n"
+      "         2         0         0         0         0         0         0         2\nface_9\n"
+      "         8         2         0         0         8         3         0         0\n"
+      "         3         0         0         0         0         0         0         2\nrim\n"
+      "         8         1         0         0         7        10         0         0\n    -1\n", "x");
+  EXPECT_EQ(mesh.triangle_refs, (std::vector<std::int32_t>{9, 10}));  // the first group of an element is its own
+  EXPECT_EQ(mesh.edge_refs, std::vector<std::int32_t>{1});
+  ASSERT_EQ(mesh.faces.size(), 1u);
+  EXPECT_EQ(mesh.faces[0].ref, 10);
+  EXPECT_EQ(mesh.faces[0].name, "Left side");
+}
+
 TEST(SolverFiles, NameTheLineOfWhatIsWrong) {
   const auto sentence = [](Read read, const std::string& text) { return sentence_of<FileError>([&] { read(text, "x"); }); };
   EXPECT_NE(sentence(read_mesh_inp, "*NODE\n1, 0, 0, 0\n1, 0, 0, 0\n").find("x, line 3: node 1 comes twice"), std::string::npos);
@@ -229,6 +291,15 @@ TEST(SolverFiles, NameTheLineOfWhatIsWrong) {
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 4\n").find("instead of 2 or 3"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 2\nNELEM= 1\n5 0 1 2 0\nNPOIN= 2\n0 0 0\n1 0 1\n").find("vertex 2"), std::string::npos);
   EXPECT_NE(sentence(read_mesh_su2, "NDIME= 2\nNELEM= 1\n77 0 1 2 0\n").find("type 77"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, "nothing\n").find("x, line 1: -1, which begins a dataset, was expected"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, unv_square + "    -1\n  2412\n").find("ends inside a dataset"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, unv_square + "    -1\n    58\n1 2\n").find("dataset '58' has no end"), std::string::npos);
+  const auto with_element = [](const std::string& lines) { return unv_square + "    -1\n  2412\n" + lines + "    -1\n"; };
+  EXPECT_NE(sentence(read_mesh_unv, with_element("1 91 1 1 7 3\n10 20 50\n")).find("line 18: node 50 is named"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, with_element("1 93 1 1 7 9\n1 2 3 4 5 6 7 8 9\n")).find("descriptor 93 has 9 nodes"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, with_element("1 999 1 1 7 1\n10\n")).find("descriptor 999 are not known"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, with_element("1 91 1 1 7 3\n10 20 30\n1 91 1 1 7 3\n10 30 40\n")).find("element 1 comes twice"), std::string::npos);
+  EXPECT_NE(sentence(read_mesh_unv, with_element("1 91 1 1 7 x\n")).find("'x'"), std::string::npos);
 }
 
 }  // namespace

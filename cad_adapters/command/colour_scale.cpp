@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "report/colours.h"
+#include "colour_scale.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ std::string hex_text(int rgb) {
   return text;
 }
 
-std::string scale_hex(double share) {
+int scale_rgb(double share) {
   const double x = std::clamp(share, 0.0, 1.0) * (scale_stops.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(x), scale_stops.size() - 2);
   const double t = x - static_cast<double>(i);
@@ -22,7 +22,7 @@ std::string scale_hex(double share) {
     const double a = scale_stops[i] >> shift & 255, b = scale_stops[i + 1] >> shift & 255;
     rgb |= static_cast<int>(std::lround(a + t * (b - a))) << shift;
   }
-  return hex_text(rgb);
+  return rgb;
 }
 
 }  // namespace command
