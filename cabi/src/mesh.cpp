@@ -75,7 +75,7 @@ carreau::abi::Counts::Counts(const carreau_mesh& mesh) {
   if (mesh.session != nullptr) {
     const SurfaceMesh& surface = surface_of(mesh);
     vertices = surface.vertices.size() + surface.mid_vertices.size(), triangles = surface.triangle_count();
-    edges = surface.edge_count(), faces = carreau::whole_faces(surface).size();
+    edges = surface.edge_count(), faces = mesh.session->session.whole_faces().size();
   } else {
     vertices = mesh.flat.vertices.size(), triangles = mesh.flat.triangles.size();
     edges = mesh.flat.edges.size(), faces = mesh.flat_faces.size();
@@ -316,19 +316,19 @@ carreau_status carreau_mesh_edge_refs(carreau_mesh* mesh, int64_t capacity, int3
 carreau_status carreau_mesh_face(carreau_mesh* mesh, int64_t index, carreau_face* out_face) {
   return guarded(mesh, [&] {
     require_content(*mesh);
-    std::vector<carreau::WholeFace> wholes;
-    if (mesh->session != nullptr) wholes = carreau::whole_faces(surface_of(*mesh));
-    const std::size_t n = mesh->session != nullptr ? wholes.size() : mesh->flat_faces.size();
+    const std::vector<carreau::WholeFace>* wholes = nullptr;
+    if (mesh->session != nullptr) wholes = &mesh->session->session.whole_faces();
+    const std::size_t n = wholes != nullptr ? wholes->size() : mesh->flat_faces.size();
     if (index < 0 || std::uint64_t(index) >= n)
       throw InvalidArgument("there is no face of index " + std::to_string(index) + ": the mesh has " +
                             std::to_string(n));
     const auto i = std::size_t(index);
-    const carreau::FlatFace& face = mesh->session != nullptr ? wholes[i].face : mesh->flat_faces[i].face;
+    const carreau::FlatFace& face = wholes != nullptr ? (*wholes)[i].face : mesh->flat_faces[i].face;
     carreau_face result{};
     mesh->text = face.why + '\0' + face.name;
     result.ref = face.ref;
     result.status = std::int32_t(face.status);
-    result.triangles = mesh->session != nullptr ? std::int64_t(wholes[i].triangles) : mesh->flat_faces[i].triangles;
+    result.triangles = wholes != nullptr ? std::int64_t((*wholes)[i].triangles) : mesh->flat_faces[i].triangles;
     result.why = mesh->text.c_str();
     result.name = result.why + face.why.size() + 1;
     result.rgb = face.rgb;

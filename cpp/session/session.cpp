@@ -82,6 +82,7 @@ struct Session::State {
   bool last_failed = false;                        // the last make_mesh() has thrown
   std::optional<MeshEvaluation> delivered;         // of `result`
   std::vector<Interface> interfaces;               // of `result`
+  std::vector<WholeFace> whole_faces;              // of `result`
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const {
@@ -247,6 +248,7 @@ const SurfaceMesh& Session::previous_mesh() const {
 const std::vector<double>& Session::vertex_sizes() const { return (void)mesh(), state_->result.vertex_size; }
 const CompositeReport& Session::report() const { return (void)mesh(), state_->result.report; }
 const std::vector<Interface>& Session::interfaces() const { return (void)mesh(), state_->interfaces; }
+const std::vector<WholeFace>& Session::whole_faces() const { return (void)mesh(), state_->whole_faces; }
 const ModelSupports& Session::supports() const { return (void)mesh(), state_->meshed.supports; }
 
 void Session::make_mesh(double from, double to) {
@@ -368,6 +370,7 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   s.result = std::move(result);
   s.meshed = std::move(meshed);
   s.interfaces = std::move(interfaces);
+  s.whole_faces = carreau::whole_faces(s.result.mesh);
   s.delivered = std::move(delivered);
   s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;

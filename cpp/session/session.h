@@ -12,6 +12,7 @@
 #include "fields/fields.h"
 #include "io/mesh_files.h"
 #include "measure/mesh_evaluation.h"
+#include "mesh/flat_mesh.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 #include "metric/prescription.h"
@@ -102,6 +103,8 @@ class Session {
   /// Model::shown_points of the mesh: exported() has applied it. Throws like mesh().
   [[nodiscard]] const std::map<int, int>& shown_points() const;
 
+  /// Faces of the mesh as the caller knows them, parts made whole. Throws like mesh().
+  [[nodiscard]] const std::vector<WholeFace>& whole_faces() const;
   /// The curves of the mesh in space. Throws like mesh().
   [[nodiscard]] const std::vector<Interface>& interfaces() const;
   /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).

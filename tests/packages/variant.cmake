@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# A static library without OpenEXR and oneTBB: it is built, installed and moved; programs in C use it by CMake, by pkg-config and by
-# hand. Variables: SOURCE, WORK, TESTS (this folder), CC, PKG_CONFIG, GENERATOR.
+# Static libraries without OpenEXR and oneTBB, libcarreau_cad among them: they are built, installed and moved; programs in C use them by CMake,
+# by pkg-config and by hand. Variables: SOURCE, WORK, TESTS (this folder), CC, PKG_CONFIG, GENERATOR, OPENCASCADE (ON, OFF).
 file(REMOVE_RECURSE "${WORK}")
 function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 # Nothing is measured: the quickest compilation does.
 run(${CMAKE_COMMAND} -S ${SOURCE} -B "${WORK}/build" -G ${GENERATOR} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DCARREAU_WERROR=OFF
-  -DBUILD_SHARED_LIBS=OFF -DCARREAU_OPENEXR=OFF -DCARREAU_TBB=OFF -DCARREAU_MPI=OFF -DCARREAU_TESTS=OFF -DCARREAU_COMMAND=OFF -DCARREAU_FORTRAN=OFF -DCARREAU_OPENCASCADE=OFF)
+  -DBUILD_SHARED_LIBS=OFF -DCARREAU_OPENEXR=OFF -DCARREAU_TBB=OFF -DCARREAU_MPI=OFF -DCARREAU_TESTS=OFF -DCARREAU_COMMAND=OFF -DCARREAU_FORTRAN=OFF -DCARREAU_OPENCASCADE=${OPENCASCADE})
 run(${CMAKE_COMMAND} --build "${WORK}/build" --parallel)
 run(${CMAKE_COMMAND} --install "${WORK}/build" --prefix "${WORK}/first")
 file(RENAME "${WORK}/first" "${WORK}/a tree")
@@ -15,10 +15,19 @@ file(GLOB shared "${WORK}/a tree/lib/*.so*")
 if(shared OR NOT EXISTS "${WORK}/a tree/lib/libcarreau.a")
   message(FATAL_ERROR "not a static library: ${shared}")
 endif()
+set(cad 0)
+if(OPENCASCADE)
+  set(cad 1)
+  if(NOT EXISTS "${WORK}/a tree/lib/libcarreau_cad.a")
+    message(FATAL_ERROR "libcarreau_cad is no static library")
+  endif()
+  run(${CMAKE_COMMAND} -DSOURCE=${TESTS}/cad "-DBUILD=${WORK}/cad customer" "-DTREE=${WORK}/a tree" -DGENERATOR=${GENERATOR}
+    -DPROGRAM=mesh_sphere -P ${TESTS}/project.cmake)
+endif()
 run(${CMAKE_COMMAND} -DSOURCE=${TESTS}/c "-DBUILD=${WORK}/customer" "-DTREE=${WORK}/a tree" -DGENERATOR=${GENERATOR} -DPROGRAM=customer
   -P ${TESTS}/project.cmake)
 if(PKG_CONFIG)
-  run(sh ${TESTS}/pkg_config.sh "${WORK}/a tree" "${WORK}/by pkg-config" ${PKG_CONFIG} ${CC})
+  run(sh ${TESTS}/pkg_config.sh "${WORK}/a tree" "${WORK}/by pkg-config" ${PKG_CONFIG} ${CC} ${cad})
 endif()
 # What it was built without is refused with a sentence; threads of the standard library give the mesh of one.
 file(WRITE "${WORK}/variant.c" "#include <carreau.h>
