@@ -235,16 +235,19 @@ void add_shapes(FlatMesh& flat) {
 
 void add_fields(FlatMesh& flat, const std::vector<double>& vertex_size, const FlatSources& sources) {
   MeshField size{.name = "size", .on_vertices = true, .components = 1, .values = {}, .edge_values = {}};
+  size.values.reserve(sources.vertex.size());
   for (const std::int32_t v : sources.vertex) size.values.push_back(v < 0 ? 0 : vertex_size[v]);
   fill_mids(flat, size.values);
   MeshField q1{.name = "Q1", .on_vertices = false, .components = 1, .values = {}, .edge_values = {}}, q2 = q1;
   q2.name = "Q2";
+  q1.values.reserve(flat.triangles.size());
+  q2.values.reserve(flat.triangles.size());
   for (const auto& t : flat.triangles) {
     const Vec3 a = flat.vertices[t[0]], b = flat.vertices[t[1]], c = flat.vertices[t[2]];
     q1.values.push_back(quality_q1(a, b, c));
     q2.values.push_back(quality_q2(a, b, c));
   }
-  flat.fields = {std::move(size), std::move(q1), std::move(q2)};
+  for (MeshField* const field : {&size, &q1, &q2}) flat.fields.push_back(std::move(*field));
   if (!flat.cells.empty()) add_shapes(flat);
 }
 
@@ -345,7 +348,7 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
     sources = appender.sources();
     flat = appender.take();
   }
-  if (!plane) add_fields(flat, source.vertex_size, sources);
+  if (!plane && source.with_fields) add_fields(flat, source.vertex_size, sources);
   if (source.delivered != nullptr) add_evaluation(flat, source, sources, with_edges);
   return flat;
 }

@@ -20,11 +20,12 @@ struct ExportSource {
   const Model& model;
   const ModelSupports& supports;
   const MeshEvaluation* delivered = nullptr;  ///< its values become fields; nullptr: none
+  bool with_fields = true;                    ///< size, Q1 and Q2, which a few formats hold
 };
 
 /// `option` is "", allsurf3d, allsurf2d, onesurf3d, onesurf2d or smo3d; `face` the reference that onesurf* want;
 /// `with_edges` is flag = 1. onesurf2d of a face without triangles: its curves in the parameter plane, as their
-/// supports have them, so that one sees what could not be meshed. Fields: size (vertices), Q1 and Q2 (triangles) in
+/// supports have them, so that one sees what could not be meshed. Fields, if wanted: size (vertices), Q1 and Q2 (triangles) in
 /// 3-D. Throws InvalidArgument for a face that does not exist or an unknown option. With `delivered`: its values as
 /// fields, in 2-D as well, and with_edges gives every edge once, with reference 0 inside faces.
 FlatMesh export_mesh(const ExportSource& source, const std::string& option, int face, bool with_edges);

@@ -465,9 +465,9 @@ void Session::write_delivered(const std::string& path) {
   write_file(path, text);
 }
 
-FlatMesh Session::exported(const MeshEvaluation* delivered) const {
+FlatMesh Session::exported(const MeshEvaluation* delivered, bool with_fields) const {
   const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports,
-                            delivered};
+                            delivered, with_fields};
   const Parameters& p = state_->parameters;
   FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
   if (source.model.plane) flat.dimension = 2;
@@ -496,7 +496,7 @@ std::string Session::encoded(MeshFormat format) {
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  return mesh_bytes(exported(measures), format,
+  return mesh_bytes(exported(measures, format == MeshFormat::vtu), format,
                     {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1});
 }
 

@@ -86,7 +86,7 @@ class Session {
 
   /// `call export` with the values of option, refs, flag (RT-0232 sec. 4): what would be written; `delivered` adds its
   /// values as fields.
-  [[nodiscard]] FlatMesh exported(const MeshEvaluation* delivered = nullptr) const;
+  [[nodiscard]] FlatMesh exported(const MeshEvaluation* delivered = nullptr, bool with_fields = true) const;
   /// Writes exported() to a file; format by suffix. A .vtu holds what delivered() knows, when it was asked or the
   /// parameter measure is 1. `.exr`: the fields of all faces, or of the one of onesurf*, in one file.
   void write(const std::string& path);

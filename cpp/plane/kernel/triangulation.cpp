@@ -69,7 +69,10 @@ void Triangulation::renumber_if_large() {
   for (const Triangle& T : triangles) ++next[key(T) + 1];
   for (std::size_t v = 0; v + 1 < next.size(); ++v) next[v + 1] += next[v];
   for (std::size_t t = 0; t < triangles.size(); ++t) rank[t] = next[key(triangles[t])]++;
-  std::vector<Triangle> sorted(triangles.size());
+  std::vector<Triangle> sorted;
+  // The local search that follows adds few: without room for them the array would be copied to one of twice its size.
+  sorted.reserve(triangles.size() + triangles.size() / 32);
+  sorted.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     Triangle& T = sorted[rank[t]];
     T = triangles[t];
