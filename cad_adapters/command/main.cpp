@@ -37,7 +37,7 @@ int flushed(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  prepare_heap();
+  command::prepare_heap();
   open_standard_files();
   try {
     command::CommandLine line;
