@@ -26,7 +26,14 @@ bool Attempts::again(const std::function<void()>& make_finer) {
   make_finer();
   CompositeResult before = std::exchange(run_.result, {});
   run_.result.graded = before.graded, run_.result.report = before.report;
-  if (!best_) best_ = std::move(before);
+  spaces_ = std::move(before.spaces);
+  if (!best_) {
+    best_ = std::move(before);
+    best_->spaces = std::move(spaces_);
+    run_.known.rely_on(&best_->spaces);
+  } else {
+    run_.known.rely_on(&spaces_);
+  }
   run_.trying = true;
   run_.begin += (1 - run_.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
   try {

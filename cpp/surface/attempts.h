@@ -31,6 +31,7 @@ class Attempts {
   std::ptrdiff_t failed_;                // faces of the best mesh
   std::optional<CompositeResult> best_;  // empty: that of the run
   std::vector<DiscreteCurve> curves_, cut_curves_;  // of best_
+  std::vector<std::optional<ControlSpace>> spaces_;  // of a mesh that was given up, for what the next one has of it
 };
 
 }  // namespace carreau

@@ -112,6 +112,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   };
   mesh();
   part_crossing_triangles(run, mesh);
+  run.known.end();
   if (options.independent && run.rules.uses_metrics())
     run.say(Level::warning, "the mesh stays as its patches made it: sizes may differ by direction");
   else if (options.independent && any_prescribed(run))

@@ -45,20 +45,27 @@ struct PatchJobs {
   std::optional<LimitError> first_beyond_limit = {};  // of faces that have too many by themselves
 };
 
-EdgeSizes edges_to_grow_from(const CompositeRun& run, std::size_t f, const std::vector<Vec3>& on_curves) {
+double slope_of_edges(const CompositeRun& run) {
+  const double asked = run.options.edge_gradation;
+  return slope_of_gradation(asked > 0 ? asked : usual_growth);
+}
+
+std::vector<EdgeSizes::Source> edges_to_grow_from(const CompositeRun& run, std::size_t f,
+                                                  const std::vector<Vec3>& on_curves) {
   const double asked = run.options.edge_gradation;
   std::vector<EdgeSizes::Source> sources;
   if (!run.rules.uses_metrics()) sources = short_edges(run, *run.domains.domain[f], on_curves, asked > 0);
   if (!run.finer.empty()) sources.insert(sources.end(), run.finer[f].begin(), run.finer[f].end());
-  return {std::move(sources), slope_of_gradation(asked > 0 ? asked : usual_growth)};
+  return sources;
 }
 
-PatchInput input_of(PatchJobs& work, std::size_t f) {
+PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Source>& grow_from) {
   const CompositeRun& run = work.run;
   const FaceDomain& domain = *run.domains.domain[f];
   std::vector<Vec3> on_curves = positions_on_curves(domain, run.curves, run.topology);
   SizeLimits bound = run.limits();
-  work.short_edges[f] = edges_to_grow_from(run, f, on_curves);
+  grow_from = edges_to_grow_from(run, f, on_curves);
+  work.short_edges[f] = {grow_from, slope_of_edges(run)};
   if (!work.short_edges[f].empty()) bound.edges = &work.short_edges[f];
   return {.face = static_cast<int>(f),
           .ref = run.model.faces[f].ref,
@@ -70,6 +77,25 @@ PatchInput input_of(PatchJobs& work, std::size_t f) {
           .slope = run.slope()};
 }
 
+void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
+  CompositeRun& run = work.run;
+  run.patches[f] = std::move(outcome.patch);
+  if (!outcome.remark.empty()) run.remarks[f] = outcome.remark;
+  work.left -= static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
+  const std::int64_t most = run.options.max_triangles;
+  if (work.left < 0)
+    refuse_triangles(Where{.face = run.model.faces[f].ref}, static_cast<double>(most - work.left), most);
+}
+
+// Of a round before this one.
+bool keep_known(PatchJobs& work, std::size_t f, const PatchInput& input, const std::vector<EdgeSizes::Source>& grow_from) {
+  std::optional<FaceOutcome> known = work.run.known.find(f, input, grow_from);
+  if (!known) return false;
+  work.run.result.spaces[f] = std::move(known->space);
+  keep_patch(work, f, *known);
+  return true;
+}
+
 // Of the faces whose domains could be made and that have no mesh yet.
 void make_jobs(PatchJobs& work) {
   CompositeRun& run = work.run;
@@ -77,7 +103,11 @@ void make_jobs(PatchJobs& work) {
   work.short_edges.assign(run.model.faces.size(), {});
   for (std::size_t f = 0; f < run.model.faces.size(); ++f) {
     if (!run.domains.domain[f] || run.patches[f]) continue;
-    work.jobs.push_back(std::make_unique<FaceJob>(input_of(work, f), run.cad, run.rules, run.options, reentrant));
+    std::vector<EdgeSizes::Source> grow_from;
+    PatchInput input = input_of(work, f, grow_from);
+    if (keep_known(work, f, input, grow_from)) continue;
+    run.known.keep(f, input, std::move(grow_from));
+    work.jobs.push_back(std::make_unique<FaceJob>(std::move(input), run.cad, run.rules, run.options, reentrant));
     work.face_of.push_back(f);
   }
 }
@@ -97,16 +127,6 @@ void tell_progress(PatchJobs& work, std::size_t next) {
                 curves_share + patches_share * static_cast<double>(next) / static_cast<double>(work.jobs.size()));
 }
 
-void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {
-  CompositeRun& run = work.run;
-  run.patches[f] = std::move(outcome.patch);
-  if (!outcome.remark.empty()) run.remarks[f] = outcome.remark;
-  work.left -= static_cast<std::int64_t>(run.patches[f]->plane.triangles.size());
-  const std::int64_t most = run.options.max_triangles;
-  if (work.left < 0)
-    refuse_triangles(Where{.face = run.model.faces[f].ref}, static_cast<double>(most - work.left), most);
-}
-
 void finish(PatchJobs& work, std::size_t i, FaceOutcome outcome) {
   CompositeRun& run = work.run;
   const std::size_t f = work.face_of[i];
@@ -115,6 +135,7 @@ void finish(PatchJobs& work, std::size_t i, FaceOutcome outcome) {
   all.seconds_plane += outcome.seconds_plane;
   all.seconds_lift += outcome.seconds_lift;
   all.corrections += outcome.corrections;
+  run.known.keep(f, outcome);
   run.result.spaces[f] = std::move(outcome.space);
   if (!work.first_beyond_limit) work.first_beyond_limit = outcome.beyond_limit;
   if (outcome.failure.empty())
@@ -190,6 +211,11 @@ void mesh_patches(CompositeRun& run) {
     if (!run.domains.domain[f] && !run.domains.failure[f].empty()) run.fail(f, run.domains.failure[f]);
   PatchJobs work{.run = run};
   work.left = run.options.max_triangles;
+  // Narrow faces may be meshed twice in a round, and spaces are those of the second time.
+  if (run.options.crossing_rounds > 0 && run.narrow.empty() && run.options.team == nullptr)
+    run.known.begin(run.model.faces.size());
+  else
+    run.known.clear();
   make_jobs(work);
   if (run.options.team != nullptr)
     mesh_in_team(work, *run.options.team);

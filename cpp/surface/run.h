@@ -13,6 +13,7 @@
 #include "curve/discrete_curve.h"
 #include "gradation/edge_sizes.h"
 #include "surface/grade/size_grading.h"
+#include "surface/known_patches.h"
 #include "surface/narrow/narrow_faces.h"
 #include "surface/options.h"
 #include "surface/refine/boundary_refinement.h"
@@ -59,6 +60,7 @@ struct CompositeRun {
   /// face what sizes inside grow from.
   std::vector<DiscreteCurve> cut_curves;
   std::vector<std::vector<EdgeSizes::Source>> finer;
+  KnownPatches known;          ///< mesh_patches(), where rounds may follow
   std::set<std::string> told;  ///< once, however often something is meshed
   bool trying = false;
 };
