@@ -53,6 +53,14 @@ class Molecules(unittest.TestCase):
                              "-o", surface + ".mesh")
             self.run_command("check", surface + ".mesh", "--closed", "--no-crossings")
 
+    def test_the_excluded_surface_of_dna_is_closed_and_has_good_triangles(self):
+        run = json.loads(self.run_command("mesh", os.path.join(DATA, "1bna.xyzr"), "--surface", "ses", "--probe", "1.4", "--size", "0.4", "-q", "--json",
+                                          "-o", "dna.meshb").stdout)
+        self.assertTrue(run["closed"])
+        self.assertEqual(run["intersections"]["pairs"], 0)
+        self.assertGreaterEqual(run["mesh"]["q2_mean"], 0.93)
+        self.assertEqual(run["mesh"]["vertices"] - run["mesh"]["triangles"] // 2, 2)
+
     def test_references_are_serial_numbers(self):
         line = "HETATM {:4d}  C   XYZ A   1    {:8.3f}   0.000   0.000  1.00  0.00           C\n"
         path = self.write("two.pdb", line.format(17, 0) + line.format(42, 1.5))

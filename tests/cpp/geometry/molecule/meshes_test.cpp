@@ -2,6 +2,7 @@
 // Molecular surfaces through the ordinary pipeline.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -107,6 +108,48 @@ TEST(MolecularSurfaces, DnaIsClosedWithTheEulerNumberOfItsArcs) {
   }
 }
 
+/// A globule of a protein's density, 18 cubic angstrom an atom: places at random, 1.5 apart at least.
+std::vector<Ball> globule(int n) {
+  std::mt19937 random(3);
+  const double ball = std::cbrt(3 * n * 18 / (4 * pi));
+  std::uniform_real_distribution<double> place(-ball, ball);
+  std::vector<Ball> balls;
+  while (static_cast<int>(balls.size()) < n) {
+    const double x = place(random), y = place(random), z = place(random);
+    const Vec3 p{x, y, z};
+    if (norm(p) > ball || std::any_of(balls.begin(), balls.end(), [&](const Ball& b) { return norm(p - b.centre) < 1.5; }))
+      continue;
+    balls.push_back({p, balls.size() % 2 == 0 ? 1.2 : balls.size() % 3 == 0 ? 1.52 : 1.7});
+  }
+  return balls;
+}
+
+TEST(MolecularSurfaces, GlobulesAreClosedWithTheEulerNumberOfTheirArcs) {
+  for (const SurfaceKind kind : {SurfaceKind::vws, SurfaceKind::sas, SurfaceKind::ses}) {
+    Monitor silent;
+    MoleculeSummary summary;
+    constexpr double size = 0.6, least_radius = 1.2;
+    const SurfaceMesh mesh = mesh_of(build_surface({globule(100)}, {.kind = kind}, silent, &summary), size);
+    EXPECT_EQ(euler_number_of(mesh), summary.euler_number);
+    // Equilateral triangles on a sphere lose h^2 / (8 r^2) of its area; twice as much is allowed.
+    const double chords = size * size / (4 * least_radius * least_radius);
+    EXPECT_NEAR(area_of(mesh), summary.measures.area, chords * summary.measures.area);
+    for (const FaceMesh& face : mesh.faces) EXPECT_NE(face.status, FaceStatus::failed);
+  }
+}
+
+TEST(MolecularSurfaces, CaffeinesAreaConvergesAtSecondOrder) {
+  for (const SurfaceKind kind : {SurfaceKind::vws, SurfaceKind::sas, SurfaceKind::ses}) {
+    Monitor silent;
+    MoleculeSummary summary;
+    const BuiltGeometry caffeine = build_surface({read_balls("caffeine.xyzr")}, {.kind = kind}, silent, &summary);
+    const double coarse = area_of(mesh_of(caffeine, 0.2)), fine = area_of(mesh_of(caffeine, 0.1));
+    EXPECT_LT(coarse, fine);
+    EXPECT_LT(fine, summary.measures.area);
+    EXPECT_NEAR((4 * fine - coarse) / 3, summary.measures.area, 5e-4 * summary.measures.area);
+  }
+}
+
 TEST(MolecularSurfaces, CavitiesAreKeptOrDropped) {
   std::vector<Ball> cage;
   for (int k = 0; k < 60; ++k) {
@@ -157,6 +200,24 @@ TEST(SolventExcluded, TwoBallsHaveTheAreasOfTheirParts) {
   double error[2];
   for (const int fine : {0, 1}) error[fine] = summary.measures.area - area_of(mesh_of(built, fine == 0 ? 0.2 : 0.1));
   EXPECT_NEAR(error[0] / error[1], 4, 0.6);
+}
+
+TEST(SolventExcluded, AreasAndVolumesDoNotDependOnTheAxes) {
+  for (const char* name : {"caffeine.xyzr", "1bna.xyzr"}) {
+    const std::vector<Ball> balls = read_balls(name);
+    std::vector<Ball> turned = balls;
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    for (Ball& ball : turned) {
+      const Vec3 p = ball.centre, q{c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
+      ball.centre = Vec3{q.x() + 3, s * q.z() + c * q.y() - 7, c * q.z() - s * q.y() + 1};
+    }
+    MoleculeSummary given, after;
+    excluded(balls, &given), excluded(turned, &after);
+    EXPECT_NEAR(after.measures.area, given.measures.area, 1e-9 * given.measures.area);
+    EXPECT_NEAR(after.measures.volume, given.measures.volume, 1e-9 * given.measures.volume);
+    EXPECT_NEAR(after.torus, given.torus, 1e-9 * given.measures.area);
+    EXPECT_NEAR(after.concave, given.concave, 1e-9 * given.measures.area);
+  }
 }
 
 TEST(SolventExcluded, ASpindleComesApartAtTheAxis) {

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""compare_ses.py CARREAU [FILE.xyzr...] [--sizes 0.6,0.4,0.3] [--repeat N]: the surface that excludes the solvent (probe 1.4) by Carreau,
-PyMOL and EDTSurf in one run.
+"""compare_molecules.py CARREAU [FILE.xyzr...] [--sizes 0.6,0.4,0.3] [--repeat N]: the area that the solvent reaches by Carreau and FreeSASA, the surface
+that excludes it by Carreau, PyMOL and EDTSurf, in one run. The probe is 1.4.
 
-    apt-get install pymol edtsurf
+    apt-get install freesasa pymol edtsurf
 
 What the peers compute:
+- FreeSASA samples: slices of each sphere (Lee and Richards, 1000), or points (Shrake and Rupley, 10 000). It has no mesh.
 - PyMOL marches through a grid (surface_quality 0, 1, 2: cells of .5, .3 and .25 or so) over the dots that its probe cannot enter, and moves
   vertices to those dots: an approximation, whose triangles come without neighbours (equal places are made one vertex here).
 - EDTSurf fills a grid of voxels (scale: cells to a unit of length, unless the molecule is too large for its memory), takes the distance transform and
@@ -179,9 +180,23 @@ class Bench:
         n, m = int(lines[1][0]), int(lines[1][1])
         self.row(name, f"Carreau {size}", exact, whole, whole, [tuple(map(float, w[:3])) for w in lines[2:2 + n]], [[int(x) for x in w[1:4]] for w in lines[2 + n:2 + n + m]])
 
+    def reached(self, name, atoms):
+        """The accessible area: FreeSASA takes radii from the column of occupancies."""
+        with open(os.path.join(self.folder, "sasa.pdb"), "w") as file:
+            for i, (x, y, z, r) in enumerate(atoms):
+                file.write(f"ATOM  {i + 1:5d}  C   ALA A{i // 20 + 1:4d}    {x:8.3f}{y:8.3f}{z:8.3f}{r:6.2f}  0.00           C\n")
+        whole, done = timed([self.carreau, "areas", "bondi.xyzr", "--probe", repr(PROBE), "--json"], self.folder)
+        exact = next(s for s in json.loads(done.stdout)["surfaces"] if s["surface"] == "sas")["area"]
+        print(ROW.format(name, "accessible, exact", "", f"{whole:.3f}", "", f"{exact:.4f}", "", "", "", "", "", ""))
+        for method, option, n in (("slices", "-L", 1000), ("points", "-S", 10000)):
+            whole, done = timed(["freesasa", "-O", option, "-n", str(n), f"--probe-radius={PROBE}", "sasa.pdb"], self.folder)
+            area = float(re.search(r"Total\s*:\s*(\S+)", done.stdout).group(1))
+            print(ROW.format(name, f"FreeSASA {n} {method}", "", f"{whole:.3f}", "", f"{area:.2f}", f"{100 * (area / exact - 1):+.3f}", "", "", "", "", ""))
+
     def molecule(self, path, sizes, radii):
         name, atoms = os.path.basename(path).split(".")[0], read_atoms(path)
         write_atoms(os.path.join(self.folder, "bondi"), atoms)
+        self.reached(name, atoms)
         exact = self.exact("bondi")
         print(ROW.format(name, "exact", "", "", "", f"{exact[0]:.2f}", "", f"{exact[1]:.2f}", "", "", "", ""))
         for size in sizes:
