@@ -65,8 +65,11 @@ ElementLists lists_of(const FlatMesh& mesh) {
   }
   if (mesh.cells.empty()) {
     lists.triangles.nodes = mesh.triangles;
+    lists.triangles.refs.reserve(mesh.triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) lists.triangles.refs.push_back(ref(i));
   }
+  lists.edges.nodes.reserve(mesh.edges.size());
+  lists.edges.refs.reserve(mesh.edges.size());
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     const auto [a, b] = mesh.edges[e];
     const std::int32_t edge_ref = mesh.edge_refs.empty() ? 0 : mesh.edge_refs[e];

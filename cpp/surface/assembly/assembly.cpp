@@ -23,6 +23,7 @@ class Assembler {
   void run(std::vector<std::optional<PatchMesh>>& patches) {
     corner_vertex_.assign(topology_.points.size(), unknown);
     add_curves(patches);
+    reserve(patches);
     for (std::size_t f = 0; f < patches.size(); ++f) {
       add_face(f, patches[f]);
       patches[f].reset();
@@ -30,6 +31,16 @@ class Assembler {
   }
 
  private:
+  // For the vertices within faces: arrays that grow by doubling would be the largest of the whole run.
+  void reserve(const std::vector<std::optional<PatchMesh>>& patches) {
+    std::size_t n = mesh_.vertices.size();
+    for (std::size_t f = 0; f < patches.size(); ++f)
+      if (patches[f]) n += patches[f]->plane.vertices.size() - domains_.domain[f]->origin.size();
+    mesh_.vertices.reserve(n);
+    mesh_.vertex_ref.reserve(n);
+    sizes_.reserve(n);
+  }
+
   std::int32_t add_vertex(Vec3 position, int ref, double size) {
     mesh_.vertices.push_back(position);
     mesh_.vertex_ref.push_back(ref);
