@@ -325,4 +325,21 @@ inline constexpr double least_cross = 0.7;
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
 
+// Division of large domains (division)
+/// Triangles. Of a piece, about.
+inline constexpr double triangles_a_piece = 120'000;
+/// Triangles. Smaller domains are not divided.
+inline constexpr double least_divided = 200'000;
+/// Units. Of the edges of the coarse mesh, on which separators lie.
+inline constexpr int separator_length = 8;
+/// Radians. Turn of the boundary over one coarse edge.
+inline constexpr double most_coarse_turn = 0.45;
+/// Squared coarse units, and Q2. Separators do not pass along triangles that are worse.
+inline constexpr double shortest_coarse2 = 0.16, least_coarse_quality = 0.5;
+/// Coarse triangles between degenerate sides and separators.
+inline constexpr int rings_at_degenerate_sides = 2;
+/// Layers of triangles beside a separator that are improved when pieces have been joined, and around places where
+/// several separators meet.
+inline constexpr int zone_layers = 6, meeting_layers = 5;
+
 }  // namespace carreau::plane

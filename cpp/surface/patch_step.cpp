@@ -67,7 +67,9 @@ PatchInput input_of(PatchJobs& work, std::size_t f) {
           .constant_size = bound.want_places() ? std::nullopt : run.rules.constant(),
           .isotropic = !run.rules.uses_metrics(),
           .limits = bound,
-          .slope = run.slope()};
+          .slope = run.slope(),
+          .threads = run.options.threads,
+          .host_threads = asks_from_threads(run.options, run.cad) ? run.options.threads : 1};
 }
 
 // Of the faces whose domains could be made and that have no mesh yet.
