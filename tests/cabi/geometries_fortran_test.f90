@@ -104,6 +104,7 @@ program geometries_fortran_test
   call carreau_mesh_from_arrays(copy, xyz, triangles, status)
   call check(status == CARREAU_ERR_ARGUMENT .and. index(carreau_mesh_last_error(copy), 'triangle 2') > 0, 'no such vertex')
   call triangles_of_a_tetrahedron(copy)
+  call ring_of_arcs
   call carreau_mesh_free(copy)
   call carreau_session_free(session)
 contains
@@ -140,6 +141,35 @@ contains
     call check(n == 1, 'one geometry')
     call carreau_session_free(other)
   end subroutine triangles_of_a_tetrahedron
+  !> A ring of radii 1 and 2 by arcs of circles: the area is that between polygons of equal edges.
+  subroutine ring_of_arcs
+    type(carreau_session) :: other
+    type(carreau_mesh) :: made
+    type(carreau_quality) :: of_made
+    type(carreau_plane_curves) :: curves
+    integer(c_int32_t), allocatable :: of_edges(:)
+    real(c_double) :: points(2, 4), area
+    real(c_double), parameter :: pi = 3.14159265358979323846_c_double
+    integer :: n(2), i
+    points = reshape([2, 0, -2, 0, 1, 0, -1, 0], [2, 4])
+    curves%points = [integer(c_int32_t) :: 1, 2, 1, 3, 4, 3]
+    curves%starts = [integer(c_int32_t) :: 1, 4, 7]
+    curves%smooth = [CARREAU_ARCS, CARREAU_ARCS]
+    curves%refs = [integer(c_int32_t) :: 1, 2]
+    call carreau_session_create(other, status)
+    call carreau_add_plane_domain(other, points, curves, status)
+    call check(status == CARREAU_OK, carreau_last_error(other))
+    call carreau_set_real(other, 'hphydef', 0.2_c_double, status)
+    call carreau_mesh_generate(other, status)
+    call check(status == CARREAU_OK, carreau_last_error(other))
+    call carreau_session_mesh(other, made, status)
+    call carreau_mesh_quality(made, of_made, status)
+    call carreau_mesh_edge_refs(made, of_edges, status)
+    n = [(count(of_edges == i), i=1, 2)]
+    area = 2 * n(1) * sin(2 * pi / n(1)) - n(2) / 2._c_double * sin(2 * pi / n(2))
+    call check(n(1) > 50 .and. abs(of_made%area - area) < 1e-6_c_double, 'a ring of arcs')
+    call carreau_session_free(other)
+  end subroutine ring_of_arcs
   subroutine check(good, what)
     logical, intent(in) :: good
     character(len=*), intent(in) :: what

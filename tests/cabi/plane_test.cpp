@@ -3,6 +3,7 @@
 #include <carreau_geometry.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -84,6 +85,44 @@ TEST_F(PlaneDomain, ReferencesThatSeveralPointsHaveAreShown) {
     const bool outer = x == 2 && y == 2, last = xyz[3 * v] == -1 && xyz[3 * v + 1] == 1;
     EXPECT_EQ(found[v], outer ? 7 : last ? -3 : 0) << x << ' ' << y;
   }
+}
+
+TEST_F(PlaneDomain, ArcsBoundPolygonsOfEqualEdges) {
+  // A ring of radii 1 and 2, each circle one closed arc; then its upper half, of two arcs and two segments.
+  const double circles[16] = {2, 0, 0, 2, -2, 0, 0, -2, 1, 0, 0, 1, -1, 0, 0, -1};
+  std::int64_t whole[3] = {0, 3, 6}, half[5] = {0, 3, 5, 8, 10};
+  std::int32_t around[6] = {0, 2, 0, 4, 6, 4}, over[10] = {0, 1, 2, 2, 6, 6, 5, 4, 4, 0};
+  const std::int32_t arcs[4] = {CARREAU_ARCS, CARREAU_ARCS, CARREAU_ARCS, CARREAU_ARCS};
+  const std::int32_t mixed[4] = {CARREAU_ARCS, CARREAU_SEGMENTS, CARREAU_ARCS, CARREAU_SEGMENTS};
+  const std::int32_t refs[4] = {1, 3, 2, 3};
+  domain.points = circles, domain.smooth = arcs, domain.curve_refs = refs;
+  domain.curve_starts = whole, domain.curve_points = around;
+  const std::int32_t ring_refs[2] = {1, 2};
+  domain.curve_refs = ring_refs;
+  const auto edges = [&](carreau_mesh* of, int ref) {
+    std::int64_t n = 0;
+    expect(carreau_mesh_count(of, nullptr, nullptr, &n, nullptr));
+    std::vector<std::int32_t> found(n);
+    expect(carreau_mesh_edge_refs(of, n, found.data()));
+    return double(std::count(found.begin(), found.end(), ref));
+  };
+  // Of an arc by the angle a and radius r in n equal edges, the polygon with its centre has the area r^2 n / 2 sin(a / n).
+  const auto polygon = [](double r, double angle, double n) { return r * r * n / 2 * std::sin(angle / n); };
+  expect(carreau_add_plane_domain(session, &domain));
+  carreau_mesh* made = mesh(0.2);
+  EXPECT_GE(edges(made, 1), 60);
+  EXPECT_NEAR(area(made), polygon(2, 2 * M_PI, edges(made, 1)) - polygon(1, 2 * M_PI, edges(made, 2)), 1e-6);
+  expect(carreau_model_clear(session));
+  domain.curve_count = 4, domain.curve_starts = half, domain.curve_points = over, domain.smooth = mixed;
+  domain.curve_refs = refs;
+  expect(carreau_add_plane_domain(session, &domain));
+  made = mesh(0.1);
+  EXPECT_EQ(edges(made, 3), 20);
+  EXPECT_NEAR(area(made), polygon(2, M_PI, edges(made, 1)) - polygon(1, M_PI, edges(made, 2)), 1e-6);
+  expect(carreau_model_clear(session));
+  half[1] = 2;  // an arc of two points
+  EXPECT_EQ(carreau_add_plane_domain(session, &domain), CARREAU_ERR_MODEL);
+  EXPECT_NE(error().find("of arcs passes 2 points"), std::string::npos) << error();
 }
 
 TEST_F(PlaneDomain, SizesAtPointsGiveWayToABackgroundMesh) {
