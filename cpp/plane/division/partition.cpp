@@ -124,10 +124,10 @@ class Division {
     for (const std::int32_t t : triangles)  // what cannot be reached comes last
       from_first_[t] = steps_[t] < 0 ? static_cast<std::int32_t>(n_) : from_first_[t] - steps_[t];
     forget(triangles);
-    cut(triangles, of, parts);
+    cut(triangles, parts);
   }
 
-  void cut(std::vector<std::int32_t> triangles, std::int32_t of, int parts) {
+  void cut(std::vector<std::int32_t> triangles, int parts) {
     std::stable_sort(triangles.begin(), triangles.end(),
                      [&](std::int32_t s, std::int32_t t) { return from_first_[s] < from_first_[t]; });
     double whole = 0, sum = 0;
