@@ -22,6 +22,8 @@ struct PlaneMesherOptions {
   /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), as places of each: what is still far
   /// from all vertices when points have been placed gets a seed, from which the front goes on.
   std::span<const std::vector<Vec2>> undersampled = {};
+  /// By vertex of the domain, or empty: layers go on from no edge that has an end that is not 0.
+  std::span<const std::uint8_t> resting = {};
   int threads = 1;  ///< at work on a large domain; the mesh does not depend on it
 };
 

@@ -328,6 +328,8 @@ inline constexpr int cross_sweeps = 6;
 // Division of large domains (division)
 /// Triangles. Of a piece, about.
 inline constexpr double triangles_a_piece = 120'000;
+/// Pieces reach from the border to where layers meet: more of them would become narrow.
+inline constexpr double most_sectors = 64;
 /// Triangles. Smaller domains are not divided.
 inline constexpr double least_divided = 200'000;
 /// Units. Of the edges of the coarse mesh, on which separators lie.
@@ -338,8 +340,10 @@ inline constexpr double most_coarse_turn = 0.45;
 inline constexpr double shortest_coarse2 = 0.16, least_coarse_quality = 0.5;
 /// Coarse triangles between degenerate sides and separators.
 inline constexpr int rings_at_degenerate_sides = 2;
+/// Layers of vertices on each side of a separator, itself among them, whose points are placed anew.
+inline constexpr int refilled_layers = 3;
 /// Layers of triangles beside a separator that are improved when pieces have been joined, and around places where
 /// several separators meet.
-inline constexpr int zone_layers = 6, meeting_layers = 5;
+inline constexpr int zone_layers = 8, meeting_layers = 7;
 
 }  // namespace carreau::plane

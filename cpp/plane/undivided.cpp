@@ -40,9 +40,9 @@ PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation,
 
 namespace {
 
-void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame,
-                  const PlaneMesherOptions& options) {
+void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame, const PlaneMesherOptions& options) {
   Placement placement(work, options.max_triangles);
+  placement.resting = options.resting;
   surround_degenerate_sides(placement, domain);
   work.fixed = static_cast<int>(work.mesh.vertices.size());
   if (options.squares) place_squares(placement);

@@ -29,7 +29,8 @@ std::optional<Pieces> cut(const ZoneContext& context) {
   const Field::Known known{.bends = context.known.bends, .triangles = wide.measure()};
   const CoarseMesh mesh =
       make_coarse_mesh(mesh_undivided(coarse.domain, wide, known, options, context.monitor).mesh, context.metric);
-  const int parts = static_cast<int>(std::lround(context.known.triangles / triangles_a_piece));
+  const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
+  const int parts = static_cast<int>(std::lround(wanted));
   const Partition partition = divide(mesh, coarse, wide, parts);
   if (partition.parts < 2) return {};
   return make_pieces(context.domain, coarse, mesh, partition, context.metric);
@@ -37,12 +38,13 @@ std::optional<Pieces> cut(const ZoneContext& context) {
 
 std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
   std::vector<UndividedMesh> meshes(pieces.pieces.size());
-  PlaneMesherOptions options = context.options;
-  options.threads = 1;
   run_each(
       meshes.size(), false, context.options.threads,
       [&](std::size_t p, Monitor& monitor) {
         const Piece& piece = pieces.pieces[p];
+        PlaneMesherOptions options = context.options;
+        options.threads = 1;
+        options.resting = piece.on_separator;
         meshes[p] = mesh_undivided(piece.domain, context.metric,
                                    {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
       },

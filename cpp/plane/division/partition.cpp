@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "plane/division/arrival.h"
 #include "plane/kernel/triangulation.h"
 #include "plane/thresholds.h"
 
@@ -42,15 +43,11 @@ class Division {
         n_(coarse.mesh.triangles.size()),
         clump_(n_),
         part_(n_, 0),
-        steps_(n_, -1),
-        from_first_(n_, 0),
-        side_of_clump_(n_, -1) {}
+        part_of_clump_(n_, -1) {}
 
   Partition run(int parts) {
     join_what_stays_together();
-    std::vector<std::int32_t> all(n_);
-    std::iota(all.begin(), all.end(), 0);
-    halve(all, parts);
+    cut_into_sectors(parts);
     for (int pass = 0; pass < smoothing_passes; ++pass) smooth();
     return connected();
   }
@@ -95,60 +92,23 @@ class Division {
     return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > least_coarse_quality * (pq + qr + rp));
   }
 
-  /// Breadth first over the triangles of `part_[...] == of`; the last one reached.
-  std::int32_t walk(std::int32_t start, std::int32_t of) {
-    queue_.assign(1, start);
-    steps_[start] = 0;
-    for (std::size_t k = 0; k < queue_.size(); ++k)
-      for (const std::int32_t u : coarse_.beyond[queue_[k]]) {
-        if (u < 0 || part_[u] != of || steps_[u] >= 0) continue;
-        steps_[u] = steps_[queue_[k]] + 1;
-        queue_.push_back(u);
-      }
-    return queue_.back();
-  }
-  void forget(const std::vector<std::int32_t>& triangles) {
-    for (const std::int32_t t : triangles) steps_[t] = -1;
-  }
-
-  // By how much farther a triangle is from one end than from the other: borders lie across.
-  void halve(const std::vector<std::int32_t>& triangles, int parts) {
-    const std::int32_t of = part_[triangles.front()];
-    if (parts <= 1) return;
-    const std::int32_t one_end = walk(triangles.front(), of);
-    forget(triangles);
-    const std::int32_t other_end = walk(one_end, of);
-    for (const std::int32_t t : triangles) from_first_[t] = steps_[t];
-    forget(triangles);
-    walk(other_end, of);
-    for (const std::int32_t t : triangles)  // what cannot be reached comes last
-      from_first_[t] = steps_[t] < 0 ? static_cast<std::int32_t>(n_) : from_first_[t] - steps_[t];
-    forget(triangles);
-    cut(triangles, parts);
-  }
-
-  void cut(std::vector<std::int32_t> triangles, int parts) {
+  // Sectors: where layers arrive that start at a stretch of the border. Separators lie across the layers that start there, or where
+  // those from several sides meet. Clumps go where their first triangle does.
+  void cut_into_sectors(int parts) {
+    const std::vector<double> place = arrivals(coarse_, domain_, metric_);
+    std::vector<std::int32_t> triangles(n_);
+    std::iota(triangles.begin(), triangles.end(), 0);
     std::stable_sort(triangles.begin(), triangles.end(),
-                     [&](std::int32_t s, std::int32_t t) { return from_first_[s] < from_first_[t]; });
-    double whole = 0, sum = 0;
-    for (const std::int32_t t : triangles) whole += coarse_.weight[t];
-    const int before = parts / 2;
-    const double wanted = whole * before / parts;
-    const std::int32_t other = ++last_;
-    // Clumps go where their first triangle does.
-    std::vector<std::int32_t> lower, upper;
+                     [&](std::int32_t s, std::int32_t t) { return place[s] < place[t]; });
+    const double whole = std::accumulate(coarse_.weight.begin(), coarse_.weight.end(), 0.0);
+    double sum = 0;
     for (const std::int32_t t : triangles) {
-      const std::int32_t clump = clump_.of(t);
-      std::int32_t& side = side_of_clump_[clump];
-      if (side < 0) side = sum < wanted ? 0 : 1;
-      if (side == 0) sum += coarse_.weight[t];
-      (side == 0 ? lower : upper).push_back(t);
+      std::int32_t& part = part_of_clump_[clump_.of(t)];
+      if (part < 0) part = std::min(static_cast<int>(sum / whole * parts), parts - 1);
+      part_[t] = part;
+      sum += coarse_.weight[t];
     }
-    for (const std::int32_t t : triangles) side_of_clump_[clump_.of(t)] = -1;
-    if (lower.empty() || upper.empty()) return;
-    for (const std::int32_t t : upper) part_[t] = other;
-    halve(lower, before);
-    halve(upper, parts - before);
+    last_ = parts - 1;
   }
 
   // A triangle with two neighbours in one other part joins it.
@@ -234,7 +194,7 @@ class Division {
   const ControlSpace& metric_;
   std::size_t n_;
   Unions clump_;
-  std::vector<std::int32_t> part_, steps_, from_first_, side_of_clump_, queue_;
+  std::vector<std::int32_t> part_, part_of_clump_, queue_;
   std::int32_t last_ = 0;
 };
 

@@ -124,8 +124,10 @@ class PieceMaker {
     std::sort(whole.begin(), whole.end());
     whole.erase(std::unique(whole.begin(), whole.end()), whole.end());
     const auto n = static_cast<std::int32_t>(domain_.vertices.size());
-    for (const std::int32_t v : whole)
+    for (const std::int32_t v : whole) {
       piece.domain.vertices.push_back(v < n ? domain_.vertices[v] : result_.separators[v - n]);
+      piece.on_separator.push_back(v < n ? 0 : 1);
+    }
     const auto local = [&](int v) {
       return static_cast<int>(std::lower_bound(whole.begin(), whole.end(), v) - whole.begin());
     };

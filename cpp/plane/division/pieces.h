@@ -14,6 +14,7 @@ namespace carreau::plane {
 struct Piece {
   PlaneDomain domain;
   std::vector<std::int32_t> whole;  ///< by vertex of the domain: that of the whole one, or, from there on, of separators
+  std::vector<std::uint8_t> on_separator;  ///< by vertex of the domain: whether it is none of the whole domain
   double triangles = 0;             ///< expected
 };
 

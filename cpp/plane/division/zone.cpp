@@ -57,6 +57,7 @@ class ZoneMaker {
       const std::int32_t whole = joined_.whole(p, v);
       zone_.vertices.push_back(mesh.vertices[v]);
       zone_.whole.push_back(whole);
+      zone_.level.push_back(joined_.level[p][v]);
       const bool imposed = v < n ? whole < domain : v < joined_.meshes[p].fixed;
       zone_.fixed.push_back(imposed || joined_.level[p][v] == outside ? 1 : 0);
       return known;
@@ -99,6 +100,7 @@ void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std
   }
   zone.triangles.swap(triangles);
   zone.fixed.resize(zone.vertices.size(), 0);
+  zone.level.resize(zone.vertices.size(), outside);
 }
 
 // Vertices of triangles that belong to several bands wait for the second round; the others' bands know all around them.

@@ -27,6 +27,7 @@ struct Zone {
   std::vector<Vec2> vertices;
   std::vector<std::int32_t> whole;  ///< by vertex: that of the whole mesh; fewer than vertices, new ones come last
   std::vector<std::uint8_t> fixed;  ///< by vertex: imposed, or on the rim of the zone
+  std::vector<std::uint8_t> level;  ///< by vertex: layers from the separators; those that came later: zone_layers
   std::vector<std::array<std::int32_t, 3>> triangles;
   std::vector<std::int32_t> band;   ///< by triangle: the separator that it belongs to; Pieces::several: several
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "plane/division/refill.h"
 #include "plane/kernel/domain_reader.h"
 #include "plane/optimise/local_search.h"
 #include "plane/optimise/optimise.h"
@@ -16,41 +17,48 @@ namespace {
 /// A part of the zone in numbers of its own: vertices that stay come first.
 class PartOfZone {
  public:
-  PartOfZone(const Zone& zone, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free,
-             const ZoneContext& context, const Frame& frame)
+  PartOfZone(const Zone& zone, const Refilled& refilled, std::span<const std::uint8_t> free, const ZoneContext& context,
+             const Frame& frame)
       : zone_(zone), context_(context) {
-    number(triangles, free);
+    const std::size_t n = zone.vertices.size();
+    number(refilled, free);
     for (const std::int32_t v : of_) {
-      const Vec2 p = frame.inward(zone.vertices[v]);
+      const auto k = static_cast<std::size_t>(v);
+      const Vec2 p = frame.inward(k < n ? zone.vertices[k] : refilled.added[k - n]);
       mesh.vertices.emplace_back();
       mesh.vertices.back().x = p.x(), mesh.vertices.back().y = p.y();
     }
-    add_triangles(triangles);
+    add_triangles(refilled);
     impose_edges();
   }
 
   [[nodiscard]] const std::vector<std::int32_t>& of() const noexcept { return of_; }
   Triangulation mesh;
   int fixed = 0;
+  std::size_t of_zone = 0;  ///< vertices from there on are added ones
 
  private:
-  void number(std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free) {
-    for (const std::int32_t t : triangles) of_.insert(of_.end(), zone_.triangles[t].begin(), zone_.triangles[t].end());
+  // Fixed ones, others of the zone, added ones.
+  void number(const Refilled& refilled, std::span<const std::uint8_t> free) {
+    for (const auto& t : refilled.triangles) of_.insert(of_.end(), t.begin(), t.end());
     std::sort(of_.begin(), of_.end());
     of_.erase(std::unique(of_.begin(), of_.end()), of_.end());
-    fixed = static_cast<int>(
-        std::stable_partition(of_.begin(), of_.end(), [&](std::int32_t v) { return free[v] == 0; }) - of_.begin());
+    const auto stays = [&](std::int32_t v) { return static_cast<std::size_t>(v) < free.size() && free[v] == 0; };
+    fixed = static_cast<int>(std::stable_partition(of_.begin(), of_.end(), stays) - of_.begin());
+    of_zone = static_cast<std::size_t>(std::lower_bound(of_.begin() + fixed, of_.end(),
+                                                        static_cast<std::int32_t>(zone_.vertices.size())) -
+                                       of_.begin());
   }
 
-  void add_triangles(std::span<const std::int32_t> triangles) {
-    std::vector<std::int32_t> local(zone_.vertices.size(), -1);
+  void add_triangles(const Refilled& refilled) {
+    std::vector<std::int32_t> local(zone_.vertices.size() + refilled.added.size(), -1);
     for (std::size_t k = 0; k < of_.size(); ++k) local[of_[k]] = static_cast<std::int32_t>(k);
     std::vector<std::int32_t> start(of_.size() + 1, 0);
-    for (const std::int32_t t : triangles) {
+    for (const auto& t : refilled.triangles) {
       Triangle& T = mesh.triangles.emplace_back();
       T.done = Done::yes;
       for (int i = 0; i < 3; ++i) {
-        T.v[i] = local[zone_.triangles[t][i]];
+        T.v[i] = local[t[i]];
         mesh.vertices[T.v[i]].triangle = static_cast<std::int32_t>(mesh.triangles.size()) - 1;
         ++start[T.v[i]];
       }
@@ -102,7 +110,8 @@ class PartOfZone {
 ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free,
                        const ZoneContext& context, Monitor& monitor) {
   const Frame frame = frame_of(context.domain);
-  PartOfZone part(zone, triangles, free, context, frame);
+  const Refilled refilled = refill(zone, triangles, free, context, monitor);
+  PartOfZone part(zone, refilled, free, context, frame);
   const Field field(context.metric, frame, context.known);
   PlaneWork work{part.mesh, field, monitor};
   work.fixed = part.fixed;
@@ -112,7 +121,7 @@ ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles
   if (context.options.shape_trials) search_around_bad_triangles(work, context.options.normals);
 
   ZonePart result;
-  const std::size_t n = part.of().size();
+  const std::size_t n = part.of_zone;
   for (std::size_t v = static_cast<std::size_t>(part.fixed); v < n; ++v) {
     result.moved.push_back(part.of()[v]);
     result.to.push_back(frame.outward(part.mesh.at(static_cast<int>(v))));
