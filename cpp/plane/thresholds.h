@@ -327,7 +327,7 @@ inline constexpr int cross_sweeps = 6;
 
 // Division of large domains (division)
 /// Triangles. Of a piece, about.
-inline constexpr double triangles_a_piece = 120'000;
+inline constexpr double triangles_a_piece = 90'000;
 /// Pieces reach from the border to where layers meet: more of them would become narrow.
 inline constexpr double most_sectors = 64;
 /// Triangles. Smaller domains are not divided.

@@ -58,19 +58,37 @@ void place_points(PlaneWork& work, const PlaneDomain& domain, const Frame& frame
 
 }  // namespace
 
-UndividedMesh mesh_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
-                             const PlaneMesherOptions& options, Monitor& monitor) {
+namespace {
+
+enum class Improve : bool { no, yes };
+
+UndividedMesh mesh(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                   const PlaneMesherOptions& options, Improve improve, Monitor& monitor) {
   BoundaryMesh boundary = triangulate_boundary(domain, monitor);
   const Field field(metric, boundary.frame, known);
   PlaneWork work{boundary.mesh, field, monitor};
   place_points(work, domain, boundary.frame, options);
   boundary.mesh.renumber_if_large();
-  if (options.squares)
-    mend_squares(work);
-  else
-    optimise(work);
-  if (options.shape_trials && !options.squares) search_around_bad_triangles(work, options.normals);
+  if (improve == Improve::yes) {
+    if (options.squares)
+      mend_squares(work);
+    else
+      optimise(work);
+    if (options.shape_trials && !options.squares) search_around_bad_triangles(work, options.normals);
+  }
   return {to_mesh(domain, boundary.mesh, boundary.frame), work.fixed};
+}
+
+}  // namespace
+
+UndividedMesh mesh_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                             const PlaneMesherOptions& options, Monitor& monitor) {
+  return mesh(domain, metric, known, options, Improve::yes, monitor);
+}
+
+UndividedMesh place_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                              const PlaneMesherOptions& options, Monitor& monitor) {
+  return mesh(domain, metric, known, options, Improve::no, monitor);
 }
 
 }  // namespace carreau::plane

@@ -20,6 +20,10 @@ struct UndividedMesh {
 UndividedMesh mesh_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                              const PlaneMesherOptions& options, Monitor& monitor);
 
+/// The same before it is improved: swaps and moves are left to the caller.
+UndividedMesh place_undivided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                              const PlaneMesherOptions& options, Monitor& monitor);
+
 /// What a triangulation in a frame is outside of it. The domain's vertices are its own.
 PlaneMesh to_mesh(const PlaneDomain& domain, const Triangulation& triangulation, const Frame& frame);
 

@@ -22,6 +22,9 @@ namespace {
 
 // Empty where separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context) {
+  const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
+  const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
+  if (parts < 2) return {};
   ControlSpace wide = context.metric;
   wide.scale_lengths(1.0 / separator_length);
   const CoarseDomain coarse = make_coarse(context.domain, context.metric, separator_length);
@@ -29,9 +32,9 @@ std::optional<Pieces> cut(const ZoneContext& context) {
   const Field::Known known{.bends = context.known.bends, .triangles = wide.measure()};
   const CoarseMesh mesh =
       make_coarse_mesh(mesh_undivided(coarse.domain, wide, known, options, context.monitor).mesh, context.metric);
-  const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
-  const int parts = static_cast<int>(std::lround(wanted));
+  context.monitor.checkpoint();
   const Partition partition = divide(mesh, coarse, wide, parts);
+  context.monitor.checkpoint();
   if (partition.parts < 2) return {};
   return make_pieces(context.domain, coarse, mesh, partition, context.metric);
 }

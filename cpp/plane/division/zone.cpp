@@ -39,8 +39,11 @@ class ZoneMaker {
  public:
   explicit ZoneMaker(const JoinedPieces& joined) : joined_(joined), shared_(joined.pieces.separator.size(), -1) {}
 
-  Zone run() {
-    for (std::size_t p = 0; p < joined_.meshes.size(); ++p) add_piece(p);
+  Zone run(Monitor& monitor) {
+    for (std::size_t p = 0; p < joined_.meshes.size(); ++p) {
+      monitor.checkpoint();
+      add_piece(p);
+    }
     return std::move(zone_);
   }
 
@@ -105,6 +108,7 @@ void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std
 
 // Vertices of triangles that belong to several bands wait for the second round; the others' bands know all around them.
 std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) {
+  context.monitor.checkpoint();
   std::vector<std::uint8_t> free(zone.vertices.size()), waiting(zone.vertices.size(), 0);
   for (std::size_t t = 0; t < zone.triangles.size(); ++t)
     if (zone.band[t] < 0)
@@ -130,6 +134,7 @@ std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) 
 }
 
 void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting, const ZoneContext& context) {
+  context.monitor.checkpoint();
   std::vector<std::uint8_t> level(zone.vertices.size(), meeting_layers), free(zone.vertices.size(), 0);
   for (std::size_t v = 0; v < level.size(); ++v)
     if (waiting[v] != 0) level[v] = 0;
@@ -179,7 +184,7 @@ JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, c
 }
 
 Zone improved_zone(const JoinedPieces& joined, const ZoneContext& context) {
-  Zone zone = ZoneMaker(joined).run();
+  Zone zone = ZoneMaker(joined).run(context.monitor);
   const std::vector<std::uint8_t> waiting = improve_bands(zone, context);
   improve_meeting_places(zone, waiting, context);
   return zone;
