@@ -345,5 +345,7 @@ inline constexpr int refilled_layers = 3;
 /// Layers of triangles beside a separator that are improved when pieces have been joined, and around places where
 /// several separators meet.
 inline constexpr int zone_layers = 8, meeting_layers = 7;
+/// Share of the triangles that lie in the zone. Domains where it is larger are not divided.
+inline constexpr double most_of_zone = 0.5;
 
 }  // namespace carreau::plane

@@ -20,6 +20,11 @@ namespace carreau::plane {
 
 namespace {
 
+// Whether most of the mesh would be improved once more: in narrow domains separators lie along the middle.
+bool is_mostly_zone(const Pieces& pieces, double triangles) {
+  return 4.0 * zone_layers * static_cast<double>(pieces.separators.size()) > most_of_zone * triangles;
+}
+
 // Empty where separators find no way.
 std::optional<Pieces> cut(const ZoneContext& context) {
   const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
@@ -177,7 +182,7 @@ std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSp
   const ZoneContext context{domain, metric, known, options, monitor};
   try {
     const std::optional<Pieces> pieces = cut(context);
-    if (!pieces) return {};
+    if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};
     const std::vector<UndividedMesh> meshes = mesh_pieces(*pieces, context);
     const JoinedPieces joined = join(*pieces, meshes, context);
     const Zone zone = improved_zone(joined, context);

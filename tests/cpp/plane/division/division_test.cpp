@@ -99,9 +99,9 @@ INSTANTIATE_TEST_SUITE_P(Large, Divided,
                                            Large{"stretched", stretched, 0.005}, Large{"sizes", size_field, 0.25},
                                            Large{"swirl", turning, 0.0055}, Large{"sphere", sphere_two_poles, 0.01},
                                            Large{"squares", two_squares, 0.004}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& of) { return std::string(of.param.name); });
 
-/// So narrow that layers from both sides meet within the layers that are improved around a cut.
+/// So narrow that cuts along its middle would make it a zone as a whole.
 PlaneCase strip(int length, int width) {
   constexpr double h = 1e-3;
   PlaneCase c = flat_square(h);
@@ -119,7 +119,7 @@ PlaneCase strip(int length, int width) {
   return c;
 }
 
-TEST(Division, OfAStrip) {
+TEST(Division, LeavesStripsAlone) {
   const PlaneCase c = strip(20'000, 6);
   const ControlSpace space = control_space(c);
   ASSERT_GT(space.measure(), plane::least_divided);
@@ -127,10 +127,7 @@ TEST(Division, OfAStrip) {
   PlaneMesherOptions options;
   options.threads = 3;
   const PlaneMesh mesh = mesh_plane(c.domain, space, options, monitor);
-  EXPECT_EQ(find_plane_defects(c.domain, mesh), Defects{});
-  EXPECT_GT(measure(c, mesh).degree_six, measure(c, uncut(c.domain, space)).degree_six - 0.002);
-  options.threads = 1;
-  expect_same(mesh, mesh_plane(c.domain, space, options, monitor));
+  expect_same(mesh, uncut(c.domain, space));
 }
 
 /// Asks for a stop at the checkpoint of that rank.
