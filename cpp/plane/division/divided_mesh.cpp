@@ -98,9 +98,9 @@ class Assembly {
   void number_vertices() {
     const Pieces& pieces = joined_.pieces;
     const std::size_t last = count_ - 1;
-    const auto all = static_cast<std::int32_t>(static_cast<std::size_t>(joined_.inside[last]) +
-                                               joined_.meshes[last].mesh.vertices.size() -
-                                               pieces.pieces[last].whole.size());
+    const auto all =
+        static_cast<std::int32_t>(static_cast<std::size_t>(joined_.inside[last]) +
+                                  joined_.meshes[last].mesh.vertices.size() - pieces.pieces[last].whole.size());
     auto next = all - static_cast<std::int32_t>(removed_.size());
     for (std::int32_t& number : added_)
       if (number == 0) number = next++;

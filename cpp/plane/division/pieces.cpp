@@ -139,7 +139,7 @@ class PieceMaker {
   const CoarseMesh& mesh_;
   const Partition& partition_;
   const ControlSpace& unit_;
-  std::map<Ends, std::int32_t> imposed_;   // coarse edges, by their ends
+  std::map<Ends, std::int32_t> imposed_;    // coarse edges, by their ends
   std::map<Ends, std::size_t> separators_;  // by the parts on both sides
   std::map<Ends, std::vector<std::int32_t>> cuts_;
   std::vector<std::int32_t> number_;  // by vertex of the coarse mesh; -1: none yet

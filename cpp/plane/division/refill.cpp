@@ -96,7 +96,8 @@ Refilled refill(const Zone& zone, std::span<const std::int32_t> triangles, std::
   const Void hole(zone, context, replaced, removed);
   try {
     const Field::Known known{.bends = context.known.bends, .triangles = hole.expected};
-    const PlaneMesherOptions options{.frontal = context.options.frontal, .max_triangles = context.options.max_triangles};
+    const PlaneMesherOptions options{.frontal = context.options.frontal,
+                                     .max_triangles = context.options.max_triangles};
     const PlaneMesh mesh = place_undivided(hole.domain, context.metric, known, options, monitor).mesh;
     const std::size_t n = hole.of.size(), next = zone.vertices.size();
     result.added.assign(mesh.vertices.begin() + static_cast<std::ptrdiff_t>(n), mesh.vertices.end());

@@ -29,16 +29,18 @@ struct Zone {
   std::vector<std::uint8_t> fixed;  ///< by vertex: imposed, or on the rim of the zone
   std::vector<std::uint8_t> level;  ///< by vertex: layers from the separators; those that came later: zone_layers
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<std::int32_t> band;   ///< by triangle: the separator that it belongs to; Pieces::several: several
+  std::vector<std::int32_t> band;  ///< by triangle: the separator that it belongs to; Pieces::several: several
 };
 
-/// The whole mesh before its zone is improved: vertices of the domain, those of separators, then those inside of pieces.
+/// The whole mesh before its zone is improved: vertices of the domain, those of separators, then those inside of
+/// pieces.
 struct JoinedPieces {
   const Pieces& pieces;
   std::span<const UndividedMesh> meshes;
-  std::vector<std::int32_t> inside;             ///< by piece: its first vertex inside
-  std::vector<std::vector<std::uint8_t>> level;  ///< by piece and vertex: layers from the separators, zone_layers at most
-  std::vector<std::vector<std::int32_t>> band;   ///< the same: the separator, Pieces::several or none
+  std::vector<std::int32_t> inside;  ///< by piece: its first vertex inside
+  std::vector<std::vector<std::uint8_t>>
+      level;  ///< by piece and vertex: layers from the separators, zone_layers at most
+  std::vector<std::vector<std::int32_t>> band;  ///< the same: the separator, Pieces::several or none
 
   [[nodiscard]] std::int32_t whole(std::size_t piece, std::int32_t v) const noexcept {
     const std::vector<std::int32_t>& shared = pieces.pieces[piece].whole;

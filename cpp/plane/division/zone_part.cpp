@@ -45,9 +45,9 @@ class PartOfZone {
     of_.erase(std::unique(of_.begin(), of_.end()), of_.end());
     const auto stays = [&](std::int32_t v) { return static_cast<std::size_t>(v) < free.size() && free[v] == 0; };
     fixed = static_cast<int>(std::stable_partition(of_.begin(), of_.end(), stays) - of_.begin());
-    of_zone = static_cast<std::size_t>(std::lower_bound(of_.begin() + fixed, of_.end(),
-                                                        static_cast<std::int32_t>(zone_.vertices.size())) -
-                                       of_.begin());
+    of_zone = static_cast<std::size_t>(
+        std::lower_bound(of_.begin() + fixed, of_.end(), static_cast<std::int32_t>(zone_.vertices.size())) -
+        of_.begin());
   }
 
   void add_triangles(const Refilled& refilled) {
@@ -129,9 +129,7 @@ ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles
   const auto base = static_cast<std::int32_t>(zone.vertices.size() - n);
   for (std::size_t v = n; v < part.mesh.vertices.size(); ++v)
     result.added.push_back(frame.outward(part.mesh.at(static_cast<int>(v))));
-  const auto number = [&](std::int32_t v) {
-    return static_cast<std::size_t>(v) < n ? part.of()[v] : base + v;
-  };
+  const auto number = [&](std::int32_t v) { return static_cast<std::size_t>(v) < n ? part.of()[v] : base + v; };
   for (const Triangle& T : part.mesh.triangles)
     if (T.v[0] >= 0) result.triangles.push_back({number(T.v[0]), number(T.v[1]), number(T.v[2])});
   return result;

@@ -15,7 +15,7 @@ namespace carreau::plane {
 struct ZonePart {
   std::vector<std::int32_t> moved;  ///< vertices that may have
   std::vector<Vec2> to;
-  std::vector<Vec2> added;          ///< vertices; numbered from the number of the zone's on
+  std::vector<Vec2> added;  ///< vertices; numbered from the number of the zone's on
   std::vector<std::array<std::int32_t, 3>> triangles;
 };
 
