@@ -173,7 +173,7 @@ class Assembly {
 }  // namespace
 
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
-  return known.triangles >= least_divided && !options.squares && options.undersampled.empty();
+  return divides_large_domains && known.triangles >= least_divided && !options.squares && options.undersampled.empty();
 }
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,

@@ -107,6 +107,7 @@ class PieceMaker {
     for (int k = 0; k < samples; ++k)
       upto[k + 1] = upto[k] + length(unit_.at(lerp(p, q, (k + 0.5) / samples)), q - p) / samples;
     const int edges = std::max(1, static_cast<int>(std::lround(upto[samples])));
+    points.reserve(static_cast<std::size_t>(edges) + 1);
     points.push_back(number_of(a));
     for (int j = 1, k = 0; j < edges; ++j) {
       const double at = upto[samples] * j / edges;

@@ -21,16 +21,17 @@ class Void {
        const std::vector<std::uint8_t>& removed)
       : zone_(zone), context_(context), local_(zone.vertices.size(), -1) {
     find_imposed();
-    std::unordered_map<std::int64_t, int> sides;
+    std::vector<std::int64_t> sides;
     for (const auto& t : triangles) {
       add_expected(t);
-      for (int i = 0; i < 3; ++i) ++sides[key(t[i], t[next3[i]])];
+      for (int i = 0; i < 3; ++i) sides.push_back(key(t[i], t[next3[i]]));
     }
+    std::sort(sides.begin(), sides.end());
     for (const auto& t : triangles)
       for (int i = 0; i < 3; ++i) {
         const std::int32_t a = t[i], b = t[next3[i]];
         if (removed[a] == 0) number(a);
-        const bool rim = !sides.contains(key(b, a));
+        const bool rim = !std::binary_search(sides.begin(), sides.end(), key(b, a));
         if (rim)
           add_edge(a, b, PlaneEdgeKind::boundary);
         else if (a < b && is_imposed(a, b))
