@@ -15,11 +15,12 @@
 namespace command {
 namespace {
 
-carreau_quality quality_of(carreau_mesh* mesh) {
+const carreau_quality& quality_of(const MeshRun& run) {
+  if (run.quality) return *run.quality;
   carreau_quality q{};
   q.struct_size = sizeof q;
-  require(mesh, carreau_mesh_quality(mesh, &q));
-  return q;
+  require(run.mesh, carreau_mesh_quality(run.mesh, &q));
+  return run.quality.emplace(q);
 }
 
 std::int32_t threads_of(carreau_session* session) {
@@ -202,7 +203,7 @@ std::string lost_entities(const CadInput& input) {
 }
 
 std::string unexpectedly_open(const MeshRun& run) {
-  const std::int64_t edges = quality_of(run.mesh).open_edges;
+  const std::int64_t edges = quality_of(run).open_edges;
   if (edges == 0 || count(run.faces, CARREAU_FACE_FAILED) > 0) return "";
   const Gluing gluing = gluing_of(run.input, interfaces_of(run.session));
   if (!run.input.closed() && gluing.glued == 0) return "";
@@ -213,7 +214,7 @@ std::string unexpectedly_open(const MeshRun& run) {
 }
 
 std::vector<std::string> summary_lines(const MeshRun& run) {
-  const carreau_quality q = quality_of(run.mesh);
+  const carreau_quality& q = quality_of(run);
   const carreau_report r = report_of(run.session);
   const std::vector<carreau_interface> interfaces = interfaces_of(run.session);
   const auto of = [&](std::int32_t status) { return whole(count(run.faces, status)); };
@@ -240,7 +241,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
 
 nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
   const carreau_report r = report_of(run.session);
-  const carreau_quality q = quality_of(run.mesh);
+  const carreau_quality& q = quality_of(run);
   const ShortEdges& short_edges = run.short_edges;
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
   for (const FaceResult& face : run.faces)

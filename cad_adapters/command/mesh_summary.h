@@ -5,6 +5,7 @@
 #include <carreau.h>
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct MeshRun {
   std::vector<std::string> warnings = {};
   ShortEdges short_edges = {};
   Crossings crossings = {};
+  mutable std::optional<carreau_quality> quality = {};  ///< of the mesh; empty: nobody has asked yet
 };
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.

@@ -47,7 +47,10 @@ ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh) {
       const std::pair<std::int32_t, std::int32_t> edge = std::minmax(triangles[i][c], triangles[i][(c + 1) % 3]);
       const auto& p = xyz[static_cast<std::size_t>(edge.first)];
       const auto& q = xyz[static_cast<std::size_t>(edge.second)];
-      const double length = std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+      // Beyond doubt, which most are: a distance that cannot overflow costs ten times as much.
+      const double dx = q[0] - p[0], dy = q[1] - p[1], dz = q[2] - p[2];
+      if (dx * dx + dy * dy + dz * dz > 1.001 * limit * limit) continue;
+      const double length = std::hypot(dx, dy, dz);
       if (length >= limit) continue;
       edges.push_back(edge);
       faces.insert(refs[i]);

@@ -9,6 +9,7 @@
 #include "cad/cad.h"
 #include "support/monitor.h"
 #include "support/pieces.h"
+#include "support/stepped_tasks.h"
 
 namespace carreau {
 
@@ -26,6 +27,24 @@ void for_batches(Cad& cad, int face, unsigned want, std::span<const Vec2> uv, Mo
     cad.surface(face, want, uv.subspan(first, n), here);
     use(first, uv.subspan(first, n), std::span<const SurfaceJet>(here));
   });
+}
+
+/// The same on up to `threads` threads, which may ask the host: batches come in any order, several at a time. What is
+/// thrown is that of the first batch that throws.
+template <typename Use>
+void for_batches(Cad& cad, int face, unsigned want, std::span<const Vec2> uv, int threads, Monitor& monitor,
+                 const Use& use) {
+  constexpr std::size_t at_once = 16 * points_at_once;
+  run_each(
+      (uv.size() + at_once - 1) / at_once, false, threads,
+      [&](std::size_t k, Monitor& of_part) {
+        const std::size_t begin = k * at_once, n = std::min(at_once, uv.size() - begin);
+        for_batches(cad, face, want, uv.subspan(begin, n), of_part,
+                    [&](std::size_t first, std::span<const Vec2> here, std::span<const SurfaceJet> jets) {
+                      use(begin + first, here, jets);
+                    });
+      },
+      monitor);
 }
 
 }  // namespace carreau

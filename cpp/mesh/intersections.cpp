@@ -154,20 +154,33 @@ Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t
 }
 
 SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                               Monitor& monitor) {
-  SoundTriangles sound;
+                               int threads, Monitor& monitor) {
   const auto usable = [&](std::int32_t v) {
     return v >= 0 && static_cast<std::size_t>(v) < vertices.size() && is_finite(vertices[static_cast<std::size_t>(v)]);
   };
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (i % 65536 == 0) monitor.checkpoint();
-    const auto& t = triangles[i];
-    if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
-    const int axis = axis_of(corners_of(vertices, t));
-    if (axis == no_axis) continue;
-    sound.corners.push_back(t);
-    sound.number.push_back(static_cast<std::int32_t>(i));
-    sound.axis.push_back(axis);
+  constexpr std::size_t at_once = 16384;
+  std::vector<SoundTriangles> parts((triangles.size() + at_once - 1) / at_once);
+  run_each(
+      parts.size(), false, threads,
+      [&](std::size_t part, Monitor&) {
+        SoundTriangles& some = parts[part];
+        for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i) {
+          const auto& t = triangles[i];
+          if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
+          const int axis = axis_of(corners_of(vertices, t));
+          if (axis == no_axis) continue;
+          some.corners.push_back(t);
+          some.number.push_back(static_cast<std::int32_t>(i));
+          some.axis.push_back(axis);
+        }
+      },
+      monitor);
+  SoundTriangles sound;
+  sound.corners.reserve(triangles.size()), sound.number.reserve(triangles.size()), sound.axis.reserve(triangles.size());
+  for (const SoundTriangles& some : parts) {
+    sound.corners.insert(sound.corners.end(), some.corners.begin(), some.corners.end());
+    sound.number.insert(sound.number.end(), some.number.begin(), some.number.end());
+    sound.axis.insert(sound.axis.end(), some.axis.begin(), some.axis.end());
   }
   return sound;
 }
@@ -217,8 +230,8 @@ bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexce
 
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor) {
-  const SoundTriangles sound = sound_triangles(vertices, triangles, monitor);
-  const TriangleSearch search(vertices, sound.corners, &monitor);
+  const SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
+  const TriangleSearch search(vertices, sound.corners, &monitor, options.threads);
   constexpr std::size_t block_size = 512;
   const std::size_t n = sound.corners.size(), blocks = (n + block_size - 1) / block_size;
   std::vector<Intersections> of_block(blocks);

@@ -61,25 +61,40 @@ struct Part {
   }
 };
 
-/// The edges of all triangles, each once for each triangle, sorted by their smaller vertex.
+/// The edges of all triangles, each once for each triangle, by their smaller vertex; those of one vertex in any order.
 struct EdgesByVertex {
   std::vector<std::size_t> start;   ///< those of vertex v are others[start[v] .. start[v + 1] - 1]
   std::vector<std::int32_t> others; ///< their larger vertices
 
-  explicit EdgesByVertex(const FlatMesh& mesh) : start(mesh.vertices.size() + 1, 0), others(3 * mesh.triangles.size()) {
-    for_each_side(mesh, [&](std::int32_t low, std::int32_t) { ++start[static_cast<std::size_t>(low) + 1]; });
+  EdgesByVertex(const FlatMesh& mesh, int threads)
+      : start(mesh.vertices.size() + 1, 0), others(3 * mesh.triangles.size()) {
+    // Atomic sums take their time even where there is only one thread.
+    const auto raise = [&](std::int32_t v, std::size_t by) {
+      std::size_t& x = start[static_cast<std::size_t>(v)];
+      return threads > 1 ? std::atomic_ref(x).fetch_add(by, std::memory_order_relaxed) : std::exchange(x, x + by);
+    };
+    for_each_side(mesh, threads, [&](std::int32_t low, std::int32_t) { raise(low, 1); });
     std::partial_sum(start.begin(), start.end(), start.begin());
-    std::vector<std::size_t> next(start.begin(), start.end() - 1);
-    for_each_side(mesh, [&](std::int32_t low, std::int32_t high) { others[next[static_cast<std::size_t>(low)]++] = high; });
+    // From the ends back: in the end they are where each vertex starts.
+    constexpr std::size_t one_less = static_cast<std::size_t>(-1);
+    for_each_side(mesh, threads,
+                  [&](std::int32_t low, std::int32_t high) { others[raise(low, one_less) - 1] = high; });
   }
 
   template <typename Use>
-  static void for_each_side(const FlatMesh& mesh, const Use& use) {
-    for (const auto& t : mesh.triangles)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
-        use(low, high);
-      }
+  static void for_each_side(const FlatMesh& mesh, int threads, const Use& use) {
+    Monitor silent;
+    run_each(
+        (mesh.triangles.size() + part_size - 1) / part_size, false, threads,
+        [&](std::size_t part, Monitor&) {
+          const std::size_t end = std::min((part + 1) * part_size, mesh.triangles.size());
+          for (std::size_t t = part * part_size; t < end; ++t)
+            for (std::size_t i = 0; i < 3; ++i) {
+              const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
+              use(low, high);
+            }
+        },
+        silent);
   }
 };
 
@@ -130,7 +145,7 @@ void measure_edges_of(const FlatMesh& mesh, EdgesByVertex& edges, std::size_t v,
 
 void measure_edges(const FlatMesh& mesh, int threads, QualitySummary& summary) {
   const std::size_t n = mesh.vertices.size();
-  EdgesByVertex edges(mesh);
+  EdgesByVertex edges(mesh, threads);
   Degrees degrees{std::vector<std::int32_t>(n, 0), std::vector<std::int32_t>(n, 0)};
   std::vector<EdgeLengths> parts((n + part_size - 1) / part_size);
   Monitor silent;

@@ -6,6 +6,7 @@
 
 #include "support/infinity.h"
 #include "support/segment.h"
+#include "support/stepped_tasks.h"
 
 namespace carreau {
 
@@ -77,17 +78,24 @@ NearestOnMesh nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corn
 }
 
 TriangleSearch::TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                               Monitor* monitor) {
-  std::vector<Box> boxes;
-  std::vector<Vec3> centres;
-  for (const auto& t : triangles) {
-    corners_.push_back({vertices[static_cast<std::size_t>(t[0])], vertices[static_cast<std::size_t>(t[1])],
-                        vertices[static_cast<std::size_t>(t[2])]});
-    const auto& c = corners_.back();
-    boxes.push_back(box_of(c));
-    centres.push_back((1.0 / 3) * (c[0] + c[1] + c[2]));
-  }
-  tree_ = BoxTree(boxes, centres, monitor);
+                               Monitor* monitor, int threads)
+    : corners_(triangles.size()) {
+  constexpr std::size_t at_once = 16384;
+  std::vector<Box> boxes(triangles.size());
+  std::vector<Vec3> centres(triangles.size());
+  Monitor silent;
+  run_each(
+      (triangles.size() + at_once - 1) / at_once, false, threads,
+      [&](std::size_t part, Monitor&) {
+        for (std::size_t k = part * at_once; k < std::min((part + 1) * at_once, triangles.size()); ++k) {
+          auto& c = corners_[k];
+          for (std::size_t i = 0; i < 3; ++i) c[i] = vertices[static_cast<std::size_t>(triangles[k][i])];
+          boxes[k] = box_of(c);
+          centres[k] = (1.0 / 3) * (c[0] + c[1] + c[2]);
+        }
+      },
+      monitor != nullptr ? *monitor : silent);
+  tree_ = BoxTree(boxes, centres, monitor, threads);
 }
 
 /// `distance` of best is squared here.

@@ -30,9 +30,9 @@ class TriangleSearch {
  public:
   TriangleSearch() = default;
   /// Indices lie in range, coordinates are finite. Flat triangles are segments or points. Throws Cancelled soon after
-  /// `monitor` was asked to stop; it may be null.
+  /// `monitor` was asked to stop; it may be null. The same for any number of threads.
   TriangleSearch(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                 Monitor* monitor = nullptr);
+                 Monitor* monitor = nullptr, int threads = 1);
 
   [[nodiscard]] bool empty() const noexcept { return tree_.empty(); }
   /// The nearest point; of triangles equally near, the one of the lowest index. `guess`, any triangle (one found

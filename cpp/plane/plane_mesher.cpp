@@ -1,81 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plane/plane_mesher.h"
 
-#include <algorithm>
+#include <utility>
 
+#include "plane/division/divided_mesh.h"
 #include "plane/kernel/boundary.h"
-#include "plane/optimise/local_search.h"
-#include "plane/optimise/optimise.h"
-#include "plane/placement/advancing_front.h"
-#include "plane/placement/algebraic.h"
-#include "plane/placement/degenerate_sides.h"
-#include "plane/placement/squares.h"
-#include "plane/placement/undersampled_regions.h"
+#include "plane/undivided.h"
 
 namespace carreau {
 
-namespace {
-
-// The imposed vertices get the host's own numbers back: the frame's are equal, but for the smallest.
-PlaneMesh to_mesh(const PlaneDomain& domain, const plane::Triangulation& triangulation, const plane::Frame& frame) {
-  PlaneMesh mesh;
-  mesh.vertices.reserve(triangulation.vertices.size());
-  for (const Vec2& p : domain.vertices) mesh.vertices.push_back(p);
-  std::vector<std::int32_t> shifted;  // numbers of the vertices from the first one that was removed
-  std::size_t first_removed = triangulation.vertices.size();
-  for (std::size_t v = domain.vertices.size(); v < triangulation.vertices.size(); ++v) {
-    const plane::Vertex& P = triangulation.vertices[v];
-    if (P.triangle < 0) first_removed = std::min(first_removed, v);
-    if (v >= first_removed) shifted.push_back(static_cast<std::int32_t>(mesh.vertices.size()));
-    if (P.triangle >= 0) mesh.vertices.push_back(frame.outward(P.point()));
-  }
-  mesh.triangles.reserve(triangulation.triangles.size());
-  for (const plane::Triangle& t : triangulation.triangles) {
-    if (t.v[0] < 0) continue;
-    mesh.triangles.push_back({t.v[0], t.v[1], t.v[2]});
-    if (shifted.empty()) continue;
-    for (std::int32_t& v : mesh.triangles.back())
-      if (static_cast<std::size_t>(v) >= first_removed) v = shifted[static_cast<std::size_t>(v) - first_removed];
-  }
-  return mesh;
-}
-
-void place_points(plane::PlaneWork& work, const PlaneDomain& domain, const plane::Frame& frame,
-                  const PlaneMesherOptions& options) {
-  plane::Placement placement(work, options.max_triangles);
-  surround_degenerate_sides(placement, domain);
-  work.fixed = static_cast<int>(work.mesh.vertices.size());
-  if (options.squares) place_squares(placement);
-  const auto fill = [&] { options.frontal ? advance_front(placement) : split_long_edges(placement); };
-  if (!options.squares) fill();
-  bool seeded = false;
-  for (const std::vector<Vec2>& places : options.undersampled)
-    seeded =
-        std::any_of(places.begin(), places.end(), [&](Vec2 p) { return seed_region(placement, frame.inward(p)); }) ||
-        seeded;
-  if (seeded) fill();
-}
-
-}  // namespace
-
 PlaneMesh mesh_plane(const PlaneDomain& domain, const ControlSpace& metric, const PlaneMesherOptions& options,
                      Monitor& monitor) {
-  plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
-  const plane::Field field(metric, boundary.frame, options.frontal);
-  plane::PlaneWork work{boundary.mesh, field, monitor};
-  place_points(work, domain, boundary.frame, options);
-  boundary.mesh.renumber_if_large();
-  if (options.squares)
-    plane::mend_squares(work);
-  else
-    plane::optimise(work);
-  if (options.shape_trials && !options.squares) plane::search_around_bad_triangles(work, options.normals);
-  return to_mesh(domain, boundary.mesh, boundary.frame);
+  const plane::Field::Known known{.bends = options.frontal && plane::Field::may_bend(metric),
+                                  .triangles = metric.measure()};
+  if (plane::is_worth_dividing(known, options))
+    if (auto mesh = plane::mesh_divided(domain, metric, known, options, monitor)) return std::move(*mesh);
+  return plane::mesh_undivided(domain, metric, known, options, monitor).mesh;
 }
 
 PlaneMesh triangulate_domain(const PlaneDomain& domain, Monitor& monitor) {
   const plane::BoundaryMesh boundary = plane::triangulate_boundary(domain, monitor);
-  return to_mesh(domain, boundary.mesh, boundary.frame);
+  return plane::to_mesh(domain, boundary.mesh, boundary.frame);
 }
 
 }  // namespace carreau

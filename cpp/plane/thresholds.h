@@ -325,4 +325,29 @@ inline constexpr double least_cross = 0.7;
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
 
+// Division of large domains (division)
+/// Triangles. Of a piece, about.
+inline constexpr double triangles_a_piece = 90'000;
+/// Pieces reach from the border to where layers meet: more of them would become narrow.
+inline constexpr double most_sectors = 64;
+/// Off until a divided domain of a million triangles takes fewer than 10 000 allocations (memory_test): it takes 22 000.
+inline constexpr bool divides_large_domains = false;
+/// Triangles. Smaller domains are not divided.
+inline constexpr double least_divided = 200'000;
+/// Units. Of the edges of the coarse mesh, on which separators lie.
+inline constexpr int separator_length = 8;
+/// Radians. Turn of the boundary over one coarse edge.
+inline constexpr double most_coarse_turn = 0.45;
+/// Squared coarse units, and Q2. Separators do not pass along triangles that are worse.
+inline constexpr double shortest_coarse2 = 0.16, least_coarse_quality = 0.5;
+/// Coarse triangles between degenerate sides and separators.
+inline constexpr int rings_at_degenerate_sides = 2;
+/// Layers of vertices on each side of a separator, itself among them, whose points are placed anew.
+inline constexpr int refilled_layers = 3;
+/// Layers of triangles beside a separator that are improved when pieces have been joined, and around places where
+/// several separators meet.
+inline constexpr int zone_layers = 8, meeting_layers = 7;
+/// Share of the triangles that lie in the zone. Domains where it is larger are not divided.
+inline constexpr double most_of_zone = 0.5;
+
 }  // namespace carreau::plane

@@ -40,8 +40,9 @@ class BoxTree {
 
   BoxTree() = default;
   /// `boxes`: of the things, without NaN. `centres`: they are halved at medians of these along the longest sides of
-  /// their boxes, equal ones by number. Throws Cancelled soon after `monitor` was asked to stop; it may be null.
-  BoxTree(std::span<const Box> boxes, std::span<const Vec3> centres, Monitor* monitor = nullptr);
+  /// their boxes, equal ones by number. Throws Cancelled soon after `monitor` was asked to stop; it may be null. The same
+  /// for any number of threads.
+  BoxTree(std::span<const Box> boxes, std::span<const Vec3> centres, Monitor* monitor = nullptr, int threads = 1);
 
   [[nodiscard]] bool empty() const noexcept { return order_.empty(); }
   /// Things leaf by leaf: those of each node follow each other.

@@ -144,7 +144,8 @@ void FaceJob::mesh(Monitor& monitor) {
                              .shape_trials = options_.shape_trials,
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = options_.max_triangles,
-                             .undersampled = undersampled_},
+                             .undersampled = undersampled_,
+                             .threads = options_.threads},
                             monitor);
   next_ = Step::lift;
 }

@@ -55,6 +55,8 @@ struct PatchInput {
   double slope = 0;
   /// Largest relative error of lengths in the control space.
   double tolerance = ControlSpaceOptions{}.tolerance;
+  int threads = 1;       ///< at work on this patch; nothing depends on it
+  int host_threads = 1;  ///< those of them that may ask the host
 };
 
 /// The boundary of a domain.

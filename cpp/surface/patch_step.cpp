@@ -74,7 +74,9 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
           .constant_size = bound.want_places() ? std::nullopt : run.rules.constant(),
           .isotropic = !run.rules.uses_metrics(),
           .limits = bound,
-          .slope = run.slope()};
+          .slope = run.slope(),
+          .threads = run.options.threads,
+          .host_threads = asks_from_threads(run.options, run.cad) ? run.options.threads : 1};
 }
 
 void keep_patch(PatchJobs& work, std::size_t f, FaceOutcome& outcome) {

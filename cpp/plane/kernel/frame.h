@@ -21,15 +21,24 @@ struct Frame {
 /// The control space as seen from the frame.
 class Field {
  public:
-  /// `charts` false: it is taken for one that does not bend. Points amid long edges, where no layers lead, come from both
-  /// ends of an arc, and folded charts do not see that they meet.
-  Field(const ControlSpace& space, const Frame& frame, bool charts = true) noexcept
+  /// What is known of a field beforehand.
+  struct Known {
+    /// There may be places where it does. False without layers: points amid long edges, where these do not lead, come from
+    /// both ends of an arc, and folded charts do not see that they meet.
+    bool bends;
+    double triangles;  ///< of unit edges that the domain holds, which may be a part of that of the space
+  };
+  Field(const ControlSpace& space, const Frame& frame, Known known) noexcept
       : space_(space),
         unscale_(frame.unscale),
         aa_(unscale_.x() * unscale_.x()),
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
-        bends_(charts && space.measure() >= fewest_for_charts && space.largest_bend() > least_bend) {}
+        known_(known) {}
+  /// Whether charts serve anywhere in the domain of the space. Looks at all of it.
+  [[nodiscard]] static bool may_bend(const ControlSpace& space) noexcept {
+    return space.measure() >= fewest_for_charts && space.largest_bend() > least_bend;
+  }
 
   [[nodiscard]] Metric2 at(const Vec2& p) const noexcept {
     const Metric2 m = space_.at({p.x() * unscale_.x(), p.y() * unscale_.y()});
@@ -51,17 +60,17 @@ class Field {
   /// Parameters of the host.
   [[nodiscard]] Vec2 outward(const Vec2& p) const noexcept { return {p.x() * unscale_.x(), p.y() * unscale_.y()}; }
   /// Whether there may be places where it bends.
-  [[nodiscard]] bool bends() const noexcept { return bends_; }
+  [[nodiscard]] bool bends() const noexcept { return known_.bends; }
   /// About the origin of `chart`, which was made of `slopes` (shapes.cpp).
   [[nodiscard]] Bend bend(const MetricSlopes& slopes, const Chart& chart) const noexcept;
   /// Expected number of triangles.
-  [[nodiscard]] double measure() const noexcept { return space_.measure(); }
+  [[nodiscard]] double measure() const noexcept { return known_.triangles; }
 
  private:
   const ControlSpace& space_;
   Vec2 unscale_;
   double aa_, ab_, bb_;
-  bool bends_;
+  Known known_;
 };
 
 }  // namespace carreau::plane

@@ -50,7 +50,7 @@ double Shapes::change(int t) const noexcept {
   return high / std::max(low, 1e-300);
 }
 
-Sizes Shapes::classify() const noexcept {
+Sizes Shapes::classify(std::size_t whole) const noexcept {
   const std::size_t n = mesh_.triangles.size(), step = std::max<std::size_t>(1, n / classified_sample);
   std::size_t looked = 0, graded = 0, rough = 0;
   for (std::size_t t = 0; t < n; t += step, ++looked) {
@@ -59,7 +59,7 @@ Sizes Shapes::classify() const noexcept {
     rough += by > rough_change ? 1 : 0;
   }
   const auto all = static_cast<double>(looked);
-  if (n < fewest_for_lattice || static_cast<double>(rough) > rough_share * all) return Sizes::rough;
+  if (std::max(n, whole) < fewest_for_lattice || static_cast<double>(rough) > rough_share * all) return Sizes::rough;
   return static_cast<double>(graded) > graded_share * all ? Sizes::graded : Sizes::even;
 }
 

@@ -3,6 +3,7 @@
 // lengths in the tensors halfway, and in charts.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "plane/kernel/frame.h"
@@ -66,8 +67,9 @@ class Shapes {
   [[nodiscard]] double squared_radius(int t) const noexcept;
   /// Largest over smallest determinant of the tensors at the vertices: 1.3 is 7 % of the size, 4 is 40 %.
   [[nodiscard]] double change(int t) const noexcept;
-  /// By the change of sizes over a sample of the triangles.
-  [[nodiscard]] Sizes classify() const noexcept;
+  /// By the change of sizes over a sample of the triangles. `whole`: those of the mesh of which this is a part, if it is
+  /// more.
+  [[nodiscard]] Sizes classify(std::size_t whole = 0) const noexcept;
   /// Q2 (HDR eq. 1.6); 0 unless counterclockwise (exactly).
   [[nodiscard]] double quality(int p, int q, int r) const noexcept;
   /// Q2 in the tensor at the centroid: where sizes or the parametrisation change much over a triangle, its shape in

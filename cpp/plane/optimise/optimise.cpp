@@ -24,12 +24,12 @@ constexpr double spread[] = {1, 2.5, 1.4, 0.7}, once[] = {1};
 
 }  // namespace
 
-void optimise(PlaneWork& work) {
+void optimise(PlaneWork& work, std::size_t whole) {
   swap_to_delaunay(work);
   Degrees degrees = count_degrees(work);
   swap_to_degree_six(work, degrees);
   SmoothingArrays arrays;
-  const Sizes sizes = work.shapes.classify();
+  const Sizes sizes = work.shapes.classify(whole);
   if (sizes == Sizes::rough) {
     const SmoothingAim aim{.pull = 0, .by_size = false};
     smooth(work, arrays, far_first, aim);

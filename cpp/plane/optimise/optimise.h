@@ -2,12 +2,15 @@
 // Swaps and moves that make triangles equilateral in the metric, and degrees six.
 #pragma once
 
+#include <cstddef>
+
 #include "plane/kernel/plane_work.h"
 
 namespace carreau::plane {
 
-/// Leaves removed triangles without vertices (-1) and removed vertices without a triangle.
-void optimise(PlaneWork& work);
+/// Leaves removed triangles without vertices (-1) and removed vertices without a triangle. `whole`: triangles of the mesh
+/// of which this is a part, if it is more.
+void optimise(PlaneWork& work, std::size_t whole = 0);
 
 /// After place_squares(): what the other passes look for is equilateral, and halves of squares are not. Flat triangles
 /// are raised.

@@ -17,6 +17,7 @@ bool ends_at(const Triangulation& mesh, const Triangle& T, int i) {
 
 void Front::find(const Placement& placement) {
   const Triangulation& mesh = placement.mesh;
+  resting = placement.resting;
   clear(mesh);
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) visit(mesh, t);
   connect(mesh);
@@ -59,6 +60,8 @@ void Front::add(const Triangulation& mesh, HalfEdge he) {
   const int i = he & 3;
   if ((T.degenerate >> i & 1) != 0) return;
   const std::int32_t a = T.v[next3[i]], b = T.v[prev3[i]];
+  const auto rests = [&](std::int32_t v) { return static_cast<std::size_t>(v) < resting.size() && resting[v] != 0; };
+  if (rests(a) || rests(b)) return;
   const auto id = static_cast<std::int32_t>(edges.size());
   if (leaving[a] == none) {
     leaving[a] = id;

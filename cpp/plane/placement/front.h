@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "plane/placement/insertion.h"
@@ -20,6 +21,7 @@ struct Front {
   std::vector<FrontEdge> edges;
   std::vector<std::int32_t> leaving;  ///< edge by the vertex it leaves; -1 none, -2 several
   std::vector<std::int32_t> several;  ///< edges that leave such vertices
+  std::span<const std::uint8_t> resting;
 
   /// Of the whole mesh; a degenerate side is none of it, since no layer starts at a point of space.
   void find(const Placement& placement);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "plane/kernel/plane_work.h"
@@ -34,6 +35,7 @@ struct Placement {
   std::int64_t max_triangles;
   std::vector<DegenerateSide> degenerate;
   std::vector<std::int32_t> degenerate_ends;  ///< keep no distance to new points (the edge does, as a whole)
+  std::span<const std::uint8_t> resting;      ///< PlaneMesherOptions::resting
   std::vector<std::int32_t> touched;          ///< triangles made since a pass has cleared this
   long ticks = 0;
 };

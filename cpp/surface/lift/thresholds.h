@@ -26,7 +26,7 @@ inline constexpr double one_point = 1e-6;
 /// SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t most_places = 500;
 /// Triangles. Between two looks at the monitor. [tests/cpp/measure: stops; time only]
-inline constexpr std::size_t triangles_between_checks = 1 << 16;
+inline constexpr std::size_t triangles_a_part = 1 << 14;
 
 // Steep places of space (steep_places)
 /// Steps. Of Gauss and Newton from the nearest point of the mesh to that of the surface; they are of second order.

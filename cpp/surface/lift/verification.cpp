@@ -9,6 +9,7 @@
 #include "cad/fundamental_forms.h"
 #include "predicates/polygon_locator.h"
 #include "support/format.h"
+#include "support/stepped_tasks.h"
 #include "surface/lift/thresholds.h"
 #include "surface/sample/face_metric.h"
 
@@ -70,15 +71,23 @@ class LiftCheck {
     if (!agree(ratios, input_)) places_.push_back(p);
   }
 
-  /// Calls `use(a, b)` for each edge that is not on the border, once. Both sides of an internal edge count as one.
+  [[nodiscard]] std::size_t parts() const {
+    return (mesh_.plane.triangles.size() + triangles_a_part - 1) / triangles_a_part;
+  }
+  /// Calls `use(a, b)` for each edge of a part of the triangles that is not on the border, once. Both sides of an internal
+  /// edge count as one.
   template <typename Use>
-  void for_inner_edges(const Use& use) {
-    std::size_t done = 0;
-    for (const auto& t : mesh_.plane.triangles) {
-      if (++done % triangles_between_checks == 0) monitor_.checkpoint();
+  void for_edges(std::size_t part, const Use& use) const {
+    const auto& triangles = mesh_.plane.triangles;
+    const std::size_t end = std::min((part + 1) * triangles_a_part, triangles.size());
+    for (std::size_t k = part * triangles_a_part; k < end; ++k)
       for (int i = 0; i < 3; ++i)
-        if (t[i] < t[i == 2 ? 0 : i + 1]) use(t[i], t[i == 2 ? 0 : i + 1]);
-    }
+        if (const std::int32_t a = triangles[k][i], b = triangles[k][i == 2 ? 0 : i + 1]; a < b) use(a, b);
+  }
+  /// Calls work(part) for all parts, on several threads.
+  template <typename Work>
+  void for_parts(const Work& work) {
+    run_each(parts(), false, input_.threads, [&](std::size_t part, Monitor&) { work(part); }, monitor_);
   }
   [[nodiscard]] double squared_promise(int a, int b) const {
     const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
@@ -89,13 +98,22 @@ class LiftCheck {
   // The size that the control space prescribes at a vertex: length in space over metric length, averaged over its
   // edges. Spends no callback; exact where the sampled first fundamental form is.
   void compare_lengths() {
-    std::vector<double> of_space(mesh_.xyz.size(), 0), of_metric(mesh_.xyz.size(), 0);
-    for_inner_edges([&](int a, int b) {
-      const double l = in_space(a, b), m = std::sqrt(squared_promise(a, b));
-      of_space[a] += l, of_space[b] += l;
-      of_metric[a] += m, of_metric[b] += m;
-      promised_.push_back(static_cast<float>(m));
+    promised_.resize(parts());
+    for_parts([&](std::size_t part) {
+      promised_[part].reserve(3 * triangles_a_part / 2 + 1);
+      for_edges(part, [&](int a, int b) { promised_[part].push_back(std::sqrt(squared_promise(a, b))); });
     });
+    // One after the other: sums have one order.
+    std::vector<double> of_space(mesh_.xyz.size(), 0), of_metric(mesh_.xyz.size(), 0);
+    for (std::size_t part = 0; part < parts(); ++part) {
+      monitor_.checkpoint();
+      const double* promised = promised_[part].data();
+      for_edges(part, [&](int a, int b) {
+        const double l = in_space(a, b), m = *promised++;
+        of_space[a] += l, of_space[b] += l;
+        of_metric[a] += m, of_metric[b] += m;
+      });
+    }
     mesh_.size.resize(mesh_.xyz.size());
     for (std::size_t v = 0; v < mesh_.size.size(); ++v) {
       const bool known = v < input_.domain->size.size() && input_.domain->size[v] > 0;
@@ -135,22 +153,28 @@ class LiftCheck {
       at_apex.resize(domain.vertices.size(), 0);
       at_apex[e.a] = at_apex[e.b] = 1;
     }
-    std::size_t rank = 0;
-    for_inner_edges([&](int a, int b) {
-      const double promised = promised_.empty() ? 0 : promised_[rank++];
-      // Between two imposed vertices the domain decides; at a degenerate side the metric is clamped.
-      if (static_cast<std::size_t>(b) < domain.vertices.size()) return;
-      if (static_cast<std::size_t>(a) < at_apex.size() && at_apex[a] != 0) return;
-      const double m2 = promised_.empty() ? squared_promise(a, b) : promised * promised;
-      const Vec3 e = mesh_.xyz[b] - mesh_.xyz[a];
-      const double l2 = dot(e, e), expected2 = mesh_.size[a] * mesh_.size[b] * m2;
-      if (!(expected2 > 0) || !(l2 > 0)) return;
-      const bool fits = l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2;
-      if (fits) return;
-      const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
-      if (l2 > excess2 * expected2) mesh_.excesses.push_back({std::sqrt(l2 / expected2), p, q});
-      if (report) places_.push_back(0.5 * (p + q));
+    std::vector<std::vector<EdgeExcess>> misfits(parts());  // edges that do not fit
+    for_parts([&](std::size_t part) {
+      std::size_t rank = 0;
+      for_edges(part, [&](int a, int b) {
+        const double promised = promised_.empty() ? 0 : static_cast<float>(promised_[part][rank++]);
+        // Between two imposed vertices the domain decides; at a degenerate side the metric is clamped.
+        if (static_cast<std::size_t>(b) < domain.vertices.size()) return;
+        if (static_cast<std::size_t>(a) < at_apex.size() && at_apex[a] != 0) return;
+        const double m2 = promised_.empty() ? squared_promise(a, b) : promised * promised;
+        const Vec3 e = mesh_.xyz[b] - mesh_.xyz[a];
+        const double l2 = dot(e, e), expected2 = mesh_.size[a] * mesh_.size[b] * m2;
+        if (!(expected2 > 0) || !(l2 > 0)) return;
+        const bool fits = l2 <= too_long2 * expected2 && l2 >= too_short2 * expected2;
+        const Vec2 p = mesh_.plane.vertices[a], q = mesh_.plane.vertices[b];
+        if (!fits) misfits[part].push_back({l2 > excess2 * expected2 ? std::sqrt(l2 / expected2) : 0, p, q});
+      });
     });
+    for (const std::vector<EdgeExcess>& some : misfits)
+      for (const EdgeExcess& edge : some) {
+        if (edge.ratio > 0) mesh_.excesses.push_back(edge);
+        if (report) places_.push_back(0.5 * (edge.from + edge.to));
+      }
   }
 
   const PatchInput& input_;
@@ -159,7 +183,7 @@ class LiftCheck {
   const SizeRules& rules_;
   PatchMesh& mesh_;
   Monitor& monitor_;
-  std::vector<float> promised_;  // by edge, where sizes vary
+  std::vector<std::vector<double>> promised_;  // by part and edge, where sizes vary
   std::vector<Vec2> places_;
 };
 

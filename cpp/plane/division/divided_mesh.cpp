@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plane/division/divided_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plane/division/coarse_domain.h"
+#include "plane/division/partition.h"
+#include "plane/division/pieces.h"
+#include "plane/division/zone.h"
+#include "plane/kernel/boundary.h"
+#include "plane/thresholds.h"
+#include "plane/undivided.h"
+#include "support/stepped_tasks.h"
+
+namespace carreau::plane {
+
+namespace {
+
+// Whether most of the mesh would be improved once more: in narrow domains separators lie along the middle.
+bool is_mostly_zone(const Pieces& pieces, double triangles) {
+  return 4.0 * zone_layers * static_cast<double>(pieces.separators.size()) > most_of_zone * triangles;
+}
+
+// Empty where separators find no way.
+std::optional<Pieces> cut(const ZoneContext& context) {
+  const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
+  const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
+  if (parts < 2) return {};
+  ControlSpace wide = context.metric;
+  wide.scale_lengths(1.0 / separator_length);
+  const CoarseDomain coarse = make_coarse(context.domain, context.metric, separator_length);
+  const PlaneMesherOptions options{.frontal = context.options.frontal, .max_triangles = context.options.max_triangles};
+  const Field::Known known{.bends = context.known.bends, .triangles = wide.measure()};
+  const CoarseMesh mesh =
+      make_coarse_mesh(mesh_undivided(coarse.domain, wide, known, options, context.monitor).mesh, context.metric);
+  context.monitor.checkpoint();
+  const Partition partition = divide(mesh, coarse, wide, parts);
+  context.monitor.checkpoint();
+  if (partition.parts < 2) return {};
+  return make_pieces(context.domain, coarse, mesh, partition, context.metric);
+}
+
+std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
+  std::vector<UndividedMesh> meshes(pieces.pieces.size());
+  run_each(
+      meshes.size(), false, context.options.threads,
+      [&](std::size_t p, Monitor& monitor) {
+        const Piece& piece = pieces.pieces[p];
+        PlaneMesherOptions options = context.options;
+        options.threads = 1;
+        options.resting = piece.on_separator;
+        meshes[p] = mesh_undivided(piece.domain, context.metric,
+                                   {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
+      },
+      context.monitor);
+  return meshes;
+}
+
+/// Numbers the vertices of the whole mesh that are left, and puts them and the triangles together.
+class Assembly {
+ public:
+  Assembly(const JoinedPieces& joined, const Zone& zone, const ZoneContext& context)
+      : joined_(joined), zone_(zone), context_(context), count_(joined.pieces.pieces.size()) {}
+
+  PlaneMesh run() {
+    find_removed();
+    number_vertices();
+    count_triangles();
+    run_each(
+        count_, false, context_.options.threads, [&](std::size_t p, Monitor&) { put_piece(p); }, context_.monitor);
+    put_zone();
+    return std::move(mesh_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t domain_size() const { return context_.domain.vertices.size(); }
+
+  void find_removed() {
+    std::vector<char> used(zone_.vertices.size(), 0);
+    for (const auto& t : zone_.triangles)
+      for (const std::int32_t v : t) used[v] = 1;
+    for (std::size_t v = 0; v < zone_.whole.size(); ++v)
+      if (used[v] == 0) removed_.push_back(zone_.whole[v]);
+    std::sort(removed_.begin(), removed_.end());
+    for (std::size_t v = zone_.whole.size(); v < zone_.vertices.size(); ++v) added_.push_back(used[v] == 0 ? -1 : 0);
+  }
+  // Numbers of the whole mesh without those that are removed.
+  [[nodiscard]] std::int32_t final_number(std::int32_t whole) const {
+    if (removed_.empty() || whole < removed_.front()) return whole;
+    return whole -
+           static_cast<std::int32_t>(std::upper_bound(removed_.begin(), removed_.end(), whole) - removed_.begin());
+  }
+
+  void number_vertices() {
+    const Pieces& pieces = joined_.pieces;
+    const std::size_t last = count_ - 1;
+    const auto all =
+        static_cast<std::int32_t>(static_cast<std::size_t>(joined_.inside[last]) +
+                                  joined_.meshes[last].mesh.vertices.size() - pieces.pieces[last].whole.size());
+    auto next = all - static_cast<std::int32_t>(removed_.size());
+    for (std::int32_t& number : added_)
+      if (number == 0) number = next++;
+    mesh_.vertices.resize(static_cast<std::size_t>(next));
+    std::copy(context_.domain.vertices.begin(), context_.domain.vertices.end(), mesh_.vertices.begin());
+  }
+
+  void count_triangles() {
+    first_.assign(count_ + 1, 0);
+    run_each(
+        count_, false, context_.options.threads,
+        [&](std::size_t p, Monitor&) {
+          const auto& triangles = joined_.meshes[p].mesh.triangles;
+          first_[p + 1] = static_cast<std::size_t>(
+              std::count_if(triangles.begin(), triangles.end(), [&](const auto& t) { return !joined_.in_zone(p, t); }));
+        },
+        context_.monitor);
+    for (std::size_t p = 0; p < count_; ++p) first_[p + 1] += first_[p];
+    mesh_.triangles.resize(first_[count_] + zone_.triangles.size());
+  }
+
+  void put_piece(std::size_t p) {
+    const PlaneMesh& mesh = joined_.meshes[p].mesh;
+    std::vector<std::int32_t> number(mesh.vertices.size());
+    const std::size_t shared = joined_.pieces.pieces[p].whole.size();
+    // Those inside have consecutive numbers but for some that are removed.
+    const std::int32_t inside = joined_.inside[p];
+    auto gone = std::lower_bound(removed_.begin(), removed_.end(), inside);
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      const std::int32_t whole = joined_.whole(p, static_cast<std::int32_t>(v));
+      if (v < shared) {
+        number[v] = final_number(whole);
+        continue;
+      }
+      if (gone != removed_.end() && *gone == whole) {
+        ++gone;
+        continue;
+      }
+      number[v] = whole - static_cast<std::int32_t>(gone - removed_.begin());
+      mesh_.vertices[number[v]] = mesh.vertices[v];
+    }
+    auto* to = mesh_.triangles.data() + first_[p];
+    for (const auto& t : mesh.triangles)
+      if (!joined_.in_zone(p, t)) *to++ = {number[t[0]], number[t[1]], number[t[2]]};
+  }
+
+  // Its vertices have moved; those of the domain have not.
+  void put_zone() {
+    std::vector<std::int32_t> number(zone_.vertices.size(), -1);
+    for (std::size_t v = 0; v < zone_.vertices.size(); ++v)
+      number[v] = v < zone_.whole.size() ? final_number(zone_.whole[v]) : added_[v - zone_.whole.size()];
+    auto* to = mesh_.triangles.data() + first_[count_];
+    for (const auto& t : zone_.triangles) {
+      for (const std::int32_t v : t)
+        if (static_cast<std::size_t>(number[v]) >= domain_size()) mesh_.vertices[number[v]] = zone_.vertices[v];
+      *to++ = {number[t[0]], number[t[1]], number[t[2]]};
+    }
+  }
+
+  const JoinedPieces& joined_;
+  const Zone& zone_;
+  const ZoneContext& context_;
+  std::size_t count_;
+  std::vector<std::int32_t> removed_;  // in numbers of the whole mesh, ascending
+  std::vector<std::int32_t> added_;    // final numbers of the zone's new vertices; -1: removed again
+  std::vector<std::size_t> first_;     // triangles, by piece
+  PlaneMesh mesh_;
+};
+
+}  // namespace
+
+bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
+  return divides_large_domains && known.triangles >= least_divided && !options.squares && options.undersampled.empty();
+}
+
+std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                                      const PlaneMesherOptions& options, Monitor& monitor) {
+  (void)triangulate_boundary(domain, monitor);  // pieces do not see what is wrong between them
+  const ZoneContext context{domain, metric, known, options, monitor};
+  try {
+    const std::optional<Pieces> pieces = cut(context);
+    if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};
+    const std::vector<UndividedMesh> meshes = mesh_pieces(*pieces, context);
+    const JoinedPieces joined = join(*pieces, meshes, context);
+    const Zone zone = improved_zone(joined, context);
+    PlaneMesh mesh = Assembly(joined, zone, context).run();
+    if (static_cast<std::int64_t>(mesh.triangles.size()) > options.max_triangles)
+      throw LimitError("the mesh of the plane domain has reached the limit of " +
+                       std::to_string(options.max_triangles) + " triangles");
+    return mesh;
+  } catch (const DomainError&) {
+    return {};
+  }
+}
+
+}  // namespace carreau::plane

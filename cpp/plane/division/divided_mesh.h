@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Unit mesh of a large domain in pieces, by several threads.
+#pragma once
+
+#include <optional>
+
+#include "control_space/control_space.h"
+#include "mesh/plane_mesh.h"
+#include "plane/kernel/frame.h"
+#include "plane/options.h"
+#include "support/monitor.h"
+
+namespace carreau::plane {
+
+/// Whether there are triangles enough, by what the metric promises.
+bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept;
+
+/// The same for any number of threads. Empty: the domain cannot be divided, or a piece cannot be meshed.
+/// Throws DomainError for a domain that is wrong as a whole; LimitError, Cancelled.
+std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
+                                      const PlaneMesherOptions& options, Monitor& monitor);
+
+}  // namespace carreau::plane

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plane/division/partition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "plane/division/arrival.h"
+#include "plane/kernel/triangulation.h"
+#include "plane/thresholds.h"
+
+namespace carreau::plane {
+
+namespace {
+
+/// Sets of things that belong together.
+class Unions {
+ public:
+  explicit Unions(std::size_t n) : above_(n) { std::iota(above_.begin(), above_.end(), 0); }
+  std::int32_t of(std::int32_t x) {
+    while (above_[x] != x) x = above_[x] = above_[above_[x]];
+    return x;
+  }
+  /// The smallest stands for all.
+  void join(std::int32_t x, std::int32_t y) {
+    x = of(x), y = of(y);
+    above_[std::max(x, y)] = std::min(x, y);
+  }
+
+ private:
+  std::vector<std::int32_t> above_;
+};
+
+class Division {
+ public:
+  Division(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& metric)
+      : coarse_(coarse),
+        domain_(domain),
+        metric_(metric),
+        n_(coarse.mesh.triangles.size()),
+        clump_(n_),
+        part_(n_, 0),
+        part_of_clump_(n_, -1) {}
+
+  Partition run(int parts) {
+    join_what_stays_together();
+    cut_into_sectors(parts);
+    for (int pass = 0; pass < smoothing_passes; ++pass) smooth();
+    return connected();
+  }
+
+ private:
+  static constexpr int smoothing_passes = 3;
+
+  // Triangles at degenerate sides, and bad ones with their neighbours.
+  void join_what_stays_together() {
+    const auto& triangles = coarse_.mesh.triangles;
+    std::vector<std::int32_t> degenerate(coarse_.mesh.vertices.size(), 0);  // one more than the end of such a side
+    for (const PlaneEdge& edge : domain_.domain.edges)
+      if (edge.kind == PlaneEdgeKind::degenerate) degenerate[edge.a] = degenerate[edge.b] = edge.a + 1;
+    for (int ring = 0; ring < rings_at_degenerate_sides; ++ring) {
+      const std::vector<std::int32_t> before = degenerate;
+      for (const auto& t : triangles)
+        for (const std::int32_t v : t)
+          for (const std::int32_t w : t)
+            if (before[v] == 0) degenerate[v] = std::max(degenerate[v], before[w]);
+    }
+    std::vector<std::int32_t> first(coarse_.mesh.vertices.size() + 1, -1);
+    for (std::size_t t = 0; t < n_; ++t) {
+      const auto self = static_cast<std::int32_t>(t);
+      for (const std::int32_t v : triangles[t]) {
+        const std::int32_t of = degenerate[v];
+        if (of == 0) continue;
+        if (first[of] < 0) first[of] = self;
+        clump_.join(first[of], self);
+      }
+      if (is_bad(t))
+        for (const std::int32_t u : coarse_.beyond[t])
+          if (u >= 0) clump_.join(self, u);
+    }
+  }
+
+  [[nodiscard]] bool is_bad(std::size_t t) const {
+    const auto& [a, b, c] = coarse_.mesh.triangles[t];
+    const Vec2 p = coarse_.mesh.vertices[a], q = coarse_.mesh.vertices[b], r = coarse_.mesh.vertices[c];
+    const Metric2 m = metric_.at((1.0 / 3) * (p + q + r));
+    const double pq = squared_length(m, q - p), qr = squared_length(m, r - q), rp = squared_length(m, p - r);
+    const double shape = 2 * std::numbers::sqrt3 * cross(q - p, r - p) * std::sqrt(std::max(determinant(m), 0.0));
+    return std::min({pq, qr, rp}) < shortest_coarse2 || !(shape > least_coarse_quality * (pq + qr + rp));
+  }
+
+  // Sectors: where layers arrive that start at a stretch of the border. Separators lie across these layers, or where
+  // those from several sides meet. Clumps go where their first triangle does.
+  void cut_into_sectors(int parts) {
+    const std::vector<double> place = arrivals(coarse_, domain_, metric_);
+    std::vector<std::int32_t> triangles(n_);
+    std::iota(triangles.begin(), triangles.end(), 0);
+    std::stable_sort(triangles.begin(), triangles.end(),
+                     [&](std::int32_t s, std::int32_t t) { return place[s] < place[t]; });
+    const double whole = std::accumulate(coarse_.weight.begin(), coarse_.weight.end(), 0.0);
+    double sum = 0;
+    for (const std::int32_t t : triangles) {
+      std::int32_t& part = part_of_clump_[clump_.of(t)];
+      if (part < 0) part = std::min(static_cast<int>(sum / whole * parts), parts - 1);
+      part_[t] = part;
+      sum += coarse_.weight[t];
+    }
+    last_ = parts - 1;
+  }
+
+  // A triangle with two neighbours in one other part joins it.
+  void smooth() {
+    for (std::size_t t = 0; t < n_; ++t) {
+      const auto& [a, b, c] = coarse_.beyond[t];
+      const auto part_beyond = [&](std::int32_t u) { return u < 0 ? -1 : part_[u]; };
+      const std::int32_t pa = part_beyond(a), pb = part_beyond(b), pc = part_beyond(c);
+      const std::int32_t most = pa == pb || pa == pc ? pa : pb == pc ? pb : -1;
+      if (most < 0 || most == part_[t]) continue;
+      const auto self = static_cast<std::int32_t>(t);
+      if (clump_.of(self) != self || is_clumped(self)) continue;
+      part_[t] = most;
+    }
+  }
+  [[nodiscard]] bool is_clumped(std::int32_t t) {
+    return std::any_of(coarse_.beyond[t].begin(), coarse_.beyond[t].end(),
+                       [&](std::int32_t u) { return u >= 0 && clump_.of(u) == clump_.of(t); });
+  }
+
+  // Of each part the largest piece that hangs together stays; others join the part beyond most of their sides.
+  Partition connected() {
+    std::vector<std::int32_t> piece(n_, -1), part_of;
+    std::vector<double> weight;
+    const auto flood = [&] {
+      std::fill(piece.begin(), piece.end(), -1);
+      part_of.clear(), weight.clear();
+      for (std::size_t t = 0; t < n_; ++t) {
+        if (piece[t] >= 0) continue;
+        const auto id = static_cast<std::int32_t>(part_of.size());
+        part_of.push_back(part_[t]);
+        weight.push_back(0);
+        queue_.assign(1, static_cast<std::int32_t>(t));
+        piece[t] = id;
+        for (std::size_t k = 0; k < queue_.size(); ++k) {
+          weight[id] += coarse_.weight[queue_[k]];
+          for (const std::int32_t u : coarse_.beyond[queue_[k]])
+            if (u >= 0 && piece[u] < 0 && part_[u] == part_[t]) piece[u] = id, queue_.push_back(u);
+        }
+      }
+    };
+    for (int round = 0; round < 4; ++round) {
+      flood();
+      std::vector<std::int32_t> largest(static_cast<std::size_t>(last_) + 1, -1);
+      for (std::size_t id = 0; id < part_of.size(); ++id) {
+        std::int32_t& best = largest[part_of[id]];
+        if (best < 0 || weight[id] > weight[best]) best = static_cast<std::int32_t>(id);
+      }
+      std::vector<std::vector<std::int32_t>> sides(part_of.size());
+      for (std::size_t t = 0; t < n_; ++t)
+        for (const std::int32_t u : coarse_.beyond[t])
+          if (u >= 0 && part_[u] != part_[t] && largest[part_[t]] != piece[t]) sides[piece[t]].push_back(part_[u]);
+      std::vector<std::int32_t> to(part_of.size(), -1);
+      bool any = false;
+      for (std::size_t id = 0; id < sides.size(); ++id) {
+        std::sort(sides[id].begin(), sides[id].end());
+        std::ptrdiff_t most = 0;
+        for (auto it = sides[id].begin(); it != sides[id].end();) {
+          const auto end = std::upper_bound(it, sides[id].end(), *it);
+          if (end - it > most) most = end - it, to[id] = *it, any = true;
+          it = end;
+        }
+      }
+      if (!any) break;
+      for (std::size_t t = 0; t < n_; ++t)
+        if (to[piece[t]] >= 0) part_[t] = to[piece[t]];
+    }
+    return numbered();
+  }
+
+  Partition numbered() {
+    Partition result{.part = std::move(part_)};
+    std::vector<std::int32_t> rank(static_cast<std::size_t>(last_) + 1, -1);
+    for (std::int32_t& p : result.part) {
+      if (rank[p] < 0) rank[p] = result.parts++;
+      p = rank[p];
+    }
+    return result;
+  }
+
+  const CoarseMesh& coarse_;
+  const CoarseDomain& domain_;
+  const ControlSpace& metric_;
+  std::size_t n_;
+  Unions clump_;
+  std::vector<std::int32_t> part_, part_of_clump_, queue_;
+  std::int32_t last_ = 0;
+};
+
+}  // namespace
+
+CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit) {
+  CoarseMesh coarse{.mesh = std::move(mesh), .beyond = {}, .weight = {}};
+  const auto& triangles = coarse.mesh.triangles;
+  coarse.beyond.assign(triangles.size(), {-1, -1, -1});
+  struct Side {
+    std::int32_t low, high, triangle, side;
+    bool operator<(const Side& s) const { return std::tie(low, high) < std::tie(s.low, s.high); }
+  };
+  std::vector<Side> sides;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto& [a, b, c] = triangles[t];
+    const Vec2 p = coarse.mesh.vertices[a], q = coarse.mesh.vertices[b], r = coarse.mesh.vertices[c];
+    const double det = std::max(determinant(unit.at((1.0 / 3) * (p + q + r))), 0.0);
+    coarse.weight.push_back(2 / std::numbers::sqrt3 * cross(q - p, r - p) * std::sqrt(det));
+    for (int i = 0; i < 3; ++i) {
+      const std::int32_t u = triangles[t][next3[i]], v = triangles[t][prev3[i]];
+      sides.push_back({std::min(u, v), std::max(u, v), static_cast<std::int32_t>(t), i});
+    }
+  }
+  std::stable_sort(sides.begin(), sides.end());
+  for (std::size_t k = 0; k + 1 < sides.size(); ++k) {
+    const Side &s = sides[k], &t = sides[k + 1];
+    if (s.low != t.low || s.high != t.high) continue;
+    coarse.beyond[s.triangle][s.side] = t.triangle;
+    coarse.beyond[t.triangle][t.side] = s.triangle;
+  }
+  return coarse;
+}
+
+Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts) {
+  return Division(coarse, domain, coarse_metric).run(parts);
+}
+
+}  // namespace carreau::plane

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a coarse mesh of about the same weight.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "control_space/control_space.h"
+#include "plane/division/coarse_domain.h"
+
+namespace carreau::plane {
+
+/// A mesh of which parts are made.
+struct CoarseMesh {
+  PlaneMesh mesh;
+  std::vector<std::array<std::int32_t, 3>> beyond;  ///< by triangle and side (opposite to its corner); -1: nothing
+  std::vector<double> weight;                       ///< by triangle: unit triangles that it holds
+};
+
+/// `unit`: the metric of the fine mesh.
+CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit);
+
+/// By triangle: the part that it belongs to, from 0. Parts are connected, and their borders are as short as the sides
+/// of triangles of the mesh, unit in `coarse_metric`, let them be; they keep off degenerate sides and triangles that
+/// are badly shaped. There may be fewer parts than asked for.
+struct Partition {
+  std::vector<std::int32_t> part;
+  int parts = 0;
+};
+Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts);
+
+}  // namespace carreau::plane

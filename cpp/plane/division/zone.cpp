@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plane/division/zone.h"
+
+#include <algorithm>
+
+#include "plane/division/zone_part.h"
+#include "plane/thresholds.h"
+#include "support/stepped_tasks.h"
+
+namespace carreau::plane {
+
+namespace {
+
+constexpr std::uint8_t outside = zone_layers;
+
+bool any_below(const std::vector<std::uint8_t>& level, const std::array<std::int32_t, 3>& t, int bound) {
+  return std::min({level[t[0]], level[t[1]], level[t[2]]}) < bound;
+}
+
+// Layers of vertices from those that have level 0, up to `most`.
+void spread(std::span<const std::array<std::int32_t, 3>> triangles, std::vector<std::uint8_t>& level, int most,
+            std::vector<std::int32_t>* band) {
+  for (int now = 0; now + 1 < most; ++now)
+    for (const auto& t : triangles) {
+      int from = -1;
+      for (const std::int32_t v : t)
+        if (level[v] == now && (from < 0 || (band != nullptr && (*band)[v] < (*band)[from]))) from = v;
+      if (from < 0) continue;
+      for (const std::int32_t v : t)
+        if (level[v] > now + 1) {
+          level[v] = static_cast<std::uint8_t>(now + 1);
+          if (band != nullptr) (*band)[v] = (*band)[from];
+        }
+    }
+}
+
+/// Makes a zone of the triangles of pieces that are near separators.
+class ZoneMaker {
+ public:
+  explicit ZoneMaker(const JoinedPieces& joined) : joined_(joined), shared_(joined.pieces.separator.size(), -1) {}
+
+  Zone run(Monitor& monitor) {
+    for (std::size_t p = 0; p < joined_.meshes.size(); ++p) {
+      monitor.checkpoint();
+      add_piece(p);
+    }
+    return std::move(zone_);
+  }
+
+ private:
+  void add_piece(std::size_t p) {
+    const PlaneMesh& mesh = joined_.meshes[p].mesh;
+    const auto n = static_cast<std::int32_t>(joined_.pieces.pieces[p].whole.size());
+    const auto domain = static_cast<std::int32_t>(joined_.pieces.separator.size() - joined_.pieces.separators.size());
+    std::vector<std::int32_t> inside(mesh.vertices.size() - static_cast<std::size_t>(n), -1);
+    const auto number = [&](std::int32_t v) {
+      std::int32_t& known = v < n ? shared_[joined_.pieces.pieces[p].whole[v]] : inside[v - n];
+      if (known >= 0) return known;
+      known = static_cast<std::int32_t>(zone_.vertices.size());
+      const std::int32_t whole = joined_.whole(p, v);
+      zone_.vertices.push_back(mesh.vertices[v]);
+      zone_.whole.push_back(whole);
+      zone_.level.push_back(joined_.level[p][v]);
+      const bool imposed = v < n ? whole < domain : v < joined_.meshes[p].fixed;
+      zone_.fixed.push_back(imposed || joined_.level[p][v] == outside ? 1 : 0);
+      return known;
+    };
+    for (const auto& t : mesh.triangles) {
+      if (!joined_.in_zone(p, t)) continue;
+      zone_.triangles.push_back({number(t[0]), number(t[1]), number(t[2])});
+      zone_.band.push_back(band_of(p, t));
+    }
+  }
+  [[nodiscard]] std::int32_t band_of(std::size_t p, const std::array<std::int32_t, 3>& t) const {
+    std::int32_t band = Pieces::none;
+    for (const std::int32_t v : t) {
+      if (joined_.level[p][v] == outside) continue;
+      const std::int32_t here = joined_.band[p][v];
+      band = band == Pieces::none || band == here ? here : Pieces::several;
+    }
+    return band;
+  }
+
+  const JoinedPieces& joined_;
+  std::vector<std::int32_t> shared_;  // numbers in the zone
+  Zone zone_;
+};
+
+void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std::uint8_t>& replaced) {
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::size_t t = 0; t < zone.triangles.size(); ++t)
+    if (replaced[t] == 0) triangles.push_back(zone.triangles[t]);
+  const auto n = static_cast<std::int32_t>(zone.vertices.size());
+  for (const ZonePart& part : parts) {
+    for (std::size_t k = 0; k < part.moved.size(); ++k) zone.vertices[part.moved[k]] = part.to[k];
+    const auto shift = static_cast<std::int32_t>(zone.vertices.size()) - n;
+    zone.vertices.insert(zone.vertices.end(), part.added.begin(), part.added.end());
+    for (std::array<std::int32_t, 3> t : part.triangles) {
+      for (std::int32_t& v : t)
+        if (v >= n) v += shift;
+      triangles.push_back(t);
+    }
+  }
+  zone.triangles.swap(triangles);
+  zone.fixed.resize(zone.vertices.size(), 0);
+  zone.level.resize(zone.vertices.size(), outside);
+}
+
+// Vertices of triangles that belong to several bands wait for the second round; the others' bands know all around them.
+std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) {
+  context.monitor.checkpoint();
+  std::vector<std::uint8_t> free(zone.vertices.size()), waiting(zone.vertices.size(), 0);
+  for (std::size_t t = 0; t < zone.triangles.size(); ++t)
+    if (zone.band[t] < 0)
+      for (const std::int32_t v : zone.triangles[t]) waiting[v] = zone.fixed[v] != 0 ? 0 : 1;
+  for (std::size_t v = 0; v < free.size(); ++v) free[v] = zone.fixed[v] == 0 && waiting[v] == 0 ? 1 : 0;
+  std::vector<std::vector<std::int32_t>> bands;
+  std::vector<std::uint8_t> replaced(zone.triangles.size(), 0);
+  for (std::size_t t = 0; t < zone.triangles.size(); ++t) {
+    if (zone.band[t] < 0) continue;
+    const auto band = static_cast<std::size_t>(zone.band[t]);
+    if (bands.size() <= band) bands.resize(band + 1);
+    bands[band].push_back(static_cast<std::int32_t>(t));
+    replaced[t] = 1;
+  }
+  std::vector<ZonePart> parts(bands.size());
+  run_each(
+      bands.size(), false, context.options.threads,
+      [&](std::size_t b, Monitor& monitor) { parts[b] = optimise_part(zone, bands[b], free, context, monitor); },
+      context.monitor);
+  apply(zone, parts, replaced);
+  waiting.resize(zone.vertices.size(), 0);
+  return waiting;
+}
+
+void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting, const ZoneContext& context) {
+  context.monitor.checkpoint();
+  std::vector<std::uint8_t> level(zone.vertices.size(), meeting_layers), free(zone.vertices.size(), 0);
+  for (std::size_t v = 0; v < level.size(); ++v)
+    if (waiting[v] != 0) level[v] = 0;
+  spread(zone.triangles, level, meeting_layers, nullptr);
+  for (std::size_t v = 0; v < level.size(); ++v) free[v] = level[v] < meeting_layers && zone.fixed[v] == 0 ? 1 : 0;
+  std::vector<std::int32_t> near;
+  std::vector<std::uint8_t> replaced(zone.triangles.size(), 0);
+  for (std::size_t t = 0; t < zone.triangles.size(); ++t) {
+    const auto& [a, b, c] = zone.triangles[t];
+    if (free[a] + free[b] + free[c] == 0) continue;
+    near.push_back(static_cast<std::int32_t>(t));
+    replaced[t] = 1;
+  }
+  if (near.empty()) return;
+  apply(zone, {optimise_part(zone, near, free, context, context.monitor)}, replaced);
+}
+
+}  // namespace
+
+bool JoinedPieces::in_zone(std::size_t piece, const std::array<std::int32_t, 3>& t) const noexcept {
+  return any_below(level[piece], t, outside);
+}
+
+JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, const ZoneContext& context) {
+  JoinedPieces joined{.pieces = pieces, .meshes = meshes, .inside = {}, .level = {}, .band = {}};
+  auto next = static_cast<std::int32_t>(pieces.separator.size());
+  for (std::size_t p = 0; p < meshes.size(); ++p) {
+    joined.inside.push_back(next);
+    next += static_cast<std::int32_t>(meshes[p].mesh.vertices.size() - pieces.pieces[p].whole.size());
+  }
+  joined.level.resize(meshes.size());
+  joined.band.resize(meshes.size());
+  run_each(
+      meshes.size(), false, context.options.threads,
+      [&](std::size_t p, Monitor&) {
+        joined.level[p].assign(meshes[p].mesh.vertices.size(), outside);
+        joined.band[p].assign(meshes[p].mesh.vertices.size(), Pieces::none);
+        const std::vector<std::int32_t>& whole = pieces.pieces[p].whole;
+        for (std::size_t v = 0; v < whole.size(); ++v) {
+          joined.band[p][v] = pieces.separator[whole[v]];
+          if (joined.band[p][v] != Pieces::none) joined.level[p][v] = 0;
+        }
+        spread(meshes[p].mesh.triangles, joined.level[p], zone_layers, &joined.band[p]);
+      },
+      context.monitor);
+  return joined;
+}
+
+Zone improved_zone(const JoinedPieces& joined, const ZoneContext& context) {
+  Zone zone = ZoneMaker(joined).run(context.monitor);
+  const std::vector<std::uint8_t> waiting = improve_bands(zone, context);
+  improve_meeting_places(zone, waiting, context);
+  return zone;
+}
+
+}  // namespace carreau::plane

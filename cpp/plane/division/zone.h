@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The zone around separators, where a mesh is improved once more after its pieces have been joined.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "plane/division/pieces.h"
+#include "plane/undivided.h"
+
+namespace carreau::plane {
+
+/// What the improvement of a zone asks for.
+struct ZoneContext {
+  const PlaneDomain& domain;
+  const ControlSpace& metric;
+  Field::Known known;
+  const PlaneMesherOptions& options;
+  Monitor& monitor;
+};
+
+/// Some layers of triangles on both sides of all separators. Vertices keep their numbers; those that are removed are in
+/// no triangle.
+struct Zone {
+  std::vector<Vec2> vertices;
+  std::vector<std::int32_t> whole;  ///< by vertex: that of the whole mesh; fewer than vertices, new ones come last
+  std::vector<std::uint8_t> fixed;  ///< by vertex: imposed, or on the rim of the zone
+  std::vector<std::uint8_t> level;  ///< by vertex: layers from the separators; those that came later: zone_layers
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> band;  ///< by triangle: the separator that it belongs to; Pieces::several: several
+};
+
+/// The whole mesh before its zone is improved: vertices of the domain, those of separators, then those inside of
+/// pieces.
+struct JoinedPieces {
+  const Pieces& pieces;
+  std::span<const UndividedMesh> meshes;
+  std::vector<std::int32_t> inside;  ///< by piece: its first vertex inside
+  std::vector<std::vector<std::uint8_t>>
+      level;  ///< by piece and vertex: layers from the separators, zone_layers at most
+  std::vector<std::vector<std::int32_t>> band;  ///< the same: the separator, Pieces::several or none
+
+  [[nodiscard]] std::int32_t whole(std::size_t piece, std::int32_t v) const noexcept {
+    const std::vector<std::int32_t>& shared = pieces.pieces[piece].whole;
+    const auto n = static_cast<std::int32_t>(shared.size());
+    return v < n ? shared[v] : inside[piece] + v - n;
+  }
+  /// Whether a triangle of a piece belongs to the zone.
+  [[nodiscard]] bool in_zone(std::size_t piece, const std::array<std::int32_t, 3>& t) const noexcept;
+};
+
+/// Finds the layers around the separators, on several threads.
+JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, const ZoneContext& context);
+
+/// The zone, improved: first the bands along separators, each by itself, then where several of them meet.
+Zone improved_zone(const JoinedPieces& joined, const ZoneContext& context);
+
+}  // namespace carreau::plane

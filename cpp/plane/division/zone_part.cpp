@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plane/division/zone_part.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "plane/division/refill.h"
+#include "plane/kernel/domain_reader.h"
+#include "plane/optimise/local_search.h"
+#include "plane/optimise/optimise.h"
+#include "plane/thresholds.h"
+
+namespace carreau::plane {
+
+namespace {
+
+/// A part of the zone in numbers of its own: vertices that stay come first.
+class PartOfZone {
+ public:
+  PartOfZone(const Zone& zone, const Refilled& refilled, std::span<const std::uint8_t> free, const ZoneContext& context,
+             const Frame& frame)
+      : zone_(zone), context_(context) {
+    const std::size_t n = zone.vertices.size();
+    number(refilled, free);
+    for (const std::int32_t v : of_) {
+      const auto k = static_cast<std::size_t>(v);
+      const Vec2 p = frame.inward(k < n ? zone.vertices[k] : refilled.added[k - n]);
+      mesh.vertices.emplace_back();
+      mesh.vertices.back().x = p.x(), mesh.vertices.back().y = p.y();
+    }
+    add_triangles(refilled);
+    impose_edges();
+  }
+
+  [[nodiscard]] const std::vector<std::int32_t>& of() const noexcept { return of_; }
+  Triangulation mesh;
+  int fixed = 0;
+  std::size_t of_zone = 0;  ///< vertices from there on are added ones
+
+ private:
+  // Fixed ones, others of the zone, added ones.
+  void number(const Refilled& refilled, std::span<const std::uint8_t> free) {
+    for (const auto& t : refilled.triangles) of_.insert(of_.end(), t.begin(), t.end());
+    std::sort(of_.begin(), of_.end());
+    of_.erase(std::unique(of_.begin(), of_.end()), of_.end());
+    const auto stays = [&](std::int32_t v) { return static_cast<std::size_t>(v) < free.size() && free[v] == 0; };
+    fixed = static_cast<int>(std::stable_partition(of_.begin(), of_.end(), stays) - of_.begin());
+    of_zone = static_cast<std::size_t>(
+        std::lower_bound(of_.begin() + fixed, of_.end(), static_cast<std::int32_t>(zone_.vertices.size())) -
+        of_.begin());
+  }
+
+  void add_triangles(const Refilled& refilled) {
+    std::vector<std::int32_t> local(zone_.vertices.size() + refilled.added.size(), -1);
+    for (std::size_t k = 0; k < of_.size(); ++k) local[of_[k]] = static_cast<std::int32_t>(k);
+    std::vector<std::int32_t> start(of_.size() + 1, 0);
+    for (const auto& t : refilled.triangles) {
+      Triangle& T = mesh.triangles.emplace_back();
+      T.done = Done::yes;
+      for (int i = 0; i < 3; ++i) {
+        T.v[i] = local[t[i]];
+        mesh.vertices[T.v[i]].triangle = static_cast<std::int32_t>(mesh.triangles.size()) - 1;
+        ++start[T.v[i]];
+      }
+    }
+    // By the vertex that a half-edge leaves.
+    for (std::size_t v = 1; v < start.size(); ++v) start[v] += start[v - 1];
+    std::vector<HalfEdge> leaving(3 * mesh.triangles.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) leaving[--start[mesh.triangles[t].v[next3[i]]]] = static_cast<HalfEdge>(4 * t + i);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const std::int32_t a = mesh.triangles[t].v[next3[i]], b = mesh.triangles[t].v[prev3[i]];
+        for (std::int32_t k = start[b]; k < start[b + 1]; ++k) {
+          const HalfEdge he = leaving[k];
+          if (mesh.triangles[he >> 2].v[prev3[he & 3]] == a) mesh.triangles[t].n[i] = he;
+        }
+      }
+  }
+
+  // The domain's, and the rim.
+  void impose_edges() {
+    std::unordered_map<std::int64_t, PlaneEdgeKind> inner;
+    const auto key = [](std::int64_t a, std::int64_t b) { return std::min(a, b) << 32 | std::max(a, b); };
+    for (const PlaneEdge& edge : context_.domain.edges)
+      if (edge.kind != PlaneEdgeKind::boundary) inner[key(edge.a, edge.b)] = edge.kind;
+    const auto n = static_cast<std::int32_t>(context_.domain.vertices.size());
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        Triangle& T = mesh.triangles[t];
+        const auto whole = [&](int v) {
+          return static_cast<std::size_t>(of_[v]) < zone_.whole.size() ? zone_.whole[of_[v]] : n;
+        };
+        bool imposed = T.n[i] == no_edge, degenerate = false;
+        if (const std::int32_t a = whole(T.v[next3[i]]), b = whole(T.v[prev3[i]]); a < n && b < n && !inner.empty())
+          if (const auto found = inner.find(key(a, b)); found != inner.end())
+            imposed = true, degenerate = found->second == PlaneEdgeKind::degenerate;
+        T.imposed = static_cast<std::uint8_t>(T.imposed | (imposed ? 1U << i : 0U));
+        T.degenerate = static_cast<std::uint8_t>(T.degenerate | (degenerate ? 1U << i : 0U));
+      }
+  }
+
+  const Zone& zone_;
+  const ZoneContext& context_;
+  std::vector<std::int32_t> of_;
+};
+
+}  // namespace
+
+ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles, std::span<const std::uint8_t> free,
+                       const ZoneContext& context, Monitor& monitor) {
+  const Frame frame = frame_of(context.domain);
+  const Refilled refilled = refill(zone, triangles, free, context, monitor);
+  PartOfZone part(zone, refilled, free, context, frame);
+  const Field field(context.metric, frame, context.known);
+  PlaneWork work{part.mesh, field, monitor};
+  work.fixed = part.fixed;
+  if (field.bends()) part.mesh.bends.resize(part.mesh.vertices.size());
+  for (std::size_t v = 0; v < part.mesh.vertices.size(); ++v) work.shapes.set_metric(static_cast<int>(v));
+  optimise(work, static_cast<std::size_t>(context.known.triangles));
+  if (context.options.shape_trials) search_around_bad_triangles(work, context.options.normals);
+
+  ZonePart result;
+  const std::size_t n = part.of_zone;
+  for (std::size_t v = static_cast<std::size_t>(part.fixed); v < n; ++v) {
+    result.moved.push_back(part.of()[v]);
+    result.to.push_back(frame.outward(part.mesh.at(static_cast<int>(v))));
+  }
+  const auto base = static_cast<std::int32_t>(zone.vertices.size() - n);
+  for (std::size_t v = n; v < part.mesh.vertices.size(); ++v)
+    result.added.push_back(frame.outward(part.mesh.at(static_cast<int>(v))));
+  const auto number = [&](std::int32_t v) { return static_cast<std::size_t>(v) < n ? part.of()[v] : base + v; };
+  for (const Triangle& T : part.mesh.triangles)
+    if (T.v[0] >= 0) result.triangles.push_back({number(T.v[0]), number(T.v[1]), number(T.v[2])});
+  return result;
+}
+
+}  // namespace carreau::plane

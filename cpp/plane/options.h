@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the plane mesher is asked for.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "control_space/sampled_normals.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+struct PlaneMesherOptions {
+  bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
+  bool squares = false;       ///< points for quadrilaterals: those of lattices of unit squares; `frontal` says nothing
+  bool shape_trials = false;  ///< changes of the mesh around its worst triangles are tried, the best is kept
+  /// Of a curved surface, indexed: changes leave no edges along which it turns more than it did along those before, and
+  /// add none between two vertices of curves. Null: a plane.
+  const SampledNormals* normals = nullptr;
+  std::int64_t max_triangles = INT64_C(500'000'000);  ///< LimitError beyond
+  /// Squares that another mesh has missed (ControlSpace::undersampled_regions()), as places of each: what is still far
+  /// from all vertices when points have been placed gets a seed, from which the front goes on.
+  std::span<const std::vector<Vec2>> undersampled = {};
+  /// By vertex of the domain, or empty: layers go on from no edge that has an end that is not 0.
+  std::span<const std::uint8_t> resting = {};
+  int threads = 1;  ///< at work on a large domain; the mesh does not depend on it
+};
+
+}  // namespace carreau
