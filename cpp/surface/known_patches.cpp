@@ -38,11 +38,18 @@ bool same_domain(const FaceDomain& p, const FaceDomain& q) {
 
 void KnownPatches::keep(std::size_t face, const PatchInput& input, std::vector<EdgeSizes::Source> grow_from) {
   if (face >= known_.size()) return;
+  if (known_[face] && known_[face]->mesh) room_ += known_[face]->mesh->plane.triangles.size();
   known_[face] = Known{*input.domain, input.curve_xyz, std::move(grow_from), {}, {}};
 }
 
 void KnownPatches::keep(std::size_t face, const FaceOutcome& outcome) {
-  if (face >= known_.size() || !known_[face]) return;
+  if (face >= known_.size() || !known_[face] || !outcome.patch) return;
+  const std::size_t n = outcome.patch->plane.triangles.size();
+  if (n > room_) {
+    known_[face].reset();
+    return;
+  }
+  room_ -= n;
   known_[face]->mesh = outcome.patch;
   known_[face]->remark = outcome.remark;
 }

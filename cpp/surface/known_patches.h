@@ -11,6 +11,7 @@
 #include "gradation/edge_sizes.h"
 #include "surface/patch.h"
 #include "surface/team/face_outcome.h"
+#include "surface/thresholds.h"
 
 namespace carreau {
 
@@ -27,7 +28,7 @@ class KnownPatches {
   /// What came of the face in the round before, when it was asked the same then; a copy.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
-  void clear() { known_.clear(), spaces_ = nullptr; }
+  void clear() { known_.clear(), spaces_ = nullptr, room_ = thresholds::crossings::most_known; }
   /// Later rounds are others: nothing is kept any more.
   void end() { clear(), over_ = true; }
 
@@ -41,6 +42,7 @@ class KnownPatches {
   };
   std::vector<std::optional<Known>> known_;
   const std::vector<std::optional<ControlSpace>>* spaces_ = nullptr;
+  std::size_t room_ = thresholds::crossings::most_known;  // triangles that may still be kept
   bool over_ = false;
 };
 

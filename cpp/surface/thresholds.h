@@ -67,6 +67,8 @@ namespace carreau::thresholds::crossings {
 
 // Triangles that cross (crossing_step). [CloseWalls.*]
 
+/// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them again.
+inline constexpr std::size_t most_known = 2'000'000;
 /// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
 inline constexpr std::size_t most_pairs = 100'000;
 /// Share of the larger sagitta. What two surfaces that coincide leave between their points over one place of a crossing
