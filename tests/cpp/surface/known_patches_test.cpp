@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A face that is asked the same again gets its patch of the round before; one that is asked anything else does not.
+#include "surface/known_patches.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace carreau {
+namespace {
+
+/// What two faces are asked: a triangle with one short edge to grow from.
+struct Asked {
+  Asked() {
+    domain.plane.vertices = {{0, 0}, {1, 0}, {0, 1}};
+    for (int i = 0; i < 3; ++i) {
+      PlaneEdge edge;
+      edge.a = i, edge.b = (i + 1) % 3, edge.curve = i;
+      domain.plane.edges.push_back(edge);
+      domain.origin.push_back({.corner = i});
+    }
+    domain.size = {0.5, 0.5, 0.5};
+    domain.physical = domain.size;
+    input.domain = &domain;
+    input.curve_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    grow_from = {{{0, 0, 0}, {1, 0, 0}, 0.1}};
+  }
+  Asked(const Asked&) = delete;
+  Asked& operator=(const Asked&) = delete;
+
+  FaceDomain domain;
+  PatchInput input;
+  std::vector<EdgeSizes::Source> grow_from;
+};
+
+FaceOutcome outcome_of(std::size_t triangles) {
+  FaceOutcome outcome;
+  outcome.patch.emplace();
+  outcome.patch->plane.triangles.assign(triangles, {0, 1, 2});
+  outcome.remark = "made in another way";
+  return outcome;
+}
+
+const std::vector<std::optional<ControlSpace>> spaces{ControlSpace::constant({4, 0, 4}), ControlSpace::constant({4, 0, 4})};
+
+KnownPatches knowing(const Asked& asked, const FaceOutcome& outcome) {
+  KnownPatches known;
+  known.begin(2);
+  known.keep(0, asked.input, asked.grow_from);
+  known.keep(0, outcome);
+  known.rely_on(&spaces);
+  known.begin(2);  // the next round
+  return known;
+}
+
+TEST(KnownPatches, AreThoseOfFacesThatAreAskedTheSame) {
+  const Asked asked;
+  const KnownPatches known = knowing(asked, outcome_of(1));
+  EXPECT_FALSE(known.find(1, asked.input, asked.grow_from));
+  EXPECT_FALSE(known.find(2, asked.input, asked.grow_from));
+  EXPECT_FALSE(known.find(0, asked.input, {}));
+  const auto same = known.find(0, asked.input, asked.grow_from);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->patch->plane.triangles.size(), 1U);
+  EXPECT_EQ(same->remark, "made in another way");
+  EXPECT_TRUE(same->space);
+}
+
+TEST(KnownPatches, AreNotThoseOfFacesThatAreAskedAnythingElse) {
+  const Asked before;
+  const KnownPatches known = knowing(before, outcome_of(1));
+  const std::vector<std::function<void(Asked&)>> changes{
+      [](Asked& a) { a.domain.plane.vertices[1].x() = 2; },   [](Asked& a) { a.domain.plane.vertices.push_back({1, 1}); },
+      [](Asked& a) { a.domain.plane.edges[0].b = 2; },        [](Asked& a) { a.domain.plane.edges.pop_back(); },
+      [](Asked& a) { a.domain.origin[2].corner = 7; },        [](Asked& a) { a.domain.size[0] = 0.4; },
+      [](Asked& a) { a.domain.physical[0] = 0.4; },           [](Asked& a) { a.input.curve_xyz[2].z() = 1e-9; },
+      [](Asked& a) { a.grow_from[0].h = 0.05; },              [](Asked& a) { a.grow_from[0].b.z() = 1; },
+      [](Asked& a) { a.grow_from.push_back(a.grow_from[0]); }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    SCOPED_TRACE(i);
+    Asked asked;
+    EXPECT_TRUE(known.find(0, asked.input, asked.grow_from));
+    changes[i](asked);
+    EXPECT_FALSE(known.find(0, asked.input, asked.grow_from));
+  }
+}
+
+TEST(KnownPatches, OfLargeModelsAreNotKept) {
+  const Asked asked;
+  EXPECT_TRUE(knowing(asked, outcome_of(thresholds::crossings::most_known)).find(0, asked.input, asked.grow_from));
+  EXPECT_FALSE(knowing(asked, outcome_of(thresholds::crossings::most_known + 1)).find(0, asked.input, asked.grow_from));
+  // A patch that takes the place of another one needs no more than its own room.
+  KnownPatches known = knowing(asked, outcome_of(thresholds::crossings::most_known));
+  known.keep(0, asked.input, asked.grow_from);
+  known.keep(0, outcome_of(thresholds::crossings::most_known));
+  EXPECT_TRUE(known.find(0, asked.input, asked.grow_from));
+  known.keep(1, asked.input, asked.grow_from);
+  known.keep(1, outcome_of(1));
+  EXPECT_FALSE(known.find(1, asked.input, asked.grow_from));
+  known.end();
+  known.begin(2);
+  EXPECT_FALSE(known.find(0, asked.input, asked.grow_from));
+}
+
+}  // namespace
+}  // namespace carreau
