@@ -12,10 +12,11 @@ BARE = ["-DCMAKE_Fortran_COMPILER=NOTFOUND", "-DCARREAU_MUPARSER=OFF"] + [
     f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in ("GTest", "OpenEXR", "TBB", "OpenCASCADE", "MPI")]
 
 
-def configure(name, *options):
+def configure(name, *options, preset=True):
     build = os.path.join(WORK, name)
     shutil.rmtree(build, ignore_errors=True)
-    done = subprocess.run([CMAKE, "--preset", "release", "-B", build, *options], cwd=SOURCE, capture_output=True, text=True)
+    how = ["--preset", "release"] if preset else ["-S", SOURCE]
+    done = subprocess.run([CMAKE, *how, "-B", build, *options], cwd=SOURCE, capture_output=True, text=True)
     return done.returncode, [line.removeprefix("-- ") for line in done.stdout.splitlines()], done.stderr, build
 
 
@@ -30,12 +31,15 @@ def left_out(lines):
     return dict(rows)
 
 
+status, lines, errors, _ = configure("plain", *BARE, preset=False)
+assert status == 0 and "libgtest-dev" in left_out(lines)["tests"], errors
+
 status, lines, errors, build = configure("bare", *BARE)
 assert status == 0, errors
 rows = left_out(lines)
 print(rows)
 for what, word in ((".exr files", "libopenexr-dev"), ("oneTBB", "libtbb-dev"), ("libcarreau_mpi (mpirun carreau mesh)", "libopenmpi-dev"), ("Fortran modules and examples", "gfortran"),
-                   ("libcarreau_cad (STEP, IGES and BREP files)", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), ("tests", "libgtest-dev")):
+                   ("libcarreau_cad (STEP, IGES and BREP files)", "OpenCASCADE"), ("formulas in --size-map", "CARREAU_MUPARSER is OFF"), ("tests", "CARREAU_TESTS is OFF")):
     assert word in rows[what], (what, rows)
 assert os.path.exists(os.path.join(build, "build.ninja"))
 targets = subprocess.run([CMAKE, "--build", build, "--target", "help"], check=True, capture_output=True, text=True).stdout
