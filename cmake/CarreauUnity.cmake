@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Several sources of one folder are compiled at once: most of the time of a small source goes to the headers that it
-# shares with its neighbours. It makes a build from nothing faster and one after an edit slower, so the presets for
-# daily work turn it off. Names of unnamed namespaces must differ within a folder.
+# shares with its neighbours. It makes a build from nothing faster and one after an edit slower, so the preset
+# for daily work turns it off. Names of unnamed namespaces must differ within a folder, but in sources that stand ALONE.
 include_guard()
 
 option(CARREAU_UNITY "Compile several sources of a folder at once" ON)

@@ -112,6 +112,8 @@ void mesh_all(const MeshOptions& options, MeshRun& run, CadInput& input, SizeMap
   generate(run.session, options, input, map, adaptation, failed, progress);
   run.seconds_processor = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   require(run.session, carreau_session_mesh(run.session, &run.mesh));
+  run.quality.struct_size = sizeof run.quality;
+  require(run.mesh, carreau_mesh_quality(run.mesh, &run.quality));
   run.faces = faces_of(run.mesh);
   for (FaceResult& face : run.faces) face.why = in_terms_of_file(input, face.why);
   if (const std::string open = unexpectedly_open(run); !open.empty()) progress.warning(open);

@@ -15,14 +15,6 @@
 namespace command {
 namespace {
 
-const carreau_quality& quality_of(const MeshRun& run) {
-  if (run.quality) return *run.quality;
-  carreau_quality q{};
-  q.struct_size = sizeof q;
-  require(run.mesh, carreau_mesh_quality(run.mesh, &q));
-  return run.quality.emplace(q);
-}
-
 std::int32_t threads_of(carreau_session* session) {
   std::int32_t threads = 1;
   require(session, carreau_get_integer(session, "threads", &threads));
@@ -203,7 +195,7 @@ std::string lost_entities(const CadInput& input) {
 }
 
 std::string unexpectedly_open(const MeshRun& run) {
-  const std::int64_t edges = quality_of(run).open_edges;
+  const std::int64_t edges = run.quality.open_edges;
   if (edges == 0 || count(run.faces, CARREAU_FACE_FAILED) > 0) return "";
   const Gluing gluing = gluing_of(run.input, interfaces_of(run.session));
   if (!run.input.closed() && gluing.glued == 0) return "";
@@ -214,7 +206,7 @@ std::string unexpectedly_open(const MeshRun& run) {
 }
 
 std::vector<std::string> summary_lines(const MeshRun& run) {
-  const carreau_quality& q = quality_of(run);
+  const carreau_quality& q = run.quality;
   const carreau_report r = report_of(run.session);
   const std::vector<carreau_interface> interfaces = interfaces_of(run.session);
   const auto of = [&](std::int32_t status) { return whole(count(run.faces, status)); };
@@ -241,7 +233,7 @@ std::vector<std::string> summary_lines(const MeshRun& run) {
 
 nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
   const carreau_report r = report_of(run.session);
-  const carreau_quality& q = quality_of(run);
+  const carreau_quality& q = run.quality;
   const ShortEdges& short_edges = run.short_edges;
   nlohmann::ordered_json faces = nlohmann::ordered_json::array();
   for (const FaceResult& face : run.faces)

@@ -5,7 +5,6 @@
 #include <carreau.h>
 
 #include <nlohmann/json_fwd.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,7 @@ struct MeshRun {
   std::vector<std::string> warnings = {};
   ShortEdges short_edges = {};
   Crossings crossings = {};
-  mutable std::optional<carreau_quality> quality = {};  ///< of the mesh; empty: nobody has asked yet
+  carreau_quality quality = {};
 };
 
 /// "2 of 6 faces have no mesh: 3, 5"; "" when all have.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/union_find.h"
 #include "plane/division/arrival.h"
 #include "plane/kernel/triangulation.h"
 #include "plane/thresholds.h"
@@ -15,24 +16,6 @@
 namespace carreau::plane {
 
 namespace {
-
-/// Sets of things that belong together.
-class Unions {
- public:
-  explicit Unions(std::size_t n) : above_(n) { std::iota(above_.begin(), above_.end(), 0); }
-  std::int32_t of(std::int32_t x) {
-    while (above_[x] != x) x = above_[x] = above_[above_[x]];
-    return x;
-  }
-  /// The smallest stands for all.
-  void join(std::int32_t x, std::int32_t y) {
-    x = of(x), y = of(y);
-    above_[std::max(x, y)] = std::min(x, y);
-  }
-
- private:
-  std::vector<std::int32_t> above_;
-};
 
 class Division {
  public:
@@ -75,11 +58,11 @@ class Division {
         const std::int32_t of = degenerate[v];
         if (of == 0) continue;
         if (first[of] < 0) first[of] = self;
-        clump_.join(first[of], self);
+        clump_.merge(first[of], self);
       }
       if (is_bad(t))
         for (const std::int32_t u : coarse_.beyond[t])
-          if (u >= 0) clump_.join(self, u);
+          if (u >= 0) clump_.merge(self, u);
     }
   }
 
@@ -103,7 +86,7 @@ class Division {
     const double whole = std::accumulate(coarse_.weight.begin(), coarse_.weight.end(), 0.0);
     double sum = 0;
     for (const std::int32_t t : triangles) {
-      std::int32_t& part = part_of_clump_[clump_.of(t)];
+      std::int32_t& part = part_of_clump_[clump_.find(t)];
       if (part < 0) part = std::min(static_cast<int>(sum / whole * parts), parts - 1);
       part_[t] = part;
       sum += coarse_.weight[t];
@@ -119,14 +102,13 @@ class Division {
       const std::int32_t pa = part_beyond(a), pb = part_beyond(b), pc = part_beyond(c);
       const std::int32_t most = pa == pb || pa == pc ? pa : pb == pc ? pb : -1;
       if (most < 0 || most == part_[t]) continue;
-      const auto self = static_cast<std::int32_t>(t);
-      if (clump_.of(self) != self || is_clumped(self)) continue;
+      if (clump_.find(t) != t || is_clumped(t)) continue;
       part_[t] = most;
     }
   }
-  [[nodiscard]] bool is_clumped(std::int32_t t) {
+  [[nodiscard]] bool is_clumped(std::size_t t) {
     return std::any_of(coarse_.beyond[t].begin(), coarse_.beyond[t].end(),
-                       [&](std::int32_t u) { return u >= 0 && clump_.of(u) == clump_.of(t); });
+                       [&](std::int32_t u) { return u >= 0 && clump_.find(u) == clump_.find(t); });
   }
 
   // Of each part the largest piece that hangs together stays; others join the part beyond most of their sides.
@@ -193,7 +175,7 @@ class Division {
   const CoarseDomain& domain_;
   const ControlSpace& metric_;
   std::size_t n_;
-  Unions clump_;
+  UnionFind clump_;
   std::vector<std::int32_t> part_, part_of_clump_, queue_;
   std::int32_t last_ = 0;
 };

@@ -25,7 +25,7 @@ inline constexpr double one_point = 1e-6;
 /// Places. Looked at in one face: spread over all of them, more cost and tell no more. [surface: BadModels.
 /// SurfaceThatJumpsInManyPlaces]
 inline constexpr std::size_t most_places = 500;
-/// Triangles. Between two looks at the monitor. [tests/cpp/measure: stops; time only]
+/// Triangles. Of a part that one thread looks at between two looks at the monitor. [tests/cpp/measure: stops; time only]
 inline constexpr std::size_t triangles_a_part = 1 << 14;
 
 // Steep places of space (steep_places)
