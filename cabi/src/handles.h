@@ -49,8 +49,10 @@ class HostMonitor final : public Monitor {
   }
 
   void message(Level level, std::string_view text) override {
-    if (message_ == nullptr || int(level) > (*parameters_)->integer("verb")) return;
-    message_(std::int32_t(level), std::string(text).c_str(), message_user_);
+    if (hears(level)) message_(std::int32_t(level), std::string(text).c_str(), message_user_);
+  }
+  [[nodiscard]] bool hears(Level level) const override {
+    return message_ != nullptr && int(level) <= (*parameters_)->integer("verb");
   }
   /// A call that tells progress of its own.
   void begin_run() {

@@ -76,6 +76,7 @@ Progress::~Progress() {
 
 void Progress::listen_to(carreau_session* session, const CadInput& input) {
   input_ = &input;
+  if (quiet_) carreau_set_integer(session, "verb", CARREAU_LEVEL_WARNING);  // what nobody reads is not computed
   carreau_set_message_callback(session, on_message, this);
   carreau_set_progress_callback(session, on_progress, this);
 }

@@ -32,6 +32,7 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
 }
 
 void describe_result(const CompositeResult& result, int threads, Monitor& monitor) {
+  if (!monitor.hears(Level::summary)) return;  // the quality takes a twentieth of the time of a plane mesh
   const SurfaceMesh& mesh = result.mesh;
   const std::vector<WholeFace> all = whole_faces(mesh);
   const auto whole = [](std::int64_t n) { return std::to_string(n); };

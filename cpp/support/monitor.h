@@ -33,6 +33,9 @@ class Monitor {
   /// One sentence, without a newline.
   virtual void message(Level /*level*/, std::string_view /*text*/) {}
 
+  /// Whether a message of this level goes to anybody: what is dear to say is not computed for no one.
+  [[nodiscard]] virtual bool hears(Level /*level*/) const { return true; }
+
   /// `entity` is the reference of the face or curve at work (0: none), `fraction` in [0, 1] is of
   /// the whole run. Called from the thread that runs. Must return quickly.
   virtual void progress(Phase /*phase*/, int /*entity*/, double /*fraction*/) {}

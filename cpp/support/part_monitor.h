@@ -13,6 +13,7 @@ class PartMonitor final : public Monitor {
   PartMonitor(Monitor& whole, double from, double to) : whole_(whole), from_(from), to_(to) {}
 
   void message(Level level, std::string_view text) override { whole_.message(level, text); }
+  [[nodiscard]] bool hears(Level level) const override { return whole_.hears(level); }
   void progress(Phase phase, int entity, double fraction) override {
     reached_ = from_ + (to_ - from_) * fraction;
     whole_.progress(phase, entity, reached_);

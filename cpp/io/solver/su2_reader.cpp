@@ -58,6 +58,8 @@ class Su2Reader {
   }
 
   void dimension(const char* at) {
+    // Points that were read with another dimension would keep a coordinate that the mesh does not have.
+    if (dimension_ != 0) in_.fail(at, "NDIME comes twice");
     dimension_ = in_.integer("the dimension");
     if (dimension_ != 2 && dimension_ != 3) in_.fail(at, "the dimension is " + std::to_string(dimension_) + " instead of 2 or 3");
   }
