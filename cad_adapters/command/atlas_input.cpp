@@ -2,7 +2,10 @@
 #include "atlas_input.h"
 
 #include <carreau_atlas.h>
+#include <carreau_geometry.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 
@@ -19,9 +22,32 @@ struct FreeAtlas {
 };
 using AtlasHandle = std::unique_ptr<carreau_atlas, FreeAtlas>;
 
+constexpr double least_even_quality = .9;       // mean of Q2: below it charts of neighbours disagree
+constexpr double fewest_even_triangles = 12000;  // CAD programs write two for a plane
+
+/// Uneven triangles of a closed surface are meshed evenly before they get charts. Empty where they are even, or cannot
+/// be meshed.
+MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
+  carreau_quality quality{};
+  quality.struct_size = sizeof quality;
+  require(given, carreau_mesh_quality(given, &quality));
+  if (quality.q2_mean >= least_even_quality || quality.open_edges > 0 || !(quality.area > 0)) return {};
+  const double count = std::max(static_cast<double>(quality.triangles), fewest_even_triangles);
+  const SessionHandle session = make_silent_session();
+  carreau_triangles_options options{};
+  options.struct_size = sizeof options, options.ignore_references = 1;
+  carreau_mesh* made = nullptr;
+  const bool is_made =
+      carreau_load_triangles(session.get(), &options, path.c_str()) == CARREAU_OK &&
+      carreau_set_real(session.get(), "hphydef", std::sqrt(4 / std::sqrt(3.) * quality.area / count)) == CARREAU_OK &&
+      carreau_mesh_generate(session.get()) == CARREAU_OK && carreau_session_mesh(session.get(), &made) == CARREAU_OK;
+  return is_made ? arrays_of(made) : MeshArrays{};
+}
+
 AtlasHandle build(const std::string& path) {
   const MeshHandle mesh = read_mesh(path);
-  const MeshArrays arrays = arrays_of(mesh.get());
+  MeshArrays arrays = even_triangles(path, mesh.get());
+  if (arrays.triangles.empty()) arrays = arrays_of(mesh.get());
   carreau_atlas* made = nullptr;
   if (carreau_atlas_create(&made) != CARREAU_OK) throw Failure("out of memory");
   AtlasHandle atlas(made);

@@ -48,6 +48,15 @@ class Atlas(unittest.TestCase):
     def test_a_torus_becomes_a_closed_mesh_on_it(self):
         text = self.mesh("torus.off", torus(36, 18, 2, .8), 0)
         self.assertIn("atlas over 1296 triangles", text)
+        self.check_torus(text)
+
+    def test_uneven_triangles_are_meshed_evenly_first(self):
+        text = self.mesh("uneven.off", torus(100, 12, 2, .8), 0)
+        over = int(text.split("atlas over ")[1].split()[0])
+        self.assertGreater(over, 9000)
+        self.check_torus(text)
+
+    def check_torus(self, text):
         self.assertIn("0 failed", text)
         with open(os.path.join(self.folder, "out.mesh")) as file:
             words = file.read().split()
