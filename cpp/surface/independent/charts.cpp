@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "cad/fundamental_forms.h"
 #include "support/infinity.h"
@@ -25,8 +26,8 @@ struct SideOf {
 }  // namespace
 
 Charts::Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
-               Monitor& monitor)
-    : xyz_(mesh.vertices), size_(size.begin(), size.end()) {
+               PlaneMetrics metrics, Monitor& monitor)
+    : xyz_(mesh.vertices), size_(size.begin(), size.end()), metric_(std::move(metrics)) {
   collect(mesh);
   guarded_.assign(triangles_.size(), 0);
   monitor.checkpoint();
@@ -133,6 +134,21 @@ double Charts::size(const Foot& f) const {
     size += w[i] * size_[triangles_[f.triangle].vertex[i]];
   }
   return size / sum;
+}
+
+PlaneMetric Charts::metric(const Foot& f, const Vec3& normal) const {
+  const Triangle& t = triangles_[f.triangle];
+  std::array<double, 3> w = weights(f.triangle, f.uv);
+  double sum = 0;
+  for (double& each : w) sum += each = std::max(each, 0.0);
+  std::array<const PlaneMetric*, 3> corners{};
+  int nearest = 0;
+  for (int i = 0; i < 3; ++i) {
+    corners[i] = &metric_[t.face][t.local[i]];
+    if (w[i] > w[nearest]) nearest = i;
+    w[i] /= sum;
+  }
+  return dot(normal, normal) > 0 ? interpolate(corners, w, normal) : *corners[nearest];
 }
 
 SurfacePlace Charts::place(const Foot& f, const SurfaceJet& jet) const {

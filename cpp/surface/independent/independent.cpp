@@ -51,12 +51,31 @@ std::int64_t euler(const SurfaceMesh& mesh) {
          static_cast<std::int64_t>(mesh.triangle_count());
 }
 
-RemeshingFrame frame_of(const CurveModel& model, double angle, const CompositeResult& result, Monitor& monitor) {
+// What the patches were meshed with, at their vertices; none where it is of no direction.
+PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
+  PlaneMetrics metrics(result.mesh.faces.size());
+  double most = 1;
+  for (std::size_t f = 0; f < metrics.size(); ++f) {
+    const FaceMesh& face = result.mesh.faces[f];
+    for (std::size_t k = 0; k < face.uv.size() && k < jets[f].size(); ++k) {
+      const double h = result.vertex_size[face.vertex[k]];
+      metrics[f].push_back(result.spaces[f] ? plane_metric(jets[f][k], result.spaces[f]->at(face.uv[k]), h)
+                                            : plane_metric(jets[f][k], induced_metric(jets[f][k].su, jets[f][k].sv, h), h));
+      most = std::max(most, anisotropy(metrics[f].back()));
+    }
+  }
+  return most > least_anisotropy ? metrics : PlaneMetrics{};
+}
+
+RemeshingFrame frame_of(const CurveModel& model, const CompositeOptions& options, bool by_direction,
+                        const CompositeResult& result, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
   RemeshingFrame frame{.jets = evaluate_vertices(mesh, model.cad, monitor), .sharp = {}, .charts = {}, .corners = {}, .lines = {}, .geometry = {}};
+  const double angle = options.sharp_angle;
   frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
+  const PlaneMetrics metrics = by_direction ? metrics_of(result, frame.jets) : PlaneMetrics{};
   const auto link = [&] {
-    frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, monitor);
+    frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, metrics, monitor);
   };
   link();
   if (const std::vector<MeshEdge> twisted = frame.charts->twisted(); !twisted.empty()) {
@@ -109,6 +128,7 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
                             Monitor& monitor) {
   SurfaceTolerances tolerances = tolerances_of(options);
   if (std::isfinite(geometric_limits(options.size).edge_angle_deg)) tolerances.angle_deg *= frame.angle_slack;
+  if (frame.charts->by_direction()) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;
@@ -140,8 +160,8 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 }
 
 void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                       CompositeResult& result, Monitor& monitor) {
-  RemeshingFrame frame = frame_of(model, options.sharp_angle, result, monitor);
+                       bool by_direction, CompositeResult& result, Monitor& monitor) {
+  RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
   frame.geometry = [&](const SharpLine& line) {
     return std::make_unique<LinePlaces>(line, result.mesh, model, curves, *frame.charts, model.cad);
   };

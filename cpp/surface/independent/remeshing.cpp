@@ -176,8 +176,7 @@ class Remesher {
       for (const Place p : mesh.fan(end)) {
         const auto& t = mesh.at(p);
         if (end == w && (t[0] == v || t[1] == v || t[2] == v)) continue;
-        const double h = (mesh_.size(t[0]) + mesh_.size(t[1]) + mesh_.size(t[2])) / 3;
-        area += norm(mesh.normal(p)) / (2 * h * h);
+        area += mesh_.double_area(t) / 2;
         ++count;
       }
     return area <= 0.5 * half_root3 * count * most_mean_area;
@@ -311,6 +310,27 @@ class Remesher {
     return count > 0 ? Vec3(sum / count) : mesh_.position(v);
   }
 
+  // The same in the mean metric of each triangle.
+  [[nodiscard]] Vec3 ideal_place_by_direction(std::int32_t v) const {
+    Vec3 sum{0, 0, 0};
+    double count = 0;
+    for (const Place p : mesh_.mesh().fan(v)) {
+      const auto& t = mesh_.mesh().at(p);
+      const int i = mesh_.mesh().rank_in(p, v);
+      const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+      const Vec3 a = mesh_.position(j), b = mesh_.position(k), side = b - a, up = mesh_.position(v) - a;
+      const Metric2 g = (1. / 3) * (gram(mesh_.metric(v), side, up) + gram(mesh_.metric(j), side, up) +
+                                    gram(mesh_.metric(k), side, up));
+      const double height2 = g.c - g.b * g.b / g.a;
+      if (!(g.a > 0) || !(height2 > 0)) continue;
+      const Vec3 across = up - (g.b / g.a) * side;
+      const double wanted = 0.5 * (std::sqrt(g.a) + 1);
+      sum = sum + 0.5 * (a + b) + (half_root3 * wanted / std::sqrt(height2)) * across;
+      count += 1;
+    }
+    return count > 0 ? Vec3(sum / count) : mesh_.position(v);
+  }
+
   [[nodiscard]] int out_of_range(std::int32_t v) const {
     int out = 0;
     for (const std::int32_t w : mesh_.mesh().ring(v)) {
@@ -322,15 +342,16 @@ class Remesher {
 
   bool move(std::int32_t v) {
     const SurfacePlace from = mesh_.place(v);
-    const double size = mesh_.size(v);
+    const WantedSize size = mesh_.wanted(v);
     const TriangleShapes before = mesh_.judge_around(v);
     const int out = out_of_range(v);
-    const Vec3 ideal = ideal_place(v);
-    if (norm(ideal - from.xyz) < least_move * size) return false;
+    const Vec3 ideal = mesh_.by_direction() ? ideal_place_by_direction(v) : ideal_place(v);
+    const Vec3 way = ideal - from.xyz;
+    if (mesh_.by_direction() ? length(size.metric, way) < least_move : norm(way) < least_move * size.h) return false;
     for (const double share : {1.0, 0.4}) {
       const auto to = mesh_.near(v, from.normal, lerp(from.xyz, ideal, share));
       if (!to) continue;
-      mesh_.put(v, *to, mesh_.size_at(*to));
+      mesh_.put(v, *to, mesh_.wanted_at(*to));
       const TriangleShapes after = mesh_.judge_around(v);
       if (after.inverses < before.inverses - least_gain && after.worst >= std::min(before.worst, good_enough) &&
           FreeMesh::agrees(before, after) && out_of_range(v) <= out)

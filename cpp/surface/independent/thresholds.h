@@ -64,6 +64,12 @@ inline constexpr double usual_angle = 52;
 /// Of squares of angles and distances beside triangles that crossed others in an attempt before: as if tolerances were a
 /// hundred times smaller.
 inline constexpr double guarded_factor = 1e4;
+/// Ratio of sizes in two directions. Below it all over a model sizes count as if they were of no direction: control spaces are
+/// known as well as that.
+inline constexpr double least_anisotropy = 1.05;
+/// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
+/// against the surface; patches bound it, too (surface/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
+inline constexpr double leaning_angle = 35;
 /// Attempts, each of which guards the places where triangles crossed in those before.
 inline constexpr int most_attempts = 4;
 /// Sizes around such a place that are guarded.
