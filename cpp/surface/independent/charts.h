@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cad/cad.h"
@@ -71,6 +72,10 @@ class Charts {
 
   /// The size there, linear between those of the vertices.
   [[nodiscard]] double size(const Foot& f) const;
+  /// Makes sizes so many times as large, by vertex of the mesh of before: in all directions; empty: as they were wanted.
+  void enlarge(std::vector<double> factor) { factor_ = std::move(factor); }
+  /// How far the size may grow from the sharp lines and corners, by vertex of the mesh of before: from 1 to `most`, over edges, by `growth` sizes a size.
+  [[nodiscard]] std::vector<double> factors_beside(const std::vector<char>& kept, double most, double growth) const;
   /// Whether sizes differ by direction.
   [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
   /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero where there is none.
@@ -108,6 +113,7 @@ class Charts {
   std::vector<Vec3> xyz_;              // by vertex of the mesh
   std::vector<double> size_;           // the same
   PlaneMetrics metric_;                // by face and local vertex; may be empty
+  std::vector<double> factor_;         // of sizes, by vertex; may be empty
   std::vector<int> ref_;               // by face
   std::vector<MeshEdge> twisted_;
   std::vector<BarrierSide> barrier_;  // by edge, ascending

@@ -89,6 +89,27 @@ RemeshingFrame frame_of(const CurveModel& model, const CompositeOptions& options
   return frame;
 }
 
+// Of few triangles, with sizes that grow from the lines, which are then halved: vertices that halve an edge have six neighbours,
+// and irregular ones are as few as there are of the coarse mesh.
+RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, RemeshingFrame& frame, Monitor& monitor) {
+  std::vector<char> kept(mesh.vertices.size(), 0);
+  for (const MeshEdge& e : frame.sharp) kept[e[0]] = kept[e[1]] = 1;
+  for (const std::int32_t v : frame.corners) kept[v] = 1;
+  RemeshingReport report;
+  for (int level = halvings; level > 0; --level) {
+    const double times = std::exp2(level);
+    frame.charts->enlarge(frame.charts->factors_beside(kept, times, growth_of_coarse));
+    free.update_sizes();
+    free.relax(times);
+    report += level == halvings ? RemeshingReport{} : halve(free, monitor);
+    report += remesh(free, monitor, true);
+  }
+  frame.charts->enlarge({});
+  free.update_sizes();
+  free.relax(1);
+  return report += halve(free, monitor);
+}
+
 FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
                 Monitor& monitor) {
   FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts, cad);
@@ -99,6 +120,7 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeRe
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
     if (round > 0 && changed == 0) break;
+    if (round == 0 && frame.everywhere) report += remesh_coarsely(free, result.mesh, frame, monitor);
     report += remesh(free, monitor, frame.everywhere);
   }
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +

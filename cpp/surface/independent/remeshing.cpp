@@ -28,6 +28,28 @@ class Remesher {
   Remesher(FreeMesh& mesh, Monitor& monitor, bool everywhere)
       : mesh_(mesh), monitor_(monitor), everywhere_(everywhere) {}
 
+  RemeshingReport halve() {
+    activate_all();
+    const auto old = static_cast<std::int32_t>(mesh_.vertices());
+    split_long();
+    // Of each triangle the first edge that was split leads from its middle to a corner: the last middles are to be joined.
+    const auto last = static_cast<std::int32_t>(mesh_.vertices());
+    for (std::int32_t m = old; m < last; ++m) {
+      monitor_.checkpoint();
+      for (const std::int32_t v : mesh_.mesh().ring(m)) {
+        if (v >= old || mesh_.length(m, v) < longest_of_halves) continue;
+        const auto q = quad_between(m, v);
+        if (!q || q->c < old || q->d < old) continue;
+        TriangleShapes before, after;
+        mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
+        mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
+        if (after.worst >= std::min(before.worst, least_shape_of_degrees) && FreeMesh::agrees(before, after) && mesh_.swap(*q))
+          ++report_.swaps;
+      }
+    }
+    return report_;
+  }
+
   RemeshingReport run() {
     activate_all();
     for (report_.rounds = 0; report_.rounds < most_rounds; ++report_.rounds) {
@@ -369,6 +391,8 @@ class Remesher {
 };
 
 }  // namespace
+
+RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true).halve(); }
 
 RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere) {
   return Remesher(mesh, monitor, everywhere).run();

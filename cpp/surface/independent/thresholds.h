@@ -36,6 +36,12 @@ inline constexpr double short_when_dense = 0.95;
 inline constexpr double most_mean_area = 1.02;
 /// Shape that such a collapse may leave.
 inline constexpr double least_shape_when_dense = 0.35;
+/// Times that edges of a coarse mesh are halved where all is made anew.
+inline constexpr int halvings = 1;
+/// Sizes by which the size of a coarse mesh grows from sharp lines, a wanted size.
+inline constexpr double growth_of_coarse = 0.5;
+/// Lengths. Between middles of edges lie edges of about unit length, from a middle to the corner opposite those of sqrt(3).
+inline constexpr double longest_of_halves = 1.2;
 /// No edit makes a longer edge.
 inline constexpr double never_longer = 1.8;
 /// Rounds of collapses, splits, swaps and moves.
