@@ -13,7 +13,9 @@ namespace carreau {
 
 namespace {
 
-std::size_t corner_index(std::int32_t t, int k) noexcept { return 3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(k % 3); }
+std::size_t corner_index(std::int32_t t, int k) noexcept {
+  return 3 * static_cast<std::size_t>(t) + static_cast<std::size_t>(k % 3);
+}
 
 Metric3 outer(const Vec3& p, const Vec3& q, PlaneCurvature k) noexcept {
   const Vec3 kp = k.a * p + k.b * q, kq = k.b * p + k.c * q;
@@ -22,7 +24,8 @@ Metric3 outer(const Vec3& p, const Vec3& q, PlaneCurvature k) noexcept {
 }
 
 void add(Metric3& sum, double w, const Metric3& m) noexcept {
-  sum.xx += w * m.xx, sum.xy += w * m.xy, sum.xz += w * m.xz, sum.yy += w * m.yy, sum.yz += w * m.yz, sum.zz += w * m.zz;
+  sum.xx += w * m.xx, sum.xy += w * m.xy, sum.xz += w * m.xz, sum.yy += w * m.yy, sum.yz += w * m.yz,
+      sum.zz += w * m.zz;
 }
 
 /// The tensor of one triangle, in a basis of its plane.

@@ -16,7 +16,8 @@ namespace {
 
 using discrete::RefinedMesh;
 
-/// Tangent of the angle by which triangles may lean where long sizes are bounded for it, as on patches (surface/thresholds.h).
+/// Tangent of the angle by which triangles may lean where long sizes are bounded for it, as on patches
+/// (surface/thresholds.h).
 constexpr double most_lean = 0.5;
 /// Ratio of sizes in two directions below which all count as of none.
 constexpr double least_ratio = 1 + 1e-6;
@@ -53,8 +54,8 @@ double ratio_of(const TangentMetric& m) noexcept { return std::max(m.h1, m.h2) /
 
 /// What a vertex has of one region: the sets of corners that no sharp edge divides.
 struct DiscreteSizes::Sides {
-  std::vector<int> of_corner;          // by corner 3 t + k
-  std::vector<std::size_t> first;      // of each: its first corner
+  std::vector<int> of_corner;      // by corner 3 t + k
+  std::vector<std::size_t> first;  // of each: its first corner
 
   explicit Sides(const RefinedMesh& mesh) : of_corner(3 * mesh.triangles.size(), -1) {
     std::vector<discrete::Edge> sharp;
@@ -97,7 +98,8 @@ double MeshSizes::over(const RefinedMesh& mesh, std::size_t triangle) const {
   return sum / 3;
 }
 
-// The larger curvature is the largest that edges show, as for sizes of no direction; what the tensor does not know of it may be of any direction.
+// The larger curvature is the largest that edges show, as for sizes of no direction; what the tensor does not know of
+// it may be of any direction.
 std::optional<TangentMetric> DiscreteSizes::geometric_at(std::int32_t triangle, const Vec2& uv, const Vec3& p,
                                                          const Vec3& q) const {
   if (options_.size.geometric == GeometricSizes::ignored) return {};
@@ -135,7 +137,8 @@ void DiscreteSizes::keep_flat(std::int32_t triangle, const Vec2& uv, TangentMetr
 TangentMetric DiscreteSizes::wanted_at(const SizeRules& rules, int face, std::int32_t triangle, const Vec2& uv) const {
   const bool physical = options_.size.physical != PhysicalSizes::ignored;
   const Vec2 place = surface_.corner_of_tile(triangle) + uv;
-  SurfaceJet jet = surface_at(cad_, model_.faces[at_index(face)].ref, want_position | want_first | rules.surface_wants(), place);
+  SurfaceJet jet =
+      surface_at(cad_, model_.faces[at_index(face)].ref, want_position | want_first | rules.surface_wants(), place);
   Vec3 p, q;
   if (const auto frame = TangentFrame::of(jet.su, jet.sv)) {
     p = frame->e1, q = frame->e2;

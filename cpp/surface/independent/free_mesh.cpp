@@ -19,7 +19,6 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
     : xyz_(mesh.vertices),
       size_(size.begin(), size.end()),
       several_(mesh.vertices.size(), -1),
-      asked_(tolerances),
       tolerances_(tolerances),
       cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
       charts_(charts),
@@ -93,13 +92,6 @@ void FreeMesh::update_sizes() {
     size_[v] = wanted.h;
     if (by_direction()) metric_[v] = wanted.metric;
   }
-}
-
-// Angles grow as sizes do, up to those that need no rule, distances as their squares; a share of the size grows with it.
-void FreeMesh::relax(double factor) {
-  tolerances_.angle_deg = std::max(asked_.angle_deg, std::min(factor * asked_.angle_deg, usual_angle));
-  tolerances_.deviation = factor * factor * asked_.deviation;
-  cosine_ = std::cos(tolerances_.angle_deg * std::numbers::pi / 180);
 }
 
 double FreeMesh::size_along(std::int32_t v, std::int32_t w) const {

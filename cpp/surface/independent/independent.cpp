@@ -100,13 +100,11 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
     const double times = std::exp2(level);
     frame.charts->enlarge(frame.charts->factors_beside(kept, times, growth_of_coarse));
     free.update_sizes();
-    free.relax(times);
     report += level == halvings ? RemeshingReport{} : halve(free, monitor);
     report += remesh(free, monitor, true);
   }
   frame.charts->enlarge({});
   free.update_sizes();
-  free.relax(1);
   return report += halve(free, monitor);
 }
 

@@ -65,7 +65,8 @@ class Remesher {
       move_all();
       if (report_.collapses + report_.splits == before) break;
     }
-    for (int pass = 0; pass < most_last_passes; ++pass) {
+    const int passes = everywhere_ ? most_last_passes_everywhere : most_last_passes;
+    for (int pass = 0; pass < passes; ++pass) {
       const std::int64_t before = report_.swaps + report_.moves;
       swap_all();
       move_all();
@@ -355,8 +356,8 @@ class Remesher {
 
   [[nodiscard]] int out_of_range(std::int32_t v) const {
     int out = 0;
-    for (const std::int32_t w : mesh_.mesh().ring(v)) {
-      const double l = mesh_.length(v, w);
+    for (const Place p : mesh_.mesh().fan(v)) {  // of a free vertex: each neighbour once
+      const double l = mesh_.length(v, mesh_.mesh().at(p)[(mesh_.mesh().rank_in(p, v) + 1) % 3]);
       out += l < shortest || l > longest ? 1 : 0;
     }
     return out;
@@ -369,7 +370,8 @@ class Remesher {
     const int out = out_of_range(v);
     const Vec3 ideal = mesh_.by_direction() ? ideal_place_by_direction(v) : ideal_place(v);
     const Vec3 way = ideal - from.xyz;
-    if (mesh_.by_direction() ? length(size.metric, way) < least_move : norm(way) < least_move * size.h) return false;
+    const double least = everywhere_ ? least_move_everywhere : least_move;
+    if (mesh_.by_direction() ? length(size.metric, way) < least : norm(way) < least * size.h) return false;
     for (const double share : {1.0, 0.4}) {
       const auto to = mesh_.near(v, from.normal, lerp(from.xyz, ideal, share));
       if (!to) continue;

@@ -37,9 +37,9 @@ inline constexpr double most_mean_area = 1.02;
 /// Shape that such a collapse may leave.
 inline constexpr double least_shape_when_dense = 0.35;
 /// Times that edges of a coarse mesh are halved where all is made anew.
-inline constexpr int halvings = 1;
+inline constexpr int halvings = 2;
 /// Sizes by which the size of a coarse mesh grows from sharp lines, a wanted size.
-inline constexpr double growth_of_coarse = 0.5;
+inline constexpr double growth_of_coarse = 1;
 /// Lengths. Between middles of edges lie edges of about unit length, from a middle to the corner opposite those of sqrt(3).
 inline constexpr double longest_of_halves = 1.2;
 /// No edit makes a longer edge.
@@ -47,7 +47,7 @@ inline constexpr double never_longer = 1.8;
 /// Rounds of collapses, splits, swaps and moves.
 inline constexpr int most_rounds = 8;
 /// Passes of swaps and moves after them.
-inline constexpr int most_last_passes = 8;
+inline constexpr int most_last_passes = 8, most_last_passes_everywhere = 20;
 /// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
 inline constexpr double least_shape = 0.15;
 /// Shape. Triangles below are worked at, with two rings around.
@@ -56,7 +56,7 @@ inline constexpr double good_enough = 0.7;
 inline constexpr double least_shape_of_degrees = 0.55;
 inline constexpr int most_rounds_of_degrees = 4;
 /// Share of the size. Shorter moves are not worth an evaluation.
-inline constexpr double least_move = 0.02;
+inline constexpr double least_move = 0.02, least_move_everywhere = 0.01;
 /// Shape. Gains below do not count.
 inline constexpr double least_gain = 1e-4;
 

@@ -18,8 +18,8 @@ using namespace testing;
 
 double share_of_unit_edges(Session& session) {
   const std::vector<double>& lengths = session.delivered()[EvaluationKind::length].values;
-  const auto in = std::ranges::count_if(
-      lengths, [](double l) { return l >= std::numbers::sqrt2 / 2 && l <= std::numbers::sqrt2; });
+  const auto in =
+      std::ranges::count_if(lengths, [](double l) { return l >= std::numbers::sqrt2 / 2 && l <= std::numbers::sqrt2; });
   return static_cast<double>(in) / static_cast<double>(lengths.size());
 }
 
@@ -35,7 +35,8 @@ std::unique_ptr<Session> meshed_by(const AnalyticCad& cad, const Metric3& metric
   return session;
 }
 
-// A constant metric of space makes a spheroid of the sphere; 80 patches, some of which are narrower than its long edges, mean nothing.
+// A constant metric of space makes a spheroid of the sphere; 80 patches, some of which are narrower than its long
+// edges, mean nothing.
 TEST(IndependentByDirection, SphereOfPatchesHasTheTrianglesOfASpheroid) {
   Monitor quiet;
   const double h1 = 0.15, h3 = 0.6, a = 1 / h1, c = 1 / h3, e = std::sqrt(1 - c * c / (a * a));
@@ -57,11 +58,13 @@ TEST(IndependentByDirection, MeshDoesNotDependOnThreads) {
   Monitor quiet;
   const Metric3 metric{25, 0, 0, 25, 0, 4};
   const AnalyticCad cad = sphere_of_triangles(1);
-  const auto one = meshed_by(cad, metric, "independent", quiet, 1), four = meshed_by(cad, metric, "independent", quiet, 4);
+  const auto one = meshed_by(cad, metric, "independent", quiet, 1),
+             four = meshed_by(cad, metric, "independent", quiet, 4);
   EXPECT_EQ(one->mesh().vertices, four->mesh().vertices);
 }
 
-// On a plane side a metric of directions that turn with the place: edges are unit, corners and sharp edges of the cube exact.
+// On a plane side a metric of directions that turn with the place: edges are unit, corners and sharp edges of the cube
+// exact.
 TEST(IndependentByDirection, SquaresOfACubeMeanNothingToAMetricThatTurns) {
   Monitor quiet;
   const AnalyticCad cad = cube_of_squares(6);
