@@ -101,15 +101,15 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
     frame.charts->enlarge(frame.charts->factors_beside(kept, times, growth_of_coarse));
     free.update_sizes();
     report += level == halvings ? RemeshingReport{} : halve(free, monitor);
-    report += remesh(free, monitor, true);
+    report += remesh(free, monitor, true, true);
   }
   frame.charts->enlarge({});
   free.update_sizes();
   return report += halve(free, monitor);
 }
 
-FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
-                Monitor& monitor) {
+FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, const CompositeResult& result,
+                RemeshingFrame& frame, Monitor& monitor) {
   FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts, cad);
   std::vector<WorkedLine> worked;
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
@@ -118,8 +118,8 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeRe
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
     if (round > 0 && changed == 0) break;
-    if (round == 0 && frame.everywhere) report += remesh_coarsely(free, result.mesh, frame, monitor);
-    report += remesh(free, monitor, frame.everywhere);
+    if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
+    report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely);
   }
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -157,7 +157,9 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     monitor.checkpoint();
-    made = freed(cad, tolerances, result, frame, monitor);
+    // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
+    const bool ruled = geometric_limits(options.size).any();
+    made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
     const Intersections found = crossings(made.mesh, options.threads, monitor);
     if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);

@@ -25,8 +25,8 @@ struct LongEdge {
 
 class Remesher {
  public:
-  Remesher(FreeMesh& mesh, Monitor& monitor, bool everywhere)
-      : mesh_(mesh), monitor_(monitor), everywhere_(everywhere) {}
+  Remesher(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough)
+      : mesh_(mesh), monitor_(monitor), everywhere_(everywhere), thorough_(thorough) {}
 
   RemeshingReport halve() {
     activate_all();
@@ -65,7 +65,7 @@ class Remesher {
       move_all();
       if (report_.collapses + report_.splits == before) break;
     }
-    const int passes = everywhere_ ? most_last_passes_everywhere : most_last_passes;
+    const int passes = thorough_ ? most_last_passes_thorough : most_last_passes;
     for (int pass = 0; pass < passes; ++pass) {
       const std::int64_t before = report_.swaps + report_.moves;
       swap_all();
@@ -370,7 +370,7 @@ class Remesher {
     const int out = out_of_range(v);
     const Vec3 ideal = mesh_.by_direction() ? ideal_place_by_direction(v) : ideal_place(v);
     const Vec3 way = ideal - from.xyz;
-    const double least = everywhere_ ? least_move_everywhere : least_move;
+    const double least = thorough_ ? least_move_thorough : least_move;
     if (mesh_.by_direction() ? length(size.metric, way) < least : norm(way) < least * size.h) return false;
     for (const double share : {1.0, 0.4}) {
       const auto to = mesh_.near(v, from.normal, lerp(from.xyz, ideal, share));
@@ -387,17 +387,17 @@ class Remesher {
 
   FreeMesh& mesh_;
   Monitor& monitor_;
-  bool everywhere_;
+  bool everywhere_, thorough_;
   std::vector<char> active_;  // by vertex
   RemeshingReport report_;
 };
 
 }  // namespace
 
-RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true).halve(); }
+RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true, true).halve(); }
 
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere) {
-  return Remesher(mesh, monitor, everywhere).run();
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough) {
+  return Remesher(mesh, monitor, everywhere, thorough).run();
 }
 
 }  // namespace carreau

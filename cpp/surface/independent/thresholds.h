@@ -47,7 +47,7 @@ inline constexpr double never_longer = 1.8;
 /// Rounds of collapses, splits, swaps and moves.
 inline constexpr int most_rounds = 8;
 /// Passes of swaps and moves after them.
-inline constexpr int most_last_passes = 8, most_last_passes_everywhere = 20;
+inline constexpr int most_last_passes = 8, most_last_passes_thorough = 20;
 /// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
 inline constexpr double least_shape = 0.15;
 /// Shape. Triangles below are worked at, with two rings around.
@@ -56,7 +56,7 @@ inline constexpr double good_enough = 0.7;
 inline constexpr double least_shape_of_degrees = 0.55;
 inline constexpr int most_rounds_of_degrees = 4;
 /// Share of the size. Shorter moves are not worth an evaluation.
-inline constexpr double least_move = 0.02, least_move_everywhere = 0.01;
+inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
 /// Shape. Gains below do not count.
 inline constexpr double least_gain = 1e-4;
 
