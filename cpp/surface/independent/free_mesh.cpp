@@ -19,6 +19,7 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
     : xyz_(mesh.vertices),
       size_(size.begin(), size.end()),
       several_(mesh.vertices.size(), -1),
+      asked_(tolerances),
       tolerances_(tolerances),
       cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
       charts_(charts),
@@ -92,6 +93,13 @@ void FreeMesh::update_sizes() {
     size_[v] = wanted.h;
     if (by_direction()) metric_[v] = wanted.metric;
   }
+}
+
+// Where the surface bends more a coarse mesh is finer, so that no feature of the size wanted is passed over.
+void FreeMesh::tighten(double factor) {
+  tolerances_.share_of_size = asked_.share_of_size / factor;
+  tolerances_.angle_deg = asked_.angle_deg / std::sqrt(factor);
+  cosine_ = std::cos(tolerances_.angle_deg * std::numbers::pi / 180);
 }
 
 double FreeMesh::size_along(std::int32_t v, std::int32_t w) const {

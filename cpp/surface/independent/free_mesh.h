@@ -86,6 +86,9 @@ class FreeMesh {
 
   /// After the sizes of the charts have changed.
   void update_sizes();
+  /// Of a mesh so many times as coarse as wanted: triangles leave the surface no farther than those that are wanted may, and lean less;
+  /// 1: as was tolerated.
+  void tighten(double factor);
 
   /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
   std::int32_t try_vertex(const SurfacePlace& at);
@@ -118,6 +121,7 @@ class FreeMesh {
   std::vector<Metric3> metric_;  // by vertex; empty: sizes do not differ by direction
   std::vector<std::int32_t> several_;  // by vertex: index in kept_places_, -1: free
   std::vector<std::vector<SurfacePlace>> kept_places_;
+  const SurfaceTolerances asked_;
   SurfaceTolerances tolerances_;
   double cosine_;  // of the angle that is tolerated
   const Charts& charts_;

@@ -100,11 +100,13 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
     const double times = std::exp2(level);
     frame.charts->enlarge(frame.charts->factors_beside(kept, times, growth_of_coarse));
     free.update_sizes();
+    free.tighten(times);
     report += level == halvings ? RemeshingReport{} : halve(free, monitor);
     report += remesh(free, monitor, true, true);
   }
   frame.charts->enlarge({});
   free.update_sizes();
+  free.tighten(1);
   return report += halve(free, monitor);
 }
 
