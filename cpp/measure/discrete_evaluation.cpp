@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cad/fundamental_forms.h"
 #include "measure/composite_evaluation.h"
 #include "support/infinity.h"
 #include "surface/independent/charts.h"
@@ -27,16 +28,24 @@ class PatchAtlas {
     for (std::int32_t t = 0; t < n; ++t) of_[index(fill[index(patch[index(t)])]++)] = t;
   }
 
-  [[nodiscard]] double size(const Vec2& uv) const {
+  /// Of (u, v).
+  [[nodiscard]] Metric2 metric(const Vec2& uv, const SurfaceJet& jet) const {
+    const Foot foot = foot_at(uv);
+    if (charts_.by_direction())
+      if (const auto normal = unit_normal(jet))
+        return induced_metric(jet.su, jet.sv, charts_.metric(foot, *normal).metric);
+    return induced_metric(jet.su, jet.sv, charts_.size(foot));
+  }
+
+ private:
+  [[nodiscard]] Foot foot_at(const Vec2& uv) const {
     const std::int32_t p = surface_.patch_of(uv);
     std::int32_t best = of_[index(first_[index(p)])];
     double most = -infinity;
     for (std::int32_t k = first_[index(p)]; k < first_[index(p) + 1]; ++k)
       if (const double inside = least_weight(of_[index(k)], uv); inside > most) most = inside, best = of_[index(k)];
-    return charts_.size({best, uv});
+    return {best, uv};
   }
-
- private:
   [[nodiscard]] Vec2 middle(std::int32_t t) const {
     return (charts_.uv(t, 0) + charts_.uv(t, 1) + charts_.uv(t, 2)) / 3;
   }
@@ -56,7 +65,7 @@ MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad,
   const PatchAtlas atlas(surface, *result.atlas);
   const PrescribedMetric metric{
       want_first, [&](int, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
-        for (std::size_t k = 0; k < uv.size(); ++k) out[k] = induced_metric(jets[k].su, jets[k].sv, atlas.size(uv[k]));
+        for (std::size_t k = 0; k < uv.size(); ++k) out[k] = atlas.metric(uv[k], jets[k]);
       }};
   EvaluationOptions measure = evaluation_options(options, result);
   measure.law = options.size.law;

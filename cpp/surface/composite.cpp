@@ -113,12 +113,10 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   mesh();
   part_crossing_triangles(run, mesh);
   run.known.end();
-  if (options.independent && run.rules.uses_metrics())
-    run.say(Level::warning, "the mesh stays as its patches made it: sizes may differ by direction");
-  else if (options.independent && any_prescribed(run))
+  if (options.independent && any_prescribed(run))
     run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
   else if (options.independent)
-    free_from_patches(run.curve_model, run.curves, options, run.result, monitor);
+    free_from_patches(run.curve_model, run.curves, options, run.rules.uses_metrics(), run.result, monitor);
   make_elements(run, mesh);
   place_on_curves(run);
   tell_prescribed(run);

@@ -13,19 +13,17 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   const auto start = std::chrono::steady_clock::now();
   if (options.element != Element::p1)
     throw InvalidArgument("a surface given as triangles gets straight triangles: element must be p1");
-  if (options.size.geo_anisotropic)
-    monitor.message(Level::warning,
-                    "sizes that differ by direction count as their least on a surface given as triangles");
   const DiscreteSizes sizes(model, cad, surface, options);
   monitor.progress(Phase::curves, 0, 0);
   const discrete::RefinedMesh refined = refine_by_sizes(surface.discrete(), sizes, options, monitor);
   CompositeResult result;
-  result.vertex_size = sizes.at_vertices(refined, monitor);
+  const MeshSizes wanted = sizes.at_vertices(refined, monitor);
+  result.vertex_size = wanted.h;
   result.mesh = start_mesh(model, surface, refined);
   result.interfaces.resize(model.faces.size());
   result.spaces.resize(model.faces.size());
   monitor.progress(Phase::patches, 0, 0.2);
-  RemeshingFrame frame = start_frame(surface, result.mesh, result.vertex_size, options, cad, monitor);
+  RemeshingFrame frame = start_frame(surface, refined, result.mesh, wanted, options, cad, monitor);
   const auto atlas = frame.charts;
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
   if (!why.empty()) {

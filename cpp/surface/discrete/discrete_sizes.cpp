@@ -15,16 +15,6 @@ namespace {
 
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
-GeometricRule rule_of(const SizeParameters& size) {
-  GeometricRule rule{
-      .criterion = size.geo_rule, .anisotropic = false, .angle_deg = size.angle_mesh, .eps0 = size.eps_chord};
-  if (size.geo_guarantee) {
-    rule.angle_factor = thresholds::size::guaranteed_angle_factor;
-    rule.chord_factor = thresholds::size::guaranteed_chord_factor;
-  }
-  return rule;
-}
-
 /// The least size of a metric of (u, v): 1 / h^2 is the larger eigenvalue of I^-1 M, I the first fundamental form.
 double least_size(const Metric2& m, const SurfaceJet& jet) noexcept {
   const Metric2 i = induced_metric(jet.su, jet.sv, 1);
@@ -56,6 +46,39 @@ DiscreteSizes::DiscreteSizes(const Model& model, Cad& cad, const discrete::Discr
       }
     }
   for (std::size_t c = 0; c < curvature.size(); ++c) radius_.push_back(1 / curvature[sectors.find(c)]);
+  if (options.size.geo_anisotropic) curvature_.emplace(s);
+}
+
+GeometricRule DiscreteSizes::geometric_rule() const {
+  const SizeParameters& size = options_.size;
+  GeometricRule rule{
+      .criterion = size.geo_rule, .anisotropic = false, .angle_deg = size.angle_mesh, .eps0 = size.eps_chord};
+  if (size.geo_guarantee) {
+    rule.angle_factor = thresholds::size::guaranteed_angle_factor;
+    rule.chord_factor = thresholds::size::guaranteed_chord_factor;
+  }
+  return rule;
+}
+
+double DiscreteSizes::clamped_geometric(double h) const {
+  return std::clamp(h, options_.size.hgeomin, options_.size.hgeomax);
+}
+
+double DiscreteSizes::largest_curvature(std::int32_t triangle, const Vec2& uv) const {
+  const std::size_t first = 3 * index(triangle);
+  return (1 - uv.x() - uv.y()) / radius_[first] + uv.x() / radius_[first + 1] + uv.y() / radius_[first + 2];
+}
+
+// Index in Model::faces of the face of each triangle of the surface.
+std::vector<int> DiscreteSizes::face_of_triangles() const {
+  std::vector<int> rank(1 + index(model_.faces.back().ref), 0);
+  for (std::size_t f = 0; f < model_.faces.size(); ++f) {
+    rank.resize(std::max(rank.size(), index(model_.faces[f].ref) + 1), 0);
+    rank[index(model_.faces[f].ref)] = static_cast<int>(f);
+  }
+  std::vector<int> face;
+  for (const std::int32_t ref : discrete::face_refs(surface_.discrete())) face.push_back(rank[index(ref)]);
+  return face;
 }
 
 void DiscreteSizes::prescribe(const discrete::RefinedMesh& mesh, std::vector<double>& size, Monitor& monitor) const {
@@ -68,15 +91,10 @@ void DiscreteSizes::prescribe(const discrete::RefinedMesh& mesh, std::vector<dou
     for (double& h : size) h = std::min(h, *constant);
     return;
   }
-  std::vector<std::int32_t> rank(1 + index(model_.faces.back().ref), 0);
-  for (std::size_t f = 0; f < model_.faces.size(); ++f) {
-    rank.resize(std::max(rank.size(), index(model_.faces[f].ref) + 1), 0);
-    rank[index(model_.faces[f].ref)] = static_cast<std::int32_t>(f);
-  }
-  const std::vector<std::int32_t> refs = discrete::face_refs(surface_.discrete());
+  const std::vector<int> faces = face_of_triangles();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (t % 256 == 0) monitor.checkpoint();
-    const int face = rank[index(refs[index(mesh.parent[t])])];
+    const int face = faces[index(mesh.parent[t])];
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2 uv = surface_.corner_of_tile(mesh.parent[t]) + mesh.uv[t][k];
       const SurfaceJet jet =
@@ -91,27 +109,28 @@ void DiscreteSizes::prescribe(const discrete::RefinedMesh& mesh, std::vector<dou
 }
 
 void DiscreteSizes::bend(const discrete::RefinedMesh& mesh, std::vector<double>& size) const {
-  const GeometricRule rule = rule_of(options_.size);
+  const GeometricRule rule = geometric_rule();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::size_t first = 3 * index(mesh.parent[t]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec2& p = mesh.uv[t][k];
-      const double curvature =
-          (1 - p.x() - p.y()) / radius_[first] + p.x() / radius_[first + 1] + p.y() / radius_[first + 2];
+      const double curvature = largest_curvature(mesh.parent[t], p);
       const double h = geometric_size(rule, curvature > 0 ? 1 / curvature : infinity);
       double& least = size[index(mesh.triangles[t][k])];
-      least = std::min(least, std::clamp(h, options_.size.hgeomin, options_.size.hgeomax));
+      least = std::min(least, clamped_geometric(h));
     }
   }
 }
 
-std::vector<double> DiscreteSizes::at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const {
+MeshSizes DiscreteSizes::at_vertices(const discrete::RefinedMesh& mesh, Monitor& monitor) const {
+  const bool told = options_.size.physical != PhysicalSizes::ignored && !options_.size.sources.empty();
+  if (curvature_ || told)
+    if (MeshSizes directed = by_direction(mesh, monitor); directed.by_direction()) return directed;
   std::vector<double> size(mesh.vertices.size(), infinity);
   prescribe(mesh, size, monitor);
   if (options_.size.geometric != GeometricSizes::ignored) bend(mesh, size);
   if (options_.gradation > 0)
     grade_over_edges(mesh.vertices, mesh.triangles, slope_of_gradation(options_.gradation), size);
-  return size;
+  return {std::move(size), {}, {}};
 }
 
 void grade_over_edges(const std::vector<Vec3>& vertices, const std::vector<std::array<std::int32_t, 3>>& triangles,

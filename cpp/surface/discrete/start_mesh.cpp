@@ -19,11 +19,11 @@ constexpr double angle_slack = 1.6;
 std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Equilateral triangles of the wanted sizes that have the area of the given ones.
-double expected_triangles(const RefinedMesh& mesh, const std::vector<double>& size) {
+double expected_triangles(const RefinedMesh& mesh, const MeshSizes& sizes) {
   double sum = 0;
-  for (const auto& t : mesh.triangles) {
-    const auto at = [&](std::size_t k) -> const Vec3& { return mesh.vertices[index(t[k])]; };
-    const double h = (size[index(t[0])] + size[index(t[1])] + size[index(t[2])]) / 3;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto at = [&](std::size_t k) -> const Vec3& { return mesh.vertices[index(mesh.triangles[t][k])]; };
+    const double h = sizes.over(mesh, t);
     sum += norm(cross(at(1) - at(0), at(2) - at(0))) / (half_root3 * h * h);
   }
   return sum;
@@ -54,6 +54,26 @@ std::vector<CurveMeshUse> uses_of(std::vector<std::int32_t> faces) {
     if (internal) ++k;
   }
   return uses;
+}
+
+/// By face and local vertex of the mesh, whose faces have the triangles of `refined` in their order.
+PlaneMetrics metrics_of(const discrete::DiscreteCad& surface, const RefinedMesh& refined, const SurfaceMesh& mesh,
+                        const MeshSizes& sizes) {
+  if (!sizes.by_direction()) return {};
+  PlaneMetrics metrics;
+  std::map<int, std::size_t> rank;
+  for (const FaceMesh& face : mesh.faces) {
+    rank[face.ref] = metrics.size();
+    metrics.emplace_back(face.vertex.size());
+  }
+  const std::vector<std::int32_t> refs = discrete::face_refs(surface.discrete());
+  std::vector<std::size_t> next(metrics.size(), 0);
+  for (std::size_t t = 0; t < refined.triangles.size(); ++t) {
+    const std::size_t f = rank.at(refs[index(refined.parent[t])]);
+    const auto& local = mesh.faces[f].triangles[next[f]++];
+    for (std::size_t k = 0; k < 3; ++k) metrics[f][index(local[k])] = sizes.corner[3 * t + k];
+  }
+  return metrics;
 }
 
 /// A sharp line of the surface: cubics of its patches, which all sides share.
@@ -108,19 +128,21 @@ class PatchLine final : public LineGeometry {
 
 RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
                             const CompositeOptions& options, Monitor& monitor) {
-  std::vector<double> size;
+  MeshSizes size;
   std::vector<char> on_line;
   discrete::RefinementWish wish;
   wish.edge = [&](const RefinedMesh& mesh, std::int32_t v, std::int32_t w) {
-    if (size.size() != mesh.vertices.size()) {
+    if (size.h.size() != mesh.vertices.size()) {
       size = sizes.at_vertices(mesh, monitor);
-      on_line.assign(size.size(), 0);
+      on_line.assign(size.h.size(), 0);
       for (const auto& line : mesh.lines)
         for (const std::int32_t k : line) on_line[index(k)] = 1;
     }
     const bool line = on_line[index(v)] != 0 && on_line[index(w)] != 0;
-    const double h = 0.5 * (size[index(v)] + size[index(w)]);
-    return norm(mesh.vertices[index(w)] - mesh.vertices[index(v)]) > (line ? 1 : std::numbers::sqrt2) * h;
+    const double most = line ? 1 : std::numbers::sqrt2;
+    if (size.by_direction()) return size.length(mesh, v, w) > most;
+    const double h = 0.5 * (size.h[index(v)] + size.h[index(w)]);
+    return norm(mesh.vertices[index(w)] - mesh.vertices[index(v)]) > most * h;
   };
   discrete::RefinementLimits limits{.depth = 40};
   if (options.max_triangles > 0) limits.triangles = options.max_triangles;
@@ -172,8 +194,8 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
   return mesh;
 }
 
-RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const SurfaceMesh& mesh, std::span<const double> sizes,
-                           const CompositeOptions& options, Cad& cad, Monitor& monitor) {
+RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const RefinedMesh& refined, const SurfaceMesh& mesh,
+                           const MeshSizes& sizes, const CompositeOptions& options, Cad& cad, Monitor& monitor) {
   RemeshingFrame frame{.jets = evaluate_vertices(mesh, cad, monitor),
                        .sharp = {},
                        .charts = {},
@@ -188,7 +210,7 @@ RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const SurfaceMe
     frame.lines.push_back({chain, std::vector<std::int32_t>(chain.size() - 1, static_cast<std::int32_t>(c))});
   }
   std::ranges::sort(frame.sharp);
-  frame.charts = std::make_shared<Charts>(mesh, frame.sharp, sizes, monitor);
+  frame.charts = std::make_shared<Charts>(mesh, frame.sharp, sizes.h, metrics_of(surface, refined, mesh, sizes), monitor);
   frame.geometry = [&mesh, &cad, charts = frame.charts](const SharpLine& line) {
     return std::make_unique<PatchLine>(line, mesh, *charts, cad);
   };

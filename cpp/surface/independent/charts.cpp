@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
 #include <tuple>
+#include <utility>
 
 #include "cad/fundamental_forms.h"
+#include "support/incidence.h"
 #include "support/infinity.h"
 #include "surface/independent/thresholds.h"
 
@@ -25,8 +29,8 @@ struct SideOf {
 }  // namespace
 
 Charts::Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
-               Monitor& monitor)
-    : xyz_(mesh.vertices), size_(size.begin(), size.end()) {
+               PlaneMetrics metrics, Monitor& monitor)
+    : xyz_(mesh.vertices), size_(size.begin(), size.end()), metric_(std::move(metrics)) {
   collect(mesh);
   guarded_.assign(triangles_.size(), 0);
   monitor.checkpoint();
@@ -130,9 +134,58 @@ double Charts::size(const Foot& f) const {
   for (int i = 0; i < 3; ++i) {
     w[i] = std::max(w[i], 0.0);
     sum += w[i];
-    size += w[i] * size_[triangles_[f.triangle].vertex[i]];
+    const std::int32_t v = triangles_[f.triangle].vertex[i];
+    size += w[i] * (factor_.empty() ? size_[v] : factor_[v] * size_[v]);
   }
   return size / sum;
+}
+
+PlaneMetric Charts::metric(const Foot& f, const Vec3& normal) const {
+  const Triangle& t = triangles_[f.triangle];
+  std::array<double, 3> w = weights(f.triangle, f.uv);
+  double sum = 0;
+  for (double& each : w) sum += each = std::max(each, 0.0);
+  std::array<const PlaneMetric*, 3> corners{};
+  int nearest = 0;
+  for (int i = 0; i < 3; ++i) {
+    corners[i] = &metric_[t.face][t.local[i]];
+    if (w[i] > w[nearest]) nearest = i;
+    w[i] /= sum;
+  }
+  PlaneMetric wanted = dot(normal, normal) > 0 ? interpolate(corners, w, normal) : *corners[nearest];
+  if (!factor_.empty()) {
+    double factor = 0;
+    for (int i = 0; i < 3; ++i) factor += w[i] * factor_[t.vertex[i]];
+    const double k = 1 / (factor * factor);
+    for (double* m : {&wanted.metric.xx, &wanted.metric.xy, &wanted.metric.xz, &wanted.metric.yy, &wanted.metric.yz,
+                      &wanted.metric.zz})
+      *m *= k;
+  }
+  return wanted;
+}
+
+// The shortest way over edges, in sizes.
+std::vector<double> Charts::factors_beside(const std::vector<char>& kept, double most, double growth) const {
+  std::vector<double> factor(xyz_.size(), most);
+  std::vector<std::array<std::int32_t, 3>> sets;
+  sets.reserve(triangles_.size());
+  for (const Triangle& t : triangles_) sets.push_back(t.vertex);
+  const Incidence around(xyz_.size(), sets);
+  using Entry = std::pair<double, std::int32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (std::size_t v = 0; v < kept.size(); ++v)
+    if (kept[v] != 0) queue.emplace(factor[v] = 1, static_cast<std::int32_t>(v));
+  while (!queue.empty()) {
+    const auto [known, v] = queue.top();
+    queue.pop();
+    if (known > factor[v]) continue;
+    for (const std::int32_t t : around.of(v))
+      for (const std::int32_t w : sets[t]) {
+        const double way = norm(xyz_[w] - xyz_[v]) / (0.5 * (size_[v] + size_[w]));
+        if (const double grown = known + growth * way; grown < factor[w]) queue.emplace(factor[w] = grown, w);
+      }
+  }
+  return factor;
 }
 
 SurfacePlace Charts::place(const Foot& f, const SurfaceJet& jet) const {

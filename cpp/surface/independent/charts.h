@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cad/cad.h"
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
+#include "surface/independent/tangent_metrics.h"
 
 namespace carreau {
 
@@ -45,9 +47,10 @@ class Charts {
   };
 
   /// `barriers`: edges that nothing crosses, ascending. Edges without exactly two triangles are barriers, too, and
-  /// those where no side is that of all neighbours (a Moebius strip), which become `twisted`.
+  /// those where no side is that of all neighbours (a Moebius strip), which become `twisted`. `size`: by vertex; `metrics`:
+  /// sizes by direction, or none.
   Charts(const SurfaceMesh& mesh, std::span<const MeshEdge> barriers, std::span<const double> size,
-         Monitor& monitor);
+         PlaneMetrics metrics, Monitor& monitor);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
   [[nodiscard]] const std::vector<MeshEdge>& twisted() const noexcept { return twisted_; }
@@ -69,6 +72,14 @@ class Charts {
 
   /// The size there, linear between those of the vertices.
   [[nodiscard]] double size(const Foot& f) const;
+  /// Makes sizes so many times as large, by vertex of the mesh of before: in all directions; empty: as they were wanted.
+  void enlarge(std::vector<double> factor) { factor_ = std::move(factor); }
+  /// How far the size may grow from the sharp lines and corners, by vertex of the mesh of before: from 1 to `most`, over edges, by `growth` sizes a size.
+  [[nodiscard]] std::vector<double> factors_beside(const std::vector<char>& kept, double most, double growth) const;
+  /// Whether sizes differ by direction.
+  [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
+  /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero where there is none.
+  [[nodiscard]] PlaneMetric metric(const Foot& f, const Vec3& normal) const;
   /// One evaluation.
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// Barycentric coordinates of a place of its chart, by corner.
@@ -101,6 +112,8 @@ class Charts {
   std::vector<std::vector<Vec2>> uv_;  // by face and local vertex
   std::vector<Vec3> xyz_;              // by vertex of the mesh
   std::vector<double> size_;           // the same
+  PlaneMetrics metric_;                // by face and local vertex; may be empty
+  std::vector<double> factor_;         // of sizes, by vertex; may be empty
   std::vector<int> ref_;               // by face
   std::vector<MeshEdge> twisted_;
   std::vector<BarrierSide> barrier_;  // by edge, ascending

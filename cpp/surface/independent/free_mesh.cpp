@@ -19,6 +19,7 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
     : xyz_(mesh.vertices),
       size_(size.begin(), size.end()),
       several_(mesh.vertices.size(), -1),
+      asked_(tolerances),
       tolerances_(tolerances),
       cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
       charts_(charts),
@@ -31,6 +32,7 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
   for (const std::int32_t v : corners) keep(v);
   kept_places_.resize(kept);
   place_vertices(mesh, jets);
+  if (by_direction()) place_metrics();
   for (const Charts::Triangle& t : charts.triangles()) {
     const auto& [a, b, c] = t.vertex;
     triangles_.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
@@ -66,14 +68,70 @@ void FreeMesh::place_vertices(const SurfaceMesh& mesh, const VertexJets& jets) {
   for (const SurfacePlace& p : place_) uv_.push_back(p.foot.uv);
 }
 
+void FreeMesh::place_metrics() {
+  metric_.reserve(place_.size());
+  for (std::size_t v = 0; v < place_.size(); ++v) {
+    const auto here = static_cast<std::int32_t>(v);
+    metric_.push_back(place_[v].foot.triangle < 0 ? isotropic_metric3(size_[v]) : wanted_at(places(here)).metric);
+  }
+}
+
+WantedSize FreeMesh::wanted_at(std::span<const SurfacePlace> places) const {
+  if (!by_direction()) return {charts_.size(places.front().foot), {}};
+  std::vector<PlaneMetric> planes;
+  for (const SurfacePlace& p : places) planes.push_back(charts_.metric(p.foot, p.normal));
+  WantedSize wanted{infinity, where_planes_meet(planes)};
+  for (const PlaneMetric& m : planes) wanted.h = std::min(wanted.h, mean_size(m));
+  return wanted;
+}
+
+void FreeMesh::update_sizes() {
+  for (std::size_t v = 0; v < place_.size(); ++v) {
+    const auto here = static_cast<std::int32_t>(v);
+    if (place_[v].foot.triangle < 0 || !is_alive(here)) continue;
+    const WantedSize wanted = wanted_at(places(here));
+    size_[v] = wanted.h;
+    if (by_direction()) metric_[v] = wanted.metric;
+  }
+}
+
+// Where the surface bends more a coarse mesh is finer, so that no feature of the size wanted is passed over.
+void FreeMesh::tighten(double factor) {
+  tolerances_.share_of_size = asked_.share_of_size / factor;
+  tolerances_.angle_deg = asked_.angle_deg / std::sqrt(factor);
+  cosine_ = std::cos(tolerances_.angle_deg * std::numbers::pi / 180);
+}
+
+double FreeMesh::size_along(std::int32_t v, std::int32_t w) const {
+  if (!by_direction()) return size_[v];
+  const Vec3 d = position(w) - position(v);
+  const double l = carreau::length(metric_[v], d);
+  return l > 0 ? norm(d) / l : size_[v];
+}
+
 std::span<const SurfacePlace> FreeMesh::places(std::int32_t v) const {
   if (several_[v] < 0) return {&place_[v], 1};
   return kept_places_[several_[v]];
 }
 
 double FreeMesh::length(std::int32_t v, std::int32_t w) const {
+  if (by_direction()) {
+    const Vec3 way = position(w) - position(v);
+    return length_between(carreau::length(metric_[v], way), carreau::length(metric_[w], way));
+  }
   const double p = size_[v], q = size_[w], d = norm(position(w) - position(v));
   return std::abs(q - p) > 1e-6 * p ? d * std::log(q / p) / (q - p) : d / p;
+}
+
+Metric2 FreeMesh::gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const {
+  const Vec3 p = position(b) - position(a), q = position(c) - position(a);
+  return (1. / 3) * (gram(metric_[a], p, q) + gram(metric_[b], p, q) + gram(metric_[c], p, q));
+}
+
+double FreeMesh::double_area(const EditableMesh::Triangle& t) const {
+  if (by_direction()) return std::sqrt(std::max(0.0, determinant(gram_of(t[0], t[1], t[2]))));
+  const double h = (size_[t[0]] + size_[t[1]] + size_[t[2]]) / 3;
+  return norm(mesh_->normal(0, t)) / (h * h);
 }
 
 // The nearest to that of a triangle.
@@ -89,7 +147,7 @@ Vec3 FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
 void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
   const std::array<std::int32_t, 3> v{a, b, c};
   const std::array<Vec3, 3> p{position(a), position(b), position(c)};
-  const double quality = quality_q2(p[0], p[1], p[2]);
+  const double quality = by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(p[0], p[1], p[2]);
   shapes.worst = std::min(shapes.worst, quality);
   shapes.inverses += 1 / std::max(quality, flat_quality);
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
@@ -110,7 +168,10 @@ void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleSha
     const int j = (i + 1) % 3;
     const Vec3 d = p[j] - p[i];
     const double offset = (std::abs(dot(d, normal[i])) + std::abs(dot(d, normal[j]))) / 8;
-    share = std::max(share, offset * offset / (allowed * allowed));
+    const double most = by_direction() && !(tolerances_.deviation > 0)
+                            ? tolerances_.share_of_size * norm(d) / length(v[i], v[j])
+                            : allowed;
+    share = std::max(share, offset * offset / (most * most));
   }
   shapes.share = std::max(shapes.share, guarded ? guarded_factor * share : share);
 }
@@ -137,27 +198,33 @@ std::optional<SurfacePlace> FreeMesh::near(std::int32_t v, const Vec3& normal, c
 }
 
 std::int32_t FreeMesh::try_vertex(const SurfacePlace& at) {
+  const WantedSize wanted = wanted_at(at);
   place_.push_back(at);
-  size_.push_back(size_at(at));
+  size_.push_back(wanted.h);
+  if (by_direction()) metric_.push_back(wanted.metric);
   several_.push_back(-1);
   return static_cast<std::int32_t>(place_.size()) - 1;
 }
 
-void FreeMesh::forget_vertex() { place_.pop_back(), size_.pop_back(), several_.pop_back(); }
+void FreeMesh::forget_vertex() {
+  place_.pop_back(), size_.pop_back(), several_.pop_back();
+  if (by_direction()) metric_.pop_back();
+}
 
 std::int32_t FreeMesh::split(const Quad& q, const SurfacePlace& at) {
   (void)try_vertex(at);
   return mesh_->split(q, at.foot.uv, at.xyz).local;
 }
 
-void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size) {
-  put(v, at.front(), size);
+void FreeMesh::put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted) {
+  put(v, at.front(), wanted);
   kept_places_[several_[v]].assign(at.begin(), at.end());
 }
 
-void FreeMesh::put(std::int32_t v, const SurfacePlace& at, double size) {
+void FreeMesh::put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted) {
   place_[v] = at;
-  size_[v] = size;
+  size_[v] = wanted.h;
+  if (by_direction()) metric_[v] = wanted.metric;
   xyz_[v] = at.xyz;
   uv_[v] = at.foot.uv;
 }

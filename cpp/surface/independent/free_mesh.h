@@ -28,6 +28,12 @@ struct TriangleShapes {
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 
+/// What is wanted at a vertex.
+struct WantedSize {
+  double h = 0;    ///< sqrt(h1 h2) where sizes differ by direction
+  Metric3 metric;  ///< counts where they do; of a vertex that is not kept it knows nothing along the normal
+};
+
 /// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`
 /// and `cad`.
 class FreeMesh {
@@ -51,10 +57,19 @@ class FreeMesh {
   /// The places of a vertex: several where it is kept, one for each vertex of a face that it was.
   [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const;
   [[nodiscard]] double size(std::int32_t v) const { return size_[v]; }
+  /// Whether sizes differ by direction.
+  [[nodiscard]] bool by_direction() const noexcept { return charts_.by_direction(); }
+  /// If they do.
+  [[nodiscard]] const Metric3& metric(std::int32_t v) const { return metric_[v]; }
+  [[nodiscard]] WantedSize wanted(std::int32_t v) const { return {size_[v], by_direction() ? metric_[v] : Metric3{}}; }
+  /// At v, along the way to w.
+  [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const;
   [[nodiscard]] Vec3 position(std::int32_t v) const { return place_[v].xyz; }
 
   /// In the prescribed metric (HDR eq. 4.83).
   [[nodiscard]] double length(std::int32_t v, std::int32_t w) const;
+  /// The same of a triangle: twice the area, by its mean metric.
+  [[nodiscard]] double double_area(const EditableMesh::Triangle& t) const;
   /// Adds the triangle with these corners.
   void judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
   [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const;
@@ -63,7 +78,17 @@ class FreeMesh {
 
   /// The surface near `target`, sought from the vertex v; `normal`: on which side, where v is kept.
   [[nodiscard]] std::optional<SurfacePlace> near(std::int32_t v, const Vec3& normal, const Vec3& target);
-  [[nodiscard]] double size_at(const SurfacePlace& place) const { return charts_.size(place.foot); }
+  [[nodiscard]] WantedSize wanted_at(const SurfacePlace& place) const {
+    return wanted_at(std::span<const SurfacePlace>(&place, 1));
+  }
+  /// At a vertex with several places.
+  [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const;
+
+  /// After the sizes of the charts have changed.
+  void update_sizes();
+  /// Of a mesh so many times as coarse as wanted: triangles leave the surface no farther than those that are wanted may, and lean less;
+  /// 1: as was tolerated.
+  void tighten(double factor);
 
   /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
   std::int32_t try_vertex(const SurfacePlace& at);
@@ -74,15 +99,17 @@ class FreeMesh {
   bool swap(const Quad& q) { return mesh_->swap(q); }
   std::int32_t split(const Quad& q, const SurfacePlace& at);
   /// Puts a free vertex there, and gives what it was; tests nothing.
-  void put(std::int32_t v, const SurfacePlace& at, double size);
+  void put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
   /// The same of a vertex on a line; the first place has the position.
-  void put_kept(std::int32_t v, std::span<const SurfacePlace> at, double size);
+  void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
 
   [[nodiscard]] const Charts& charts() const noexcept { return charts_; }
   [[nodiscard]] Cad& cad() const noexcept { return cad_; }
 
  private:
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
+  void place_metrics();
+  [[nodiscard]] Metric2 gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const;
   [[nodiscard]] Vec3 normal_at(std::int32_t v, const Vec3& of_triangle) const;
 
   std::vector<Vec3> xyz_;
@@ -91,8 +118,10 @@ class FreeMesh {
   std::vector<char> mixed_;
   std::vector<SurfacePlace> place_;
   std::vector<double> size_;
+  std::vector<Metric3> metric_;  // by vertex; empty: sizes do not differ by direction
   std::vector<std::int32_t> several_;  // by vertex: index in kept_places_, -1: free
   std::vector<std::vector<SurfacePlace>> kept_places_;
+  const SurfaceTolerances asked_;
   SurfaceTolerances tolerances_;
   double cosine_;  // of the angle that is tolerated
   const Charts& charts_;

@@ -51,12 +51,31 @@ std::int64_t euler(const SurfaceMesh& mesh) {
          static_cast<std::int64_t>(mesh.triangle_count());
 }
 
-RemeshingFrame frame_of(const CurveModel& model, double angle, const CompositeResult& result, Monitor& monitor) {
+// What the patches were meshed with, at their vertices; none where it is of no direction.
+PlaneMetrics metrics_of(const CompositeResult& result, const VertexJets& jets) {
+  PlaneMetrics metrics(result.mesh.faces.size());
+  double most = 1;
+  for (std::size_t f = 0; f < metrics.size(); ++f) {
+    const FaceMesh& face = result.mesh.faces[f];
+    for (std::size_t k = 0; k < face.uv.size() && k < jets[f].size(); ++k) {
+      const double h = result.vertex_size[face.vertex[k]];
+      metrics[f].push_back(result.spaces[f] ? plane_metric(jets[f][k], result.spaces[f]->at(face.uv[k]), h)
+                                            : plane_metric(jets[f][k], induced_metric(jets[f][k].su, jets[f][k].sv, h), h));
+      most = std::max(most, anisotropy(metrics[f].back()));
+    }
+  }
+  return most > least_anisotropy ? metrics : PlaneMetrics{};
+}
+
+RemeshingFrame frame_of(const CurveModel& model, const CompositeOptions& options, bool by_direction,
+                        const CompositeResult& result, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
   RemeshingFrame frame{.jets = evaluate_vertices(mesh, model.cad, monitor), .sharp = {}, .charts = {}, .corners = {}, .lines = {}, .geometry = {}};
+  const double angle = options.sharp_angle;
   frame.sharp = find_sharp_edges(mesh, frame.jets, angle);
+  const PlaneMetrics metrics = by_direction ? metrics_of(result, frame.jets) : PlaneMetrics{};
   const auto link = [&] {
-    frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, monitor);
+    frame.charts = std::make_shared<Charts>(mesh, frame.sharp, result.vertex_size, metrics, monitor);
   };
   link();
   if (const std::vector<MeshEdge> twisted = frame.charts->twisted(); !twisted.empty()) {
@@ -70,8 +89,29 @@ RemeshingFrame frame_of(const CurveModel& model, double angle, const CompositeRe
   return frame;
 }
 
-FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
-                Monitor& monitor) {
+// Of few triangles, with sizes that grow from the lines, which are then halved: vertices that halve an edge have six neighbours,
+// and irregular ones are as few as there are of the coarse mesh.
+RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, RemeshingFrame& frame, Monitor& monitor) {
+  std::vector<char> kept(mesh.vertices.size(), 0);
+  for (const MeshEdge& e : frame.sharp) kept[e[0]] = kept[e[1]] = 1;
+  for (const std::int32_t v : frame.corners) kept[v] = 1;
+  RemeshingReport report;
+  for (int level = halvings; level > 0; --level) {
+    const double times = std::exp2(level);
+    frame.charts->enlarge(frame.charts->factors_beside(kept, times, growth_of_coarse));
+    free.update_sizes();
+    free.tighten(times);
+    report += level == halvings ? RemeshingReport{} : halve(free, monitor);
+    report += remesh(free, monitor, true, true);
+  }
+  frame.charts->enlarge({});
+  free.update_sizes();
+  free.tighten(1);
+  return report += halve(free, monitor);
+}
+
+FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, const CompositeResult& result,
+                RemeshingFrame& frame, Monitor& monitor) {
   FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts, cad);
   std::vector<WorkedLine> worked;
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
@@ -80,7 +120,8 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, const CompositeRe
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
     if (round > 0 && changed == 0) break;
-    report += remesh(free, monitor, frame.everywhere);
+    if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
+    report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely);
   }
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -109,6 +150,7 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
                             Monitor& monitor) {
   SurfaceTolerances tolerances = tolerances_of(options);
   if (std::isfinite(geometric_limits(options.size).edge_angle_deg)) tolerances.angle_deg *= frame.angle_slack;
+  if (frame.charts->by_direction()) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;
@@ -117,7 +159,9 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     monitor.checkpoint();
-    made = freed(cad, tolerances, result, frame, monitor);
+    // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
+    const bool ruled = geometric_limits(options.size).any();
+    made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
     const Intersections found = crossings(made.mesh, options.threads, monitor);
     if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);
@@ -140,8 +184,8 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 }
 
 void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                       CompositeResult& result, Monitor& monitor) {
-  RemeshingFrame frame = frame_of(model, options.sharp_angle, result, monitor);
+                       bool by_direction, CompositeResult& result, Monitor& monitor) {
+  RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
   frame.geometry = [&](const SharpLine& line) {
     return std::make_unique<LinePlaces>(line, result.mesh, model, curves, *frame.charts, model.cad);
   };

@@ -36,9 +36,9 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
                             Monitor& monitor);
 
 /// `curves`: what it was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes, references, curves and (u, v) of its
-/// corners. It stays as it is where the outcome would have a defect or triangles that cross and did not. Sentences
+/// corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have them. It stays as it is where the outcome would have a defect or triangles that cross and did not. Sentences
 /// about faces that have vanished go to `monitor`. Throws what the host throws, and Cancelled: then nothing is changed.
 void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                       CompositeResult& result, Monitor& monitor);
+                       bool by_direction, CompositeResult& result, Monitor& monitor);
 
 }  // namespace carreau

@@ -55,8 +55,8 @@ class LineRemesher {
                                                 mesh_.position(q.vertex)));
     return most;
   }
-  [[nodiscard]] double tolerated(std::int32_t v) const {
-    return tolerance_.deviation > 0 ? tolerance_.deviation : tolerance_.share_of_size * mesh_.size(v);
+  [[nodiscard]] double tolerated(std::int32_t v, std::int32_t next) const {
+    return tolerance_.deviation > 0 ? tolerance_.deviation : tolerance_.share_of_size * mesh_.size_along(v, next);
   }
 
   /// A vertex inside the line that may be left out: beside the shortest edges, the shorter ones first.
@@ -79,7 +79,7 @@ class LineRemesher {
     const Node &previous = left_[k - 1], &here = left_[k], &next = left_[k + 1];
     if (mesh_.length(previous.vertex, next.vertex) > never_longer) return false;
     const double allowed =
-        std::max({tolerated(here.vertex), distance(previous, here), distance(here, next)});
+        std::max({tolerated(here.vertex, next.vertex), distance(previous, here), distance(here, next)});
     if (distance(previous, next) > allowed) return false;
     const bool back = mesh_.length(previous.vertex, here.vertex) <= mesh_.length(here.vertex, next.vertex);
     for (const Node& kept : {back ? previous : next, back ? next : previous})
@@ -113,13 +113,14 @@ class LineRemesher {
     const double to = p > mean ? previous.arc + mean / p * (here.arc - previous.arc)
                                : next.arc - mean / q * (next.arc - here.arc);
     const KeptPlaces from(mesh_.places(here.vertex).begin(), mesh_.places(here.vertex).end());
-    const double size = mesh_.size(here.vertex), arc = here.arc;
+    const WantedSize size = mesh_.wanted(here.vertex);
+    const double arc = here.arc;
     const TriangleShapes before = mesh_.judge_around(here.vertex);
     for (const double share : {1.0, 0.5}) {
       here.arc = arc + share * (to - arc);
       const KeptPlaces places = places_.at(here.arc);
       if (places.empty()) break;
-      mesh_.put_kept(here.vertex, places, mesh_.size_at(places.front()));
+      mesh_.put_kept(here.vertex, places, mesh_.wanted_at(places));
       const TriangleShapes after = mesh_.judge_around(here.vertex);
       if (FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape)) {
         changed_.push_back(here.vertex);

@@ -200,6 +200,7 @@ class Reassembler {
       result_.mesh.vertices.push_back(free_.position(old));
       result_.mesh.vertex_ref.push_back(std::ranges::binary_search(corners, old) ? before_.vertex_ref[v] : 0);
       result_.vertex_size.push_back(free_.size(old));
+      old_vertex_.push_back(old);
     }
   }
 
@@ -277,10 +278,25 @@ class Reassembler {
         more_.push_back(std::move(curve)), old_curve_.push_back(run.curve);
     }
     for (CurveMesh& curve : more_) mesh.curves.push_back(std::move(curve));
-    for (const CurveMesh& curve : mesh.curves) {
-      auto& size = result_.curve_size.emplace_back();
-      for (const std::int32_t v : curve.vertices) size.push_back(result_.vertex_size[v]);
+    for (const CurveMesh& curve : mesh.curves) result_.curve_size.push_back(sizes_along(curve.vertices));
+  }
+
+  // Where sizes differ by direction those of the edges before and behind, in the mean.
+  [[nodiscard]] std::vector<double> sizes_along(const std::vector<std::int32_t>& chain) const {
+    std::vector<double> sizes;
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      if (!free_.by_direction()) {
+        sizes.push_back(result_.vertex_size[chain[k]]);
+        continue;
+      }
+      const std::int32_t v = old_vertex_[chain[k]];
+      double sum = 0;
+      int count = 0;
+      if (k > 0) sum += free_.size_along(v, old_vertex_[chain[k - 1]]), ++count;
+      if (k + 1 < chain.size()) sum += free_.size_along(v, old_vertex_[chain[k + 1]]), ++count;
+      sizes.push_back(sum / count);
     }
+    return sizes;
   }
 
   // A vertex where a closed curve begins is at both of its ends.
@@ -347,7 +363,7 @@ class Reassembler {
   FreeMesh& free_;
   Monitor& monitor_;
   FreedMesh result_;
-  std::vector<std::int32_t> number_;
+  std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
   std::vector<std::vector<PlacedTriangle>> of_face_;
   std::map<MeshEdge, std::vector<std::int32_t>> beside_;  // faces of the triangles on edges between kept vertices
   std::vector<CurveMesh> more_;

@@ -25,8 +25,30 @@ struct LongEdge {
 
 class Remesher {
  public:
-  Remesher(FreeMesh& mesh, Monitor& monitor, bool everywhere)
-      : mesh_(mesh), monitor_(monitor), everywhere_(everywhere) {}
+  Remesher(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough)
+      : mesh_(mesh), monitor_(monitor), everywhere_(everywhere), thorough_(thorough) {}
+
+  RemeshingReport halve() {
+    activate_all();
+    const auto old = static_cast<std::int32_t>(mesh_.vertices());
+    split_long();
+    // Of each triangle the first edge that was split leads from its middle to a corner: the last middles are to be joined.
+    const auto last = static_cast<std::int32_t>(mesh_.vertices());
+    for (std::int32_t m = old; m < last; ++m) {
+      monitor_.checkpoint();
+      for (const std::int32_t v : mesh_.mesh().ring(m)) {
+        if (v >= old || mesh_.length(m, v) < longest_of_halves) continue;
+        const auto q = quad_between(m, v);
+        if (!q || q->c < old || q->d < old) continue;
+        TriangleShapes before, after;
+        mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
+        mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
+        if (after.worst >= std::min(before.worst, least_shape_of_degrees) && FreeMesh::agrees(before, after) && mesh_.swap(*q))
+          ++report_.swaps;
+      }
+    }
+    return report_;
+  }
 
   RemeshingReport run() {
     activate_all();
@@ -43,7 +65,8 @@ class Remesher {
       move_all();
       if (report_.collapses + report_.splits == before) break;
     }
-    for (int pass = 0; pass < most_last_passes; ++pass) {
+    const int passes = thorough_ ? most_last_passes_thorough : most_last_passes;
+    for (int pass = 0; pass < passes; ++pass) {
       const std::int64_t before = report_.swaps + report_.moves;
       swap_all();
       move_all();
@@ -176,8 +199,7 @@ class Remesher {
       for (const Place p : mesh.fan(end)) {
         const auto& t = mesh.at(p);
         if (end == w && (t[0] == v || t[1] == v || t[2] == v)) continue;
-        const double h = (mesh_.size(t[0]) + mesh_.size(t[1]) + mesh_.size(t[2])) / 3;
-        area += norm(mesh.normal(p)) / (2 * h * h);
+        area += mesh_.double_area(t) / 2;
         ++count;
       }
     return area <= 0.5 * half_root3 * count * most_mean_area;
@@ -311,10 +333,31 @@ class Remesher {
     return count > 0 ? Vec3(sum / count) : mesh_.position(v);
   }
 
+  // The same in the mean metric of each triangle.
+  [[nodiscard]] Vec3 ideal_place_by_direction(std::int32_t v) const {
+    Vec3 sum{0, 0, 0};
+    double count = 0;
+    for (const Place p : mesh_.mesh().fan(v)) {
+      const auto& t = mesh_.mesh().at(p);
+      const int i = mesh_.mesh().rank_in(p, v);
+      const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+      const Vec3 a = mesh_.position(j), b = mesh_.position(k), side = b - a, up = mesh_.position(v) - a;
+      const Metric2 g = (1. / 3) * (gram(mesh_.metric(v), side, up) + gram(mesh_.metric(j), side, up) +
+                                    gram(mesh_.metric(k), side, up));
+      const double height2 = g.c - g.b * g.b / g.a;
+      if (!(g.a > 0) || !(height2 > 0)) continue;
+      const Vec3 across = up - (g.b / g.a) * side;
+      const double wanted = 0.5 * (std::sqrt(g.a) + 1);
+      sum = sum + 0.5 * (a + b) + (half_root3 * wanted / std::sqrt(height2)) * across;
+      count += 1;
+    }
+    return count > 0 ? Vec3(sum / count) : mesh_.position(v);
+  }
+
   [[nodiscard]] int out_of_range(std::int32_t v) const {
     int out = 0;
-    for (const std::int32_t w : mesh_.mesh().ring(v)) {
-      const double l = mesh_.length(v, w);
+    for (const Place p : mesh_.mesh().fan(v)) {  // of a free vertex: each neighbour once
+      const double l = mesh_.length(v, mesh_.mesh().at(p)[(mesh_.mesh().rank_in(p, v) + 1) % 3]);
       out += l < shortest || l > longest ? 1 : 0;
     }
     return out;
@@ -322,15 +365,17 @@ class Remesher {
 
   bool move(std::int32_t v) {
     const SurfacePlace from = mesh_.place(v);
-    const double size = mesh_.size(v);
+    const WantedSize size = mesh_.wanted(v);
     const TriangleShapes before = mesh_.judge_around(v);
     const int out = out_of_range(v);
-    const Vec3 ideal = ideal_place(v);
-    if (norm(ideal - from.xyz) < least_move * size) return false;
+    const Vec3 ideal = mesh_.by_direction() ? ideal_place_by_direction(v) : ideal_place(v);
+    const Vec3 way = ideal - from.xyz;
+    const double least = thorough_ ? least_move_thorough : least_move;
+    if (mesh_.by_direction() ? length(size.metric, way) < least : norm(way) < least * size.h) return false;
     for (const double share : {1.0, 0.4}) {
       const auto to = mesh_.near(v, from.normal, lerp(from.xyz, ideal, share));
       if (!to) continue;
-      mesh_.put(v, *to, mesh_.size_at(*to));
+      mesh_.put(v, *to, mesh_.wanted_at(*to));
       const TriangleShapes after = mesh_.judge_around(v);
       if (after.inverses < before.inverses - least_gain && after.worst >= std::min(before.worst, good_enough) &&
           FreeMesh::agrees(before, after) && out_of_range(v) <= out)
@@ -342,15 +387,17 @@ class Remesher {
 
   FreeMesh& mesh_;
   Monitor& monitor_;
-  bool everywhere_;
+  bool everywhere_, thorough_;
   std::vector<char> active_;  // by vertex
   RemeshingReport report_;
 };
 
 }  // namespace
 
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere) {
-  return Remesher(mesh, monitor, everywhere).run();
+RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true, true).halve(); }
+
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough) {
+  return Remesher(mesh, monitor, everywhere, thorough).run();
 }
 
 }  // namespace carreau

@@ -20,9 +20,13 @@ struct RemeshingReport {
   }
 };
 
+/// Halves the edges of a mesh that is well shaped and twice as coarse as wanted: each triangle with three long edges becomes four, whose
+/// new vertices have six edges. Lengths and shapes are then as the coarse ones were, and remesh() may follow.
+RemeshingReport halve(FreeMesh& mesh, Monitor& monitor);
+
 /// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
 /// `everywhere`: all triangles are worked at, not only those below `good_enough` and what is around: of a mesh that is no
-/// mesher's. Deterministic. Throws what the host throws, and Cancelled.
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false);
+/// mesher's. `thorough`: shapes are worked at longer. Deterministic. Throws what the host throws, and Cancelled.
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false, bool thorough = false);
 
 }  // namespace carreau

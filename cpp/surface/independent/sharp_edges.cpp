@@ -122,13 +122,13 @@ class Surroundings {
 };
 
 /// The sharp edges at each vertex, with their curves.
-struct Incidence {
+struct LineEnd {
   std::int32_t vertex, other, curve;
-  friend auto operator<=>(const Incidence&, const Incidence&) = default;
+  friend auto operator<=>(const LineEnd&, const LineEnd&) = default;
 };
 
-std::vector<Incidence> incidences(const SurfaceMesh& mesh, const std::vector<MeshEdge>& sharp) {
-  std::vector<Incidence> all;
+std::vector<LineEnd> incidences(const SurfaceMesh& mesh, const std::vector<MeshEdge>& sharp) {
+  std::vector<LineEnd> all;
   for (std::size_t c = 0; c < mesh.curves.size(); ++c)
     for (std::size_t i = 1; i < mesh.curves[c].vertices.size(); ++i) {
       const std::int32_t v = mesh.curves[c].vertices[i - 1], w = mesh.curves[c].vertices[i];
@@ -137,13 +137,13 @@ std::vector<Incidence> incidences(const SurfaceMesh& mesh, const std::vector<Mes
       all.push_back({w, v, static_cast<std::int32_t>(c)});
     }
   std::ranges::sort(all);
-  const auto same = [](const Incidence& p, const Incidence& q) { return p.vertex == q.vertex && p.other == q.other; };
+  const auto same = [](const LineEnd& p, const LineEnd& q) { return p.vertex == q.vertex && p.other == q.other; };
   all.erase(std::unique(all.begin(), all.end(), same), all.end());
   return all;
 }
 
-std::span<const Incidence> at_vertex(const std::vector<Incidence>& all, std::int32_t v) {
-  const auto [first, last] = std::ranges::equal_range(all, v, {}, &Incidence::vertex);
+std::span<const LineEnd> at_vertex(const std::vector<LineEnd>& all, std::int32_t v) {
+  const auto [first, last] = std::ranges::equal_range(all, v, {}, &LineEnd::vertex);
   return {first, last};
 }
 
@@ -154,7 +154,7 @@ class Tangents {
       : mesh_(mesh), topology_(topology), supports_(supports) {}
 
   /// Whether the two edges at a vertex are of one line that goes straight on.
-  [[nodiscard]] bool go_on(std::span<const Incidence> two, double cosine) const {
+  [[nodiscard]] bool go_on(std::span<const LineEnd> two, double cosine) const {
     const std::int32_t v = two[0].vertex;
     if (two[0].curve == two[1].curve && is_inside(two[0].curve, v)) return true;
     if (topology_ == nullptr) return false;
@@ -167,7 +167,7 @@ class Tangents {
     const auto& chain = mesh_.curves[c].vertices;
     return chain.front() != v && chain.back() != v;
   }
-  [[nodiscard]] std::optional<Vec3> leaving(const Incidence& edge) const {
+  [[nodiscard]] std::optional<Vec3> leaving(const LineEnd& edge) const {
     const auto& chain = mesh_.curves[edge.curve].vertices;
     const CurveUse& use = topology_->curves[edge.curve].uses.front();
     const std::vector<Vec3>& xyz = supports_[use.face][use.curve].xyz;
@@ -226,7 +226,7 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
                                        const std::vector<MeshEdge>& sharp, const Topology* topology,
                                        const std::vector<std::vector<CurveSupport>>& supports, double angle) {
   const Surroundings around(mesh, charts);
-  const std::vector<Incidence> edges = incidences(mesh, sharp);
+  const std::vector<LineEnd> edges = incidences(mesh, sharp);
   const Tangents tangents(mesh, topology, supports);
   const double cosine = std::cos((angle + support_angle) * std::numbers::pi / 180);
   std::vector<char> corner = mark_imposed(mesh, jets);
@@ -241,7 +241,7 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
     for (int i = 0; i < 3; ++i)
       if (t.beyond[i] < 0)
         if (const auto it = count.find(mesh_edge(t.vertex[i], t.vertex[(i + 1) % 3])); it != count.end()) ++it->second;
-  for (const Incidence& e : edges)
+  for (const LineEnd& e : edges)
     if (count[mesh_edge(e.vertex, e.other)] != around.discs(e.vertex)) corner[e.vertex] = 1;
   std::vector<std::int32_t> corners;
   for (std::size_t v = 0; v < corner.size(); ++v)
@@ -251,16 +251,16 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
 
 std::vector<SharpLine> find_lines(const SurfaceMesh& mesh, const std::vector<MeshEdge>& sharp,
                                   const std::vector<std::int32_t>& corners) {
-  const std::vector<Incidence> edges = incidences(mesh, sharp);
+  const std::vector<LineEnd> edges = incidences(mesh, sharp);
   std::vector<char> used(edges.size(), 0);
   const auto use = [&](std::int32_t v, std::int32_t w) {
-    const auto at = std::ranges::lower_bound(edges, Incidence{v, w, -1}) - edges.begin();
+    const auto at = std::ranges::lower_bound(edges, LineEnd{v, w, -1}) - edges.begin();
     used[at] = 1;
   };
   std::vector<SharpLine> lines;
   const auto follow = [&](std::size_t first) {
     SharpLine line{{edges[first].vertex}, {}};
-    const Incidence* next = &edges[first];
+    const LineEnd* next = &edges[first];
     while (next != nullptr) {
       use(next->vertex, next->other), use(next->other, next->vertex);
       line.vertices.push_back(next->other);
@@ -268,7 +268,7 @@ std::vector<SharpLine> find_lines(const SurfaceMesh& mesh, const std::vector<Mes
       const std::int32_t v = next->other;
       next = nullptr;
       if (std::ranges::binary_search(corners, v)) break;
-      for (const Incidence& e : at_vertex(edges, v))
+      for (const LineEnd& e : at_vertex(edges, v))
         if (used[&e - edges.data()] == 0) next = &e;
     }
     lines.push_back(std::move(line));

@@ -36,12 +36,18 @@ inline constexpr double short_when_dense = 0.95;
 inline constexpr double most_mean_area = 1.02;
 /// Shape that such a collapse may leave.
 inline constexpr double least_shape_when_dense = 0.35;
+/// Times that edges of a coarse mesh are halved where all is made anew.
+inline constexpr int halvings = 2;
+/// Sizes by which the size of a coarse mesh grows from sharp lines, a wanted size.
+inline constexpr double growth_of_coarse = 1;
+/// Lengths. Between middles of edges lie edges of about unit length, from a middle to the corner opposite those of sqrt(3).
+inline constexpr double longest_of_halves = 1.2;
 /// No edit makes a longer edge.
 inline constexpr double never_longer = 1.8;
 /// Rounds of collapses, splits, swaps and moves.
 inline constexpr int most_rounds = 8;
 /// Passes of swaps and moves after them.
-inline constexpr int most_last_passes = 8;
+inline constexpr int most_last_passes = 8, most_last_passes_thorough = 20;
 /// Shape that a collapse or split may leave where shapes were better: swaps and moves follow.
 inline constexpr double least_shape = 0.15;
 /// Shape. Triangles below are worked at, with two rings around.
@@ -50,7 +56,7 @@ inline constexpr double good_enough = 0.7;
 inline constexpr double least_shape_of_degrees = 0.55;
 inline constexpr int most_rounds_of_degrees = 4;
 /// Share of the size. Shorter moves are not worth an evaluation.
-inline constexpr double least_move = 0.02;
+inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
 /// Shape. Gains below do not count.
 inline constexpr double least_gain = 1e-4;
 
@@ -64,6 +70,12 @@ inline constexpr double usual_angle = 52;
 /// Of squares of angles and distances beside triangles that crossed others in an attempt before: as if tolerances were a
 /// hundred times smaller.
 inline constexpr double guarded_factor = 1e4;
+/// Ratio of sizes in two directions. Below it all over a model sizes count as if they were of no direction: control spaces are
+/// known as well as that.
+inline constexpr double least_anisotropy = 1.05;
+/// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
+/// against the surface; patches bound it, too (surface/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
+inline constexpr double leaning_angle = 35;
 /// Attempts, each of which guards the places where triangles crossed in those before.
 inline constexpr int most_attempts = 4;
 /// Sizes around such a place that are guarded.

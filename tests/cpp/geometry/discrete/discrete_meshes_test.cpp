@@ -67,6 +67,23 @@ TEST(DiscreteMeshes, ATorusHasTheSizesAskedForAndLiesOnItsSurface) {
   }
 }
 
+// Halved edges have vertices of six neighbours: irregular ones are a sixth of all at most, and shapes as good as that lets them be. The degrees of a closed
+// surface sum up to 6 V - 6 chi.
+TEST(DiscreteMeshes, MostVerticesHaveSixNeighbours) {
+  for (const auto& [built, size, chi] : {std::tuple{geometry(torus(48, 24)), 0.1, 0}, {geometry(sphere(6)), 0.07, 2}}) {
+    const SurfaceMesh mesh = mesh_of(built, size, 0, true).mesh;
+    std::vector<int> degree(mesh.vertices.size(), 0);
+    for (const FaceMesh& face : mesh.faces)
+      for (const auto& t : face.triangles)
+        for (const std::int32_t v : t) ++degree[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(v)])];
+    std::int64_t sum = 0, irregular = 0;
+    for (const int d : degree) sum += d, irregular += d != 6 ? 1 : 0;
+    EXPECT_EQ(sum, 6 * static_cast<std::int64_t>(degree.size()) - 6 * chi);
+    EXPECT_LE(static_cast<double>(irregular), static_cast<double>(degree.size()) / 6);
+    EXPECT_GE(mean_quality(mesh), 0.98);
+  }
+}
+
 TEST(DiscreteMeshes, TheSameForAnyNumberOfThreads) {
   const BuiltGeometry built = geometry(torus(24, 12));
   const SurfaceMesh one = mesh_of(built, 0.2, 0, true, 1).mesh, four = mesh_of(built, 0.2, 0, true, 4).mesh;
