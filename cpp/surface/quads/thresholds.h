@@ -17,8 +17,9 @@ inline constexpr double least_pair = 0.08;
 inline constexpr double turns_per_edge = 2;
 
 // Flat corners (face_quads)
-/// Degrees between chords of a curve, and of two curves, that go on smoothly into each other where they meet: an edge of
-/// a sixth of a circle turns by 60. Sharper corners are kinks, or those of polygons.
+/// Degrees between chords of a curve, and between tangents of two, that go on smoothly into each other where they meet:
+/// an edge of a sixth of a circle turns by 60. Sharper corners are kinks, or those of polygons.
+/// [CurvedElements.NoQuadrilateralHasTwoSidesOnOneCircle]
 inline constexpr double least_angle_in_curve = 110, least_angle_of_curves = 150;
 
 // Matching

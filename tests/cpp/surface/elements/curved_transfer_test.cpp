@@ -17,7 +17,7 @@ namespace {
 using testing::AnalyticCad;
 using Field = std::function<double(const Vec3&)>;
 
-AnalyticCad square() {
+AnalyticCad unit_square() {
   AnalyticCad cad;
   const auto jet = [](Vec2 p) -> SurfaceJet { return {{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
   cad.faces[1] = {jet, testing::rectangle({0, 0}, {1, 1})};
@@ -59,9 +59,9 @@ SurfaceMesh renamed(SurfaceMesh mesh) {
 
 TEST(CurvedTransfer, IsExactForQuadraticsInAPlane) {
   const Field f = [](const Vec3& p) { return 1 + 2 * p.x() - p.y() + 3 * p.x() * p.x() - p.x() * p.y() + 5 * p.y() * p.y(); };
-  const SurfaceMesh from = mesh_of(square(), 0.2, "p2");
+  const SurfaceMesh from = mesh_of(unit_square(), 0.2, "p2");
   for (const char* element : {"p1", "p2", "q2.0"}) {
-    const SurfaceMesh to = mesh_of(square(), 0.13, element);
+    const SurfaceMesh to = mesh_of(unit_square(), 0.13, element);
     for (const SurfaceMesh& one : {to, renamed(to)}) {
       const TransferredField moved = transfer_field(from, one, at_nodes(from, f), 1);
       EXPECT_EQ(moved.outside, 0);
@@ -73,7 +73,7 @@ TEST(CurvedTransfer, IsExactForQuadraticsInAPlane) {
 TEST(CurvedTransfer, ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields) {
   const Field f = [](const Vec3& p) { return 3 * p.x() - p.y(); }, g = [](const Vec3& p) { return 7 + p.y(); };
   for (const char* element : {"q2.0", "q2.1"}) {
-    const SurfaceMesh from = mesh_of(square(), 0.2, element), to = mesh_of(square(), 0.13, "p2");
+    const SurfaceMesh from = mesh_of(unit_square(), 0.2, element), to = mesh_of(unit_square(), 0.13, "p2");
     std::vector<double> both, expected;
     for (const SurfaceMesh* mesh : {&from, &to}) {
       const std::vector<double> p = at_nodes(*mesh, f), q = at_nodes(*mesh, g);
@@ -85,7 +85,7 @@ TEST(CurvedTransfer, ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFie
 
 TEST(CurvedTransfer, ValuesAtVerticesAloneStayThere) {
   const Field f = [](const Vec3& p) { return p.x() - 4 * p.y(); };
-  const SurfaceMesh from = mesh_of(square(), 0.2, "p2"), to = mesh_of(square(), 0.13, "p2");
+  const SurfaceMesh from = mesh_of(unit_square(), 0.2, "p2"), to = mesh_of(unit_square(), 0.13, "p2");
   ASSERT_FALSE(to.mid_vertices.empty());
   EXPECT_LT(largest_difference(transfer_field(from, to, at_vertices(from, f), 1).values, at_vertices(to, f)), 1e-13);
 }
