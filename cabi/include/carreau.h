@@ -654,7 +654,9 @@ CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carr
                                             const double values[], double out_sizes[], double out_metrics[]);
 
 /* Interpolates a field from the n vertices of the mesh that the session had before to those of its mesh now. `values`
- * has `components` values a vertex (n x components), and out_values has room for `capacity` such rows. *out_outside,
+ * has `components` values a vertex (n x components), and out_values has room for `capacity` such rows. Elements of
+ * second order carry values at all their nodes, corners first, by their shape functions, and out_values gets those at
+ * all nodes of the new mesh; with n the number of corners alone, both are at corners, and the field is linear. *out_outside,
  * which may be NULL, counts the vertices beside the old mesh; they take the nearest value. Errors: ARGUMENT, SEQUENCE
  * (fewer than two meshes made). */
 CARREAU_API carreau_status carreau_transfer(carreau_session* session, int32_t components, int64_t n,

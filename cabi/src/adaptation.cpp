@@ -56,8 +56,15 @@ std::size_t checked_rows(std::int64_t n, const SurfaceMesh& mesh, const char* wh
   throw InvalidArgument("there are " + std::to_string(n) + " rows, but the " + which + " has " +
                         std::to_string(mesh.vertices.size()) +
                         (mesh.mid_vertices.empty() ? " vertices"
-                                                   : " corners of elements of second order, its first vertices: fields "
-                                                     "belong to corners, not to nodes on edges"));
+                                                   : " corners of elements of second order, its first vertices: what "
+                                                     "is not carried from mesh to mesh belongs to corners, not to "
+                                                     "nodes on edges"));
+}
+
+/// The same of a field that may be given at all nodes, too.
+std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
+  if (n >= 0 && std::uint64_t(n) == carreau::node_count(mesh)) return carreau::node_count(mesh);
+  return checked_rows(n, mesh, which);
 }
 
 std::size_t checked_count(std::int64_t n, const char* name) {
@@ -241,10 +248,10 @@ carreau_status carreau_transfer(carreau_session* session, int32_t components, in
     if (!session->session.has_previous_mesh())
       throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh before this one: fields are transferred from it");
     const SurfaceMesh& from = session->session.previous_mesh();
-    const std::size_t rows = checked_rows(n, from, "mesh before this one");
+    const std::size_t rows = checked_nodes(n, from, "mesh before this one");
     if (components < 1)
       throw InvalidArgument("components is " + std::to_string(components) + "; a field has one component at least");
-    check_capacity(capacity, to.vertices.size(), "vertices");
+    check_capacity(capacity, rows == carreau::node_count(from) ? carreau::node_count(to) : to.vertices.size(), "vertices");
     required(out_values, "out_values");
     const auto width = static_cast<std::size_t>(components);
     const carreau::TransferredField result =

@@ -27,5 +27,12 @@ inline constexpr double blind = 2;
 inline constexpr double as_near = 4;
 /// Share of coordinates. What is nearer is there. [TransferField.KeepsValuesAtVerticesThatStay]
 inline constexpr double place_rounding = 1e-14;
+/// Places in curved elements: steps of Newton's method at most, coordinates of the reference below which they end.
+/// [CurvedTransfer.IsExactForQuadraticsInAPlane]
+inline constexpr int most_newton_steps = 20;
+inline constexpr double newton_rounding = 1e-14;
+/// Coordinates of the reference. So far beside its element the polynomial of a field is taken: the sagitta of a curved
+/// border, of which an edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
+inline constexpr double most_beside = 0.2;
 
 }  // namespace carreau::thresholds::adapt

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "adapt/curved_elements.h"
 #include "adapt/thresholds.h"
 #include "mesh/triangle_search.h"
 #include "size/thresholds.h"
@@ -88,6 +89,7 @@ NearestOnMesh Neighbourhood::nearest(const Vec3& p, std::int32_t start) const {
 struct Piece {
   TriangleSearch tree;
   std::vector<Triangle> carriers;
+  CurvedElements curved;  // none: linear interpolation
   std::int32_t last = 0;
 };
 
@@ -120,8 +122,10 @@ class Transfer {
  public:
   Transfer(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values, std::size_t components)
       : from_(from), to_(to), values_(values), components_(components) {
-    result_.values.assign(to.vertices.size() * components, 0);
-    done_.assign(to.vertices.size(), 0);
+    at_nodes_ = values.size() == node_count(from) * components;
+    const std::size_t rows = at_nodes_ ? node_count(to) : to.vertices.size();
+    result_.values.assign(rows * components, 0);
+    done_.assign(rows, 0);
     for (const Vec3& p : from.vertices)
       largest_coordinate_ = std::max({largest_coordinate_, std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
   }
@@ -136,18 +140,27 @@ class Transfer {
       const auto old = old_faces.find(face.ref);
       if (old == old_faces.end() || !by_faces) continue;
       Piece piece = piece_of(*old->second);
+      if (at_nodes_) piece.curved = CurvedElements(from_, *old->second);
       const Neighbourhood space(from_.vertices, piece.carriers);
       for (std::size_t i = 0; i < face.vertex.size(); ++i)
         look_up(piece, {face.uv[i].x(), face.uv[i].y(), 0}, static_cast<std::size_t>(face.vertex[i]), &space);
+      for (std::size_t i = 0; at_nodes_ && i < face.mid_uv.size(); ++i)
+        look_up(piece, {face.mid_uv[i].x(), face.mid_uv[i].y(), 0},
+                to_.vertices.size() + static_cast<std::size_t>(face.mid_vertex[i]), &space);
     }
     if (std::find(done_.begin(), done_.end(), 0) != done_.end()) {
       Piece whole = piece_of(from_);
-      for (std::size_t v = 0; v < done_.size(); ++v) look_up(whole, to_.vertices[v], v, nullptr);
+      if (at_nodes_) whole.curved = CurvedElements(from_);
+      for (std::size_t v = 0; v < done_.size(); ++v) look_up(whole, place_in_space(v), v, nullptr);
     }
     return std::move(result_);
   }
 
  private:
+  [[nodiscard]] const Vec3& place_in_space(std::size_t row) const {
+    return row < to_.vertices.size() ? to_.vertices[row] : to_.mid_vertices[row - to_.vertices.size()];
+  }
+
   /// `space` is null when p is a point of space.
   void look_up(Piece& piece, Vec3 p, std::size_t vertex, const Neighbourhood* space) {
     if (done_[vertex] != 0) return;
@@ -158,10 +171,16 @@ class Transfer {
       ++result_.outside;
       result_.farthest = std::max(result_.farthest, found.distance);
     }
+    bool in_space = space == nullptr;
     if (space != nullptr) {
-      const NearestOnMesh nearer = space->nearest(to_.vertices[vertex], found.triangle);
-      const double away = norm(place_of(piece, found) - to_.vertices[vertex]);
-      if (away > as_near * nearer.distance + place_rounding * largest_coordinate_) found = nearer;
+      const NearestOnMesh nearer = space->nearest(place_in_space(vertex), found.triangle);
+      const double away = norm(place_of(piece, found) - place_in_space(vertex));
+      if (away > as_near * nearer.distance + place_rounding * largest_coordinate_) found = nearer, in_space = true;
+    }
+    if (piece.curved.has(found.triangle)) {
+      piece.curved.interpolate(found.triangle, in_space ? place_in_space(vertex) : p, in_space, values_, components_,
+                               &result_.values[vertex * components_]);
+      return;
     }
     const Triangle& carrier = piece.carriers[static_cast<std::size_t>(found.triangle)];
     for (std::size_t c = 0; c < components_; ++c) {
@@ -184,6 +203,7 @@ class Transfer {
   const SurfaceMesh& to_;
   std::span<const double> values_;
   std::size_t components_;
+  bool at_nodes_ = false;  // not at vertices alone
   std::vector<char> done_;
   double largest_coordinate_ = 0;
   TransferredField result_;
@@ -191,13 +211,17 @@ class Transfer {
 
 }  // namespace
 
+std::size_t node_count(const SurfaceMesh& mesh) noexcept { return mesh.vertices.size() + mesh.mid_vertices.size(); }
+
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
                                 std::size_t components) {
   if (components == 0) throw InvalidArgument("a field to be transferred has one component at least");
-  if (values.size() != from.vertices.size() * components)
-    throw InvalidArgument("a field to be transferred has " + std::to_string(values.size()) +
-                          " values; the old mesh has " + std::to_string(from.vertices.size()) + " vertices, with " +
-                          std::to_string(components) + " values each");
+  if (values.size() != from.vertices.size() * components && values.size() != node_count(from) * components)
+    throw InvalidArgument(
+        "a field to be transferred has " + std::to_string(values.size()) + " values; the old mesh has " +
+        std::to_string(from.vertices.size()) + " vertices" +
+        (from.mid_vertices.empty() ? "" : " and " + std::to_string(from.mid_vertices.size()) + " nodes on edges") +
+        ", with " + std::to_string(components) + " values each");
   if (from.triangle_count() == 0) throw InvalidArgument("a field cannot be transferred from a mesh without triangles");
   return Transfer(from, to, values, components).run();
 }

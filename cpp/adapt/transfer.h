@@ -14,16 +14,22 @@
 namespace carreau {
 
 struct TransferredField {
-  std::vector<double> values;  ///< vertex by vertex of the new mesh, components together
+  std::vector<double> values;  ///< row by row of the new mesh, components together
   std::int64_t outside = 0;    ///< vertices beside the old mesh by more than 1/8 of an edge; the nearest value holds
   double farthest = 0;         ///< distance of the farthest one, parameter length (model length: see below)
 };
+
+/// Rows that a field has which is given at all nodes of a mesh: vertices, then nodes on edges (SurfaceMesh::mid_vertices).
+std::size_t node_count(const SurfaceMesh& mesh) noexcept;
 
 /// Interpolates linearly, from vertices of `from` to vertices of `to`, two meshes of one model. Each vertex is looked
 /// up in the parameter plane of a face that both meshes have, so sheets that touch in space are not mixed up, and from
 /// there among the triangles around in space: a parameter plane stretches without bound towards a pole. In space alone
 /// when there is no such face. Exact for fields that are linear in a plane, of second order in the length of edges on
-/// surfaces. Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`,
+/// surfaces. Values at all nodes of `from` (node_count) give those at all nodes of `to`: where elements of `from` are of
+/// second order by their shape functions, exact for quadratic fields on plane elements with straight sides, and of
+/// third order on surfaces. Values at vertices alone give those at vertices alone, whatever the elements.
+/// Throws InvalidArgument unless `values` holds `components` > 0 numbers for each vertex of `from`, or for each node,
 /// or when `from` has no triangle.
 TransferredField transfer_field(const SurfaceMesh& from, const SurfaceMesh& to, std::span<const double> values,
                                 std::size_t components);

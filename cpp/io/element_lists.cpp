@@ -2,6 +2,7 @@
 #include "io/element_lists.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "mesh/quality.h"
 #include "support/error.h"
@@ -33,6 +34,33 @@ double worse_half(const FlatMesh& mesh, const std::array<std::int32_t, 8>& n) {
   return std::min(quality_q2(at(0), at(1), at(2)), quality_q2(at(0), at(2), at(3)));
 }
 
+std::array<std::int32_t, 8> turned_once(std::array<std::int32_t, 8> n) {
+  std::rotate(n.begin(), n.begin() + 1, n.begin() + 4);
+  std::rotate(n.begin() + 4, n.begin() + 5, n.end());
+  return n;
+}
+
+// Two quadrilaterals that meet in two edges, as at the apex of a cone, may have one triangle as their better halves.
+void part_equal_halves(FlatMesh& mesh) {
+  std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> halves;
+  for (std::size_t c = 0, t = 0; c < mesh.cells.size(); ++c)
+    for (int k = corner_count(mesh.cells[c].kind) - 2; k > 0; --k) {
+      std::array<std::int32_t, 3> corners = mesh.triangles[t++];
+      std::sort(corners.begin(), corners.end());
+      halves.emplace_back(corners, c);
+    }
+  std::sort(halves.begin(), halves.end());
+  std::vector<char> again(mesh.cells.size(), 0);
+  for (std::size_t i = 1; i < halves.size(); ++i)
+    if (halves[i].first == halves[i - 1].first) again[halves[i].second] = 1;
+  for (std::size_t c = 0, t = 0; c < mesh.cells.size(); t += corner_count(mesh.cells[c++].kind) == 4 ? 2 : 1) {
+    if (again[c] == 0 || corner_count(mesh.cells[c].kind) == 3) continue;
+    std::array<std::int32_t, 8>& n = mesh.cells[c].nodes;
+    n = turned_once(n);
+    mesh.triangles[t] = {n[0], n[1], n[2]}, mesh.triangles[t + 1] = {n[0], n[2], n[3]};
+  }
+}
+
 // The diagonal from corner 0 is the one that cuts.
 void turn_quads(FlatMesh& mesh, std::size_t first_cell, std::size_t first_triangle) {
   for (std::size_t c = first_cell, t = first_triangle; c < mesh.cells.size(); ++c) {
@@ -41,9 +69,7 @@ void turn_quads(FlatMesh& mesh, std::size_t first_cell, std::size_t first_triang
       ++t;
       continue;
     }
-    std::array<std::int32_t, 8> turned = n;
-    std::rotate(turned.begin(), turned.begin() + 1, turned.begin() + 4);
-    std::rotate(turned.begin() + 4, turned.begin() + 5, turned.end());
+    const std::array<std::int32_t, 8> turned = turned_once(n);
     if (worse_half(mesh, turned) > worse_half(mesh, n)) n = turned;
     mesh.triangles[t++] = {n[0], n[1], n[2]};
     mesh.triangles[t++] = {n[0], n[2], n[3]};
@@ -108,7 +134,7 @@ void set_elements(const ElementLists& lists, FlatMesh& mesh) {
     add_all(lists.triangles6, CellKind::triangle6, mesh);
     add_all(lists.quads, CellKind::quad4, mesh);
     add_all(lists.triangles, CellKind::triangle3, mesh);
-    turn_quads(mesh, 0, 0);
+    turn_quads(mesh, 0, 0), part_equal_halves(mesh);
   }
   // Of straight and curved edges only the ends are kept.
   const bool with_mids = lists.edges.nodes.empty();

@@ -2,6 +2,7 @@
 #include "mesh/cells.h"
 
 #include <algorithm>
+#include <set>
 
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
@@ -25,6 +26,24 @@ void add_mids(const FaceMesh& face, std::size_t t, Cell& cell) {
 
 double worse_half(std::span<const Vec3> xyz, const std::array<std::int32_t, 4>& v) {
   return std::min(quality_q2(xyz[v[0]], xyz[v[1]], xyz[v[2]]), quality_q2(xyz[v[0]], xyz[v[2]], xyz[v[3]]));
+}
+
+// Two quadrilaterals of a pole that meet in two edges there: as halves on the same side of it they would be one triangle.
+void part_equal_halves(FaceMesh& face) {
+  std::set<std::array<std::int32_t, 3>> met;
+  const auto corners = [&](const std::array<std::int32_t, 3>& t) {
+    std::array<std::int32_t, 3> v{face.vertex[t[0]], face.vertex[t[1]], face.vertex[t[2]]};
+    std::sort(v.begin(), v.end());
+    return v;
+  };
+  for (std::int32_t q = 0; q < face.quads; ++q) {
+    std::array<std::int32_t, 3>&one = face.triangles[2 * q], &other = face.triangles[2 * q + 1];
+    if (met.contains(corners(one)) || met.contains(corners(other))) {
+      const auto [a, b, c, d] = face.quad(static_cast<std::size_t>(q));
+      one = {b, c, d}, other = {b, d, a};
+    }
+    met.insert(corners(one)), met.insert(corners(other));
+  }
 }
 
 }  // namespace
@@ -75,6 +94,7 @@ void set_cells(FaceMesh& face, std::span<const std::array<std::int32_t, 4>> quad
       face.triangles.push_back({a, c, d});
     }
   }
+  if (!face.flattened.empty()) part_equal_halves(face);
   face.triangles.insert(face.triangles.end(), triangles.begin(), triangles.end());
 }
 

@@ -70,6 +70,48 @@ EstimatorOptions estimator_of(const Parameters& parameters, const std::vector<Ve
   return options;
 }
 
+/// Nodes on edges of elements of second order, as faces have them: quadrilaterals come first. Rows of values of these
+/// nodes follow those of all vertices (with_nodes_on_edges()).
+void add_elements(const FlatMesh& flat, const std::vector<std::size_t>& first_triangle, const std::vector<char>& chosen,
+                  const std::vector<std::int32_t>& mid_of, FaceMesh& face) {
+  face.triangles.clear();
+  for (const int corners : {4, 3})
+    for (std::size_t c = 0; c < flat.cells.size(); ++c) {
+      const Cell& cell = flat.cells[c];
+      if (corner_count(cell.kind) != corners || chosen[first_triangle[c]] == 0) continue;
+      const auto& n = cell.nodes;
+      const auto mid = [&](int i) { return mid_of[n[i]]; };
+      if (corners == 3) {
+        face.triangles.push_back({n[0], n[1], n[2]});
+        face.mid.push_back({mid(3), mid(4), mid(5)});
+        continue;
+      }
+      ++face.quads;
+      face.triangles.push_back({n[0], n[1], n[2]}), face.triangles.push_back({n[0], n[2], n[3]});
+      face.mid.push_back({mid(4), mid(5), -1}), face.mid.push_back({-1, mid(6), mid(7)});
+    }
+}
+
+/// By vertex of a mesh of a file: its rank among the nodes on edges; -1: it is none.
+std::vector<std::int32_t> nodes_on_edges(const FlatMesh& flat) {
+  std::vector<std::int32_t> rank(flat.vertices.size(), -1);
+  if (!flat.is_quadratic()) return rank;
+  for (const Cell& cell : flat.cells)
+    for (int i = corner_count(cell.kind); i < node_count(cell.kind); ++i) rank[cell.nodes[i]] = 0;
+  std::int32_t count = 0;
+  for (std::int32_t& r : rank)
+    if (r == 0) r = count++;
+  return rank;
+}
+
+/// Values at the vertices of a mesh of a file, and then again those of nodes on edges: as surface_of() has them.
+std::vector<double> with_nodes_on_edges(const FlatMesh& flat, std::vector<double> values, std::size_t components) {
+  const std::vector<std::int32_t> rank = nodes_on_edges(flat);
+  for (std::size_t v = 0; v < rank.size(); ++v)
+    for (std::size_t k = 0; rank[v] >= 0 && k < components; ++k) values.push_back(values[v * components + k]);
+  return values;
+}
+
 /// A mesh of a file as one whose faces lie in their parameter planes (dimension 2), or in none (space; a plane model,
 /// whose parameter planes are one).
 SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
@@ -81,12 +123,29 @@ SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
     whole.uv.push_back({flat.vertices[v].x(), flat.vertices[v].y()});
     whole.vertex.push_back(static_cast<std::int32_t>(v));
   }
+  const std::vector<std::int32_t> mid_of = nodes_on_edges(flat);
+  std::vector<std::size_t> first_triangle;
+  for (std::size_t c = 0, t = 0; flat.is_quadratic() && c < flat.cells.size(); ++c) {
+    first_triangle.push_back(t);
+    t += corner_count(flat.cells[c].kind) == 4 ? 2 : 1;
+  }
+  for (std::size_t v = 0; v < mid_of.size(); ++v) {
+    if (mid_of[v] < 0) continue;
+    whole.mid_uv.push_back(whole.uv[v]), whole.mid_vertex.push_back(mid_of[v]);
+    mesh.mid_vertices.push_back(flat.vertices[v]);
+  }
+  const auto add = [&](FaceMesh face, const std::vector<char>& chosen) {
+    for (std::size_t i = 0; i < flat.triangles.size(); ++i)
+      if (chosen[i] != 0) face.triangles.push_back(flat.triangles[i]);
+    if (flat.is_quadratic()) add_elements(flat, first_triangle, chosen, mid_of, face);
+    if (!face.triangles.empty()) mesh.faces.push_back(std::move(face));
+  };
   const auto part = [&](int ref, int named) {
     FaceMesh face = whole;
     face.ref = ref;
-    for (std::size_t i = 0; i < flat.triangles.size(); ++i)
-      if (flat.triangle_refs[i] == named) face.triangles.push_back(flat.triangles[i]);
-    if (!face.triangles.empty()) mesh.faces.push_back(std::move(face));
+    std::vector<char> chosen(flat.triangles.size(), 0);
+    for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = flat.triangle_refs[i] == named ? 1 : 0;
+    add(std::move(face), chosen);
   };
   if (flat.dimension == 2 && !model.plane) {
     for (const Face& face : model.faces) {
@@ -96,8 +155,7 @@ SurfaceMesh surface_of(const FlatMesh& flat, const Model& model) {
     }
   } else {  // no face of a model has this reference: looked up in space
     whole.ref = std::numeric_limits<int>::min();
-    whole.triangles = flat.triangles;
-    mesh.faces.push_back(std::move(whole));
+    add(std::move(whole), std::vector<char>(flat.triangles.size(), 1));
   }
   return mesh;
 }
@@ -202,9 +260,10 @@ Solution in_dimension(const Solution& fields, int dimension, const std::string& 
 }
 
 /// Returns the number of vertices outside.
-std::int64_t write_transferred(const Session& session, const SurfaceMesh& from, const Solution& fields,
-                               const std::string& sol_path, const std::string& out_path) {
-  TransferredField moved = transfer_field(from, session.mesh(), fields.values, fields.components());
+/// `values`: those of `fields` at the nodes of `from`.
+std::int64_t write_transferred(const Session& session, const SurfaceMesh& from, const std::vector<double>& values,
+                               const Solution& fields, const std::string& sol_path, const std::string& out_path) {
+  TransferredField moved = transfer_field(from, session.mesh(), values, fields.components());
   Solution result{
       .dimension = fields.dimension, .tensor = false, .values = std::move(moved.values), .fields = fields.fields};
   write_solution(in_dimension(result, session.model().plane ? 2 : 3, sol_path), out_path);
@@ -263,7 +322,8 @@ std::int64_t transfer_files(const Session& session, const std::string& mesh_path
                             const std::string& out_path) {
   const FlatMesh mesh = read_carrier(mesh_path);
   const Solution fields = read_fields(sol_path, mesh, mesh_path);
-  return write_transferred(session, surface_of(mesh, session.model()), fields, sol_path, out_path);
+  return write_transferred(session, surface_of(mesh, session.model()),
+                           with_nodes_on_edges(mesh, fields.values, fields.components()), fields, sol_path, out_path);
 }
 
 namespace {
@@ -327,7 +387,8 @@ void adapt_by_files(Session& session, Monitor& monitor) {
     session.make_mesh();
   }
   if (out_path.empty()) return;
-  if (const std::int64_t outside = write_transferred(session, from, start.fields, start.sol_path, out_path);
+  if (const std::int64_t outside =
+          write_transferred(session, from, start.fields.values, start.fields, start.sol_path, out_path);
       outside > 0)
     monitor.message(Level::warning, std::to_string(outside) + " vertices lie outside of the mesh of the field " +
                                         "and have the nearest value");

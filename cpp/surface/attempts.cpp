@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "support/error.h"
+#include "surface/quads/quadrilaterals.h"
 #include "surface/thresholds.h"
 
 namespace carreau {
@@ -16,23 +17,31 @@ std::ptrdiff_t failed_faces(const CompositeResult& result) {
                        [](const FaceMesh& face) { return face.status == FaceStatus::failed; });
 }
 
+// Quadrilaterals that were cut have the metric of half the sizes, by which patches are not made.
+double enlargement_of_spaces(const CompositeRun& run) {
+  const std::vector<FaceMesh>& faces = run.result.mesh.faces;
+  const bool cut = std::any_of(faces.begin(), faces.end(), [](const FaceMesh& face) { return face.quads > 0; });
+  return cut ? enlargement_for(run.options.element) : 1;
+}
+
 }  // namespace
 
 Attempts::Attempts(CompositeRun& run, const std::function<void()>& mesh_again)
     : run_(run), mesh_again_(mesh_again), failed_(failed_faces(run.result)) {}
 
 bool Attempts::again(const std::function<void()>& make_finer) {
-  if (!best_) curves_ = run_.curves, cut_curves_ = run_.cut_curves;
+  if (!best_) curves_ = run_.curves, cut_curves_ = run_.cut_curves, finer_ = run_.finer;
   make_finer();
+  const double enlarged = enlargement_of_spaces(run_);
   CompositeResult before = std::exchange(run_.result, {});
   run_.result.graded = before.graded, run_.result.report = before.report;
   spaces_ = std::move(before.spaces);
   if (!best_) {
     best_ = std::move(before);
     best_->spaces = std::move(spaces_);
-    run_.known.rely_on(&best_->spaces);
+    run_.known.rely_on(&best_->spaces, enlarged);
   } else {
-    run_.known.rely_on(&spaces_);
+    run_.known.rely_on(&spaces_, enlarged);
   }
   run_.trying = true;
   run_.begin += (1 - run_.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);
@@ -57,7 +66,7 @@ bool Attempts::keep_if(bool better) {
 void Attempts::finish() {
   if (best_) {
     run_.result = std::move(*best_);
-    run_.curves = std::move(curves_), run_.cut_curves = std::move(cut_curves_);
+    run_.curves = std::move(curves_), run_.cut_curves = std::move(cut_curves_), run_.finer = std::move(finer_);
   }
   run_.trying = false;
   for (const FaceMesh& face : run_.result.mesh.faces)

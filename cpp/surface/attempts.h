@@ -22,7 +22,7 @@ class Attempts {
   /// After again(). The mesh of now is the best one if it is better in what it was made for, and no more faces failed.
   /// Gives whether it is.
   bool keep_if(bool better);
-  /// Gives the run the best mesh with its curves, and says what an earlier one has not told.
+  /// Gives the run the best mesh with its curves and what its sizes grew from, and says what an earlier one has not told.
   void finish();
 
  private:
@@ -31,6 +31,7 @@ class Attempts {
   std::ptrdiff_t failed_;                // faces of the best mesh
   std::optional<CompositeResult> best_;  // empty: that of the run
   std::vector<DiscreteCurve> curves_, cut_curves_;  // of best_
+  std::vector<std::vector<EdgeSizes::Source>> finer_;  // of best_
   std::vector<std::optional<ControlSpace>> spaces_;  // of a mesh that was given up, for what the next one has of it
 };
 

@@ -595,6 +595,27 @@ TEST_F(AdaptationOfATorus, SizesHandedBackCrossTheSeams) {
   for (std::size_t v = 0; v < moved.size(); ++v) EXPECT_NEAR(moved[v], data.xyz[3 * v + 2], 0.3 * 0.3 / 4);
 }
 
+// Elements of second order carry values at all their nodes.
+TEST_F(AdaptationOfATorus, CurvedElementsCarryValuesAtAllTheirNodes) {
+  ASSERT_EQ(carreau_set_text(session, "element", "p2"), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  const auto from = abi_tests::data_of(mesh());
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.21), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+  const auto to = abi_tests::data_of(mesh());
+  const auto field = [](const double* p) { return std::sin(2 * p[0]) + p[1] * p[2]; };
+  std::vector<double> values, moved(to.vertex_count());
+  for (std::size_t v = 0; v < from.vertex_count(); ++v) values.push_back(field(&from.xyz[3 * v]));
+  ASSERT_EQ(carreau_transfer(session, 1, int64_t(values.size()), values.data(), int64_t(moved.size()), moved.data(), nullptr),
+            CARREAU_OK)
+      << error();
+  double curved = 0;
+  for (std::size_t v = 0; v < moved.size(); ++v) curved = std::max(curved, std::abs(moved[v] - field(&to.xyz[3 * v])));
+  EXPECT_LT(curved, 0.3 * 0.3 * 0.3 / 4);
+  EXPECT_EQ(carreau_transfer(session, 1, int64_t(values.size()), values.data(), int64_t(moved.size()) - 1, moved.data(), nullptr),
+            CARREAU_ERR_ARGUMENT);
+}
+
 TEST_F(AdaptationOfATorus, SizesOnASurfaceInSpaceAreFoundAtItsNearestPoint) {
   auto b = abi_tests::sized<carreau_background>();
   b.dimension = 3;

@@ -283,9 +283,15 @@ class Mender {
   }
   void add_finer(const Cell& cell, std::vector<EdgeSizes::Source>& finer) const {
     const int n = corner_count(cell.kind);
-    double longest = 0;
-    for (int i = 0; i < n; ++i) longest = std::max(longest, norm(xyz(cell.nodes[(i + 1) % n]) - xyz(cell.nodes[i])));
-    for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), longest / 2});
+    double longest = 0, least = infinity;
+    for (int i = 0; i < n; ++i) {
+      longest = std::max(longest, norm(xyz(cell.nodes[(i + 1) % n]) - xyz(cell.nodes[i])));
+      const double size = work_.result.vertex_size[face_.vertex[cell.nodes[i]]];
+      if (size > 0) least = std::min(least, size);
+    }
+    // Sizes are asked of the mesh that is cut, if one is.
+    const double wanted = std::min(longest, least) * (has_quads_only(work_.options.element) ? 1 : 0.5);
+    for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), wanted});
   }
   static void add_coarse(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CurveEdge>& coarse) {
     const int n = corner_count(cell.kind);

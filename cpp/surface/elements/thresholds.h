@@ -18,7 +18,7 @@ inline constexpr int most_rounds = 8;
 /// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int most_divisions = 6;
 /// The same with quadrilaterals, whose shapes smaller sizes mend less often.
-inline constexpr int most_divisions_of_quads = 2;
+inline constexpr int most_divisions_of_quads = 6;
 /// Times that invalid curved quadrilaterals become two triangles, before which nodes move.
 inline constexpr int most_partings = 4;
 /// Ratio of triangles. A mesh that grows more for it is not what was asked for.

@@ -90,7 +90,7 @@ class Pass {
     for (int k = 0; k < corners_of(cell); ++k) touched_[cell[k]] = 1;
   }
   [[nodiscard]] bool is_good(const MixedCell& cell) const {
-    return is_convex(patch_, cell) && cell_quality(patch_, charts_, cell) > least_after_change;
+    return is_convex(patch_, cell) && !has_flat_corner(patch_, cell) && cell_quality(patch_, charts_, cell) > least_after_change;
   }
   [[nodiscard]] bool has_good_length(std::int32_t a, std::int32_t b) const {
     const double l = length_in(charts_, patch_.uv[a], patch_.uv[b]);
@@ -109,7 +109,7 @@ class Pass {
       if (n == 3 || corners_of(other) == 3) continue;
       const auto at = static_cast<int>(std::find(other.begin(), other.end(), v) - other.begin());
       const MixedCell joined{cell[(k + 1) % 4], cell[(k + 2) % 4], cell[(k + 3) % 4], other[(at + 2) % 4]};
-      if (joined[3] == joined[1] || !is_convex(patch_, joined)) continue;
+      if (joined[3] == joined[1] || !is_convex(patch_, joined) || has_flat_corner(patch_, joined)) continue;
       for (const std::int32_t one : cells) touch(patch_.cells[one]), patch_.cells[one] = none;
       patch_.cells[c] = joined;
       return true;

@@ -2,18 +2,73 @@
 #include "surface/quads/face_quads.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "cad/batches.h"
 #include "surface/quads/quad_shape.h"
+#include "surface/quads/thresholds.h"
 #include "surface/sample/face_metric.h"
 
 namespace carreau {
+
+using namespace thresholds::quads;
 
 const CurveSide* FaceQuads::side_between(std::int32_t a, std::int32_t b) const noexcept {
   const std::int32_t low = std::min(a, b), high = std::max(a, b);
   const auto found = std::lower_bound(sides.begin(), sides.end(), CurveSide{low, high, 0, 0, 0});
   return found != sides.end() && found->a == low && found->b == high ? &*found : nullptr;
 }
+
+namespace {
+
+/// An edge of a curve from vertex v to vertex a.
+struct Spoke {
+  std::int32_t v, a, curve, segment;
+  friend auto operator<=>(const Spoke&, const Spoke&) = default;
+};
+
+// The way that the curve takes from v: that of the parabola through its next two vertices.
+Vec3 tangent_at(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s) {
+  const std::vector<std::int32_t>& on_curve = mesh.curves[s.curve].vertices;
+  const Vec3 p = quads.xyz[s.v], q = quads.xyz[s.a];
+  const bool forward = on_curve[s.segment] == quads.vertex[s.v];
+  const std::ptrdiff_t next = forward ? std::ptrdiff_t{s.segment} + 2 : std::ptrdiff_t{s.segment} - 1;
+  const double l = norm(q - p);
+  if (next < 0 || next >= std::ssize(on_curve) || !(l > 0)) return q - p;
+  const Vec3 r = mesh.vertices[on_curve[next]];
+  const double m = norm(r - q);
+  if (!(m > 0)) return q - p;
+  const Vec3 first = (1 / l) * (q - p), second = (1 / m) * (r - q);
+  return first - l / (l + m) * (second - first);
+}
+
+// Inside a curve any turn is that of its chords, unless it is that of a kink.
+bool go_on_smoothly(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s, const Spoke& t) {
+  const bool inside = s.curve == t.curve && s.segment != t.segment;
+  const Vec3 d = inside ? Vec3(quads.xyz[s.a] - quads.xyz[s.v]) : tangent_at(mesh, quads, s),
+             e = inside ? Vec3(quads.xyz[t.a] - quads.xyz[t.v]) : tangent_at(mesh, quads, t);
+  const double least = inside ? least_angle_in_curve : least_angle_of_curves;
+  return dot(d, e) < std::cos(least * std::numbers::pi / 180) * norm(d) * norm(e);
+}
+
+void find_flat_corners(const SurfaceMesh& mesh, FaceQuads& quads) {
+  std::vector<Spoke> spokes;
+  for (const CurveSide& side : quads.sides) {
+    spokes.push_back({side.a, side.b, side.curve, side.segment});
+    spokes.push_back({side.b, side.a, side.curve, side.segment});
+  }
+  std::sort(spokes.begin(), spokes.end());
+  for (std::size_t i = 0; i < spokes.size(); ++i)
+    for (std::size_t k = i + 1; k < spokes.size() && spokes[k].v == spokes[i].v; ++k) {
+      if (!go_on_smoothly(mesh, quads, spokes[i], spokes[k])) continue;
+      quads.patch.flat.push_back({spokes[i].v, spokes[i].a, spokes[k].a});
+      quads.patch.flat.push_back({spokes[i].v, spokes[k].a, spokes[i].a});
+    }
+  std::sort(quads.patch.flat.begin(), quads.patch.flat.end());
+}
+
+}  // namespace
 
 FaceQuads face_quads(const ElementWork& work, std::size_t face) {
   const SurfaceMesh& mesh = work.result.mesh;
@@ -33,6 +88,7 @@ FaceQuads face_quads(const ElementWork& work, std::size_t face) {
     for (const std::int32_t v : t) quads.patch.fixed[v] = 1;
   for (std::size_t v = 0; v < from.vertex.size(); ++v)
     if (mesh.vertex_ref[from.vertex[v]] != 0) quads.patch.fixed[v] = 1;
+  find_flat_corners(mesh, quads);
   return quads;
 }
 

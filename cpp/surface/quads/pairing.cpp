@@ -67,7 +67,7 @@ class Pairing {
   }
 
   void add(std::int32_t t, std::int32_t u, const MixedCell& quad) {
-    if (!is_convex(patch_, quad)) return;
+    if (!is_convex(patch_, quad) || has_flat_corner(patch_, quad)) return;
     const std::array<Vec3, 4> p{rules_.position(quad[0]), rules_.position(quad[1]), rules_.position(quad[2]),
                                 rules_.position(quad[3])};
     if (!(turn(p) <= rules_.most_turn) || !(scaled_jacobian(p) > rules_.least_jacobian)) return;

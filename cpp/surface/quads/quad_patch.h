@@ -21,6 +21,9 @@ struct QuadPatch {
   std::vector<Vec2> uv;
   std::vector<char> fixed;  ///< by vertex: it neither moves nor goes
   std::vector<MixedCell> cells;
+  /// Vertices v, a, b where edges v - a and v - b of curves go on smoothly into each other, both ways, ascending. A cell
+  /// with that corner has an angle of 180 degrees there, whatever that of its chords.
+  std::vector<std::array<std::int32_t, 3>> flat = {};
 };
 
 /// The metric of a face about any of its places.

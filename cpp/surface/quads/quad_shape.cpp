@@ -78,6 +78,16 @@ bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
   return true;
 }
 
+bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexcept {
+  const int n = corners_of(cell);
+  for (int k = 0; k < n && !patch.flat.empty(); ++k) {
+    const std::int32_t a = cell[k], v = cell[(k + 1) % n], b = cell[(k + 2) % n];
+    if (patch.fixed[a] == 0 || patch.fixed[v] == 0 || patch.fixed[b] == 0) continue;
+    if (std::binary_search(patch.flat.begin(), patch.flat.end(), std::array{v, a, b})) return true;
+  }
+  return false;
+}
+
 double cell_quality(const QuadPatch& patch, const FaceCharts& charts, const MixedCell& cell) noexcept {
   return cell_quality(patch, charts.about(patch, cell), cell);
 }

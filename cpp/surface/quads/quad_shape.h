@@ -19,6 +19,8 @@ double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept;
 
 /// Strictly convex and counterclockwise in (u, v), exactly; of triangles: counterclockwise.
 bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept;
+/// Whether two sides of it are edges of curves that go on smoothly into each other (QuadPatch::flat).
+bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexcept;
 /// Quality in the metric: of a triangle Q2 (HDR eq. 1.6).
 double cell_quality(const QuadPatch& patch, const FaceCharts& charts, const MixedCell& cell) noexcept;
 /// The same in a given chart.

@@ -9,6 +9,7 @@
 
 #include "support/stepped_tasks.h"
 #include "surface/quads/cleanup.h"
+#include "surface/quads/ears.h"
 #include "surface/quads/face_quads.h"
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
@@ -33,6 +34,7 @@ class Quadrilaterals {
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       quads = face_quads(work_, quads.face);
+      turn_ears(quads);
       pair(quads, monitor);
     });
     if (has_quads_only(work_.options.element)) cut();

@@ -16,6 +16,12 @@ inline constexpr double least_pair = 0.08;
 /// Edges of sizes by angle_mesh turn by twice that angle from end to end, and so may two triangles.
 inline constexpr double turns_per_edge = 2;
 
+// Flat corners (face_quads)
+/// Degrees between chords of a curve, and between tangents of two, that go on smoothly into each other where they meet:
+/// an edge of a sixth of a circle turns by 60. Sharper corners are kinks, or those of polygons.
+/// [CurvedElements.NoQuadrilateralHasTwoSidesOnOneCircle]
+inline constexpr double least_angle_in_curve = 110, least_angle_of_curves = 150;
+
 // Matching
 /// Weight of a pair beside its quality: two poor quadrilaterals are better than a good one and two triangles.
 inline constexpr double pair_bonus = 0.7;

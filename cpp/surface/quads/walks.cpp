@@ -93,7 +93,7 @@ class Walks {
   }
 
   [[nodiscard]] double quality(const MixedCell& cell) const {
-    return is_convex(patch_, cell) ? cell_quality(patch_, charts_, cell) : 0;
+    return is_convex(patch_, cell) && !has_flat_corner(patch_, cell) ? cell_quality(patch_, charts_, cell) : 0;
   }
 
   bool walk(const std::vector<std::int32_t>& way) {

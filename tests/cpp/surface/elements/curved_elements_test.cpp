@@ -6,6 +6,9 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <set>
+#include <string>
+#include <utility>
 
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
@@ -235,6 +238,43 @@ TEST(CurvedElements, PolesAndSeamsHaveOneNodeAnEdge) {
   EXPECT_EQ(find_defects(run.mesh(), {.closed = true}), std::vector<std::string>{});
   for (const Vec3& p : run.mesh().mid_vertices) EXPECT_NEAR(norm(p), 1, 1e-12);
   EXPECT_NEAR(run.area(), 4 * pi, 1e-3 * 4 * pi);
+}
+
+// Sizes at which a lip of the spout turns by half a circle within one edge, and the rim of the lid is one element wide.
+TEST(CurvedElements, NoneOfTheTeapotIsInvalid) {
+  for (const char* element : {"q2.0", "q2.1"})
+    for (const double h : {0.4, 0.3, 0.2}) {
+      const Curved run(testing::teapot(), h, element);
+      std::size_t invalid = 0;
+      for (const std::string& defect : find_defects(run.mesh()))
+        if (defect.find("Jacobian") != std::string::npos) ++invalid;
+      EXPECT_EQ(invalid, 0U) << element << " of size " << h;
+      for (const FaceMesh& face : run.mesh().faces) EXPECT_EQ(face.why.find("Jacobian"), std::string::npos) << face.why;
+    }
+}
+
+// Corners between two edges of one circle have 180 degrees, whatever their chords: no element may have one.
+TEST(CurvedElements, NoQuadrilateralHasTwoSidesOnOneCircle) {
+  AnalyticCad disc;
+  disc.faces[1] = {plane_jet, {testing::arc({0, 0}, 1, 0, pi), testing::arc({0, 0}, 1, pi, 2 * pi)}};
+  for (const char* element : {"q1.0", "q1.1", "q2.0", "q2.1"})
+    for (const double h : {0.5, 0.3, 0.1}) {
+      const Curved run(disc, h, element);
+      EXPECT_EQ(find_defects(run.mesh()), std::vector<std::string>{}) << element << " of size " << h;
+      std::set<std::pair<std::int32_t, std::int32_t>> on_circle;
+      for (const CurveMesh& curve : run.mesh().curves)
+        for (std::size_t k = 1; k < curve.vertices.size(); ++k)
+          on_circle.insert(std::minmax(curve.vertices[k - 1], curve.vertices[k]));
+      int flat = 0;
+      for (const Cell& cell : cells_of(run.mesh(), run.mesh().faces[0])) {
+        const int n = corner_count(cell.kind);
+        for (int i = 0; n == 4 && i < n; ++i)
+          if (on_circle.contains(std::minmax(cell.nodes[i], cell.nodes[(i + 1) % n])) &&
+              on_circle.contains(std::minmax(cell.nodes[(i + 1) % n], cell.nodes[(i + 2) % n])))
+            ++flat;
+      }
+      EXPECT_EQ(flat, 0) << element << " of size " << h;
+    }
 }
 
 }  // namespace

@@ -2,9 +2,13 @@
 // Shapes in closed form (HDR sec. 1.1.1).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <vector>
 
+#include "mesh/surface_mesh.h"
 #include "surface/quads/quad_shape.h"
 
 namespace carreau {
@@ -72,6 +76,42 @@ TEST(QuadShape, InAMetricThatStretchesASquareIsARectangle) {
   EXPECT_TRUE(is_convex(patch, patch.cells[0]));
   EXPECT_FALSE(is_convex(patch, {0, 3, 2, 1}));
   EXPECT_FALSE(is_convex(patch, {0, 2, 1, 3}));
+}
+
+TEST(QuadShape, FlatCornersAreThoseOfTheList) {
+  QuadPatch patch;
+  patch.uv = {{0, 0}, {1, 0}, {2, 0.1}, {1, 1}};
+  patch.fixed = {1, 1, 1, 0};
+  const MixedCell cell{0, 1, 2, 3}, triangle{0, 1, 2, -1};
+  EXPECT_FALSE(has_flat_corner(patch, cell));
+  patch.flat = {{1, 0, 2}, {1, 2, 0}};
+  EXPECT_TRUE(has_flat_corner(patch, cell));
+  EXPECT_TRUE(has_flat_corner(patch, {2, 3, 0, 1}));
+  EXPECT_TRUE(has_flat_corner(patch, triangle));
+  EXPECT_FALSE(has_flat_corner(patch, {0, 1, 3, -1}));
+}
+
+// At a pole two quadrilaterals may meet in two edges, and their better halves be one triangle.
+TEST(QuadShape, HalvesAtAPoleDiffer) {
+  FaceMesh face;
+  const std::vector<Vec3> vertices{{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 2, -1}, {0, -2, -1}};
+  face.uv = {{0, 0}, {1, 0}, {-1, 0}, {0, 2}, {0, -2}};
+  face.vertex = {0, 1, 2, 3, 4};
+  face.flattened = {{0, 0, 1}};
+  const std::vector<std::array<std::int32_t, 4>> quads{{1, 3, 2, 0}, {2, 4, 1, 0}};
+  set_cells(face, quads, {}, vertices);
+  std::set<std::array<std::int32_t, 3>> met;
+  for (std::array<std::int32_t, 3> t : face.triangles) {
+    std::sort(t.begin(), t.end());
+    met.insert(t);
+  }
+  EXPECT_EQ(met.size(), 4U);
+  ASSERT_EQ(face.quads, 2);
+  for (int q = 0; q < 2; ++q) {
+    std::array<std::int32_t, 4> now = face.quad(static_cast<std::size_t>(q)), given = quads[static_cast<std::size_t>(q)];
+    std::sort(now.begin(), now.end()), std::sort(given.begin(), given.end());
+    EXPECT_EQ(now, given);
+  }
 }
 
 }  // namespace

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Fields on elements of second order: where a point lies in an element, and what the field is there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/cells.h"
+#include "mesh/surface_mesh.h"
+
+namespace carreau {
+
+/// Elements of second order by the triangles that they are looked up with. References only.
+class CurvedElements {
+ public:
+  /// No elements.
+  CurvedElements() = default;
+  /// Those of a face in its parameter plane, by its triangles. None where the face is straight.
+  CurvedElements(const SurfaceMesh& mesh, const FaceMesh& face);
+  /// Those of all faces in space, by their triangles, face by face.
+  explicit CurvedElements(const SurfaceMesh& mesh);
+
+  [[nodiscard]] bool has(std::int32_t triangle) const noexcept {
+    return static_cast<std::size_t>(triangle) < of_triangle_.size();
+  }
+  /// The field at p by the shape functions of the element of `triangle`, or of one that shares a corner with it where p
+  /// lies in that one. `values`: of vertices, then of mid_vertices, `components` together; so `out`. Of elements in the
+  /// parameter plane p is (u, v, 0), or, `in_space`, a point of space.
+  void interpolate(std::int32_t triangle, const Vec3& p, bool in_space, std::span<const double> values,
+                   std::size_t components, double* out) const;
+
+ private:
+  struct Place {
+    std::int32_t cell;
+    double s, t, inside;  // of the reference element; least barycentric or Cartesian coordinate
+  };
+  void add(const SurfaceMesh& mesh, const FaceMesh& face);
+  void number_corners();
+  [[nodiscard]] Place place_in(std::int32_t cell, const Vec3& p, bool in_space) const;
+
+  std::vector<Cell> cells_;              // by rows of values
+  std::vector<std::array<Vec3, 8>> uv_;  // by cell; empty where only space is known
+  std::vector<std::array<Vec3, 8>> xyz_;
+  std::vector<std::int32_t> of_triangle_;
+  std::vector<std::int32_t> first_, at_corner_;  // by row of a corner: its cells
+};
+
+}  // namespace carreau
