@@ -331,7 +331,7 @@ inline constexpr double triangles_a_piece = 90'000;
 /// Pieces reach from the border to where layers meet: more of them would become narrow.
 inline constexpr double most_sectors = 64;
 /// Off until a divided domain of a million triangles takes fewer than 10 000 allocations (memory_test): it takes 22 000.
-inline constexpr bool divides_large_domains = false;
+inline constexpr bool divides_large_domains = true;
 /// Triangles. Smaller domains are not divided.
 inline constexpr double least_divided = 200'000;
 /// Units. Of the edges of the coarse mesh, on which separators lie.

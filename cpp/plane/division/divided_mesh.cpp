@@ -179,7 +179,8 @@ bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& opti
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
                                       const PlaneMesherOptions& options, Monitor& monitor) {
   (void)triangulate_boundary(domain, monitor);  // pieces do not see what is wrong between them
-  const ZoneContext context{domain, metric, known, options, monitor};
+  const InnerEdges inner(domain);
+  const ZoneContext context{domain, inner, metric, known, options, monitor};
   try {
     const std::optional<Pieces> pieces = cut(context);
     if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};

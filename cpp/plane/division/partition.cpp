@@ -191,6 +191,8 @@ CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit) {
     bool operator<(const Side& s) const { return std::tie(low, high) < std::tie(s.low, s.high); }
   };
   std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  coarse.weight.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     const Vec2 p = coarse.mesh.vertices[a], q = coarse.mesh.vertices[b], r = coarse.mesh.vertices[c];

@@ -106,6 +106,32 @@ void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std
   zone.level.resize(zone.vertices.size(), outside);
 }
 
+/// The triangles of each separator.
+class Bands {
+ public:
+  explicit Bands(const Zone& zone) {
+    for (const std::int32_t band : zone.band)
+      if (band >= 0) {
+        if (start_.size() < static_cast<std::size_t>(band) + 2) start_.resize(static_cast<std::size_t>(band) + 2, 0);
+        ++start_[band + 1];
+      }
+    if (start_.empty()) start_.push_back(0);
+    for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
+    triangles_.resize(start_.back());
+    std::vector<std::size_t> next = start_;
+    for (std::size_t t = 0; t < zone.band.size(); ++t)
+      if (zone.band[t] >= 0) triangles_[next[zone.band[t]]++] = static_cast<std::int32_t>(t);
+  }
+  [[nodiscard]] std::size_t count() const noexcept { return start_.size() - 1; }
+  [[nodiscard]] std::span<const std::int32_t> triangles(std::size_t band) const noexcept {
+    return std::span(triangles_).subspan(start_[band], start_[band + 1] - start_[band]);
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<std::int32_t> triangles_;
+};
+
 // Vertices of triangles that belong to several bands wait for the second round; the others' bands know all around them.
 std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) {
   context.monitor.checkpoint();
@@ -114,19 +140,15 @@ std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) 
     if (zone.band[t] < 0)
       for (const std::int32_t v : zone.triangles[t]) waiting[v] = zone.fixed[v] != 0 ? 0 : 1;
   for (std::size_t v = 0; v < free.size(); ++v) free[v] = zone.fixed[v] == 0 && waiting[v] == 0 ? 1 : 0;
-  std::vector<std::vector<std::int32_t>> bands;
+  const Bands bands(zone);
   std::vector<std::uint8_t> replaced(zone.triangles.size(), 0);
-  for (std::size_t t = 0; t < zone.triangles.size(); ++t) {
-    if (zone.band[t] < 0) continue;
-    const auto band = static_cast<std::size_t>(zone.band[t]);
-    if (bands.size() <= band) bands.resize(band + 1);
-    bands[band].push_back(static_cast<std::int32_t>(t));
-    replaced[t] = 1;
-  }
-  std::vector<ZonePart> parts(bands.size());
+  for (std::size_t t = 0; t < zone.triangles.size(); ++t) replaced[t] = zone.band[t] < 0 ? 0 : 1;
+  std::vector<ZonePart> parts(bands.count());
   run_each(
-      bands.size(), false, context.options.threads,
-      [&](std::size_t b, Monitor& monitor) { parts[b] = optimise_part(zone, bands[b], free, context, monitor); },
+      parts.size(), false, context.options.threads,
+      [&](std::size_t b, Monitor& monitor) {
+        parts[b] = optimise_part(zone, bands.triangles(b), free, context, monitor);
+      },
       context.monitor);
   apply(zone, parts, replaced);
   waiting.resize(zone.vertices.size(), 0);
