@@ -67,12 +67,16 @@ class Assembly {
       : joined_(joined), zone_(zone), context_(context), count_(joined.pieces.pieces.size()) {}
 
   PlaneMesh run() {
+    context_.monitor.checkpoint();
     find_removed();
+    context_.monitor.checkpoint();
     number_vertices();
     count_triangles();
     run_each(
         count_, false, context_.options.threads, [&](std::size_t p, Monitor&) { put_piece(p); }, context_.monitor);
+    context_.monitor.checkpoint();
     put_zone();
+    context_.monitor.checkpoint();
     return std::move(mesh_);
   }
 
