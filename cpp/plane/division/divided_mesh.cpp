@@ -38,10 +38,19 @@ std::optional<Pieces> cut(const ZoneContext& context) {
   const CoarseMesh mesh =
       make_coarse_mesh(mesh_undivided(coarse.domain, wide, known, options, context.monitor).mesh, context.metric);
   context.monitor.checkpoint();
-  const Partition partition = divide(mesh, coarse, wide, parts);
+  const Partition partition = divide(mesh, coarse, wide, parts, context.monitor);
   context.monitor.checkpoint();
   if (partition.parts < 2) return {};
   return make_pieces(context.domain, coarse, mesh, partition, context.metric);
+}
+
+// Whether a piece has edges of the domain. Around a pole, where layers come from the fan of another piece, it may lie
+// between separators alone.
+bool layers_can_start(const Piece& piece) {
+  const auto rests = [&](int v) { return piece.on_separator[v] != 0; };
+  return std::any_of(piece.domain.edges.begin(), piece.domain.edges.end(), [&](const PlaneEdge& edge) {
+    return edge.kind == PlaneEdgeKind::degenerate || !(rests(edge.a) || rests(edge.b));
+  });
 }
 
 std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
@@ -52,12 +61,22 @@ std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& 
         const Piece& piece = pieces.pieces[p];
         PlaneMesherOptions options = context.options;
         options.threads = 1;
-        options.resting = piece.on_separator;
+        if (layers_can_start(piece)) options.resting = piece.on_separator;
         meshes[p] = mesh_undivided(piece.domain, context.metric,
                                    {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
       },
       context.monitor);
   return meshes;
+}
+
+// Memory comes page by page, which takes longer than what is written there: a stop is looked for on the way.
+template <class T>
+void resize(std::vector<T>& values, std::size_t n, Monitor& monitor) {
+  values.reserve(n);
+  while (values.size() < n) {
+    monitor.checkpoint();
+    values.resize(std::min(n, values.size() + elements_between_checks));
+  }
 }
 
 /// Numbers the vertices of the whole mesh that are left, and puts them and the triangles together.
@@ -108,7 +127,7 @@ class Assembly {
     auto next = all - static_cast<std::int32_t>(removed_.size());
     for (std::int32_t& number : added_)
       if (number == 0) number = next++;
-    mesh_.vertices.resize(static_cast<std::size_t>(next));
+    resize(mesh_.vertices, static_cast<std::size_t>(next), context_.monitor);
     std::copy(context_.domain.vertices.begin(), context_.domain.vertices.end(), mesh_.vertices.begin());
   }
 
@@ -123,7 +142,7 @@ class Assembly {
         },
         context_.monitor);
     for (std::size_t p = 0; p < count_; ++p) first_[p + 1] += first_[p];
-    mesh_.triangles.resize(first_[count_] + zone_.triangles.size());
+    resize(mesh_.triangles, first_[count_] + zone_.triangles.size(), context_.monitor);
   }
 
   void put_piece(std::size_t p) {
@@ -177,7 +196,7 @@ class Assembly {
 }  // namespace
 
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
-  return divides_large_domains && known.triangles >= least_divided && !options.squares && options.undersampled.empty();
+  return known.triangles >= least_divided && !options.squares && options.undersampled.empty();
 }
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,

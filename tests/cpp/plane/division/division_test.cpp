@@ -98,6 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Large, Divided,
                                            Large{"holes", holes, 0.0055}, Large{"internal", internal_curves, 0.0058},
                                            Large{"stretched", stretched, 0.005}, Large{"sizes", size_field, 0.25},
                                            Large{"swirl", turning, 0.0055}, Large{"sphere", sphere_two_poles, 0.01},
+                                           Large{"poles", sphere_two_poles, 0.0095},
                                            Large{"squares", two_squares, 0.004}),
                          [](const auto& of) { return std::string(of.param.name); });
 
