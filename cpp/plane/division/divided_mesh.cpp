@@ -26,8 +26,8 @@ bool is_mostly_zone(const Pieces& pieces, double triangles) {
 }
 
 // Empty where separators find no way.
-std::optional<Pieces> cut(const ZoneContext& context) {
-  const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
+std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
+  const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
   const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
   if (parts < 2) return {};
   ControlSpace wide = context.metric;
@@ -200,12 +200,12 @@ bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& opti
 }
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
-                                      const PlaneMesherOptions& options, Monitor& monitor) {
+                                      const PlaneMesherOptions& options, Monitor& monitor, double a_piece) {
   (void)triangulate_boundary(domain, monitor);  // pieces do not see what is wrong between them
   const InnerEdges inner(domain);
   const ZoneContext context{domain, inner, metric, known, options, monitor};
   try {
-    const std::optional<Pieces> pieces = cut(context);
+    const std::optional<Pieces> pieces = cut(context, a_piece);
     if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};
     const std::vector<UndividedMesh> meshes = mesh_pieces(*pieces, context);
     const JoinedPieces joined = join(*pieces, meshes, context);
