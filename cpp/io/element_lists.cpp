@@ -89,11 +89,6 @@ ElementLists lists_of(const FlatMesh& mesh) {
     if (cell.kind == CellKind::quad8) add(cell.nodes, ref(t), lists.quads8);
     t += corner_count(cell.kind) == 4 ? 2 : 1;
   }
-  if (mesh.cells.empty()) {
-    lists.triangles.nodes = mesh.triangles;
-    lists.triangles.refs.reserve(mesh.triangles.size());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) lists.triangles.refs.push_back(ref(i));
-  }
   lists.edges.nodes.reserve(mesh.edges.size());
   lists.edges.refs.reserve(mesh.edges.size());
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
@@ -112,7 +107,10 @@ Vec3 centre_of(const FlatMesh& mesh, const std::array<std::int32_t, 8>& n) noexc
   return 0.5 * (at(4) + at(5) + at(6) + at(7)) - 0.25 * (at(0) + at(1) + at(2) + at(3));
 }
 
-MeditElements::MeditElements(const FlatMesh& mesh) : lists(lists_of(mesh)) {
+MeditElements::MeditElements(const FlatMesh& mesh)
+    : lists(lists_of(mesh)),
+      triangles(mesh.cells.empty() ? mesh.triangles : lists.triangles.nodes),
+      triangle_refs(mesh.cells.empty() ? mesh.triangle_refs : lists.triangles.refs) {
   for (const std::array<std::int32_t, 8>& nodes : lists.quads8.nodes) {
     std::array<std::int32_t, 9> nine;
     std::ranges::copy(nodes, nine.begin());

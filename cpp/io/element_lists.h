@@ -27,7 +27,7 @@ struct ElementLists {
   ElementList<3> edges3;  ///< two ends, then the node between them
 };
 
-/// Every list of references is full.
+/// Every list of references is full. A mesh without cells has its triangles itself: they are not copied.
 ElementLists lists_of(const FlatMesh& mesh);
 
 /// The value of a Q2 element of eight nodes at its centre: that of the same element with nine nodes.
@@ -35,9 +35,15 @@ Vec3 centre_of(const FlatMesh& mesh, const std::array<std::int32_t, 8>& nodes) n
 
 /// With nine nodes a quadrilateral of second order, as the formats of Medit know it.
 struct MeditElements {
+  /// The mesh must live as long.
   explicit MeditElements(const FlatMesh& mesh);
+  MeditElements(const MeditElements&) = delete;
+  MeditElements& operator=(const MeditElements&) = delete;
 
-  ElementLists lists;         ///< quads8 stays as it is
+  ElementLists lists;  ///< quads8 stays as it is
+  /// Straight ones: those of the mesh, whose references may be empty, or of the lists.
+  const std::vector<std::array<std::int32_t, 3>>& triangles;
+  const std::vector<std::int32_t>& triangle_refs;
   ElementList<9> quads9;      ///< the same with their centres
   std::vector<Vec3> centres;  ///< the vertices behind those of the mesh
 };

@@ -2,6 +2,7 @@
 #include "io/mesh_files.h"
 
 #include <cmath>
+#include <cstdint>
 
 #include "io/files.h"
 #include "io/medit/gmf_sections.h"
@@ -21,14 +22,13 @@ struct Format {
   MeshFormat format;
   FlatMesh (*read)(std::string_view content, const std::string& name);
 };
-constexpr Format formats[] = {
-    {".mesh", MeshFormat::mesh, read_medit},     {".meshb", MeshFormat::meshb, read_medit},
-    {".vtu", MeshFormat::vtu, read_mesh_vtu},    {".stl", MeshFormat::stl, read_mesh_stl},
-    {".msh", MeshFormat::msh, read_mesh_msh},    {".msh2", MeshFormat::msh2, read_mesh_msh},
-    {".bl2d", MeshFormat::bl2d, read_mesh_bl2d}, {".inp", MeshFormat::inp, read_mesh_inp},
-    {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, read_mesh_unv},
-    {".su2", MeshFormat::su2, read_mesh_su2},    {".off", MeshFormat::off, read_mesh_off},
-    {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply}};
+constexpr Format formats[] = {{".mesh", MeshFormat::mesh, read_medit},     {".meshb", MeshFormat::meshb, read_medit},
+                              {".vtu", MeshFormat::vtu, read_mesh_vtu},    {".stl", MeshFormat::stl, read_mesh_stl},
+                              {".msh", MeshFormat::msh, read_mesh_msh},    {".msh2", MeshFormat::msh2, read_mesh_msh},
+                              {".bl2d", MeshFormat::bl2d, read_mesh_bl2d}, {".inp", MeshFormat::inp, read_mesh_inp},
+                              {".bdf", MeshFormat::bdf, read_mesh_bdf},    {".unv", MeshFormat::unv, read_mesh_unv},
+                              {".su2", MeshFormat::su2, read_mesh_su2},    {".off", MeshFormat::off, read_mesh_off},
+                              {".obj", MeshFormat::obj, read_mesh_obj},    {".ply", MeshFormat::ply, read_mesh_ply}};
 
 /// That the suffix of a name tells. Throws InvalidArgument.
 const Format& known_format(const std::string& path) {
@@ -93,7 +93,17 @@ void check_field(const MeshField& field, const FlatMesh& mesh) {
                (field.on_vertices ? mesh.vertices.size() : mesh.triangles.size()) * components);
 }
 
+// Formats and programs that read them count by 32 bits.
+void check_count(const char* what, std::size_t count) {
+  if (count > INT32_MAX)
+    throw InvalidArgument("a mesh cannot be written: it has " + std::to_string(count) + " " + what +
+                          ", more than 2147483647");
+}
+
 void check_mesh(const FlatMesh& mesh) {
+  check_count("vertices", mesh.vertices.size() + mesh.cells.size());  // of quadrilaterals of second order their centres
+  check_count("triangles", mesh.triangles.size());
+  check_count("edges", mesh.edges.size());
   if (mesh.dimension != 2 && mesh.dimension != 3)
     throw InvalidArgument("a mesh cannot be written: its dimension is " + std::to_string(mesh.dimension));
   check_refs("the list of vertex references", mesh.vertex_refs, mesh.vertices.size());
@@ -149,7 +159,20 @@ std::string mesh_bytes(const FlatMesh& mesh, MeshFormat format, const MeshFileOp
 }
 
 void write_mesh(const FlatMesh& mesh, const std::string& path, MeshFormat format, const MeshFileOptions& options) {
-  write_file(path, mesh_bytes(mesh, format, options));
+  if (format != MeshFormat::meshb && format != MeshFormat::vtu)
+    return write_file(path, mesh_bytes(mesh, format, options));
+  check_mesh(mesh);
+  NewFile file(path);
+  std::uint64_t at = 0;
+  const auto write = [&](std::string_view block) {
+    file.write_at(at, block);
+    at += block.size();
+  };
+  if (format == MeshFormat::vtu)
+    write_vtu(mesh, write);
+  else
+    write_gmf(mesh, gmf_needs_64_bits(mesh) ? 3 : 2, write);
+  file.commit();
 }
 
 FlatMesh read_mesh(const std::string& path) {

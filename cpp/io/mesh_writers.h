@@ -2,26 +2,33 @@
 // One function a format; the mesh has passed the checks of mesh_bytes. For mesh_files.cpp and the tests.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "mesh/flat_mesh.h"
 
 namespace carreau {
 
+/// Takes the bytes of a file one after the other.
+using ByteSink = std::function<void(std::string_view)>;
+
 std::string medit_text(const FlatMesh& mesh);
 /// Version 2 (32-bit positions) or 3 (64-bit positions).
 std::string gmf_bytes(const FlatMesh& mesh, int version);
+void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink);
 /// True when positions of the file need version 3.
 bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept;
 std::string vtu_bytes(const FlatMesh& mesh);
+void write_vtu(const FlatMesh& mesh, const ByteSink& sink);
 std::string stl_bytes(const FlatMesh& mesh);
 std::string stl_text(const FlatMesh& mesh);
 /// Version 4.1 or 2.2 of Gmsh's format, with or without curves and corners as elements of groups of their own.
 std::string msh_text(const FlatMesh& mesh, bool version_2, bool curve_groups);
 /// A mesh of straight triangles of the plane z = 0, else InvalidArgument.
 std::string bl2d_text(const FlatMesh& mesh);
-/// Abaqus and CalculiX, Nastran, I-DEAS, SU2: elements in named sets (solver/element_sets.h). SU2 has no elements of order
-/// two: InvalidArgument.
+/// Abaqus and CalculiX, Nastran, I-DEAS, SU2: elements in named sets (solver/element_sets.h). SU2 has no elements of
+/// order two: InvalidArgument.
 std::string inp_text(const FlatMesh& mesh);
 std::string bdf_text(const FlatMesh& mesh);
 std::string unv_text(const FlatMesh& mesh);

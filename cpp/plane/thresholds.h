@@ -79,6 +79,8 @@ inline constexpr int insertions_between_checks = 4096;
 inline constexpr int shapes_between_checks = 1 << 15;
 /// Edges.
 inline constexpr int integrals_between_checks = 256;
+/// Elements. Of arrays that are allocated.
+inline constexpr std::size_t elements_between_checks = 1 << 20;
 
 // Distances of new points (placement)
 /// Units. Circumradius of a triangle that is small enough (equilateral: 0.577). [0.56: 20 % fewer triangles than
@@ -326,12 +328,10 @@ inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;
 
 // Division of large domains (division)
-/// Triangles. Of a piece, about.
-inline constexpr double triangles_a_piece = 90'000;
+/// Triangles. Of a piece, about. [90 000: a fifth more time on one thread at a million]
+inline constexpr double triangles_a_piece = 250'000;
 /// Pieces reach from the border to where layers meet: more of them would become narrow.
 inline constexpr double most_sectors = 64;
-/// Off until a divided domain of a million triangles takes fewer than 10 000 allocations (memory_test): it takes 22 000.
-inline constexpr bool divides_large_domains = false;
 /// Triangles. Smaller domains are not divided.
 inline constexpr double least_divided = 200'000;
 /// Units. Of the edges of the coarse mesh, on which separators lie.

@@ -106,9 +106,10 @@ struct Session::State {
     bool any = is_mixed(known) && !geometries_to_glue(known).empty();
     if (any) find_references_of_geometries(known, supports, whole_cad, options, remarks, found, monitor);
     if (const std::size_t forgotten = references_to_forget(known); forgotten > 0)
-      monitor.message(Level::warning, "the first curve of the model has the reference 0" + of_line(first_curve(known)->line) +
-                                          ": all references are found, and those that " + std::to_string(forgotten) +
-                                          (forgotten == 1 ? " other curve has" : " other curves have") + " mean nothing");
+      monitor.message(Level::warning,
+                      "the first curve of the model has the reference 0" + of_line(first_curve(known)->line) +
+                          ": all references are found, and those that " + std::to_string(forgotten) +
+                          (forgotten == 1 ? " other curve has" : " other curves have") + " mean nothing");
     if (const bool all = needs_gluing(known); all || parameters.integer("glue_open") != 0) {
       GlueReport among_all;
       known = find_references(known, supports, whole_cad, options, remarks, among_all, monitor);
@@ -466,8 +467,8 @@ void Session::write_delivered(const std::string& path) {
 }
 
 FlatMesh Session::exported(const MeshEvaluation* delivered, bool with_fields) const {
-  const ExportSource source{mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports,
-                            delivered, with_fields};
+  const ExportSource source{
+      mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports, delivered, with_fields};
   const Parameters& p = state_->parameters;
   FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
   if (source.model.plane) flat.dimension = 2;
@@ -488,16 +489,22 @@ void Session::write(const std::string& path) {
     write_fields_of_mesh(path, options);
     return;
   }
-  write_file(path, encoded(mesh_format_of(path)));
+  const MeshFormat format = mesh_format_of(path);
+  write_mesh(exported_as(format), path, format, file_options());
 }
 
-std::string Session::encoded(MeshFormat format) {
+std::string Session::encoded(MeshFormat format) { return mesh_bytes(exported_as(format), format, file_options()); }
+
+FlatMesh Session::exported_as(MeshFormat format) {
   const MeshEvaluation* measures = nullptr;  // other formats have no place for them
   if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
     measures = &delivered();
   state_->monitor.progress(Phase::writing, 0, 1);
-  return mesh_bytes(exported(measures, format == MeshFormat::vtu), format,
-                    {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1});
+  return exported(measures, format == MeshFormat::vtu);
+}
+
+MeshFileOptions Session::file_options() const {
+  return {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1};
 }
 
 }  // namespace carreau

@@ -128,6 +128,8 @@ class Session {
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);
   void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
                    CompositeResult result, const std::shared_ptr<BackgroundField>& background, Monitor& measuring);
+  FlatMesh exported_as(MeshFormat format);
+  [[nodiscard]] MeshFileOptions file_options() const;
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);
   std::vector<std::string> write_fields_of_model(const std::string& path, FieldOptions options);
   [[nodiscard]] bool has_model_from_host() const noexcept;

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace carreau {
 
@@ -34,6 +35,30 @@ struct GmfSizes {
 
 constexpr GmfSizes gmf_sizes(int version) noexcept {
   return {version == 1 ? 4u : 8u, version == 4 ? 8u : 4u, version >= 3 ? 8u : 4u, version == 4 ? 8u : 4u};
+}
+
+/// Where the section after one starts that starts at `at` and holds `count` records of `record` bytes.
+constexpr std::uint64_t gmf_next(std::uint64_t at, int version, std::uint64_t count, std::uint64_t record) noexcept {
+  const GmfSizes sizes = gmf_sizes(version);
+  return at + 4 + sizes.position + sizes.count + count * record;
+}
+
+/// What a file holds.
+struct GmfCounts {
+  int dimension = 3;
+  std::uint64_t vertices = 0, triangles = 0, edges = 0;
+  std::uint64_t cells = 0;  ///< elements, where they are not the triangles
+};
+
+/// Bytes of a file of version 3, at most.
+constexpr std::uint64_t gmf_most_bytes(const GmfCounts& of) noexcept {
+  const std::uint64_t vertex = 8 * static_cast<std::uint64_t>(of.dimension) + 4;
+  // Of elements of second order no more than 40 bytes, and a vertex for a quadrilateral.
+  return 300 + vertex * (of.vertices + of.cells) + 16 * of.triangles + 40 * of.cells + 16 * of.edges;
+}
+/// Whether positions may need version 3.
+constexpr bool gmf_needs_64_bits(const GmfCounts& of) noexcept {
+  return gmf_most_bytes(of) > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
 }
 
 }  // namespace carreau

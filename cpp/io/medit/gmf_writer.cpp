@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstring>
-#include <limits>
 
 #include "io/element_lists.h"
 #include "io/medit/gmf.h"
@@ -10,94 +9,115 @@ namespace carreau {
 
 namespace {
 
-template <typename T>
-void append_raw(std::string& bytes, T value) {
-  char raw[sizeof value];
-  std::memcpy(raw, &value, sizeof value);
-  bytes.append(raw, sizeof value);
-}
-
+/// Bytes reach the sink in blocks: the whole file is never in memory.
 class GmfWriter {
  public:
-  explicit GmfWriter(int version) : sizes_(gmf_sizes(version)) {
-    append_raw(bytes_, std::int32_t{1});
-    append_raw(bytes_, std::int32_t{version});
+  GmfWriter(int version, const ByteSink& sink) : version_(version), sink_(sink) {
+    block_.reserve(block_size);
+    append(std::int32_t{1});
+    append(std::int32_t{version});
   }
 
-  /// Starts a section whose content, the count included, takes `content` bytes.
-  void section(GmfCode code, std::size_t content) {
-    append_raw(bytes_, static_cast<std::int32_t>(code));
-    position(code == GmfCode::end ? 0 : bytes_.size() + sizes_.position + content);
+  /// Starts a section of `count` records of `record` bytes each.
+  void section(GmfCode code, std::size_t count, std::size_t record) {
+    const std::uint64_t next = gmf_next(written_ + block_.size(), version_, count, record);
+    append(static_cast<std::int32_t>(code));
+    position(next);
+    append(static_cast<std::int32_t>(count));
   }
-
-  void integer(std::int32_t value) { append_raw(bytes_, value); }
-  void real(double value) { append_raw(bytes_, value); }
+  void dimension(int value) {
+    const std::uint64_t next = gmf_next(written_ + block_.size(), version_, 0, 0);
+    append(static_cast<std::int32_t>(GmfCode::dimension));
+    position(next);
+    append(std::int32_t{value});
+  }
+  void end() {
+    append(static_cast<std::int32_t>(GmfCode::end));
+    position(0);
+    flush();
+  }
 
   template <std::size_t N>
   void entities(GmfCode code, const std::vector<std::array<std::int32_t, N>>& list,
                 const std::vector<std::int32_t>& refs) {
     if (list.empty()) return;
-    section(code, 4 + list.size() * 4 * (N + 1));
-    integer(static_cast<std::int32_t>(list.size()));
+    section(code, list.size(), 4 * (N + 1));
     for (std::size_t i = 0; i < list.size(); ++i) {
-      for (const std::int32_t vertex : list[i]) integer(vertex + 1);
-      integer(ref_of(refs, i));
+      for (const std::int32_t vertex : list[i]) append(vertex + 1);
+      append(ref_of(refs, i));
     }
   }
 
-  std::string& bytes() { return bytes_; }
-
- private:
-  void position(std::size_t value) {
-    if (sizes_.position == 4)
-      append_raw(bytes_, static_cast<std::int32_t>(value));
-    else
-      append_raw(bytes_, static_cast<std::int64_t>(value));
+  template <typename T>
+  void append(T value) {
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    block_.append(raw, sizeof value);
+    if (block_.size() + sizeof value > block_size) flush();
   }
 
-  GmfSizes sizes_;
-  std::string bytes_;
+ private:
+  static constexpr std::size_t block_size = std::size_t{1} << 20;
+
+  void position(std::uint64_t value) {
+    if (gmf_sizes(version_).position == 4)
+      append(static_cast<std::int32_t>(value));
+    else
+      append(static_cast<std::int64_t>(value));
+  }
+  void flush() {
+    sink_(block_);
+    written_ += block_.size();
+    block_.clear();
+  }
+
+  int version_;
+  const ByteSink& sink_;
+  std::string block_;
+  std::uint64_t written_ = 0;
 };
 
-std::size_t estimated_size(const FlatMesh& mesh) noexcept {
-  const std::size_t vertex = 8 * static_cast<std::size_t>(mesh.dimension) + 4;
-  // Of elements of second order no more than 40 bytes, and a vertex for a quadrilateral.
-  return 300 + vertex * (mesh.vertices.size() + mesh.cells.size()) + 16 * mesh.triangles.size() +
-         40 * mesh.cells.size() + 16 * mesh.edges.size();
+GmfCounts counts_of(const FlatMesh& mesh) noexcept {
+  return {.dimension = mesh.dimension,
+          .vertices = mesh.vertices.size(),
+          .triangles = mesh.triangles.size(),
+          .edges = mesh.edges.size(),
+          .cells = mesh.cells.size()};
 }
 
 }  // namespace
 
-bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept {
-  return estimated_size(mesh) > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-}
+bool gmf_needs_64_bits(const FlatMesh& mesh) noexcept { return gmf_needs_64_bits(counts_of(mesh)); }
 
 std::string gmf_bytes(const FlatMesh& mesh, int version) {
-  GmfWriter writer(version);
-  writer.bytes().reserve(estimated_size(mesh));
-  writer.section(GmfCode::dimension, 4);
-  writer.integer(mesh.dimension);
+  std::string bytes;
+  bytes.reserve(gmf_most_bytes(counts_of(mesh)));
+  write_gmf(mesh, version, [&](std::string_view block) { bytes += block; });
+  return bytes;
+}
+
+void write_gmf(const FlatMesh& mesh, int version, const ByteSink& sink) {
+  GmfWriter writer(version, sink);
+  writer.dimension(mesh.dimension);
   const MeditElements elements(mesh);
-  const std::size_t vertices = mesh.vertices.size() + elements.centres.size();
-  writer.section(GmfCode::vertices, 4 + vertices * (8 * static_cast<std::size_t>(mesh.dimension) + 4));
-  writer.integer(static_cast<std::int32_t>(vertices));
+  writer.section(GmfCode::vertices, mesh.vertices.size() + elements.centres.size(),
+                 8 * static_cast<std::size_t>(mesh.dimension) + 4);
   const auto add = [&](const Vec3& p, std::int32_t ref) {
-    writer.real(p.x());
-    writer.real(p.y());
-    if (mesh.dimension == 3) writer.real(p.z());
-    writer.integer(ref);
+    writer.append(p.x());
+    writer.append(p.y());
+    if (mesh.dimension == 3) writer.append(p.z());
+    writer.append(ref);
   };
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) add(mesh.vertices[i], ref_of(mesh.vertex_refs, i));
   for (const Vec3& centre : elements.centres) add(centre, 0);
   const ElementLists& lists = elements.lists;
   writer.entities(GmfCode::edges, lists.edges.nodes, lists.edges.refs);
-  writer.entities(GmfCode::triangles, lists.triangles.nodes, lists.triangles.refs);
+  writer.entities(GmfCode::triangles, elements.triangles, elements.triangle_refs);
   writer.entities(GmfCode::quadrilaterals, lists.quads.nodes, lists.quads.refs);
   writer.entities(GmfCode::triangles_of_order_2, lists.triangles6.nodes, lists.triangles6.refs);
   writer.entities(GmfCode::edges_of_order_2, lists.edges3.nodes, lists.edges3.refs);
   writer.entities(GmfCode::quadrilaterals_of_order_2, elements.quads9.nodes, elements.quads9.refs);
-  writer.section(GmfCode::end, 0);
-  return std::move(writer.bytes());
+  writer.end();
 }
 
 }  // namespace carreau

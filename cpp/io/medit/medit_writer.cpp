@@ -70,7 +70,7 @@ std::string medit_text(const FlatMesh& mesh) {
   const ElementLists& lists = elements.lists;
   append_entities(text, "Edges", lists.edges.nodes, lists.edges.refs);
   append_entities(text, "EdgesP2", lists.edges3.nodes, lists.edges3.refs);
-  append_entities(text, "Triangles", lists.triangles.nodes, lists.triangles.refs);
+  append_entities(text, "Triangles", elements.triangles, elements.triangle_refs);
   append_entities(text, "Quadrilaterals", lists.quads.nodes, lists.quads.refs);
   append_entities(text, "TrianglesP2", lists.triangles6.nodes, lists.triangles6.refs);
   append_entities(text, "QuadrilateralsQ2", elements.quads9.nodes, elements.quads9.refs);

@@ -95,12 +95,12 @@ class VtuFile {
   void array(const std::string& name, int components, const std::vector<T>& values) {
     xml_ += std::string("<DataArray type=\"") + VtkType<T>::name + "\" Name=\"" + escaped(name) +
             "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"appended\" offset=\"" +
-            std::to_string(data_.size()) + "\"/>\n";
+            std::to_string(offset_) + "\"/>\n";
     const std::uint64_t length = values.size() * sizeof(T);
-    const std::size_t begin = data_.size();
-    data_.resize(begin + sizeof length + length);
-    std::memcpy(data_.data() + begin, &length, sizeof length);
-    if (length > 0) std::memcpy(data_.data() + begin + sizeof length, values.data(), length);
+    std::string& bytes = data_.emplace_back(sizeof length + length, '\0');
+    std::memcpy(bytes.data(), &length, sizeof length);
+    if (length > 0) std::memcpy(bytes.data() + sizeof length, values.data(), length);
+    offset_ += bytes.size();
   }
 
   /// An array of the whole file instead of its points or cells.
@@ -111,12 +111,20 @@ class VtuFile {
     xml_ += "</DataArray>\n";
   }
 
-  [[nodiscard]] std::string finished() const {
-    return xml_ + "<AppendedData encoding=\"raw\">\n_" + data_ + "\n</AppendedData>\n</VTKFile>\n";
+  /// Gives everything away, array by array.
+  void finish(const ByteSink& sink) {
+    sink(xml_ + "<AppendedData encoding=\"raw\">\n_");
+    for (std::string& bytes : data_) {
+      sink(bytes);
+      std::string().swap(bytes);
+    }
+    sink("\n</AppendedData>\n</VTKFile>\n");
   }
 
  private:
-  std::string xml_, data_;
+  std::string xml_;
+  std::vector<std::string> data_;
+  std::uint64_t offset_ = 0;
 };
 
 std::vector<std::int32_t> all_refs(const std::vector<std::int32_t>& refs, std::size_t count) {
@@ -247,13 +255,18 @@ void add_faces(VtuFile& file, const FlatMesh& mesh) {
 }  // namespace
 
 std::string vtu_bytes(const FlatMesh& mesh) {
+  std::string bytes;
+  write_vtu(mesh, [&](std::string_view block) { bytes += block; });
+  return bytes;
+}
+
+void write_vtu(const FlatMesh& mesh, const ByteSink& sink) {
   VtuFile file;
   const VtuCells cells(mesh);
   const std::string order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   file.xml("<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"" + order +
            "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-           std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" +
-           std::to_string(cells.with_edges()) + "\">\n");
+           std::to_string(mesh.vertices.size()) + "\" NumberOfCells=\"" + std::to_string(cells.with_edges()) + "\">\n");
   file.xml("<PointData Scalars=\"reference\">\n");
   file.array("reference", 1, all_refs(mesh.vertex_refs, mesh.vertices.size()));
   for (const MeshField& field : mesh.fields)
@@ -270,7 +283,7 @@ std::string vtu_bytes(const FlatMesh& mesh) {
   file.xml("</Piece>\n");
   add_faces(file, mesh);
   file.xml("</UnstructuredGrid>\n");
-  return file.finished();
+  file.finish(sink);
 }
 
 }  // namespace carreau

@@ -7,6 +7,7 @@
 #include <queue>
 #include <tuple>
 
+#include "support/incidence.h"
 #include "support/infinity.h"
 
 namespace carreau::plane {
@@ -29,40 +30,32 @@ class March {
         domain_(domain.domain),
         metric_(metric),
         at_(points_.size()),
-        start_(points_.size() + 1, 0),
+        around_(points_.size(), triangles_),
         settled_(points_.size(), 0) {}
 
   std::vector<double> run() {
-    find_triangles_around();
     start_at_edges();
     while (!queue_.empty()) {
       const std::int32_t v = std::get<1>(queue_.top());
       queue_.pop();
       if (settled_[v] != 0) continue;
       settled_[v] = 1;
-      for (std::int32_t k = start_[v]; k < start_[v + 1]; ++k) pass(around_[k]);
+      for (const std::int32_t t : around_.of(v)) pass(t);
     }
     std::vector<double> places;
+    places.reserve(triangles_.size());
     for (const auto& t : triangles_) places.push_back(at_centroid(t).place);
     return places;
   }
 
  private:
-  void find_triangles_around() {
-    for (const auto& t : triangles_)
-      for (const std::int32_t v : t) ++start_[v];
-    for (std::size_t v = 1; v < start_.size(); ++v) start_[v] += start_[v - 1];
-    around_.resize(3 * triangles_.size());
-    for (std::size_t t = triangles_.size(); t-- > 0;)
-      for (const std::int32_t v : triangles_[t]) around_[--start_[v]] = static_cast<std::int32_t>(t);
-  }
-
   // Walks from edge to edge, and counts.
   void start_at_edges() {
     const auto& edges = domain_.edges;
-    std::vector<std::vector<std::int32_t>> at(domain_.vertices.size());
-    for (std::size_t e = 0; e < edges.size(); ++e)
-      for (const int v : {edges[e].a, edges[e].b}) at[v].push_back(static_cast<std::int32_t>(e));
+    std::vector<std::array<std::int32_t, 2>> ends;
+    ends.reserve(edges.size());
+    for (const PlaneEdge& edge : edges) ends.push_back({edge.a, edge.b});
+    const Incidence at(domain_.vertices.size(), ends);
     std::vector<char> passed(edges.size(), 0);
     double place = 0;
     for (std::size_t first = 0; first < edges.size(); ++first) {
@@ -76,8 +69,9 @@ class March {
         }
         place += 1;
         v = w;
-        const auto open = std::find_if(at[v].begin(), at[v].end(), [&](std::int32_t o) { return passed[o] == 0; });
-        e = open == at[v].end() ? -1 : *open;
+        const auto here = at.of(v);
+        const auto open = std::find_if(here.begin(), here.end(), [&](std::int32_t o) { return passed[o] == 0; });
+        e = open == here.end() ? -1 : *open;
       }
       place += same_stretch;
     }
@@ -137,7 +131,7 @@ class March {
   const PlaneDomain& domain_;
   const ControlSpace& metric_;
   std::vector<Arrival> at_;
-  std::vector<std::int32_t> start_, around_;  // triangles by vertex
+  Incidence around_;  // triangles by vertex
   std::vector<char> settled_;
   using Entry = std::tuple<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;

@@ -26,8 +26,8 @@ bool is_mostly_zone(const Pieces& pieces, double triangles) {
 }
 
 // Empty where separators find no way.
-std::optional<Pieces> cut(const ZoneContext& context) {
-  const double wanted = std::min(context.known.triangles / triangles_a_piece, most_sectors);
+std::optional<Pieces> cut(const ZoneContext& context, double a_piece) {
+  const double wanted = std::min(context.known.triangles / a_piece, most_sectors);
   const int parts = 2 * static_cast<int>(std::lround(0.5 * wanted));  // two threads finish at the same time
   if (parts < 2) return {};
   ControlSpace wide = context.metric;
@@ -38,10 +38,19 @@ std::optional<Pieces> cut(const ZoneContext& context) {
   const CoarseMesh mesh =
       make_coarse_mesh(mesh_undivided(coarse.domain, wide, known, options, context.monitor).mesh, context.metric);
   context.monitor.checkpoint();
-  const Partition partition = divide(mesh, coarse, wide, parts);
+  const Partition partition = divide(mesh, coarse, wide, parts, context.monitor);
   context.monitor.checkpoint();
   if (partition.parts < 2) return {};
   return make_pieces(context.domain, coarse, mesh, partition, context.metric);
+}
+
+// Whether a piece has edges of the domain. Around a pole, where layers come from the fan of another piece, it may lie
+// between separators alone.
+bool layers_can_start(const Piece& piece) {
+  const auto rests = [&](int v) { return piece.on_separator[v] != 0; };
+  return std::any_of(piece.domain.edges.begin(), piece.domain.edges.end(), [&](const PlaneEdge& edge) {
+    return edge.kind == PlaneEdgeKind::degenerate || !(rests(edge.a) || rests(edge.b));
+  });
 }
 
 std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
@@ -52,12 +61,22 @@ std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& 
         const Piece& piece = pieces.pieces[p];
         PlaneMesherOptions options = context.options;
         options.threads = 1;
-        options.resting = piece.on_separator;
+        if (layers_can_start(piece)) options.resting = piece.on_separator;
         meshes[p] = mesh_undivided(piece.domain, context.metric,
                                    {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
       },
       context.monitor);
   return meshes;
+}
+
+// Memory comes page by page, which takes longer than what is written there: a stop is looked for on the way.
+template <class T>
+void resize(std::vector<T>& values, std::size_t n, Monitor& monitor) {
+  values.reserve(n);
+  while (values.size() < n) {
+    monitor.checkpoint();
+    values.resize(std::min(n, values.size() + elements_between_checks));
+  }
 }
 
 /// Numbers the vertices of the whole mesh that are left, and puts them and the triangles together.
@@ -67,12 +86,16 @@ class Assembly {
       : joined_(joined), zone_(zone), context_(context), count_(joined.pieces.pieces.size()) {}
 
   PlaneMesh run() {
+    context_.monitor.checkpoint();
     find_removed();
+    context_.monitor.checkpoint();
     number_vertices();
     count_triangles();
     run_each(
         count_, false, context_.options.threads, [&](std::size_t p, Monitor&) { put_piece(p); }, context_.monitor);
+    context_.monitor.checkpoint();
     put_zone();
+    context_.monitor.checkpoint();
     return std::move(mesh_);
   }
 
@@ -104,7 +127,7 @@ class Assembly {
     auto next = all - static_cast<std::int32_t>(removed_.size());
     for (std::int32_t& number : added_)
       if (number == 0) number = next++;
-    mesh_.vertices.resize(static_cast<std::size_t>(next));
+    resize(mesh_.vertices, static_cast<std::size_t>(next), context_.monitor);
     std::copy(context_.domain.vertices.begin(), context_.domain.vertices.end(), mesh_.vertices.begin());
   }
 
@@ -119,7 +142,7 @@ class Assembly {
         },
         context_.monitor);
     for (std::size_t p = 0; p < count_; ++p) first_[p + 1] += first_[p];
-    mesh_.triangles.resize(first_[count_] + zone_.triangles.size());
+    resize(mesh_.triangles, first_[count_] + zone_.triangles.size(), context_.monitor);
   }
 
   void put_piece(std::size_t p) {
@@ -173,15 +196,16 @@ class Assembly {
 }  // namespace
 
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept {
-  return divides_large_domains && known.triangles >= least_divided && !options.squares && options.undersampled.empty();
+  return known.triangles >= least_divided && !options.squares && options.undersampled.empty();
 }
 
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
-                                      const PlaneMesherOptions& options, Monitor& monitor) {
+                                      const PlaneMesherOptions& options, Monitor& monitor, double a_piece) {
   (void)triangulate_boundary(domain, monitor);  // pieces do not see what is wrong between them
-  const ZoneContext context{domain, metric, known, options, monitor};
+  const InnerEdges inner(domain);
+  const ZoneContext context{domain, inner, metric, known, options, monitor};
   try {
-    const std::optional<Pieces> pieces = cut(context);
+    const std::optional<Pieces> pieces = cut(context, a_piece);
     if (!pieces || is_mostly_zone(*pieces, known.triangles)) return {};
     const std::vector<UndividedMesh> meshes = mesh_pieces(*pieces, context);
     const JoinedPieces joined = join(*pieces, meshes, context);

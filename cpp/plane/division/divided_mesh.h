@@ -8,6 +8,7 @@
 #include "mesh/plane_mesh.h"
 #include "plane/kernel/frame.h"
 #include "plane/options.h"
+#include "plane/thresholds.h"
 #include "support/monitor.h"
 
 namespace carreau::plane {
@@ -15,9 +16,11 @@ namespace carreau::plane {
 /// Whether there are triangles enough, by what the metric promises.
 bool is_worth_dividing(const Field::Known& known, const PlaneMesherOptions& options) noexcept;
 
-/// The same for any number of threads. Empty: the domain cannot be divided, or a piece cannot be meshed.
-/// Throws DomainError for a domain that is wrong as a whole; LimitError, Cancelled.
+/// `a_piece`: triangles that a piece has, about. The same for any number of threads. Empty: the domain cannot be
+/// divided, or a piece cannot be meshed. Throws DomainError for a domain that is wrong as a whole; LimitError,
+/// Cancelled.
 std::optional<PlaneMesh> mesh_divided(const PlaneDomain& domain, const ControlSpace& metric, Field::Known known,
-                                      const PlaneMesherOptions& options, Monitor& monitor);
+                                      const PlaneMesherOptions& options, Monitor& monitor,
+                                      double a_piece = triangles_a_piece);
 
 }  // namespace carreau::plane

@@ -19,8 +19,9 @@ namespace {
 
 class Division {
  public:
-  Division(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& metric)
-      : coarse_(coarse),
+  Division(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& metric, Monitor& monitor)
+      : monitor_(monitor),
+        coarse_(coarse),
         domain_(domain),
         metric_(metric),
         n_(coarse.mesh.triangles.size()),
@@ -30,7 +31,9 @@ class Division {
 
   Partition run(int parts) {
     join_what_stays_together();
+    monitor_.checkpoint();
     cut_into_sectors(parts);
+    monitor_.checkpoint();
     for (int pass = 0; pass < smoothing_passes; ++pass) smooth();
     return connected();
   }
@@ -79,6 +82,7 @@ class Division {
   // those from several sides meet. Clumps go where their first triangle does.
   void cut_into_sectors(int parts) {
     const std::vector<double> place = arrivals(coarse_, domain_, metric_);
+    monitor_.checkpoint();
     std::vector<std::int32_t> triangles(n_);
     std::iota(triangles.begin(), triangles.end(), 0);
     std::stable_sort(triangles.begin(), triangles.end(),
@@ -133,6 +137,7 @@ class Division {
       }
     };
     for (int round = 0; round < 4; ++round) {
+      monitor_.checkpoint();
       flood();
       std::vector<std::int32_t> largest(static_cast<std::size_t>(last_) + 1, -1);
       for (std::size_t id = 0; id < part_of.size(); ++id) {
@@ -171,6 +176,7 @@ class Division {
     return result;
   }
 
+  Monitor& monitor_;
   const CoarseMesh& coarse_;
   const CoarseDomain& domain_;
   const ControlSpace& metric_;
@@ -191,6 +197,8 @@ CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit) {
     bool operator<(const Side& s) const { return std::tie(low, high) < std::tie(s.low, s.high); }
   };
   std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  coarse.weight.reserve(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
     const Vec2 p = coarse.mesh.vertices[a], q = coarse.mesh.vertices[b], r = coarse.mesh.vertices[c];
@@ -211,8 +219,9 @@ CoarseMesh make_coarse_mesh(PlaneMesh mesh, const ControlSpace& unit) {
   return coarse;
 }
 
-Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts) {
-  return Division(coarse, domain, coarse_metric).run(parts);
+Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts,
+                 Monitor& monitor) {
+  return Division(coarse, domain, coarse_metric, monitor).run(parts);
 }
 
 }  // namespace carreau::plane

@@ -8,6 +8,7 @@
 
 #include "control_space/control_space.h"
 #include "plane/division/coarse_domain.h"
+#include "support/monitor.h"
 
 namespace carreau::plane {
 
@@ -28,6 +29,7 @@ struct Partition {
   std::vector<std::int32_t> part;
   int parts = 0;
 };
-Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts);
+Partition divide(const CoarseMesh& coarse, const CoarseDomain& domain, const ControlSpace& coarse_metric, int parts,
+                 Monitor& monitor);
 
 }  // namespace carreau::plane

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 
@@ -15,6 +14,7 @@ namespace carreau::plane {
 namespace {
 
 using Ends = std::pair<std::int32_t, std::int32_t>;
+using Known = std::pair<Ends, std::int32_t>;
 
 class PieceMaker {
  public:
@@ -23,10 +23,13 @@ class PieceMaker {
       : domain_(domain), coarse_(coarse), mesh_(mesh), partition_(partition), unit_(unit) {}
 
   Pieces run() {
+    imposed_.reserve(coarse_.domain.edges.size());
     for (std::size_t e = 0; e < coarse_.domain.edges.size(); ++e) {
       const PlaneEdge& edge = coarse_.domain.edges[e];
-      imposed_[{std::min(edge.a, edge.b), std::max(edge.a, edge.b)}] = static_cast<std::int32_t>(e);
+      imposed_.push_back({std::minmax(edge.a, edge.b), static_cast<std::int32_t>(e)});
     }
+    std::sort(imposed_.begin(), imposed_.end());
+    cut_.assign(3 * mesh_.mesh.triangles.size(), no_cut);
     result_.pieces.resize(static_cast<std::size_t>(partition_.parts));
     result_.separator.assign(domain_.vertices.size(), Pieces::none);
     number_.assign(mesh_.mesh.vertices.size(), -1);
@@ -46,11 +49,10 @@ class PieceMaker {
     for (int i = 0; i < 3; ++i) {
       const std::int32_t a = mesh_.mesh.triangles[t][next3[i]], b = mesh_.mesh.triangles[t][prev3[i]];
       const std::int32_t u = mesh_.beyond[t][i], other = u < 0 ? -1 : partition_.part[u];
-      const auto found = imposed_.find({std::min(a, b), std::max(a, b)});
-      if (found != imposed_.end())
-        add_imposed(piece, found->second, a, u < 0 || other != part, u < t || other != part);
+      if (const std::int32_t edge = find(imposed_, std::minmax(a, b)); edge >= 0)
+        add_imposed(piece, edge, a, u < 0 || other != part, u < t || other != part);
       else if (other != part)
-        add_separator(piece, a, b, std::minmax(part, other));
+        add_separator(piece, t, i);
     }
   }
 
@@ -72,10 +74,11 @@ class PieceMaker {
     }
   }
 
-  void add_separator(Piece& piece, std::int32_t a, std::int32_t b, Ends parts) {
-    const std::vector<std::int32_t>& points = cut(std::min(a, b), std::max(a, b));
-    const auto next = separators_.size();
-    const auto of = static_cast<std::int32_t>(separators_.emplace(parts, next).first->second);
+  // Side i of t.
+  void add_separator(Piece& piece, std::int32_t t, int i) {
+    const std::int32_t a = mesh_.mesh.triangles[t][next3[i]], b = mesh_.mesh.triangles[t][prev3[i]];
+    const std::span<const std::int32_t> points = points_on(t, i);
+    const std::int32_t of = separator_between(std::minmax(partition_.part[t], partition_.part[mesh_.beyond[t][i]]));
     for (const std::int32_t v : points) {
       std::int32_t& known = result_.separator[v];
       known = known == Pieces::none || known == of ? of : Pieces::several;
@@ -97,34 +100,60 @@ class PieceMaker {
     return number_[v];
   }
 
-  // The vertices from a to b a unit apart.
-  const std::vector<std::int32_t>& cut(std::int32_t a, std::int32_t b) {
-    std::vector<std::int32_t>& points = cuts_[{a, b}];
-    if (!points.empty()) return points;
+  // -1: not there.
+  static std::int32_t find(const std::vector<Known>& sorted, Ends ends) {
+    const auto found = std::lower_bound(sorted.begin(), sorted.end(), Known{ends, -1});
+    return found != sorted.end() && found->first == ends ? found->second : -1;
+  }
+  std::int32_t separator_between(Ends parts) {
+    if (const std::int32_t known = find(separators_, parts); known >= 0) return known;
+    const Known fresh{parts, static_cast<std::int32_t>(separators_.size())};
+    separators_.insert(std::lower_bound(separators_.begin(), separators_.end(), fresh), fresh);
+    return fresh.second;
+  }
+
+  // The vertices on side i of t, from the end with the lower number. The triangle beyond has the same ones.
+  std::span<const std::int32_t> points_on(std::int32_t t, int i) {
+    const std::int32_t u = mesh_.beyond[t][i];
+    const auto& sides = mesh_.beyond[u];
+    const auto j = static_cast<std::int32_t>(std::find(sides.begin(), sides.end(), t) - sides.begin());
+    std::int32_t& start = cut_[3 * t + i];
+    if (start == no_cut) {
+      start = cut_[3 * u + j] = static_cast<std::int32_t>(points_.size());
+      const auto [a, b] = std::minmax(mesh_.mesh.triangles[t][next3[i]], mesh_.mesh.triangles[t][prev3[i]]);
+      points_.push_back(0);
+      cut(a, b);
+      points_[start] = static_cast<std::int32_t>(points_.size()) - start - 1;
+    }
+    return std::span<const std::int32_t>(points_).subspan(static_cast<std::size_t>(start) + 1,
+                                                          static_cast<std::size_t>(points_[start]));
+  }
+  // Adds the vertices from a to b, a unit apart, to the points.
+  void cut(std::int32_t a, std::int32_t b) {
     constexpr int samples = 8 * separator_length;
     const Vec2 p = mesh_.mesh.vertices[a], q = mesh_.mesh.vertices[b];
     double upto[samples + 1] = {0};
     for (int k = 0; k < samples; ++k)
       upto[k + 1] = upto[k] + length(unit_.at(lerp(p, q, (k + 0.5) / samples)), q - p) / samples;
     const int edges = std::max(1, static_cast<int>(std::lround(upto[samples])));
-    points.reserve(static_cast<std::size_t>(edges) + 1);
-    points.push_back(number_of(a));
+    points_.push_back(number_of(a));
     for (int j = 1, k = 0; j < edges; ++j) {
       const double at = upto[samples] * j / edges;
       while (k + 1 < samples && upto[k + 1] < at) ++k;
-      points.push_back(add_vertex(lerp(p, q, (k + (at - upto[k]) / (upto[k + 1] - upto[k])) / samples)));
+      points_.push_back(add_vertex(lerp(p, q, (k + (at - upto[k]) / (upto[k + 1] - upto[k])) / samples)));
     }
-    points.push_back(number_of(b));
-    return points;
+    points_.push_back(number_of(b));
   }
 
   void number_locally(std::size_t p) {
     Piece& piece = result_.pieces[p];
     std::vector<std::int32_t>& whole = piece.whole;
+    whole.reserve(whole.size() + 2 * piece.domain.edges.size());
     for (const PlaneEdge& edge : piece.domain.edges) whole.insert(whole.end(), {edge.a, edge.b});
     std::sort(whole.begin(), whole.end());
     whole.erase(std::unique(whole.begin(), whole.end()), whole.end());
     const auto n = static_cast<std::int32_t>(domain_.vertices.size());
+    piece.domain.vertices.reserve(whole.size()), piece.on_separator.reserve(whole.size());
     for (const std::int32_t v : whole) {
       piece.domain.vertices.push_back(v < n ? domain_.vertices[v] : result_.separators[v - n]);
       piece.on_separator.push_back(v < n ? 0 : 1);
@@ -140,9 +169,11 @@ class PieceMaker {
   const CoarseMesh& mesh_;
   const Partition& partition_;
   const ControlSpace& unit_;
-  std::map<Ends, std::int32_t> imposed_;    // coarse edges, by their ends
-  std::map<Ends, std::size_t> separators_;  // by the parts on both sides
-  std::map<Ends, std::vector<std::int32_t>> cuts_;
+  static constexpr std::int32_t no_cut = -1;
+  std::vector<Known> imposed_;        // coarse edges, by their ends
+  std::vector<Known> separators_;     // by the parts on both sides
+  std::vector<std::int32_t> points_;  // of each cut their number, then themselves
+  std::vector<std::int32_t> cut_;     // where they start, by triangle and side
   std::vector<std::int32_t> number_;  // by vertex of the coarse mesh; -1: none yet
   Pieces result_;
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <unordered_map>
 
 #include "plane/kernel/triangulation.h"
 #include "plane/thresholds.h"
@@ -20,8 +19,10 @@ class Void {
   Void(const Zone& zone, const ZoneContext& context, std::span<const std::array<std::int32_t, 3>> triangles,
        const std::vector<std::uint8_t>& removed)
       : zone_(zone), context_(context), local_(zone.vertices.size(), -1) {
-    find_imposed();
     std::vector<std::int64_t> sides;
+    sides.reserve(3 * triangles.size());
+    const std::size_t room = triangles.size() / 4 + 16;  // a guess: two sides of some layers
+    domain.vertices.reserve(room), domain.edges.reserve(room), of.reserve(room);
     for (const auto& t : triangles) {
       add_expected(t);
       for (int i = 0; i < 3; ++i) sides.push_back(key(t[i], t[next3[i]]));
@@ -64,21 +65,15 @@ class Void {
     edge.a = number(a), edge.b = number(b), edge.kind = kind;
     domain.edges.push_back(edge);
   }
-  void find_imposed() {
-    for (const PlaneEdge& edge : context_.domain.edges)
-      if (edge.kind == PlaneEdgeKind::internal) imposed_[key(std::min(edge.a, edge.b), std::max(edge.a, edge.b))] = 1;
-  }
   [[nodiscard]] bool is_imposed(std::int32_t a, std::int32_t b) const {
     const std::size_t n = zone_.whole.size();
-    if (imposed_.empty() || static_cast<std::size_t>(a) >= n || static_cast<std::size_t>(b) >= n) return false;
-    const std::int32_t p = zone_.whole[a], q = zone_.whole[b];
-    return imposed_.contains(key(std::min(p, q), std::max(p, q)));
+    if (static_cast<std::size_t>(a) >= n || static_cast<std::size_t>(b) >= n) return false;
+    return context_.inner.kind(zone_.whole[a], zone_.whole[b]) == PlaneEdgeKind::internal;
   }
 
   const Zone& zone_;
   const ZoneContext& context_;
   std::vector<std::int32_t> local_;
-  std::unordered_map<std::int64_t, char> imposed_;  // internal edges of the whole domain
 };
 
 }  // namespace
@@ -89,6 +84,8 @@ Refilled refill(const Zone& zone, std::span<const std::int32_t> triangles, std::
   for (std::size_t v = 0; v < removed.size(); ++v) removed[v] = free[v] != 0 && zone.level[v] < refilled_layers;
   Refilled result;
   std::vector<std::array<std::int32_t, 3>> replaced;
+  result.triangles.reserve(triangles.size());
+  replaced.reserve(triangles.size());
   for (const std::int32_t k : triangles) {
     const auto& t = zone.triangles[k];
     (removed[t[0]] + removed[t[1]] + removed[t[2]] > 0 ? replaced : result.triangles).push_back(t);

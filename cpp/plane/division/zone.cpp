@@ -19,8 +19,9 @@ bool any_below(const std::vector<std::uint8_t>& level, const std::array<std::int
 
 // Layers of vertices from those that have level 0, up to `most`.
 void spread(std::span<const std::array<std::int32_t, 3>> triangles, std::vector<std::uint8_t>& level, int most,
-            std::vector<std::int32_t>* band) {
-  for (int now = 0; now + 1 < most; ++now)
+            std::vector<std::int32_t>* band, Monitor& monitor) {
+  for (int now = 0; now + 1 < most; ++now) {
+    monitor.checkpoint();
     for (const auto& t : triangles) {
       int from = -1;
       for (const std::int32_t v : t)
@@ -32,6 +33,7 @@ void spread(std::span<const std::array<std::int32_t, 3>> triangles, std::vector<
           if (band != nullptr) (*band)[v] = (*band)[from];
         }
     }
+  }
 }
 
 /// Makes a zone of the triangles of pieces that are near separators.
@@ -86,12 +88,16 @@ class ZoneMaker {
   Zone zone_;
 };
 
-void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std::uint8_t>& replaced) {
+void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std::uint8_t>& replaced,
+           Monitor& monitor) {
+  monitor.checkpoint();
   std::vector<std::array<std::int32_t, 3>> triangles;
+  triangles.reserve(zone.triangles.size());
   for (std::size_t t = 0; t < zone.triangles.size(); ++t)
     if (replaced[t] == 0) triangles.push_back(zone.triangles[t]);
   const auto n = static_cast<std::int32_t>(zone.vertices.size());
   for (const ZonePart& part : parts) {
+    monitor.checkpoint();
     for (std::size_t k = 0; k < part.moved.size(); ++k) zone.vertices[part.moved[k]] = part.to[k];
     const auto shift = static_cast<std::int32_t>(zone.vertices.size()) - n;
     zone.vertices.insert(zone.vertices.end(), part.added.begin(), part.added.end());
@@ -106,6 +112,32 @@ void apply(Zone& zone, const std::vector<ZonePart>& parts, const std::vector<std
   zone.level.resize(zone.vertices.size(), outside);
 }
 
+/// The triangles of each separator.
+class Bands {
+ public:
+  explicit Bands(const Zone& zone) {
+    for (const std::int32_t band : zone.band)
+      if (band >= 0) {
+        if (start_.size() < static_cast<std::size_t>(band) + 2) start_.resize(static_cast<std::size_t>(band) + 2, 0);
+        ++start_[band + 1];
+      }
+    if (start_.empty()) start_.push_back(0);
+    for (std::size_t b = 1; b < start_.size(); ++b) start_[b] += start_[b - 1];
+    triangles_.resize(start_.back());
+    std::vector<std::size_t> next = start_;
+    for (std::size_t t = 0; t < zone.band.size(); ++t)
+      if (zone.band[t] >= 0) triangles_[next[zone.band[t]]++] = static_cast<std::int32_t>(t);
+  }
+  [[nodiscard]] std::size_t count() const noexcept { return start_.size() - 1; }
+  [[nodiscard]] std::span<const std::int32_t> triangles(std::size_t band) const noexcept {
+    return std::span(triangles_).subspan(start_[band], start_[band + 1] - start_[band]);
+  }
+
+ private:
+  std::vector<std::size_t> start_;
+  std::vector<std::int32_t> triangles_;
+};
+
 // Vertices of triangles that belong to several bands wait for the second round; the others' bands know all around them.
 std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) {
   context.monitor.checkpoint();
@@ -114,21 +146,18 @@ std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) 
     if (zone.band[t] < 0)
       for (const std::int32_t v : zone.triangles[t]) waiting[v] = zone.fixed[v] != 0 ? 0 : 1;
   for (std::size_t v = 0; v < free.size(); ++v) free[v] = zone.fixed[v] == 0 && waiting[v] == 0 ? 1 : 0;
-  std::vector<std::vector<std::int32_t>> bands;
+  context.monitor.checkpoint();
+  const Bands bands(zone);
   std::vector<std::uint8_t> replaced(zone.triangles.size(), 0);
-  for (std::size_t t = 0; t < zone.triangles.size(); ++t) {
-    if (zone.band[t] < 0) continue;
-    const auto band = static_cast<std::size_t>(zone.band[t]);
-    if (bands.size() <= band) bands.resize(band + 1);
-    bands[band].push_back(static_cast<std::int32_t>(t));
-    replaced[t] = 1;
-  }
-  std::vector<ZonePart> parts(bands.size());
+  for (std::size_t t = 0; t < zone.triangles.size(); ++t) replaced[t] = zone.band[t] < 0 ? 0 : 1;
+  std::vector<ZonePart> parts(bands.count());
   run_each(
-      bands.size(), false, context.options.threads,
-      [&](std::size_t b, Monitor& monitor) { parts[b] = optimise_part(zone, bands[b], free, context, monitor); },
+      parts.size(), false, context.options.threads,
+      [&](std::size_t b, Monitor& monitor) {
+        parts[b] = optimise_part(zone, bands.triangles(b), free, context, monitor);
+      },
       context.monitor);
-  apply(zone, parts, replaced);
+  apply(zone, parts, replaced, context.monitor);
   waiting.resize(zone.vertices.size(), 0);
   return waiting;
 }
@@ -138,7 +167,8 @@ void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting
   std::vector<std::uint8_t> level(zone.vertices.size(), meeting_layers), free(zone.vertices.size(), 0);
   for (std::size_t v = 0; v < level.size(); ++v)
     if (waiting[v] != 0) level[v] = 0;
-  spread(zone.triangles, level, meeting_layers, nullptr);
+  spread(zone.triangles, level, meeting_layers, nullptr, context.monitor);
+  context.monitor.checkpoint();
   for (std::size_t v = 0; v < level.size(); ++v) free[v] = level[v] < meeting_layers && zone.fixed[v] == 0 ? 1 : 0;
   std::vector<std::int32_t> near;
   std::vector<std::uint8_t> replaced(zone.triangles.size(), 0);
@@ -149,7 +179,7 @@ void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting
     replaced[t] = 1;
   }
   if (near.empty()) return;
-  apply(zone, {optimise_part(zone, near, free, context, context.monitor)}, replaced);
+  apply(zone, {optimise_part(zone, near, free, context, context.monitor)}, replaced, context.monitor);
 }
 
 }  // namespace
@@ -169,7 +199,7 @@ JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, c
   joined.band.resize(meshes.size());
   run_each(
       meshes.size(), false, context.options.threads,
-      [&](std::size_t p, Monitor&) {
+      [&](std::size_t p, Monitor& monitor) {
         joined.level[p].assign(meshes[p].mesh.vertices.size(), outside);
         joined.band[p].assign(meshes[p].mesh.vertices.size(), Pieces::none);
         const std::vector<std::int32_t>& whole = pieces.pieces[p].whole;
@@ -177,7 +207,7 @@ JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, c
           joined.band[p][v] = pieces.separator[whole[v]];
           if (joined.band[p][v] != Pieces::none) joined.level[p][v] = 0;
         }
-        spread(meshes[p].mesh.triangles, joined.level[p], zone_layers, &joined.band[p]);
+        spread(meshes[p].mesh.triangles, joined.level[p], zone_layers, &joined.band[p], monitor);
       },
       context.monitor);
   return joined;

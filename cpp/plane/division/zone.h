@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "plane/division/inner_edges.h"
 #include "plane/division/pieces.h"
 #include "plane/undivided.h"
 
@@ -15,6 +16,7 @@ namespace carreau::plane {
 /// What the improvement of a zone asks for.
 struct ZoneContext {
   const PlaneDomain& domain;
+  const InnerEdges& inner;  ///< of the domain
   const ControlSpace& metric;
   Field::Known known;
   const PlaneMesherOptions& options;

@@ -2,7 +2,6 @@
 #include "plane/division/zone_part.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "plane/division/refill.h"
 #include "plane/kernel/domain_reader.h"
@@ -22,6 +21,7 @@ class PartOfZone {
       : zone_(zone), context_(context) {
     const std::size_t n = zone.vertices.size();
     number(refilled, free);
+    mesh.vertices.reserve(of_.size());
     for (const std::int32_t v : of_) {
       const auto k = static_cast<std::size_t>(v);
       const Vec2 p = frame.inward(k < n ? zone.vertices[k] : refilled.added[k - n]);
@@ -40,6 +40,7 @@ class PartOfZone {
  private:
   // Fixed ones, others of the zone, added ones.
   void number(const Refilled& refilled, std::span<const std::uint8_t> free) {
+    of_.reserve(3 * refilled.triangles.size());
     for (const auto& t : refilled.triangles) of_.insert(of_.end(), t.begin(), t.end());
     std::sort(of_.begin(), of_.end());
     of_.erase(std::unique(of_.begin(), of_.end()), of_.end());
@@ -54,6 +55,7 @@ class PartOfZone {
     std::vector<std::int32_t> local(zone_.vertices.size() + refilled.added.size(), -1);
     for (std::size_t k = 0; k < of_.size(); ++k) local[of_[k]] = static_cast<std::int32_t>(k);
     std::vector<std::int32_t> start(of_.size() + 1, 0);
+    mesh.triangles.reserve(refilled.triangles.size());
     for (const auto& t : refilled.triangles) {
       Triangle& T = mesh.triangles.emplace_back();
       T.done = Done::yes;
@@ -80,10 +82,6 @@ class PartOfZone {
 
   // The domain's, and the rim.
   void impose_edges() {
-    std::unordered_map<std::int64_t, PlaneEdgeKind> inner;
-    const auto key = [](std::int64_t a, std::int64_t b) { return std::min(a, b) << 32 | std::max(a, b); };
-    for (const PlaneEdge& edge : context_.domain.edges)
-      if (edge.kind != PlaneEdgeKind::boundary) inner[key(edge.a, edge.b)] = edge.kind;
     const auto n = static_cast<std::int32_t>(context_.domain.vertices.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for (int i = 0; i < 3; ++i) {
@@ -92,9 +90,9 @@ class PartOfZone {
           return static_cast<std::size_t>(of_[v]) < zone_.whole.size() ? zone_.whole[of_[v]] : n;
         };
         bool imposed = T.n[i] == no_edge, degenerate = false;
-        if (const std::int32_t a = whole(T.v[next3[i]]), b = whole(T.v[prev3[i]]); a < n && b < n && !inner.empty())
-          if (const auto found = inner.find(key(a, b)); found != inner.end())
-            imposed = true, degenerate = found->second == PlaneEdgeKind::degenerate;
+        if (const std::int32_t a = whole(T.v[next3[i]]), b = whole(T.v[prev3[i]]); a < n && b < n)
+          if (const PlaneEdgeKind kind = context_.inner.kind(a, b); kind != PlaneEdgeKind::boundary)
+            imposed = true, degenerate = kind == PlaneEdgeKind::degenerate;
         T.imposed = static_cast<std::uint8_t>(T.imposed | (imposed ? 1U << i : 0U));
         T.degenerate = static_cast<std::uint8_t>(T.degenerate | (degenerate ? 1U << i : 0U));
       }
@@ -122,6 +120,9 @@ ZonePart optimise_part(const Zone& zone, std::span<const std::int32_t> triangles
 
   ZonePart result;
   const std::size_t n = part.of_zone;
+  result.moved.reserve(n - static_cast<std::size_t>(part.fixed)), result.to.reserve(result.moved.capacity());
+  result.added.reserve(part.mesh.vertices.size() - n);
+  result.triangles.reserve(part.mesh.triangles.size());
   for (std::size_t v = static_cast<std::size_t>(part.fixed); v < n; ++v) {
     result.moved.push_back(part.of()[v]);
     result.to.push_back(frame.outward(part.mesh.at(static_cast<int>(v))));

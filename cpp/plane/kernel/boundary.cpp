@@ -52,6 +52,7 @@ class BoundaryMesher {
                              {low.x() - 0.97 * w, high.y() + 1.01 * h}};
     for (int k = 0; k < 4; ++k)
       mesh_.vertices[count_ + k].x = corners[k].x(), mesh_.vertices[count_ + k].y = corners[k].y();
+    mesh_.triangles.reserve(2 * domain_.vertices.size() + 2);
     mesh_.triangles.resize(2);
     Triangle &first = mesh_.triangles[0], &second = mesh_.triangles[1];
     first.v[0] = second.v[0] = count_;
@@ -112,6 +113,7 @@ class BoundaryMesher {
   // Recovered edges have spoiled what was Delaunay: swap back, exactly, which always ends.
   void make_delaunay() {
     std::vector<HalfEdge> open;
+    open.reserve(3 * mesh_.triangles.size());
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh_.triangles.size()); ++t)
       for (int i = 0; i < 3; ++i)
         if (mesh_.triangles[t].n[i] > 4 * t + i) open.push_back(4 * t + i);
@@ -133,6 +135,7 @@ class BoundaryMesher {
   // Floods both sides from the boundary's edges: 1 inside, -1 outside.
   void keep_inside() {
     side_.assign(mesh_.triangles.size(), 0);
+    queue_.reserve(mesh_.triangles.size());
     std::vector<char> separates(4 * mesh_.triangles.size(), 0);
     for (const PlaneEdge& edge : domain_.edges) {
       if (edge.kind == PlaneEdgeKind::internal) continue;

@@ -89,6 +89,7 @@ std::vector<int> order_along_edges(const PlaneDomain& domain) {
   for (std::size_t e = 0; e < domain.edges.size(); ++e) leaving[at[domain.edges[e].a]++] = static_cast<int>(e);
 
   std::vector<int> order;
+  order.reserve(count);
   std::vector<char> listed(count, 0);
   at = first;
   const auto list = [&](int v) {

@@ -2,7 +2,11 @@
 #include "plane/kernel/edge_recovery.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory_resource>
 #include <utility>
+#include <vector>
 
 #include "predicates/predicates.h"
 
@@ -33,7 +37,7 @@ class Recovery {
     const HalfEdge below = triangulate(right_), above = triangulate(left_);
     link(below, above);
     join_folds();
-    if (changed != nullptr) *changed = crossed_;
+    if (changed != nullptr) changed->assign(crossed_.begin(), crossed_.end());
     result_.edge = below;
     return result_;
   }
@@ -135,8 +139,8 @@ class Recovery {
 
   // A polygon all of whose vertices see the segment that closes it: a corner that turns left is an ear (Graham's scan).
   // Returns the half-edge on the segment.
-  HalfEdge triangulate(const std::vector<ChainEdge>& chain) {
-    std::vector<ChainEdge> open;
+  HalfEdge triangulate(const std::pmr::vector<ChainEdge>& chain) {
+    std::pmr::vector<ChainEdge> open(&memory_);
     for (const ChainEdge& edge : chain) {
       open.push_back(edge);
       while (open.size() > 1) {
@@ -188,9 +192,12 @@ class Recovery {
   int a_, b_;
   Vec2 p_, q_;
   RecoveredEdge result_;
-  std::vector<std::int32_t> crossed_, sorted_, free_;
-  std::vector<ChainEdge> right_, left_;
-  std::vector<Fold> folds_;
+  // Few triangles are crossed, as a rule.
+  std::array<std::byte, 4096> room_;
+  std::pmr::monotonic_buffer_resource memory_{room_.data(), room_.size()};
+  std::pmr::vector<std::int32_t> crossed_{&memory_}, sorted_{&memory_}, free_{&memory_};
+  std::pmr::vector<ChainEdge> right_{&memory_}, left_{&memory_};
+  std::pmr::vector<Fold> folds_{&memory_};
 };
 
 }  // namespace

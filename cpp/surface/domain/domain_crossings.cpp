@@ -2,6 +2,7 @@
 // Edges that meet where they should not (HDR sec. 3.3.1).
 #include <algorithm>
 #include <cmath>
+#include <memory_resource>
 #include <optional>
 #include <set>
 #include <utility>
@@ -91,7 +92,11 @@ void keep_one_of_each_pair(std::vector<EdgeConflict>& conflicts) {
 class Sweep {
  public:
   explicit Sweep(const PlaneDomain& domain)
-      : domain_(domain), incidence_(domain, Incidence::Which::all), order_(Below{this}), place_(domain.edges.size()) {
+      : domain_(domain),
+        incidence_(domain, Incidence::Which::all),
+        order_(Below{this}, &nodes_),
+        place_(domain.edges.size()) {
+    ends_.reserve(domain.edges.size());
     for (const PlaneEdge& e : domain.edges) {
       const Vec2 a = domain.vertices[e.a], b = domain.vertices[e.b];
       // An edge without length comes and goes at one of its ends.
@@ -171,8 +176,9 @@ class Sweep {
   const PlaneDomain& domain_;
   Incidence incidence_;
   std::vector<std::pair<int, int>> ends_;  // of each edge, in the order of the sweep
-  std::set<int, Below> order_;             // of the edges that meet the line, upwards
-  std::vector<std::set<int, Below>::iterator> place_;
+  std::pmr::unsynchronized_pool_resource nodes_;
+  std::pmr::set<int, Below> order_;  // of the edges that meet the line, upwards
+  std::vector<std::pmr::set<int, Below>::iterator> place_;
   std::optional<EdgeConflict> found_;
 };
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "io/files.h"
+#include "io/medit/gmf.h"
 #include "io/mesh_files.h"
 #include "io/mesh_writers.h"
 #include "io_test_support.h"
@@ -78,6 +79,45 @@ TEST(Gmf, Version3HasTheSameMeshWithPositionsOf64Bits) {
   EXPECT_EQ(v3.size(), v2.size() + 5 * 4);  // five sections
   expect_same_geometry(read_mesh_binary(v3, "x"), read_mesh_binary(v2, "x"));
   EXPECT_FALSE(gmf_needs_64_bits(mesh));
+}
+
+// Files too large to be made here: what their counts say.
+TEST(Gmf, PositionsGoBeyond32Bits) {
+  constexpr std::uint64_t many = (std::uint64_t{1} << 31) - 1, start = 20;
+  const std::uint64_t triangles = gmf_next(start, 3, many, 28);
+  EXPECT_EQ(triangles, 20 + 16 + 60129542116U);
+  EXPECT_EQ(gmf_next(triangles, 3, many, 16), triangles + 16 + 34359738352U);
+  EXPECT_EQ(gmf_next(start, 2, 4, 20), 20U + 12 + 80);
+  constexpr GmfCounts large{.vertices = many, .triangles = many};
+  EXPECT_EQ(gmf_most_bytes(large), 300 + 44 * many);
+  EXPECT_TRUE(gmf_needs_64_bits(large));
+  // 60 bytes a vertex, with its two triangles.
+  constexpr std::uint64_t most = (many - 300) / 60;
+  EXPECT_FALSE(gmf_needs_64_bits(GmfCounts{.vertices = most, .triangles = 2 * most}));
+  EXPECT_TRUE(gmf_needs_64_bits(GmfCounts{.vertices = most + 1, .triangles = 2 * most + 2}));
+}
+
+TEST(Gmf, ComesInBlocks) {
+  FlatMesh mesh;
+  for (int k = 0; k < 100'000; ++k) {
+    mesh.vertices.push_back({0.5 * k, 1.0 * k * k, 1. / (k + 1)});
+    mesh.triangles.push_back({k, (k + 1) % 100'000, (k + 7) % 100'000});
+  }
+  for (const int version : {2, 3}) {
+    std::string all;
+    std::size_t largest = 0, blocks = 0;
+    write_gmf(mesh, version, [&](std::string_view block) {
+      all += block;
+      largest = std::max(largest, block.size());
+      ++blocks;
+    });
+    EXPECT_EQ(all, gmf_bytes(mesh, version));
+    EXPECT_LE(largest, std::size_t{1} << 20);
+    EXPECT_EQ(blocks, 5U);  // 4 400 000 bytes
+    const FlatMesh back = read_mesh_binary(all, "x");
+    EXPECT_EQ(back.vertices, mesh.vertices);
+    EXPECT_EQ(back.triangles, mesh.triangles);
+  }
 }
 
 TEST(Gmf, EveryTruncationIsAnError) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Large domains are meshed in pieces: no measure tells where these have met.
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <cmath>
 #include <set>
@@ -26,11 +27,13 @@ PlaneMesh uncut(const PlaneDomain& domain, const ControlSpace& space) {
   Monitor monitor;
   return plane::mesh_undivided(domain, space, known_of(space), {}, monitor).mesh;
 }
+// In smaller pieces than usual, so that there are several.
 std::optional<PlaneMesh> cut(const PlaneDomain& domain, const ControlSpace& space, int threads = 1) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
   Monitor monitor;
   PlaneMesherOptions options;
   options.threads = threads;
-  return plane::mesh_divided(domain, space, known_of(space), options, monitor);
+  return plane::mesh_divided(domain, space, known_of(space), options, monitor, 90'000);
 }
 void expect_same(const PlaneMesh& one, const PlaneMesh& other) {
   EXPECT_EQ(one.vertices, other.vertices);
@@ -77,7 +80,8 @@ TEST_P(Divided, IsAsGoodAsInOnePiece) {
   EXPECT_GT(q.fitting, whole.fitting - 0.0005);
   EXPECT_LT(q.longest, 1.1 * whole.longest);
   EXPECT_GT(q.degree_six, whole.degree_six - 0.002);
-  EXPECT_NEAR(static_cast<double>(q.triangles), static_cast<double>(whole.triangles), 0.005 * static_cast<double>(whole.triangles));
+  EXPECT_NEAR(static_cast<double>(q.triangles), static_cast<double>(whole.triangles),
+              0.005 * static_cast<double>(whole.triangles));
 }
 
 TEST_P(Divided, IsTheSameForAnyNumberOfThreads) {
@@ -98,6 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Large, Divided,
                                            Large{"holes", holes, 0.0055}, Large{"internal", internal_curves, 0.0058},
                                            Large{"stretched", stretched, 0.005}, Large{"sizes", size_field, 0.25},
                                            Large{"swirl", turning, 0.0055}, Large{"sphere", sphere_two_poles, 0.01},
+                                           Large{"poles", sphere_two_poles, 0.0095},
                                            Large{"squares", two_squares, 0.004}),
                          [](const auto& of) { return std::string(of.param.name); });
 
@@ -178,6 +183,15 @@ TEST(Division, FindsWhatIsWrongBetweenPieces) {
     c.domain.vertices[v] = c.domain.vertices[v] - Vec2{0.75, 0.1};
   Monitor monitor;
   EXPECT_THROW((void)mesh_plane(c.domain, space, {}, monitor), DomainError);
+}
+
+TEST(Division, IsWhatLargeDomainsGet) {
+  const PlaneCase c = flat_square(0.0028);
+  const ControlSpace space = control_space(c);
+  Monitor monitor;
+  const auto mesh = plane::mesh_divided(c.domain, space, known_of(space), {}, monitor);
+  ASSERT_TRUE(mesh);
+  expect_same(mesh_plane(c.domain, space, {}, monitor), *mesh);
 }
 
 TEST(Division, NeedsTwoPieces) {
