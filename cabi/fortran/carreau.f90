@@ -10,6 +10,7 @@
 module carreau
   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_double, c_f_pointer, c_funloc, c_funptr, c_int32_t, &
     c_int64_t, c_loc, c_null_char, c_null_funptr, c_null_ptr, c_ptr, c_size_t
+  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use carreau_c
   implicit none
   private
@@ -1867,6 +1868,8 @@ contains
   end subroutine carreau_estimate
 
   !> values(components, n) at the vertices of the mesh before, transferred(components, n) at those of the mesh now.
+  !> Elements of second order have them at all nodes, corners first; values at corners alone are carried to corners,
+  !> and other nodes have NaN.
   subroutine carreau_transfer(session, values, transferred, outside, status)
     type(carreau_session), intent(in) :: session
     real(c_double), intent(in) :: values(:, :)
@@ -1882,6 +1885,7 @@ contains
     call carreau_mesh_count(mesh, vertices, triangles, edges, faces, status)
     if (status /= CARREAU_OK) return
     allocate (found(size(values, 1), vertices))
+    found = ieee_value(0.0_c_double, ieee_quiet_nan)
     status = c_transfer(session%handle, int(size(values, 1), c_int32_t), size(values, 2, c_int64_t), &
       reshape(values, [size(values)]), vertices, found, outside)
     if (status == CARREAU_OK) transferred = found

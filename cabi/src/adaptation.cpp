@@ -63,8 +63,11 @@ std::size_t checked_rows(std::int64_t n, const SurfaceMesh& mesh, const char* wh
 
 /// The same of a field that may be given at all nodes, too.
 std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
-  if (n >= 0 && std::uint64_t(n) == carreau::node_count(mesh)) return carreau::node_count(mesh);
-  return checked_rows(n, mesh, which);
+  const std::size_t nodes = carreau::node_count(mesh), corners = mesh.vertices.size();
+  if (n >= 0 && (std::uint64_t(n) == nodes || std::uint64_t(n) == corners)) return static_cast<std::size_t>(n);
+  throw InvalidArgument("there are " + std::to_string(n) + " rows, but the " + which + " has " + std::to_string(corners) +
+                        (nodes == corners ? " vertices"
+                                          : " corners, and " + std::to_string(nodes) + " nodes with those on edges"));
 }
 
 std::size_t checked_count(std::int64_t n, const char* name) {
@@ -251,7 +254,7 @@ carreau_status carreau_transfer(carreau_session* session, int32_t components, in
     const std::size_t rows = checked_nodes(n, from, "mesh before this one");
     if (components < 1)
       throw InvalidArgument("components is " + std::to_string(components) + "; a field has one component at least");
-    check_capacity(capacity, rows == carreau::node_count(from) ? carreau::node_count(to) : to.vertices.size(), "vertices");
+    check_capacity(capacity, rows == carreau::node_count(from) ? carreau::node_count(to) : to.vertices.size(), "nodes");
     required(out_values, "out_values");
     const auto width = static_cast<std::size_t>(components);
     const carreau::TransferredField result =

@@ -22,7 +22,7 @@ struct FreeAtlas {
 };
 using AtlasHandle = std::unique_ptr<carreau_atlas, FreeAtlas>;
 
-constexpr double least_even_quality = .9;       // mean of Q2: below it charts of neighbours disagree
+constexpr double least_even_quality = .5;       // Q2, first percentile: below it charts of neighbours disagree
 constexpr double fewest_even_triangles = 12000;  // CAD programs write two for a plane
 
 /// Uneven triangles of a closed surface are meshed evenly before they get charts. Empty where they are even, or cannot
@@ -31,7 +31,7 @@ MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
   carreau_quality quality{};
   quality.struct_size = sizeof quality;
   require(given, carreau_mesh_quality(given, &quality));
-  if (quality.q2_mean >= least_even_quality || quality.open_edges > 0 || !(quality.area > 0)) return {};
+  if (quality.q2_p1 >= least_even_quality || quality.open_edges > 0 || !(quality.area > 0)) return {};
   const double count = std::max(static_cast<double>(quality.triangles), fewest_even_triangles);
   const SessionHandle session = make_silent_session();
   carreau_triangles_options options{};
@@ -44,24 +44,42 @@ MeshArrays even_triangles(const std::string& path, carreau_mesh* given) {
   return is_made ? arrays_of(made) : MeshArrays{};
 }
 
-AtlasHandle build(const std::string& path) {
-  const MeshHandle mesh = read_mesh(path);
-  MeshArrays arrays = even_triangles(path, mesh.get());
-  if (arrays.triangles.empty()) arrays = arrays_of(mesh.get());
+carreau_status build(carreau_atlas* atlas, const MeshArrays& arrays) {
+  return carreau_atlas_build(atlas, nullptr, std::ssize(arrays.vertices), arrays.vertices.front().data(),
+                             std::ssize(arrays.triangles), arrays.triangles.front().data(), nullptr);
+}
+
+AtlasHandle new_atlas() {
   carreau_atlas* made = nullptr;
   if (carreau_atlas_create(&made) != CARREAU_OK) throw Failure("out of memory");
-  AtlasHandle atlas(made);
-  if (arrays.triangles.empty()) throw Failure(path + ": there is no triangle");
-  if (carreau_atlas_build(made, nullptr, std::ssize(arrays.vertices), arrays.vertices.front().data(),
-                          std::ssize(arrays.triangles), arrays.triangles.front().data(), nullptr) != CARREAU_OK)
-    throw Failure(path + ": " + carreau_atlas_last_error(made));
-  return atlas;
+  return AtlasHandle(made);
+}
+
+struct BuiltAtlas {
+  AtlasHandle atlas;
+  std::size_t uneven = 0;  ///< triangles of the file that were meshed evenly first; 0: they were not
+};
+
+BuiltAtlas build(const std::string& path) {
+  const MeshHandle mesh = read_mesh(path);
+  const MeshArrays given = arrays_of(mesh.get());
+  if (given.triangles.empty()) throw Failure(path + ": there is no triangle");
+  BuiltAtlas built{new_atlas()};
+  if (const MeshArrays even = even_triangles(path, mesh.get());
+      !even.triangles.empty() && build(built.atlas.get(), even) == CARREAU_OK) {
+    built.uneven = given.triangles.size();
+    return built;
+  }
+  built.atlas = new_atlas();
+  if (build(built.atlas.get(), given) != CARREAU_OK)
+    throw Failure(path + ": " + carreau_atlas_last_error(built.atlas.get()));
+  return built;
 }
 
 class AtlasInput final : public BuiltInput {
  public:
-  AtlasInput(SessionHandle session, const std::string& path, AtlasHandle atlas)
-      : BuiltInput(std::move(session), path), atlas_(std::move(atlas)) {}
+  AtlasInput(SessionHandle session, const std::string& path, BuiltAtlas built)
+      : BuiltInput(std::move(session), path), atlas_(std::move(built.atlas)), uneven_(built.uneven) {}
 
   carreau_status give_to(carreau_session* session) override { return carreau_add_atlas(session, atlas_.get()); }
 
@@ -69,7 +87,8 @@ class AtlasInput final : public BuiltInput {
     carreau_atlas_counts counts{};
     counts.struct_size = sizeof counts;
     carreau_atlas_count(atlas_.get(), &counts);
-    return "atlas over " + std::to_string(counts.triangles) + " triangles, " + ModelInput::summary();
+    const std::string of = uneven_ > 0 ? " made evenly of " + std::to_string(uneven_) : "";
+    return "atlas over " + std::to_string(counts.triangles) + " triangles" + of + ", " + ModelInput::summary();
   }
   [[nodiscard]] bool closed() const override { return true; }
   [[nodiscard]] double ends_tolerance() const override { return 1e-9 * diagonal(); }
@@ -78,6 +97,7 @@ class AtlasInput final : public BuiltInput {
   [[nodiscard]] std::string kind(std::int32_t) const override { return "chart"; }
 
   AtlasHandle atlas_;
+  std::size_t uneven_;
 };
 
 }  // namespace
@@ -87,10 +107,10 @@ std::unique_ptr<CadInput> open_atlas(const std::string& path) {
     throw Failure(
         "--surface atlas goes with a mesh of triangles (.off, .obj, .ply, .stl, .mesh, .vtu, .msh), not with '" + path +
         "'.");
-  AtlasHandle atlas = build(path);
+  BuiltAtlas built = build(path);
   SessionHandle session = make_silent_session();
-  require(session.get(), carreau_add_atlas(session.get(), atlas.get()));
-  return std::make_unique<AtlasInput>(std::move(session), path, std::move(atlas));
+  require(session.get(), carreau_add_atlas(session.get(), built.atlas.get()));
+  return std::make_unique<AtlasInput>(std::move(session), path, std::move(built));
 }
 
 }  // namespace command

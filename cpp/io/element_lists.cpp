@@ -52,7 +52,10 @@ void part_equal_halves(FlatMesh& mesh) {
   std::sort(halves.begin(), halves.end());
   std::vector<char> again(mesh.cells.size(), 0);
   for (std::size_t i = 1; i < halves.size(); ++i)
-    if (halves[i].first == halves[i - 1].first) again[halves[i].second] = 1;
+    if (halves[i].first == halves[i - 1].first) {
+      const std::size_t later = halves[i].second;
+      again[corner_count(mesh.cells[later].kind) == 3 ? halves[i - 1].second : later] = 1;
+    }
   for (std::size_t c = 0, t = 0; c < mesh.cells.size(); t += corner_count(mesh.cells[c++].kind) == 4 ? 2 : 1) {
     if (again[c] == 0 || corner_count(mesh.cells[c].kind) == 3) continue;
     std::array<std::int32_t, 8>& n = mesh.cells[c].nodes;

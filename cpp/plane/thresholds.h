@@ -333,7 +333,7 @@ inline constexpr double triangles_a_piece = 250'000;
 /// Pieces reach from the border to where layers meet: more of them would become narrow.
 inline constexpr double most_sectors = 64;
 /// Triangles. Smaller domains are not divided.
-inline constexpr double least_divided = 200'000;
+inline constexpr double least_divided = 250'000;
 /// Units. Of the edges of the coarse mesh, on which separators lie.
 inline constexpr int separator_length = 8;
 /// Radians. Turn of the boundary over one coarse edge.

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "support/error.h"
-#include "surface/quads/quadrilaterals.h"
 #include "surface/thresholds.h"
 
 namespace carreau {
@@ -17,13 +16,6 @@ std::ptrdiff_t failed_faces(const CompositeResult& result) {
                        [](const FaceMesh& face) { return face.status == FaceStatus::failed; });
 }
 
-// Quadrilaterals that were cut have the metric of half the sizes, by which patches are not made.
-double enlargement_of_spaces(const CompositeRun& run) {
-  const std::vector<FaceMesh>& faces = run.result.mesh.faces;
-  const bool cut = std::any_of(faces.begin(), faces.end(), [](const FaceMesh& face) { return face.quads > 0; });
-  return cut ? enlargement_for(run.options.element) : 1;
-}
-
 }  // namespace
 
 Attempts::Attempts(CompositeRun& run, const std::function<void()>& mesh_again)
@@ -32,16 +24,15 @@ Attempts::Attempts(CompositeRun& run, const std::function<void()>& mesh_again)
 bool Attempts::again(const std::function<void()>& make_finer) {
   if (!best_) curves_ = run_.curves, cut_curves_ = run_.cut_curves, finer_ = run_.finer;
   make_finer();
-  const double enlarged = enlargement_of_spaces(run_);
   CompositeResult before = std::exchange(run_.result, {});
   run_.result.graded = before.graded, run_.result.report = before.report;
   spaces_ = std::move(before.spaces);
   if (!best_) {
     best_ = std::move(before);
     best_->spaces = std::move(spaces_);
-    run_.known.rely_on(&best_->spaces, enlarged);
+    run_.known.rely_on(&best_->spaces);
   } else {
-    run_.known.rely_on(&spaces_, enlarged);
+    run_.known.rely_on(&spaces_);
   }
   run_.trying = true;
   run_.begin += (1 - run_.begin) * (thresholds::patches::curves_share + thresholds::patches::patches_share);

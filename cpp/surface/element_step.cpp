@@ -57,6 +57,7 @@ void divide_faces(CompositeRun& run, const QuadraticReport& report) {
 void divide_curves(CompositeRun& run, const std::vector<CurveEdge>& coarse) {
   std::vector<DiscreteCurve> curves = run.cut_curves;
   for (auto edge = coarse.rbegin(); edge != coarse.rend(); ++edge) {
+    if (edge->curve >= std::ssize(curves)) continue;  // what a vanished face has left
     DiscreteCurve& curve = curves[edge->curve];
     const int before = run.cut_curves[edge->curve].segments(), now = run.curves[edge->curve].segments();
     const int segment = static_cast<int>(std::int64_t{edge->segment} * before / now);

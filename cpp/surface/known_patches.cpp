@@ -65,7 +65,6 @@ std::optional<FaceOutcome> KnownPatches::find(std::size_t face, const PatchInput
   FaceOutcome outcome;
   outcome.patch = known.mesh;
   outcome.space = (*spaces_)[face];
-  if (enlarged_ != 1) outcome.space->scale_lengths(1 / enlarged_);
   outcome.remark = known.remark;
   return outcome;
 }

@@ -24,10 +24,7 @@ class KnownPatches {
   void keep(std::size_t face, const PatchInput& input, std::vector<EdgeSizes::Source> grow_from);
   void keep(std::size_t face, const FaceOutcome& outcome);
   /// The control spaces of the round before this one, by face. They may go after that round's patches were asked for.
-  /// `enlarged`: ratio of lengths by which they were scaled since (quadrilaterals that were cut).
-  void rely_on(const std::vector<std::optional<ControlSpace>>* spaces, double enlarged = 1) noexcept {
-    spaces_ = spaces, enlarged_ = enlarged;
-  }
+  void rely_on(const std::vector<std::optional<ControlSpace>>* spaces) noexcept { spaces_ = spaces; }
   /// What came of the face in the round before, when it was asked the same then; a copy.
   [[nodiscard]] std::optional<FaceOutcome> find(std::size_t face, const PatchInput& input,
                                                 const std::vector<EdgeSizes::Source>& grow_from) const;
@@ -45,7 +42,6 @@ class KnownPatches {
   };
   std::vector<std::optional<Known>> known_;
   const std::vector<std::optional<ControlSpace>>* spaces_ = nullptr;
-  double enlarged_ = 1;
   std::size_t room_ = thresholds::crossings::most_known;  // triangles that may still be kept
   bool over_ = false;
 };

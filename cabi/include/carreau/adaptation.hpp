@@ -3,6 +3,8 @@
 #ifndef CARREAU_ADAPTATION_HPP
 #define CARREAU_ADAPTATION_HPP
 
+#include <limits>
+
 #include "session.hpp"
 
 namespace carreau {
@@ -44,11 +46,12 @@ inline Estimate estimate(Session& session, const carreau_estimator& estimator, s
   return out;
 }
 
-/// Interpolates a field of `components` values a vertex from the mesh before to the mesh now.
+/// Interpolates a field of `components` values a vertex from the mesh before to the mesh now. Elements of second order
+/// have them at all nodes, corners first; values at corners alone are carried to corners, and rows of other nodes are NaN.
 inline Transferred transfer(Session& session, std::span<const double> values, int components = 1) {
   const auto width = static_cast<std::size_t>(std::max(components, 1));
   const std::int64_t capacity = session.mesh().vertex_count();
-  Transferred out{std::vector<double>(static_cast<std::size_t>(capacity) * width), 0};
+  Transferred out{std::vector<double>(static_cast<std::size_t>(capacity) * width, std::numeric_limits<double>::quiet_NaN()), 0};
   if (values.size() % width != 0) detail::fail(CARREAU_ERR_ARGUMENT, "The values of a field are no whole number of rows.");
   session.done(carreau_transfer(session.get(), components, detail::count_of(values.size() / width), detail::data_or_null(values),
                                 capacity, out.values.data(), &out.outside));

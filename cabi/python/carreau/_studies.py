@@ -114,11 +114,12 @@ class Studies:
         return out
 
     def transfer(self, values: ArrayLike) -> Reals:
-        """Values (n) or (n, k) at the vertices of the mesh before, at those of the mesh now."""
+        """Values (n) or (n, k) at the vertices of the mesh before, at those of the mesh now. Elements of second order have
+        them at all nodes, corners first; values at corners alone are carried to corners, and rows of other nodes are NaN."""
         rows = np.ascontiguousarray(values, dtype=np.float64)
         components = 1 if rows.ndim == 1 else rows.shape[1]
         n = counted(self._count_vertices)
-        out = np.empty((n, *rows.shape[1:]))
+        out = np.full((n, *rows.shape[1:]), np.nan)
         self._call(lib().transfer, components, len(rows), rows, n, out, None)
         return out
 

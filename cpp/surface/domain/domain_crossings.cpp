@@ -176,7 +176,7 @@ class Sweep {
   const PlaneDomain& domain_;
   Incidence incidence_;
   std::vector<std::pair<int, int>> ends_;  // of each edge, in the order of the sweep
-  std::pmr::unsynchronized_pool_resource nodes_;
+  std::pmr::monotonic_buffer_resource nodes_;  // each edge comes once
   std::pmr::set<int, Below> order_;  // of the edges that meet the line, upwards
   std::vector<std::pmr::set<int, Below>::iterator> place_;
   std::optional<EdgeConflict> found_;

@@ -9,7 +9,9 @@ namespace carreau {
 
 namespace {
 
+// Curves that vanished faces have left (assembly/narrow_collapse) are none of the model's.
 bool is_known(const ElementWork& work, std::size_t curve) {
+  if (curve >= work.curves.size()) return false;
   const DiscreteCurve& d = work.curves[curve];
   const std::vector<std::int32_t>& v = work.result.mesh.curves[curve].vertices;
   return !d.indivisible && v.size() == static_cast<std::size_t>(d.segments()) + 1;
@@ -43,6 +45,7 @@ std::vector<Segment> segments_of(const ElementWork& work, std::size_t face) {
 // The use of a curve in the face whose image of the segment is the side from p to q of (u, v), p over the segment's
 // first vertex.
 std::int32_t nearest_use(const ElementWork& work, std::size_t face, const Segment& s, const Vec2& p, const Vec2& q) {
+  if (static_cast<std::size_t>(s.curve) >= work.model.topology.curves.size()) return -1;
   const std::vector<CurveUse>& uses = work.model.topology.curves[s.curve].uses;
   const bool known = is_known(work, static_cast<std::size_t>(s.curve));
   const auto k = static_cast<std::size_t>(s.segment);

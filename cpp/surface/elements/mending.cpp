@@ -51,6 +51,11 @@ class Mender {
       if (moves_ == before || bad_.empty()) break;
     }
     report.moved_nodes += moves_;
+  }
+
+  void tell_invalid(QuadraticReport& report) {
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      if (score(cells_[c]) < least_jacobian) bad_.push_back(static_cast<std::int32_t>(c));
     tell(report);
   }
 
@@ -265,7 +270,6 @@ class Mender {
     std::vector<CurveSide> sides;
     for (const std::int32_t c : bad_) {
       const double found = score(cells_[c]);
-      if (found >= least_jacobian) continue;
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells_[c]);
       add_coarse(cells_[c], sides, report.coarse);
@@ -317,6 +321,10 @@ class Mender {
 void mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
                const std::vector<char>& fixed_vertex, QuadraticReport& report) {
   Mender(work, face, fixed_mid, fixed_vertex).run(report);
+}
+
+void find_invalid(const ElementWork& work, std::size_t face, QuadraticReport& report) {
+  Mender(work, face, {}, {}).tell_invalid(report);
 }
 
 }  // namespace carreau

@@ -98,13 +98,14 @@ class FaceNodes {
   }
   /// By index in mid_uv.
   [[nodiscard]] std::vector<char> fixed_mids() const { return fixed_; }
-  [[nodiscard]] std::vector<char> fixed_vertices() const {
+  /// `uses`: of each vertex in space, how often faces have it.
+  [[nodiscard]] std::vector<char> fixed_vertices(const std::vector<std::int32_t>& uses) const {
     std::vector<char> fixed(face_.uv.size(), 0);
     for (const CurveSide& side : sides_) fixed[side.a] = fixed[side.b] = 1;
     for (const auto& t : face_.flattened)
       for (const std::int32_t v : t) fixed[v] = 1;
     for (std::size_t v = 0; v < fixed.size(); ++v)
-      if (work_.result.mesh.vertex_ref[face_.vertex[v]] != 0) fixed[v] = 1;
+      if (work_.result.mesh.vertex_ref[face_.vertex[v]] != 0 || uses[face_.vertex[v]] > 1) fixed[v] = 1;
     return fixed;
   }
 
@@ -245,12 +246,17 @@ QuadraticReport make_quadratic(const ElementWork& work) {
   mesh.mid_vertices.clear();
   report.finer.resize(mesh.faces.size()), report.quads.resize(mesh.faces.size());
   CurveNodes of_curves(work);
+  std::vector<std::int32_t> uses(mesh.vertices.size(), 0);
+  for (const FaceMesh& face : mesh.faces)
+    for (const std::int32_t v : face.vertex) ++uses[v];
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].triangles.empty()) continue;
     FaceNodes nodes(work, f, of_curves);
     nodes.run();
-    mend_face(work, f, nodes.fixed_mids(), nodes.fixed_vertices(), report);
+    mend_face(work, f, nodes.fixed_mids(), nodes.fixed_vertices(uses), report);
   }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (!mesh.faces[f].triangles.empty()) find_invalid(work, f, report);
   of_curves.tell_curves();
   std::sort(report.coarse.begin(), report.coarse.end());
   report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());

@@ -28,7 +28,8 @@ struct QuadraticReport {
   std::vector<InvalidElements> invalid;
   std::vector<std::vector<std::int32_t>> quads;  ///< by face: quadrilaterals among them, ascending
   std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
-  /// By face: sides of elements that stay invalid, with half of the longest one as the size wanted there.
+  /// By face: sides of elements that stay invalid, with half of the longest one, or of what was wanted there,
+  /// as the size (the whole of it where all elements are cut).
   std::vector<std::vector<EdgeSizes::Source>> finer;
 };
 
@@ -44,5 +45,8 @@ void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads);
 /// The second half of it, for one face: `fixed_mid` and `fixed_vertex` tell by local index what stays in its place.
 void mend_face(const ElementWork& work, std::size_t face, const std::vector<char>& fixed_mid,
                const std::vector<char>& fixed_vertex, QuadraticReport& report);
+
+/// Tells of the elements of a face that are invalid when all faces are made.
+void find_invalid(const ElementWork& work, std::size_t face, QuadraticReport& report);
 
 }  // namespace carreau

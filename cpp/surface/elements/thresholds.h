@@ -17,7 +17,7 @@ inline constexpr int most_rounds = 8;
 /// Times that the model is meshed again with half the size beside elements that stay invalid: an edge of a whole circle
 /// is one of 6 degrees then. [CurvedElements.InnerEdgesBendBeforeACurvedBorder]
 inline constexpr int most_divisions = 6;
-/// The same with quadrilaterals, whose shapes smaller sizes mend less often.
+/// The same with quadrilaterals.
 inline constexpr int most_divisions_of_quads = 6;
 /// Times that invalid curved quadrilaterals become two triangles, before which nodes move.
 inline constexpr int most_partings = 4;

@@ -150,7 +150,7 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
                             Monitor& monitor) {
   SurfaceTolerances tolerances = tolerances_of(options);
   if (std::isfinite(geometric_limits(options.size).edge_angle_deg)) tolerances.angle_deg *= frame.angle_slack;
-  if (frame.charts->by_direction()) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
+  if (frame.charts->by_direction() && !options.size.geo_guarantee) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;

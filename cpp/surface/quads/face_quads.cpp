@@ -45,7 +45,7 @@ Vec3 tangent_at(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s)
 
 // Inside a curve any turn is that of its chords, unless it is that of a kink.
 bool go_on_smoothly(const SurfaceMesh& mesh, const FaceQuads& quads, const Spoke& s, const Spoke& t) {
-  const bool inside = s.curve == t.curve && s.segment != t.segment;
+  const bool inside = s.curve == t.curve && std::abs(s.segment - t.segment) == 1;  // not where a closed curve begins
   const Vec3 d = inside ? Vec3(quads.xyz[s.a] - quads.xyz[s.v]) : tangent_at(mesh, quads, s),
              e = inside ? Vec3(quads.xyz[t.a] - quads.xyz[t.v]) : tangent_at(mesh, quads, t);
   const double least = inside ? least_angle_in_curve : least_angle_of_curves;

@@ -23,6 +23,7 @@ double middle_share(const DiscreteCurve& d, int k) {
 
 /// The curve with twice as many edges; false, and as it was, where one cannot be cut.
 bool halve(const ElementWork& work, std::size_t c) {
+  if (c >= work.curves.size()) return false;
   DiscreteCurve curve = work.curves[c];
   if (curve.indivisible || work.result.mesh.curves[c].vertices.size() != curve.xyz.size()) return false;
   for (int k = curve.segments() - 1; k >= 0; --k) {
@@ -108,10 +109,11 @@ class Halving {
 
   std::int32_t add_on_curve(const CurveSide& side) {
     const std::int32_t in_mesh = middles_[side.curve][side.segment];
-    const std::vector<Vec2>& uv = work_.curves[side.curve].uv_of_use[side.use];
-    const bool known = uv.size() == 2 * middles_[side.curve].size() + 1;
-    const Vec2 place = known ? uv[2 * side.segment + 1]
-                             : Vec2(0.5 * (quads_.patch.uv[side.a] + quads_.patch.uv[side.b]));
+    Vec2 place = 0.5 * (quads_.patch.uv[side.a] + quads_.patch.uv[side.b]);
+    if (side.use >= 0) {
+      const std::vector<Vec2>& uv = work_.curves[side.curve].uv_of_use[side.use];
+      if (uv.size() == 2 * middles_[side.curve].size() + 1) place = uv[2 * side.segment + 1];
+    }
     const std::int32_t local = add(place, in_mesh, 1);
     quads_.middles[static_cast<std::size_t>(&side - quads_.sides.data())] = local;
     return local;

@@ -7,6 +7,7 @@
 
 #include "common/field_source.h"
 #include "geometry/discrete/discrete_cad.h"
+#include "mesh/flat_mesh.h"
 #include "metric/metric3_algebra.h"
 #include "session/session.h"
 #include "size/geometric_metric.h"
@@ -144,13 +145,16 @@ TEST(DirectedMeshes, GradationBoundsWhatGrows) {
 
 TEST(DirectedMeshes, TheSameForAnyNumberOfThreads) {
   std::vector<Vec3> known;
+  std::vector<std::array<std::int32_t, 3>> triangles;
   for (const int threads : {1, 4}) {
     DirectedRun run(built_on(torus(24, 12)));
     run.curvature(12, 0.8);
     run.session.parameters().set("threads", threads);
     const SurfaceMesh& mesh = run.mesh();
-    if (threads == 1) known = mesh.vertices;
+    const FlatMesh flat = flatten(mesh, false);
+    if (threads == 1) known = mesh.vertices, triangles = flat.triangles;
     EXPECT_EQ(mesh.vertices, known);
+    EXPECT_EQ(flat.triangles, triangles);
   }
 }
 

@@ -61,6 +61,7 @@ TEST(IndependentByDirection, MeshDoesNotDependOnThreads) {
   const auto one = meshed_by(cad, metric, "independent", quiet, 1),
              four = meshed_by(cad, metric, "independent", quiet, 4);
   EXPECT_EQ(one->mesh().vertices, four->mesh().vertices);
+  EXPECT_EQ(one->exported().triangles, four->exported().triangles);
 }
 
 // On a plane side a metric of directions that turn with the place: edges are unit, corners and sharp edges of the cube
