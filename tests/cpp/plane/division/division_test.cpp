@@ -98,9 +98,9 @@ TEST_P(Divided, IsTheSameForAnyNumberOfThreads) {
 
 INSTANTIATE_TEST_SUITE_P(Large, Divided,
                          ::testing::Values(Large{"square", flat_square, 0.003}, Large{"paraboloid", paraboloid, 0.022},
-                                           Large{"hemisphere", hemisphere, 0.0075}, Large{"torus", torus_patch, 0.014},
+                                           Large{"hemisphere", hemisphere, 0.0075}, Large{"torus", torus_patch, 0.0132},
                                            Large{"holes", holes, 0.0055}, Large{"internal", internal_curves, 0.0058},
-                                           Large{"stretched", stretched, 0.005}, Large{"sizes", size_field, 0.25},
+                                           Large{"stretched", stretched, 0.0047}, Large{"sizes", size_field, 0.25},
                                            Large{"swirl", turning, 0.0055}, Large{"sphere", sphere_two_poles, 0.01},
                                            Large{"poles", sphere_two_poles, 0.0095},
                                            Large{"squares", two_squares, 0.004}),
