@@ -23,7 +23,7 @@ struct FreeAtlas {
 using AtlasHandle = std::unique_ptr<carreau_atlas, FreeAtlas>;
 
 constexpr double least_even_quality = .5;       // Q2, first percentile: below it charts of neighbours disagree
-constexpr double fewest_even_triangles = 12000;  // CAD programs write two for a plane
+constexpr double fewest_even_triangles = 3000;  // CAD programs write two for a plane
 
 /// Uneven triangles of a closed surface are meshed evenly before they get charts. Empty where they are even, or cannot
 /// be meshed.
