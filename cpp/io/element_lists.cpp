@@ -59,7 +59,11 @@ void part_equal_halves(FlatMesh& mesh) {
   for (std::size_t c = 0, t = 0; c < mesh.cells.size(); t += corner_count(mesh.cells[c++].kind) == 4 ? 2 : 1) {
     if (again[c] == 0 || corner_count(mesh.cells[c].kind) == 3) continue;
     std::array<std::int32_t, 8>& n = mesh.cells[c].nodes;
-    n = turned_once(n);
+    const bool flat = n[0] == n[1] || n[1] == n[2] || n[2] == n[3] || n[3] == n[0] || n[0] == n[2] || n[1] == n[3];
+    if (flat) continue;
+    // The same whichever end of its diagonal it begins with: what was written and is read again does not change.
+    const std::array<std::int32_t, 8> once = turned_once(n), thrice = turned_once(turned_once(once));
+    n = once[0] < thrice[0] ? once : thrice;
     mesh.triangles[t] = {n[0], n[1], n[2]}, mesh.triangles[t + 1] = {n[0], n[2], n[3]};
   }
 }
