@@ -144,12 +144,16 @@ Vec3 FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
   return best;
 }
 
-void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
-  const std::array<std::int32_t, 3> v{a, b, c};
-  const std::array<Vec3, 3> p{position(a), position(b), position(c)};
-  const double quality = by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(p[0], p[1], p[2]);
+void FreeMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
+  const double quality =
+      by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(place_[a].xyz, place_[b].xyz, place_[c].xyz);
   shapes.worst = std::min(shapes.worst, quality);
   shapes.inverses += 1 / std::max(quality, flat_quality);
+}
+
+void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
+  const std::array<std::int32_t, 3> v{a, b, c};
+  const std::array<Vec3, 3> p{position(a), position(b), position(c)};
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
   std::array<Vec3, 3> normal;
@@ -181,6 +185,24 @@ TriangleShapes FreeMesh::judge_around(std::int32_t v) const {
   for (const Place p : mesh_->fan(v)) {
     const auto& [a, b, c] = mesh_->at(p);
     judge(a, b, c, shapes);
+  }
+  return shapes;
+}
+
+TriangleShapes FreeMesh::judge_shapes_around(std::int32_t v) const {
+  TriangleShapes shapes;
+  for (const Place p : mesh_->fan(v)) {
+    const auto& [a, b, c] = mesh_->at(p);
+    judge_shape(a, b, c, shapes);
+  }
+  return shapes;
+}
+
+TriangleShapes FreeMesh::judge_agreement_around(std::int32_t v) const {
+  TriangleShapes shapes;
+  for (const Place p : mesh_->fan(v)) {
+    const auto& [a, b, c] = mesh_->at(p);
+    judge_agreement(a, b, c, shapes);
   }
   return shapes;
 }

@@ -71,8 +71,17 @@ class FreeMesh {
   /// The same of a triangle: twice the area, by its mean metric.
   [[nodiscard]] double double_area(const EditableMesh::Triangle& t) const;
   /// Adds the triangle with these corners.
-  void judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
+  void judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
+    judge_shape(a, b, c, shapes);
+    judge_agreement(a, b, c, shapes);
+  }
+  /// The same of its shape alone: much less work, and most edits fail by it.
+  void judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
+  /// Of its share alone.
+  void judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
   [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const;
+  [[nodiscard]] TriangleShapes judge_shapes_around(std::int32_t v) const;
+  [[nodiscard]] TriangleShapes judge_agreement_around(std::int32_t v) const;
   /// Whether edits may leave `after` where there was `before`.
   [[nodiscard]] static bool agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept;
 

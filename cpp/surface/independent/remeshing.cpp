@@ -276,11 +276,14 @@ class Remesher {
     const auto q = quad_between(v, w);
     if (!q || mesh_.length(q->c, q->d) > std::max(longest, mesh_.length(v, w))) return;
     TriangleShapes before, after;
-    mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
-    mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
+    mesh_.judge_shape(q->a, q->b, q->c, before), mesh_.judge_shape(q->b, q->a, q->d, before);
+    mesh_.judge_shape(q->a, q->d, q->c, after), mesh_.judge_shape(q->d, q->b, q->c, after);
     const bool better = after.worst >= before.worst + least_gain ||
                         (after.worst >= least_shape_of_degrees && evens_degrees(*q));
-    if (!better || !FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
+    if (!better) return;
+    mesh_.judge_agreement(q->a, q->b, q->c, before), mesh_.judge_agreement(q->b, q->a, q->d, before);
+    mesh_.judge_agreement(q->a, q->d, q->c, after), mesh_.judge_agreement(q->d, q->b, q->c, after);
+    if (!FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
     for (const std::int32_t k : {q->a, q->b, q->c, q->d}) activate(k);
     ++report_.swaps;
   }
@@ -366,23 +369,35 @@ class Remesher {
   bool move(std::int32_t v) {
     const SurfacePlace from = mesh_.place(v);
     const WantedSize size = mesh_.wanted(v);
-    const TriangleShapes before = mesh_.judge_around(v);
-    const int out = out_of_range(v);
     const Vec3 ideal = mesh_.by_direction() ? ideal_place_by_direction(v) : ideal_place(v);
     const Vec3 way = ideal - from.xyz;
     const double least = thorough_ ? least_move_thorough : least_move;
     if (mesh_.by_direction() ? length(size.metric, way) < least : norm(way) < least * size.h) return false;
+    const TriangleShapes before = mesh_.judge_shapes_around(v);
+    const int out = out_of_range(v);
     for (const double share : {1.0, 0.4}) {
       const auto to = mesh_.near(v, from.normal, lerp(from.xyz, ideal, share));
       if (!to) continue;
       mesh_.put(v, *to, mesh_.wanted_at(*to));
-      const TriangleShapes after = mesh_.judge_around(v);
+      const TriangleShapes after = mesh_.judge_shapes_around(v);
       if (after.inverses < before.inverses - least_gain && after.worst >= std::min(before.worst, good_enough) &&
-          FreeMesh::agrees(before, after) && out_of_range(v) <= out)
+          out_of_range(v) <= out && agrees_from(v, from, size))
         return true;
       mesh_.put(v, from, size);
     }
     return false;
+  }
+
+  // With the surface, at its place as well as at the one that it comes from.
+  [[nodiscard]] bool agrees_from(std::int32_t v, const SurfacePlace& from, const WantedSize& size) {
+    const TriangleShapes after = mesh_.judge_agreement_around(v);
+    if (after.share <= 1) return true;
+    const SurfacePlace to = mesh_.place(v);
+    const WantedSize there = mesh_.wanted(v);
+    mesh_.put(v, from, size);
+    const TriangleShapes before = mesh_.judge_agreement_around(v);
+    mesh_.put(v, to, there);
+    return FreeMesh::agrees(before, after);
   }
 
   FreeMesh& mesh_;
