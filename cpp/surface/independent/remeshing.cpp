@@ -79,52 +79,82 @@ class Remesher {
   using Place = FreeMesh::Place;
   using Quad = FreeMesh::Quad;
 
+  // What is known of a vertex: it is at work; what decides on a swap of its edges, or on its move, has changed since
+  // these were tried the last time.
+  enum State : unsigned char { active = 1, swap_due = 2, move_due = 4, all_due = 7 };
+  [[nodiscard]] bool is(std::int32_t v, State s) const { return (state_[v] & s) != 0; }
+  void mark(std::int32_t v, unsigned s) { state_[v] = static_cast<unsigned char>(state_[v] | s); }
+  void clear(std::int32_t v, State s) { state_[v] = static_cast<unsigned char>(state_[v] & ~s); }
+  void know_new() { state_.resize(mesh_.vertices(), all_due); }
+
   // What is bad, and what is around.
   void activate_all() {
-    active_.assign(mesh_.vertices(), static_cast<char>(everywhere_));
+    state_.assign(mesh_.vertices(), everywhere_ ? all_due : swap_due | move_due);
     if (everywhere_) return;
     for (const auto& t : mesh_.triangles()) {
       if (t[0] < 0) continue;
       TriangleShapes shape;
-      mesh_.judge(t[0], t[1], t[2], shape);
+      mesh_.judge_shape(t[0], t[1], t[2], shape);
       bool bad = shape.worst < good_enough;
       for (int i = 0; i < 3; ++i) {
         const double l = mesh_.length(t[i], t[(i + 1) % 3]);
         bad = bad || l < shortest || l > longest;
       }
       if (bad)
-        for (const std::int32_t v : t) active_[v] = 1;
+        for (const std::int32_t v : t) mark(v, active);
     }
     widen();
     widen();
   }
 
-  void widen() {
-    std::vector<char> wider = active_;
-    for (const auto& t : mesh_.triangles())
-      if (t[0] >= 0 && (active_[t[0]] != 0 || active_[t[1]] != 0 || active_[t[2]] != 0))
-        for (const std::int32_t v : t) wider[v] = 1;
-    active_ = std::move(wider);
+  // What is around these.
+  void activate_around(std::span<const std::int32_t> vertices) {
+    state_.assign(mesh_.vertices(), swap_due | move_due);
+    for (const std::int32_t v : vertices) mark(v, active);
+    widen();
+    widen();
   }
 
-  void activate(std::int32_t v) {
-    active_.resize(mesh_.vertices(), 1);
+  void widen() {
+    std::vector<unsigned char> wider = state_;
+    for (const auto& t : mesh_.triangles())
+      if (t[0] >= 0 && (is(t[0], active) || is(t[1], active) || is(t[2], active)))
+        for (const std::int32_t v : t) wider[v] |= active;
+    state_ = std::move(wider);
+  }
+
+  // After an edit: v has gone somewhere else ...
+  void moved(std::int32_t v) { mark_ring(v, all_due); }
+  // ... has other triangles ...
+  void swapped(std::int32_t v) {
+    mark_ring(v, active | swap_due);
+    mark(v, move_due);
+  }
+  // ... or so have all around it, too.
+  void remade(std::int32_t v) {
+    know_new();
+    mark_ring(v, active | move_due);
     for (const Place p : mesh_.mesh().fan(v))
-      for (const std::int32_t w : mesh_.mesh().at(p)) active_[w] = 1;
+      for (const std::int32_t w : mesh_.mesh().at(p)) mark_ring(w, swap_due);
+  }
+  void mark_ring(std::int32_t v, unsigned s) {
+    for (const Place p : mesh_.mesh().fan(v))
+      for (const std::int32_t w : mesh_.mesh().at(p)) mark(w, s);
   }
 
   /// Edges between vertices at work whose length is `wanted`, in this order.
   template <typename Wanted, typename Before>
   std::vector<LongEdge> edges(const Wanted& wanted, const Before& before) {
-    active_.resize(mesh_.vertices(), 1);
+    know_new();
     std::vector<LongEdge> found;
     for (const auto& t : mesh_.triangles()) {
       if (t[0] < 0) continue;
       for (int i = 0; i < 3; ++i) {
         const std::int32_t v = t[i], w = t[(i + 1) % 3];
-        if (active_[v] == 0 && active_[w] == 0) continue;
-        if (v > w && mesh_.mesh().fan(v).size() > 1 && has_twin(v, w)) continue;
-        if (const double l = mesh_.length(v, w); wanted(l)) found.push_back({l, std::min(v, w), std::max(v, w)});
+        if (!is(v, active) && !is(w, active)) continue;
+        const double l = mesh_.length(v, w);
+        if (!wanted(l) || (v > w && has_twin(v, w))) continue;
+        found.push_back({l, std::min(v, w), std::max(v, w)});
       }
     }
     std::ranges::sort(found, [&](const LongEdge& p, const LongEdge& q) {
@@ -224,7 +254,7 @@ class Remesher {
 
   bool collapse(std::int32_t gone, std::int32_t kept, double worst) {
     if (worst < 0 || !mesh_.collapse(gone, kept)) return false;
-    activate(kept);
+    remade(kept);
     ++report_.collapses;
     return true;
   }
@@ -258,17 +288,24 @@ class Remesher {
     mesh_.forget_vertex();
     if (least <= was || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape))
       return false;
-    activate(mesh_.split(q, *at));
+    remade(mesh_.split(q, *at));
     return true;
   }
 
   void swap_all() {
-    active_.resize(mesh_.vertices(), 1);
+    know_new();
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices()); ++v) {
-      if (active_[v] == 0 || !mesh_.is_alive(v)) continue;
+      if (!is(v, active) || !is(v, swap_due) || !mesh_.is_alive(v)) continue;
       monitor_.checkpoint();
-      for (const std::int32_t w : mesh_.mesh().ring(v))
-        if (v < w || active_[w] == 0) swap(v, w);
+      clear(v, swap_due);
+      bool left = false;  // for the other end
+      for (const std::int32_t w : mesh_.mesh().ring(v)) {
+        if (v < w || !is(w, active))
+          swap(v, w);
+        else
+          left = left || is(w, swap_due);
+      }
+      if (left) mark(v, swap_due);
     }
   }
 
@@ -284,7 +321,7 @@ class Remesher {
     mesh_.judge_agreement(q->a, q->b, q->c, before), mesh_.judge_agreement(q->b, q->a, q->d, before);
     mesh_.judge_agreement(q->a, q->d, q->c, after), mesh_.judge_agreement(q->d, q->b, q->c, after);
     if (!FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
-    for (const std::int32_t k : {q->a, q->b, q->c, q->d}) activate(k);
+    for (const std::int32_t k : {q->a, q->b, q->c, q->d}) swapped(k);
     ++report_.swaps;
   }
 
@@ -303,14 +340,15 @@ class Remesher {
   }
 
   void move_all() {
-    active_.resize(mesh_.vertices(), 1);
-    std::vector<char> was(mesh_.vertices(), 0);
-    std::swap(was, active_);
+    know_new();
+    const std::vector<unsigned char> was = state_;
+    for (unsigned char& state : state_) state = static_cast<unsigned char>(state & ~active);
     for (std::int32_t v = 0; v < static_cast<std::int32_t>(was.size()); ++v) {
-      if (was[v] == 0 || !mesh_.is_free(v) || !mesh_.is_alive(v)) continue;
+      if ((was[v] & active) == 0 || !is(v, move_due) || !mesh_.is_free(v) || !mesh_.is_alive(v)) continue;
       monitor_.checkpoint();
+      clear(v, move_due);
       if (!move(v)) continue;
-      activate(v);
+      moved(v);
       ++report_.moves;
     }
   }
@@ -403,7 +441,7 @@ class Remesher {
   FreeMesh& mesh_;
   Monitor& monitor_;
   bool everywhere_, thorough_;
-  std::vector<char> active_;  // by vertex
+  std::vector<unsigned char> state_;  // by vertex
   RemeshingReport report_;
 };
 
