@@ -48,13 +48,25 @@ Jet<second> rest_of(const Jet<second>& p) noexcept {
     return {1 - p.f, -p.u, -p.v};
 }
 
-/// Adds a weight times a point.
+/// Weights of points, and the points.
 template <bool second>
-void add(SurfaceJet& jet, const Jet<second>& w, const Vec3& p) noexcept {
-  jet.s += w.f * p;
-  jet.su += w.u * p, jet.sv += w.v * p;
-  if constexpr (second) jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
-}
+struct Terms {
+  std::array<Jet<second>, 18> weight;
+  std::array<const Vec3*, 18> point{};
+  std::size_t count = 0;
+  void add(const Jet<second>& w, const Vec3& p) noexcept { weight[count] = w, point[count++] = &p; }
+  [[nodiscard]] SurfaceJet sum() const noexcept {
+    SurfaceJet jet{};
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+      const Jet<second>& w = weight[k];
+      const Vec3& p = *point[k];
+      jet.s += w.f * p;
+      jet.su += w.u * p, jet.sv += w.v * p;
+      if constexpr (second) jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
+    }
+    return jet;
+  }
+};
 
 /// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives but in x = y = 0,
 /// where those along x = y are taken.
@@ -86,20 +98,20 @@ SurfaceJet jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
   b[1].f = uv.x(), b[1].u = 1;
   b[2].f = uv.y(), b[2].v = 1;
   const std::array<Jet<second>, 3> b2{b[0] * b[0], b[1] * b[1], b[2] * b[2]};
-  SurfaceJet jet{};
+  Terms<second> terms;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     const Jet<second> ij = b[i] * b[j];
-    add(jet, b2[i] * b2[i], patch.border[4 * i]);
-    add(jet, 4 * (b2[i] * ij), patch.border[4 * i + 1]);
-    add(jet, 6 * (ij * ij), patch.border[4 * i + 2]);
-    add(jet, 4 * (ij * b2[j]), patch.border[4 * i + 3]);
+    terms.add(b2[i] * b2[i], patch.border[4 * i]);
+    terms.add(4 * (b2[i] * ij), patch.border[4 * i + 1]);
+    terms.add(6 * (ij * ij), patch.border[4 * i + 2]);
+    terms.add(4 * (ij * b2[j]), patch.border[4 * i + 3]);
     // Beside corner i: of side i, which keeps its planes where b(k) is 0, and of side k, where b(j) is.
     const Jet<second> weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
-    add(jet, weight * share, patch.inner[2 * i]);
-    add(jet, weight * rest_of(share), patch.inner[2 * k + 1]);
+    terms.add(weight * share, patch.inner[2 * i]);
+    terms.add(weight * rest_of(share), patch.inner[2 * k + 1]);
   }
-  return jet;
+  return terms.sum();
 }
 
 /// The ribbon of tangents along a side: D(t) = lambda(t) W(t) + mu(t) A(t) with W the derivative of the curve and A the

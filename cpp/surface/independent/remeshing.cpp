@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -50,8 +51,8 @@ class Remesher {
     return report_;
   }
 
-  RemeshingReport run() {
-    activate_all();
+  RemeshingReport run(std::span<const std::int32_t> around) {
+    around.empty() ? activate_all() : activate_around(around);
     for (report_.rounds = 0; report_.rounds < most_rounds; ++report_.rounds) {
       const std::int64_t before = report_.collapses + report_.splits;
       collapse_short();
@@ -298,31 +299,72 @@ class Remesher {
       if (!is(v, active) || !is(v, swap_due) || !mesh_.is_alive(v)) continue;
       monitor_.checkpoint();
       clear(v, swap_due);
-      bool left = false;  // for the other end
-      for (const std::int32_t w : mesh_.mesh().ring(v)) {
-        if (v < w || !is(w, active))
-          swap(v, w);
-        else
-          left = left || is(w, swap_due);
-      }
-      if (left) mark(v, swap_due);
+      swap_around(v);
     }
   }
 
-  void swap(std::int32_t v, std::int32_t w) {
+  // The edges from v, by their other ends.
+  void swap_around(std::int32_t v) {
+    know_spokes(v);
+    bool left = false;  // for the other end
+    for (std::size_t k = 0; k < spokes_.size(); ++k) {
+      const Spoke e = spokes_[k];
+      if (v > e.w && is(e.w, active)) {
+        left = left || is(e.w, swap_due);
+        continue;
+      }
+      if (e.c < 0 || e.d < 0 || is_too_long(v, e.w, e.c, e.d) || !swap(v, e.w)) continue;
+      renew_spokes(v);
+    }
+    if (left) mark(v, swap_due);
+  }
+
+  // Edges from v with the corners beside them: c on the left, d on the right, -1: none.
+  struct Spoke {
+    std::int32_t w, c = -1, d = -1;
+  };
+  void know_spokes(std::int32_t v) {
+    spokes_.clear();
+    for (const Place p : mesh_.mesh().fan(v))
+      for (const std::int32_t w : mesh_.mesh().at(p))
+        if (w != v && std::ranges::find(spokes_, w, &Spoke::w) == spokes_.end()) spokes_.push_back({w});
+    std::ranges::sort(spokes_, {}, &Spoke::w);
+    renew_spokes(v);
+  }
+  // After swaps; edges that are no more have no corners.
+  void renew_spokes(std::int32_t v) {
+    for (Spoke& e : spokes_) e.c = e.d = -1;
+    for (const Place p : mesh_.mesh().fan(v)) {
+      const auto& t = mesh_.mesh().at(p);
+      const int i = mesh_.mesh().rank_in(p, v);
+      const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+      for (Spoke& e : spokes_) {
+        if (e.w == j) e.c = k;
+        if (e.w == k) e.d = j;
+      }
+    }
+  }
+
+  [[nodiscard]] bool is_too_long(std::int32_t v, std::int32_t w, std::int32_t c, std::int32_t d) const {
+    const double l = mesh_.length(c, d);
+    return l > longest && l > mesh_.length(v, w);
+  }
+
+  bool swap(std::int32_t v, std::int32_t w) {
     const auto q = quad_between(v, w);
-    if (!q || mesh_.length(q->c, q->d) > std::max(longest, mesh_.length(v, w))) return;
+    if (!q || is_too_long(v, w, q->c, q->d)) return false;
     TriangleShapes before, after;
     mesh_.judge_shape(q->a, q->b, q->c, before), mesh_.judge_shape(q->b, q->a, q->d, before);
     mesh_.judge_shape(q->a, q->d, q->c, after), mesh_.judge_shape(q->d, q->b, q->c, after);
     const bool better = after.worst >= before.worst + least_gain ||
                         (after.worst >= least_shape_of_degrees && evens_degrees(*q));
-    if (!better) return;
+    if (!better) return false;
     mesh_.judge_agreement(q->a, q->b, q->c, before), mesh_.judge_agreement(q->b, q->a, q->d, before);
     mesh_.judge_agreement(q->a, q->d, q->c, after), mesh_.judge_agreement(q->d, q->b, q->c, after);
-    if (!FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
+    if (!FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return false;
     for (const std::int32_t k : {q->a, q->b, q->c, q->d}) swapped(k);
     ++report_.swaps;
+    return true;
   }
 
   // Towards six edges at each vertex.
@@ -442,6 +484,7 @@ class Remesher {
   Monitor& monitor_;
   bool everywhere_, thorough_;
   std::vector<unsigned char> state_;  // by vertex
+  std::vector<Spoke> spokes_;         // of the vertex at work
   RemeshingReport report_;
 };
 
@@ -449,8 +492,9 @@ class Remesher {
 
 RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true, true).halve(); }
 
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough) {
-  return Remesher(mesh, monitor, everywhere, thorough).run();
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere, bool thorough,
+                       std::span<const std::int32_t> around) {
+  return Remesher(mesh, monitor, everywhere, thorough).run(around);
 }
 
 }  // namespace carreau

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "support/monitor.h"
 #include "surface/independent/free_mesh.h"
@@ -26,7 +27,9 @@ RemeshingReport halve(FreeMesh& mesh, Monitor& monitor);
 
 /// Collapses short edges inside, splits long ones, swaps and moves, around what is not as wanted, until little changes.
 /// `everywhere`: all triangles are worked at, not only those below `good_enough` and what is around: of a mesh that is no
-/// mesher's. `thorough`: shapes are worked at longer. Deterministic. Throws what the host throws, and Cancelled.
-RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false, bool thorough = false);
+/// mesher's. `thorough`: shapes are worked at longer. `around`: work starts around these vertices only; empty: as said before.
+/// Deterministic. Throws what the host throws, and Cancelled.
+RemeshingReport remesh(FreeMesh& mesh, Monitor& monitor, bool everywhere = false, bool thorough = false,
+                       std::span<const std::int32_t> around = {});
 
 }  // namespace carreau
