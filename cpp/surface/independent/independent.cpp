@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -118,10 +119,12 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
   const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
   RemeshingReport report;
   for (int round = 0; round < most_line_rounds; ++round) {
-    const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
-    if (round > 0 && changed == 0) break;
+    const std::vector<std::int32_t> changed = remesh_lines(free, worked, of_lines, monitor);
+    if (round > 0 && changed.empty()) break;
     if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
-    report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely);
+    // Elsewhere nothing is left to do after the first round.
+    const std::span<const std::int32_t> around(changed.data(), round > 0 && frame.everywhere ? changed.size() : 0);
+    report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely, around);
   }
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +

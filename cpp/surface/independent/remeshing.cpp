@@ -325,11 +325,19 @@ class Remesher {
   };
   void know_spokes(std::int32_t v) {
     spokes_.clear();
-    for (const Place p : mesh_.mesh().fan(v))
-      for (const std::int32_t w : mesh_.mesh().at(p))
-        if (w != v && std::ranges::find(spokes_, w, &Spoke::w) == spokes_.end()) spokes_.push_back({w});
+    const auto to = [&](std::int32_t w) -> Spoke& {
+      for (Spoke& e : spokes_)
+        if (e.w == w) return e;
+      return spokes_.emplace_back(Spoke{w});
+    };
+    for (const Place p : mesh_.mesh().fan(v)) {
+      const auto& t = mesh_.mesh().at(p);
+      const int i = mesh_.mesh().rank_in(p, v);
+      const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+      to(j).c = k;
+      to(k).d = j;
+    }
     std::ranges::sort(spokes_, {}, &Spoke::w);
-    renew_spokes(v);
   }
   // After swaps; edges that are no more have no corners.
   void renew_spokes(std::int32_t v) {
