@@ -201,6 +201,8 @@ class EditableMesh {
   [[nodiscard]] Replacements replacements(std::int32_t gone, std::int32_t kept) const;
   /// What becomes of the triangles around; none where one may not.
   [[nodiscard]] std::optional<std::vector<Replaced>> collapsed(std::int32_t gone, std::int32_t kept) const;
+  /// The same; none where anything forbids it.
+  [[nodiscard]] std::optional<std::vector<Replaced>> what_collapses(std::int32_t gone, std::int32_t kept) const;
   void compact_face(std::int32_t face, const std::vector<std::int32_t>& number);
 
   SurfaceMesh* mesh_ = nullptr;  // if it is one

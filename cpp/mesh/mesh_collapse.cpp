@@ -21,12 +21,21 @@ struct Link {
   std::vector<Edge> edges;
 
   void add(std::int32_t v, std::int32_t w) {
-    vertices.insert(vertices.end(), {v, w});
+    vertices.push_back(v), vertices.push_back(w);
     edges.push_back(ordered(v, w));
   }
-  void sort() {
+  // A vertex is on two triangles, or on a border.
+  void close() {
     std::ranges::sort(vertices);
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::size_t left = 0;
+    for (std::size_t k = 0, n = 0; k < vertices.size(); k += n) {
+      for (n = 1; k + n < vertices.size() && vertices[k + n] == vertices[k];) ++n;
+      if (n != 2) edges.push_back(ordered(outside, vertices[k]));
+      vertices[left++] = vertices[k];
+    }
+    vertices.resize(left);
+    if (std::ranges::any_of(edges, [](const Edge& e) { return e[0] == outside; }))
+      vertices.insert(vertices.begin(), outside);
     std::ranges::sort(edges);
   }
 };
@@ -50,13 +59,12 @@ int EditableMesh::triangles_on(std::int32_t v, std::int32_t w) const {
 bool EditableMesh::keeps_topology(std::int32_t gone, std::int32_t kept) const {
   const auto link_of = [this](std::int32_t v) {
     Link link;
+    link.vertices.reserve(2 * fan(v).size() + 1), link.edges.reserve(fan(v).size() + 2);
     for (const Place p : fan(v)) {
       const int i = rank_in(p, v);
       link.add(global(p.face, at(p)[(i + 1) % 3]), global(p.face, at(p)[(i + 2) % 3]));
     }
-    for (const std::int32_t w : ring(v))
-      if (triangles_on(v, w) != 2) link.add(outside, w);
-    link.sort();
+    link.close();
     return link;
   };
   const Link p = link_of(gone), q = link_of(kept);
@@ -117,16 +125,24 @@ std::optional<std::vector<EditableMesh::Replaced>> EditableMesh::collapsed(std::
 }
 
 bool EditableMesh::can_collapse(std::int32_t gone, std::int32_t kept) const {
-  if (gone == kept || !is_known(gone) || !is_known(kept)) return false;
-  return std::ranges::all_of(ring(gone), [this](std::int32_t v) { return is_known(v); }) && keeps_lines(gone, kept) &&
-         keeps_topology(gone, kept) && collapsed(gone, kept).has_value();
+  return what_collapses(gone, kept).has_value();
+}
+
+std::optional<std::vector<EditableMesh::Replaced>> EditableMesh::what_collapses(std::int32_t gone,
+                                                                                std::int32_t kept) const {
+  if (gone == kept || !is_known(gone) || !is_known(kept)) return {};
+  const bool all_known = std::ranges::all_of(fan(gone), [this](Place p) {
+    return std::ranges::all_of(at(p), [&](std::int32_t k) { return is_known(global(p.face, k)); });
+  });
+  if (!all_known || !keeps_lines(gone, kept) || !keeps_topology(gone, kept)) return {};
+  return collapsed(gone, kept);
 }
 
 bool EditableMesh::collapse(std::int32_t gone, std::int32_t kept) {
-  if (!can_collapse(gone, kept)) return false;
-  const std::vector<Replaced> all = *collapsed(gone, kept);
+  const std::optional<std::vector<Replaced>> all = what_collapses(gone, kept);
+  if (!all) return false;
   begin_edit().gone = gone;
-  for (const Replaced& r : all) replace(r.place, r.triangle, r.mixed);
+  for (const Replaced& r : *all) replace(r.place, r.triangle, r.mixed);
   for (const std::int32_t end : std::vector(star(gone).imposed)) {
     change_line(gone, end, false);
     if (end != kept) change_line(kept, end, true);

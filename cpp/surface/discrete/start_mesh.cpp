@@ -167,22 +167,21 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
     made.status = FaceStatus::meshed;
   }
   const std::vector<std::int32_t> refs = discrete::face_refs(surface.discrete());
-  std::vector<std::pair<std::int32_t, std::int32_t>> known;  // vertices of the patch at work, and their local numbers
+  // Of a vertex: the patch that met it last, and its local number there.
+  std::vector<std::pair<std::int32_t, std::int32_t>> known(mesh.vertices.size(), {-1, -1});
   for (std::size_t t = 0; t < refined.triangles.size(); ++t) {
     const std::int32_t parent = refined.parent[t];
-    if (t == 0 || parent != refined.parent[t - 1]) known.clear();
     FaceMesh& face = mesh.faces[rank.at(refs[index(parent)])];
     std::array<std::int32_t, 3> local{};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t v = refined.triangles[t][k];
-      const auto found = std::ranges::find(known, v, &std::pair<std::int32_t, std::int32_t>::first);
-      if (found != known.end()) {
-        local[k] = found->second;
-        continue;
+      auto& [patch, number_there] = known[index(v)];
+      if (patch != parent) {
+        patch = parent, number_there = static_cast<std::int32_t>(face.vertex.size());
+        face.vertex.push_back(v);
+        face.uv.push_back(surface.corner_of_tile(parent) + refined.uv[t][k]);
       }
-      known.emplace_back(v, local[k] = static_cast<std::int32_t>(face.vertex.size()));
-      face.vertex.push_back(v);
-      face.uv.push_back(surface.corner_of_tile(parent) + refined.uv[t][k]);
+      local[k] = number_there;
     }
     face.triangles.push_back(local);
   }

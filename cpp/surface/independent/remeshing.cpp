@@ -195,16 +195,29 @@ class Remesher {
         adjacent = true;
         continue;
       }
-      mesh_.judge(t[0], t[1], t[2], before);
+      mesh_.judge_shape(t[0], t[1], t[2], before);
       const int i = mesh.rank_in(p, gone);
       for (const std::int32_t w : {t[(i + 1) % 3], t[(i + 2) % 3]}) {
         const double l = mesh_.length(kept, w);
         if (l > longest && (l > never_longer || 1 / l < short_one)) return -1;
       }
-      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+      mesh_.judge_shape(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
-    if (!adjacent || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape)) return -1;
+    if (!adjacent || after.worst < std::min(before.worst, least_shape)) return -1;
     return after.worst;
+  }
+
+  /// Whether a collapse leaves the surface no farther than may be.
+  [[nodiscard]] bool agrees_after(std::int32_t gone, std::int32_t kept) const {
+    TriangleShapes before, after;
+    for (const Place p : mesh_.mesh().fan(gone)) {
+      const auto& t = mesh_.mesh().at(p);
+      if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
+      mesh_.judge_agreement(t[0], t[1], t[2], before);
+      const int i = mesh_.mesh().rank_in(p, gone);
+      mesh_.judge_agreement(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+    }
+    return FreeMesh::agrees(before, after);
   }
 
   // Where triangles are smaller than equilateral ones of unit length, though no edge is short: while triangles stay no
@@ -239,22 +252,20 @@ class Remesher {
   [[nodiscard]] double worst_when_dense(std::int32_t gone, std::int32_t kept) const {
     if (!mesh_.is_free(gone)) return -1;
     const EditableMesh& mesh = mesh_.mesh();
-    TriangleShapes before, after;
+    TriangleShapes after;
     for (const Place p : mesh.fan(gone)) {
       const auto t = mesh.at(p);
       if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
-      mesh_.judge(t[0], t[1], t[2], before);
       const int i = mesh.rank_in(p, gone);
       for (const std::int32_t w : {t[(i + 1) % 3], t[(i + 2) % 3]})
         if (mesh_.length(kept, w) > never_longer) return -1;
-      mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
+      mesh_.judge_shape(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
-    if (!FreeMesh::agrees(before, after) || after.worst < least_shape_when_dense) return -1;
-    return after.worst;
+    return after.worst < least_shape_when_dense ? -1 : after.worst;
   }
 
   bool collapse(std::int32_t gone, std::int32_t kept, double worst) {
-    if (worst < 0 || !mesh_.collapse(gone, kept)) return false;
+    if (worst < 0 || !agrees_after(gone, kept) || !mesh_.collapse(gone, kept)) return false;
     remade(kept);
     ++report_.collapses;
     return true;
