@@ -96,15 +96,30 @@ PatchTriangle triangle_of(const CompositeRun& run, const Crossings& crossings, s
   return {run.result.mesh, which.face, which.local};
 }
 
+/// By vertex of the mesh.
+std::vector<bool> vertices_of_curves(const SurfaceMesh& mesh) {
+  std::vector<bool> on_curve(mesh.vertices.size());
+  for (const auto& curve : mesh.curves)
+    for (const std::int32_t v : curve.vertices) on_curve[static_cast<std::size_t>(v)] = true;
+  return on_curve;
+}
+
 /// No gaps near places where both faces cross in the geometry itself. `of`: pairs of triangles of two faces.
 void drop_vain_gaps(const CompositeRun& run, const Crossings& crossings, std::pair<int, int> faces,
-                    const std::vector<std::size_t>& of, std::vector<Gap>& gaps) {
+                    const std::vector<std::size_t>& of, const std::vector<bool>& on_curve, std::vector<Gap>& gaps) {
   CommonPoints common(run.result.mesh, faces.first, faces.second);
   const auto corners = [&](std::size_t k) {
     const auto [s, t] = crossings.found.pairs[k].triangles;
     return std::pair{triangle_of(run, crossings, s), triangle_of(run, crossings, t)};
   };
+  // Over edges of curves triangles may leave the face.
+  const auto at_curve = [&](std::int32_t t) {
+    const auto& v = crossings.all.triangles[static_cast<std::size_t>(t)];
+    return std::count_if(v.begin(), v.end(), [&](std::int32_t i) { return on_curve[static_cast<std::size_t>(i)]; }) > 1;
+  };
   for (const std::size_t k : of) {
+    const auto& triangles = crossings.found.pairs[k].triangles;
+    if (std::any_of(triangles.begin(), triangles.end(), at_curve)) continue;
     const auto [s, t] = corners(k);
     common.look(run.cad, s, t, crossings.found.pairs[k].place);
   }
@@ -135,7 +150,8 @@ std::vector<Gap> gaps_of(const CompositeRun& run, const Crossings& crossings) {
   if (of_faces.empty()) return gaps;
   for (std::size_t k = 0; k < pairs.size(); ++k)
     if (const auto of = of_faces.find(faces_of(k)); of != of_faces.end()) of->second.push_back(k);
-  for (const auto& [faces, of] : of_faces) drop_vain_gaps(run, crossings, faces, of, gaps);
+  const std::vector<bool> on_curve = vertices_of_curves(run.result.mesh);
+  for (const auto& [faces, of] : of_faces) drop_vain_gaps(run, crossings, faces, of, on_curve, gaps);
   return gaps;
 }
 
