@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/triangle_search.h"
+#include "mesh/box_pairs.h"
 #include "predicates/orientation_3d.h"
 #include "support/stepped_tasks.h"
 
@@ -36,10 +36,10 @@ int axis_of(const Corners& t) noexcept {
 /// Whether a plane along an edge of s and along the axis has s on one side of it and t on the other, but for corners
 /// that are ends of that edge: what they have in common is then what such corners span.
 bool parted_by_edges_of(const Corners& s, const Corners& t, int axis) noexcept {
+  const int inside = turn(axis, s[0], s[1], s[2]);  // of each corner, seen from the edge opposite to it
+  if (inside == 0) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 &from = s[(k + 1) % 3], &to = s[(k + 2) % 3];
-    const int inside = turn(axis, from, to, s[k]);
-    if (inside == 0) return false;
     const bool parted = std::all_of(
         t.begin(), t.end(), [&](const Vec3& p) { return p == from || p == to || turn(axis, from, to, p) == -inside; });
     if (parted) return true;
@@ -185,37 +185,29 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
   return sound;
 }
 
-/// Pairs of some triangles with those behind them.
-class Query {
+/// Keeps the first pairs of a part, whatever the order in which they come.
+class FirstPairs {
  public:
-  Query(std::span<const Vec3> vertices, const SoundTriangles& sound, const TriangleSearch& search, std::size_t limit)
-      : vertices_(vertices), sound_(sound), search_(search), limit_(limit) {}
+  FirstPairs(std::size_t limit, Intersections& found) : limit_(limit), found_(found) {}
 
-  void ask(std::size_t i, Intersections& found) {
-    const Corners s = corners_of(vertices_, sound_.corners[i]);
-    const auto& [a, b, c] = s;
-    near_.clear();
-    search_.beside_box(
-        {std::min({a.x(), b.x(), c.x()}), std::min({a.y(), b.y(), c.y()}), std::min({a.z(), b.z(), c.z()})},
-        {std::max({a.x(), b.x(), c.x()}), std::max({a.y(), b.y(), c.y()}), std::max({a.z(), b.z(), c.z()})}, near_);
-    std::sort(near_.begin(), near_.end());
-    for (const std::int32_t j : near_) {
-      if (static_cast<std::size_t>(j) <= i) continue;
-      const Corners t = corners_of(vertices_, sound_.corners[static_cast<std::size_t>(j)]);
-      Vec3 place;
-      if (!intersect(s, t, sound_.axis[i], place)) continue;
-      ++found.count;
-      if (found.pairs.size() < limit_)
-        found.pairs.push_back({{sound_.number[i], sound_.number[static_cast<std::size_t>(j)]}, place});
-    }
+  void add(const TriangleIntersection& pair) {
+    ++found_.count;
+    if (limit_ == 0) return;
+    found_.pairs.push_back(pair);
+    if (found_.pairs.size() >= 2 * limit_) shorten(found_.pairs, limit_);
+  }
+  static void shorten(std::vector<TriangleIntersection>& pairs, std::size_t limit) {
+    if (pairs.size() <= limit) return;
+    std::nth_element(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(limit), pairs.end(), before);
+    pairs.resize(limit);
+  }
+  static bool before(const TriangleIntersection& a, const TriangleIntersection& b) noexcept {
+    return a.triangles < b.triangles;
   }
 
  private:
-  std::span<const Vec3> vertices_;
-  const SoundTriangles& sound_;
-  const TriangleSearch& search_;
   std::size_t limit_;
-  std::vector<std::int32_t> near_;
+  Intersections& found_;
 };
 
 }  // namespace
@@ -231,22 +223,26 @@ bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexce
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor) {
   const SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
-  const TriangleSearch search(vertices, sound.corners, &monitor, options.threads);
-  constexpr std::size_t block_size = 512;
-  const std::size_t n = sound.corners.size(), blocks = (n + block_size - 1) / block_size;
-  std::vector<Intersections> of_block(blocks);
-  const auto ask = [&](std::size_t block, Monitor&) {
-    Query query(vertices, sound, search, options.limit);
-    for (std::size_t i = block * block_size; i < std::min(n, (block + 1) * block_size); ++i)
-      query.ask(i, of_block[block]);
+  const BoxPairs near(vertices, sound.corners, monitor, options.threads);
+  std::vector<Intersections> of_part(near.parts());
+  const auto ask = [&](std::size_t part, Monitor&) {
+    FirstPairs first(options.limit, of_part[part]);
+    near.each(part, [&](std::size_t i, std::size_t j) {
+      Vec3 place;
+      if (intersect(corners_of(vertices, sound.corners[i]), corners_of(vertices, sound.corners[j]), sound.axis[i],
+                    place))
+        first.add({{sound.number[i], sound.number[j]}, place});
+    });
   };
-  run_each(blocks, false, options.threads, ask, monitor);
+  run_each(near.parts(), false, options.threads, ask, monitor);
   Intersections all;
-  for (const Intersections& some : of_block) {
+  for (const Intersections& some : of_part) {
     all.count += some.count;
-    const std::size_t room = std::min(options.limit - all.pairs.size(), some.pairs.size());
-    all.pairs.insert(all.pairs.end(), some.pairs.begin(), some.pairs.begin() + static_cast<std::ptrdiff_t>(room));
+    all.pairs.insert(all.pairs.end(), some.pairs.begin(), some.pairs.end());
+    if (all.pairs.size() >= 2 * options.limit) FirstPairs::shorten(all.pairs, options.limit);
   }
+  FirstPairs::shorten(all.pairs, options.limit);
+  std::sort(all.pairs.begin(), all.pairs.end(), FirstPairs::before);
   return all;
 }
 

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <set>
 #include <utility>
 
-#include "cad/fundamental_forms.h"
 #include "mesh/intersections.h"
 #include "surface/attempts.h"
+#include "surface/common_points.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -42,36 +43,18 @@ WholeMesh whole(const SurfaceMesh& mesh) {
   return all;
 }
 
-/// The surface over a place of a triangle.
-struct Above {
-  Vec3 point, normal;  // unit; zero at singular points
-  double longest = 0;  // edge of the triangle
-};
-
-Above surface_over(const CompositeRun& run, const MeshTriangle& which, const Vec3& place) {
-  const SurfaceMesh& mesh = run.result.mesh;
-  const FaceMesh& face = mesh.faces[static_cast<std::size_t>(which.face)];
-  const auto& [i, j, k] = face.triangles[static_cast<std::size_t>(which.local)];
-  const Vec3 a = mesh.vertices[face.vertex[i]], ab = mesh.vertices[face.vertex[j]] - a,
-             ac = mesh.vertices[face.vertex[k]] - a, n = cross(ab, ac), ap = place - a;
-  const double n2 = dot(n, n), s = dot(cross(ap, ac), n) / n2, t = dot(cross(ab, ap), n) / n2;
-  const Vec2 uv = (1 - s - t) * face.uv[i] + s * face.uv[j] + t * face.uv[k];
-  const SurfaceJet jet = surface_at(run.cad, face.ref, want_position | want_first, uv);
-  return {jet.s, unit_normal(jet).value_or(Vec3{}), std::max({norm(ab), norm(ac), norm(ac - ab)})};
-}
-
 /// How far the surfaces are apart where two triangles cross; 0: not at all, seen from there, and smaller triangles do
 /// not part them. And by what edges are to be multiplied.
 struct Gap {
   double width = 0, share = 1;
 };
 
-Gap gap_at(const CompositeRun& run, const MeshTriangle& s, const MeshTriangle& t, const Vec3& place) {
-  const Above p = surface_over(run, s, place), q = surface_over(run, t, place);
-  const double on_s = norm(p.point - place), on_t = norm(q.point - place), width = norm(p.point - q.point);
+Gap gap_at(const CompositeRun& run, const PatchTriangle& s, const PatchTriangle& t, const Vec3& place) {
+  const OnSurface p(run.cad, s, s.uv_of(place)), q(run.cad, t, t.uv_of(place));
+  const double on_s = norm(p.jet.s - place), on_t = norm(q.jet.s - place), width = norm(p.jet.s - q.jet.s);
   const double slope = norm(cross(p.normal, q.normal));
   if (!(std::max(on_s, on_t) > no_sagitta * run.supports.diag && width >= least_gap * std::max(on_s, on_t))) return {};
-  if (width < least_width * slope * std::max(p.longest, q.longest)) return {};
+  if (width < least_width * slope * std::max(s.longest, t.longest)) return {};
   return {width, std::clamp(std::sqrt(sagitta_share * width / (on_s + on_t)), least_share, most_share)};
 }
 
@@ -108,19 +91,81 @@ struct Crossings {
   Intersections found;
 };
 
+PatchTriangle triangle_of(const CompositeRun& run, const Crossings& crossings, std::int32_t triangle) {
+  const MeshTriangle& which = crossings.all.origin[static_cast<std::size_t>(triangle)];
+  return {run.result.mesh, which.face, which.local};
+}
+
+/// By vertex of the mesh.
+std::vector<bool> vertices_of_curves(const SurfaceMesh& mesh) {
+  std::vector<bool> on_curve(mesh.vertices.size());
+  for (const auto& curve : mesh.curves)
+    for (const std::int32_t v : curve.vertices) on_curve[static_cast<std::size_t>(v)] = true;
+  return on_curve;
+}
+
+/// No gaps near places where both faces cross in the geometry itself. `of`: pairs of triangles of two faces.
+void drop_vain_gaps(const CompositeRun& run, const Crossings& crossings, std::pair<int, int> faces,
+                    const std::vector<std::size_t>& of, const std::vector<bool>& on_curve, std::vector<Gap>& gaps) {
+  CommonPoints common(run.result.mesh, faces.first, faces.second);
+  const auto corners = [&](std::size_t k) {
+    const auto [s, t] = crossings.found.pairs[k].triangles;
+    return std::pair{triangle_of(run, crossings, s), triangle_of(run, crossings, t)};
+  };
+  // Over edges of curves triangles may leave the face.
+  const auto at_curve = [&](std::int32_t t) {
+    const auto& v = crossings.all.triangles[static_cast<std::size_t>(t)];
+    return std::count_if(v.begin(), v.end(), [&](std::int32_t i) { return on_curve[static_cast<std::size_t>(i)]; }) > 1;
+  };
+  for (const std::size_t k : of) {
+    const auto& triangles = crossings.found.pairs[k].triangles;
+    if (std::any_of(triangles.begin(), triangles.end(), at_curve)) continue;
+    const auto [s, t] = corners(k);
+    common.look(run.cad, s, t, crossings.found.pairs[k].place);
+  }
+  for (const std::size_t k : of) {
+    if (gaps[k].width == 0) continue;
+    const auto [s, t] = corners(k);
+    if (common.any_near(crossings.found.pairs[k].place, std::max(s.longest, t.longest))) gaps[k] = {};
+  }
+}
+
+/// By pair of triangles that cross.
+std::vector<Gap> gaps_of(const CompositeRun& run, const Crossings& crossings) {
+  const std::vector<TriangleIntersection>& pairs = crossings.found.pairs;
+  const auto faces_of = [&](std::size_t k) -> std::pair<int, int> {
+    const auto [s, t] = pairs[k].triangles;
+    const int a = crossings.all.origin[static_cast<std::size_t>(s)].face;
+    const int b = crossings.all.origin[static_cast<std::size_t>(t)].face;
+    return {std::min(a, b), std::max(a, b)};
+  };
+  std::vector<Gap> gaps(pairs.size());
+  std::map<std::pair<int, int>, std::vector<std::size_t>> of_faces;  // those of which some have gaps
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [s, t] = pairs[k].triangles;
+    gaps[k] = gap_at(run, triangle_of(run, crossings, s), triangle_of(run, crossings, t), pairs[k].place);
+    if (const std::pair<int, int> faces = faces_of(k); gaps[k].width > 0 && faces.first != faces.second)
+      of_faces.try_emplace(faces);
+  }
+  if (of_faces.empty()) return gaps;
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (const auto of = of_faces.find(faces_of(k)); of != of_faces.end()) of->second.push_back(k);
+  const std::vector<bool> on_curve = vertices_of_curves(run.result.mesh);
+  for (const auto& [faces, of] : of_faces) drop_vain_gaps(run, crossings, faces, of, on_curve, gaps);
+  return gaps;
+}
+
 FinerPlaces places_to_refine(const CompositeRun& run, const Crossings& crossings) {
   const WholeMesh& all = crossings.all;
   FinerPlaces places;
   places.sources.resize(run.model.faces.size());
+  const std::vector<Gap> gap_of = gaps_of(run, crossings);
   std::vector<double> gaps;
-  for (const TriangleIntersection& pair : crossings.found.pairs) {
-    const auto [s, t] = pair.triangles;
-    const auto at = [&](std::int32_t i) { return all.origin[static_cast<std::size_t>(i)]; };
-    const Gap gap = gap_at(run, at(s), at(t), pair.place);
-    if (gap.width == 0) continue;
-    gaps.push_back(gap.width);
-    add(run.result.mesh, all, s, gap.share, places);
-    add(run.result.mesh, all, t, gap.share, places);
+  for (std::size_t k = 0; k < gap_of.size(); ++k) {
+    if (gap_of[k].width == 0) continue;
+    gaps.push_back(gap_of[k].width);
+    for (const std::int32_t t : crossings.found.pairs[k].triangles)
+      add(run.result.mesh, all, t, gap_of[k].share, places);
   }
   if (gaps.empty()) return places;
   const auto middle = gaps.begin() + std::ssize(gaps) / 2;

@@ -67,7 +67,8 @@ namespace carreau::thresholds::crossings {
 
 // Triangles that cross (crossing_step). [CloseWalls.*]
 
-/// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them again.
+/// Triangles of the patches that are kept for the next round, some 60 bytes each; a larger model makes all of them
+/// again.
 inline constexpr std::size_t most_known = 2'000'000;
 /// Pairs of triangles that are looked at; a model whose parts share places has as many as it has triangles there.
 inline constexpr std::size_t most_pairs = 100'000;
@@ -77,6 +78,11 @@ inline constexpr double least_gap = 0.25;
 /// Share of an edge times the sine between both surfaces. Tangent planes nearer to each other meet within the
 /// triangles: the surfaces themselves cross. [none: the teapot, whose spout crosses its body, is meshed again in vain]
 inline constexpr double least_width = 0.05;
+/// Surfaces meet over two triangles that cross where Newton's method finds a common point in so many steps, within a
+/// share of the longest edge, and the sine between their normals is no less than this. [share: rounding; steps:
+/// quadratic convergence takes four]
+inline constexpr int most_steps = 8;
+inline constexpr double meets_within = 1e-6, least_slope = 0.1;
 /// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
 inline constexpr double no_sagitta = 1e-12;
 /// Ratio of gaps from one round to the next. Walls that are apart stay so.
