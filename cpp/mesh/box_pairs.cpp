@@ -10,7 +10,7 @@ namespace carreau {
 namespace {
 
 // Triangles of a part at most. [time only]
-constexpr std::size_t part_size = 1024;
+constexpr std::size_t largest_part = 1024;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ BoxPairs::BoxPairs(std::span<const Vec3> vertices, std::span<const std::array<st
     const std::size_t node = todo.back();
     todo.pop_back();
     const auto first = static_cast<std::size_t>(tree_.node(node).first);
-    if (tree_.node(node).count > 0 || range_[node].end - range_[node].begin <= part_size)
+    if (tree_.node(node).count > 0 || range_[node].end - range_[node].begin <= largest_part)
       parts_.push_back(node);
     else
       todo.push_back(first + 1), todo.push_back(first);

@@ -25,7 +25,7 @@ void CommonPoints::look(Cad& cad, const PatchTriangle& s, const PatchTriangle& t
   const double longest = std::max(s.longest, t.longest);
   const double near = meets_within * longest;
   OnSurface p(cad, s, s.uv_of(place)), q(cad, t, t.uv_of(place));
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < newton_steps; ++step) {
     const Vec3 middle = 0.5 * (p.jet.s + q.jet.s);
     if (norm(p.jet.s - q.jet.s) <= near) {
       const auto beside = [&](const Vec3& v) { return norm(v - middle) <= longest; };

@@ -68,7 +68,8 @@ class CommonPoints {
   CommonPoints(const SurfaceMesh& mesh, int face, int other);
   /// Keeps the point that the surfaces have in common over both triangles, which cross at `place`, if they have one:
   /// from tangent planes to the nearest point of the line that both have, and again (Newton's method). They are asked
-  /// over the triangles only.
+  /// over the triangles only. None is kept within an edge of a vertex of both faces: along a curve they meet without
+  /// crossing.
   void look(Cad& cad, const PatchTriangle& s, const PatchTriangle& t, const Vec3& place);
   /// Whether a point was found so near; after the last look().
   [[nodiscard]] bool any_near(const Vec3& place, double distance);

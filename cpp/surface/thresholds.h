@@ -81,7 +81,7 @@ inline constexpr double least_width = 0.05;
 /// Surfaces meet over two triangles that cross where Newton's method finds a common point in so many steps, within a
 /// share of the longest edge, and the sine between their normals is no less than this. [share: rounding; steps:
 /// quadratic convergence takes four]
-inline constexpr int most_steps = 8;
+inline constexpr int newton_steps = 8;
 inline constexpr double meets_within = 1e-6, least_slope = 0.1;
 /// Of the model's size. Smaller sagittas are rounding: the triangles lie on planes.
 inline constexpr double no_sagitta = 1e-12;
