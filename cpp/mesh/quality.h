@@ -36,6 +36,9 @@ QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);
 QualitySummary summarise_quality(const TriangleLists& mesh, int threads);
 /// Its two parts: without what is known of edges only, and that, added to the first.
 QualitySummary summarise_shapes(const TriangleLists& mesh, int threads);
+inline QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
+  return summarise_shapes(TriangleLists(mesh), threads);
+}
 void summarise_edges(const TriangleLists& mesh, int threads, QualitySummary& summary);
 
 }  // namespace carreau
