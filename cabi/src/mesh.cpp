@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <map>
+#include <span>
 #include <thread>
 
 #include "arguments.h"
@@ -53,6 +54,14 @@ void copy_refs(const std::vector<std::int32_t>& refs, std::size_t n, std::int32_
 }
 
 int processors() { return std::max(1, int(std::thread::hardware_concurrency())); }
+
+void copy_pairs(std::span<const carreau::TriangleIntersection> pairs, std::size_t most, std::int32_t* out_triangles,
+                double* out_xyz) {
+  for (const carreau::TriangleIntersection& pair : pairs.first(std::min(most, pairs.size()))) {
+    if (out_triangles != nullptr) out_triangles = std::copy(pair.triangles.begin(), pair.triangles.end(), out_triangles);
+    if (out_xyz != nullptr) *out_xyz++ = pair.place.x(), *out_xyz++ = pair.place.y(), *out_xyz++ = pair.place.z();
+  }
+}
 
 }  // namespace
 
@@ -341,7 +350,7 @@ carreau_status carreau_mesh_quality(carreau_mesh* mesh, carreau_quality* out_qua
     require_content(*mesh);
     const carreau::QualitySummary summary =
         mesh->session != nullptr
-            ? carreau::summarise_quality(flat_of(*mesh), carreau::threads_of(mesh->session->session.parameters()))
+            ? mesh->session->session.quality()
             : carreau::summarise_quality(mesh->flat, processors());
     carreau_quality result{};
     result.vertices = std::int64_t(summary.vertices);
@@ -389,7 +398,12 @@ carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, i
     if (capacity < 0) throw InvalidArgument("capacity is " + std::to_string(capacity) + ", below 0");
     require_content(*mesh);
     *out_count = 0;
-    if (mesh->session != nullptr && mesh->session->session.report().crossings == 0) return;  // known
+    const carreau::Session* const session = mesh->session != nullptr ? &mesh->session->session : nullptr;
+    if (session != nullptr && session->knows_crossings(std::size_t(capacity))) {
+      *out_count = session->report().crossings;
+      copy_pairs(session->crossings(), std::size_t(capacity), out_triangles, out_xyz);
+      return;
+    }
     carreau::Monitor silent;
     carreau::IntersectionOptions options;
     options.limit = std::size_t(capacity);
@@ -399,10 +413,6 @@ carreau_status carreau_mesh_intersections(carreau_mesh* mesh, int32_t threads, i
     const FlatMesh& flat = mesh->session != nullptr ? copy : mesh->flat;
     const carreau::Intersections found = carreau::find_intersections(flat.vertices, flat.triangles, options, silent);
     *out_count = found.count;
-    for (const carreau::TriangleIntersection& pair : found.pairs) {
-      if (out_triangles != nullptr)
-        out_triangles = std::copy(pair.triangles.begin(), pair.triangles.end(), out_triangles);
-      if (out_xyz != nullptr) *out_xyz++ = pair.place.x(), *out_xyz++ = pair.place.y(), *out_xyz++ = pair.place.z();
-    }
+    copy_pairs(found.pairs, found.pairs.size(), out_triangles, out_xyz);
   });
 }

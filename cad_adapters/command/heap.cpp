@@ -9,6 +9,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #endif
@@ -30,8 +31,16 @@ void prepare_heap() {
   if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
   std::free(first);
 }
+
+void give_back_heap() {
+#if __GLIBC_PREREQ(2, 33)
+  constexpr std::size_t much = std::size_t{128} << 20;  // bytes: less is soon in use again
+  if (mallinfo2().fordblks >= much) malloc_trim(0);
+#endif
+}
 #else
 void prepare_heap() {}
+void give_back_heap() {}
 #endif
 
 }  // namespace command

@@ -9,4 +9,7 @@ namespace command {
 /// Does nothing with another C library. The library itself leaves its host's memory alone.
 void prepare_heap();
 
+/// Gives back what is free when that is much: the pieces of a large face, before its whole mesh is put together.
+void give_back_heap();
+
 }  // namespace command

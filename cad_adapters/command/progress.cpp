@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "cad_input.h"
+#include "heap.h"
 #include "signals.h"
 #include "terminal.h"
 
@@ -141,6 +142,7 @@ void Progress::reading(double fraction) {
 }
 
 std::int32_t Progress::on_progress(std::int32_t phase, std::int32_t entity, double fraction, void* user) {
+  if (phase == CARREAU_PHASE_ASSEMBLY) give_back_heap();
   auto& self = *static_cast<Progress*>(user);
   const bool of_curve = phase == CARREAU_PHASE_CURVES;
   self.show(phase, of_curve ? self.input_->whole_curve(entity) : self.input_->whole_face(entity), fraction);

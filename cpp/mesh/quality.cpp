@@ -12,6 +12,7 @@
 
 #include "support/infinity.h"
 #include "support/stepped_tasks.h"
+#include "support/unfilled.h"
 
 namespace carreau {
 
@@ -34,9 +35,8 @@ struct Part {
   Corner sharpest{.p = {}, .q = {}, .cotangent = -infinity};
   Corner bluntest{.p = {}, .q = {}, .cotangent = infinity};
 
-  void measure(const FlatMesh& mesh, std::size_t triangle, double& q1, double& q2) {
-    const auto& t = mesh.triangles[triangle];
-    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+  void measure(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t, double& q1, double& q2) {
+    const Vec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
     q1 = quality_q1(a, b, c);
     q2 = quality_q2(a, b, c);
     area += 0.5 * double_area(a, b, c);
@@ -64,10 +64,9 @@ struct Part {
 /// The edges of all triangles, each once for each triangle, by their smaller vertex; those of one vertex in any order.
 struct EdgesByVertex {
   std::vector<std::size_t> start;   ///< those of vertex v are others[start[v] .. start[v + 1] - 1]
-  std::vector<std::int32_t> others; ///< their larger vertices
+  UnfilledVector<std::int32_t> others; ///< their larger vertices
 
-  EdgesByVertex(const FlatMesh& mesh, int threads)
-      : start(mesh.vertices.size() + 1, 0), others(3 * mesh.triangles.size()) {
+  EdgesByVertex(const TriangleLists& mesh, int threads) : start(mesh.nodes() + 1, 0), others(3 * mesh.size()) {
     // Atomic sums take their time even where there is only one thread.
     const auto raise = [&](std::int32_t v, std::size_t by) {
       std::size_t& x = start[static_cast<std::size_t>(v)];
@@ -82,17 +81,18 @@ struct EdgesByVertex {
   }
 
   template <typename Use>
-  static void for_each_side(const FlatMesh& mesh, int threads, const Use& use) {
+  static void for_each_side(const TriangleLists& mesh, int threads, const Use& use) {
+    const auto use_sides = [&](std::size_t, const std::array<std::int32_t, 3>& t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(t[i], t[(i + 1) % 3]);
+        use(low, high);
+      }
+    };
     Monitor silent;
     run_each(
-        (mesh.triangles.size() + part_size - 1) / part_size, false, threads,
+        (mesh.size() + part_size - 1) / part_size, false, threads,
         [&](std::size_t part, Monitor&) {
-          const std::size_t end = std::min((part + 1) * part_size, mesh.triangles.size());
-          for (std::size_t t = part * part_size; t < end; ++t)
-            for (std::size_t i = 0; i < 3; ++i) {
-              const auto [low, high] = std::minmax(mesh.triangles[t][i], mesh.triangles[t][(i + 1) % 3]);
-              use(low, high);
-            }
+          mesh.for_each(part * part_size, std::min((part + 1) * part_size, mesh.size()), use_sides);
         },
         silent);
   }
@@ -130,21 +130,22 @@ struct Degrees {
 };
 
 /// The edges whose smaller vertex is v.
-void measure_edges_of(const FlatMesh& mesh, EdgesByVertex& edges, std::size_t v, EdgeLengths& lengths, Degrees& degrees) {
+void measure_edges_of(std::span<const Vec3> vertices, EdgesByVertex& edges, std::size_t v, EdgeLengths& lengths,
+                      Degrees& degrees) {
   const std::span others(edges.others.data() + edges.start[v], edges.start[v + 1] - edges.start[v]);
   std::sort(others.begin(), others.end());
   for (std::size_t i = 0, j = 0; i < others.size(); i = j) {
     while (j < others.size() && others[j] == others[i]) ++j;
     const auto w = static_cast<std::size_t>(others[i]);
-    const double length = norm(mesh.vertices[w] - mesh.vertices[v]);
+    const double length = norm(vertices[w] - vertices[v]);
     lengths.add({length, length, length, 1, j - i == 1 ? std::size_t{1} : 0});
     degrees.count(v, j - i != 2);
     degrees.count(w, j - i != 2);
   }
 }
 
-void measure_edges(const FlatMesh& mesh, int threads, QualitySummary& summary) {
-  const std::size_t n = mesh.vertices.size();
+void measure_edges(const TriangleLists& mesh, int threads, QualitySummary& summary) {
+  const std::size_t n = mesh.vertices().size();
   EdgesByVertex edges(mesh, threads);
   Degrees degrees{std::vector<std::int32_t>(n, 0), std::vector<std::int32_t>(n, 0)};
   std::vector<EdgeLengths> parts((n + part_size - 1) / part_size);
@@ -153,7 +154,7 @@ void measure_edges(const FlatMesh& mesh, int threads, QualitySummary& summary) {
       parts.size(), false, threads,
       [&](std::size_t i, Monitor&) {
         const std::size_t end = std::min((i + 1) * part_size, n);
-        for (std::size_t v = i * part_size; v < end; ++v) measure_edges_of(mesh, edges, v, parts[i], degrees);
+        for (std::size_t v = i * part_size; v < end; ++v) measure_edges_of(mesh.vertices(), edges, v, parts[i], degrees);
       },
       silent);
   EdgeLengths all;
@@ -169,7 +170,7 @@ void measure_edges(const FlatMesh& mesh, int threads, QualitySummary& summary) {
 
 }  // namespace
 
-Distribution distribution_of(std::vector<double>& values) {
+Distribution distribution_of(std::span<double> values) {
   Distribution d;
   if (values.empty()) return d;
   double sum = 0;
@@ -199,24 +200,26 @@ double quality_q2(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   return squares > 0 ? 2 * std::numbers::sqrt3 * double_area(a, b, c) / squares : 0;
 }
 
-QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
+QualitySummary summarise_shapes(const TriangleLists& mesh, int threads) {
   QualitySummary summary;
-  summary.vertices = mesh.vertices.size();
-  summary.triangles = mesh.triangles.size();
-  std::vector<double> q1(mesh.triangles.size()), q2(mesh.triangles.size());
-  std::vector<Part> parts((mesh.triangles.size() + part_size - 1) / part_size);
+  summary.vertices = mesh.nodes();
+  summary.triangles = mesh.size();
+  UnfilledVector<double> q1(mesh.size()), q2(mesh.size());
+  std::vector<Part> parts((mesh.size() + part_size - 1) / part_size);
   Monitor silent;
   run_each(
       parts.size(), false, threads,
       [&](std::size_t i, Monitor&) {
-        const std::size_t begin = i * part_size, end = std::min(begin + part_size, mesh.triangles.size());
-        for (std::size_t t = begin; t < end; ++t) parts[i].measure(mesh, t, q1[t], q2[t]);
+        mesh.for_each(i * part_size, std::min((i + 1) * part_size, mesh.size()),
+                      [&](std::size_t t, const std::array<std::int32_t, 3>& corners) {
+                        parts[i].measure(mesh.vertices(), corners, q1[t], q2[t]);
+                      });
       },
       silent);
   Part all;
   for (const Part& part : parts) all.add(part);
   summary.area = all.area;
-  if (!mesh.triangles.empty()) {
+  if (mesh.size() > 0) {
     summary.angle_min_deg = angle_between(all.sharpest.p, all.sharpest.q) * 180 / std::numbers::pi;
     summary.angle_max_deg = angle_between(all.bluntest.p, all.bluntest.q) * 180 / std::numbers::pi;
   }
@@ -226,10 +229,18 @@ QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
   return summary;
 }
 
-QualitySummary summarise_quality(const FlatMesh& mesh, int threads) {
+void summarise_edges(const TriangleLists& mesh, int threads, QualitySummary& summary) {
+  measure_edges(mesh, threads, summary);
+}
+
+QualitySummary summarise_quality(const TriangleLists& mesh, int threads) {
   QualitySummary summary = summarise_shapes(mesh, threads);
   measure_edges(mesh, threads, summary);
   return summary;
+}
+
+QualitySummary summarise_quality(const FlatMesh& mesh, int threads) {
+  return summarise_quality(TriangleLists(mesh), threads);
 }
 
 }  // namespace carreau

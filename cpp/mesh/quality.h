@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "mesh/flat_mesh.h"
+#include "mesh/triangle_lists.h"
 
 namespace carreau {
 
@@ -21,7 +22,7 @@ struct Distribution {
 };
 
 /// Of any list, which it reorders; zeros when empty.
-Distribution distribution_of(std::vector<double>& values);
+Distribution distribution_of(std::span<double> values);
 
 struct QualitySummary {
   std::size_t vertices = 0, triangles = 0, edges = 0, open_edges = 0;
@@ -31,7 +32,13 @@ struct QualitySummary {
   double degree6 = 0;  ///< share of interior vertices of degree 6
 };
 QualitySummary summarise_quality(const FlatMesh& mesh, int threads = 1);
-/// The same without what is known of edges only. Neither depends on the number of threads.
-QualitySummary summarise_shapes(const FlatMesh& mesh, int threads);
+/// The same of triangles where they are. No figure depends on the number of threads.
+QualitySummary summarise_quality(const TriangleLists& mesh, int threads);
+/// Its two parts: without what is known of edges only, and that, added to the first.
+QualitySummary summarise_shapes(const TriangleLists& mesh, int threads);
+inline QualitySummary summarise_shapes(const FlatMesh& mesh, int threads) {
+  return summarise_shapes(TriangleLists(mesh), threads);
+}
+void summarise_edges(const TriangleLists& mesh, int threads, QualitySummary& summary);
 
 }  // namespace carreau

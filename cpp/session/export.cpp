@@ -335,7 +335,7 @@ FlatMesh export_mesh(const ExportSource& source, const std::string& option, int 
   FlatSources sources;
   if (whole) {
     flat = flatten(source.mesh, with_edges);
-    sources = all_of(source.mesh);
+    if (source.with_fields || source.delivered != nullptr) sources = all_of(source.mesh);  // a third of the mesh's size
   } else {
     FaceAppender appender(source.mesh, plane, with_edges);
     if (option != "allsurf2d") (void)faces_of_reference(source.mesh, face);

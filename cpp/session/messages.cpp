@@ -6,7 +6,6 @@
 #include <string>
 
 #include "mesh/flat_mesh.h"
-#include "mesh/quality.h"
 #include "support/format.h"
 #include "support/short_number.h"
 
@@ -31,8 +30,7 @@ void report_short_curves(const Model& model, const ModelSupports& supports, doub
     }
 }
 
-void describe_result(const CompositeResult& result, int threads, Monitor& monitor) {
-  if (!monitor.hears(Level::summary)) return;  // the quality takes a twentieth of the time of a plane mesh
+void describe_result(const CompositeResult& result, const QualitySummary& q, Monitor& monitor) {
   const SurfaceMesh& mesh = result.mesh;
   const std::vector<WholeFace> all = whole_faces(mesh);
   const auto whole = [](std::int64_t n) { return std::to_string(n); };
@@ -50,7 +48,6 @@ void describe_result(const CompositeResult& result, int threads, Monitor& monito
                       (mesh.loose_edge_count() > 0 ? ", " + whole(static_cast<std::int64_t>(mesh.loose_edge_count())) +
                                                          " of them on curves of no face"
                                                    : ""));
-  const QualitySummary q = summarise_shapes(flatten(mesh, false), threads);
   const auto short_text = [](double x) { return format_number(std::round(x * 1e4) / 1e4); };
   // Parts of a micrometre have a diagonal, and slivers a quality.
   const auto not_zero = [&](double x) { return x > 0 && x < 0.01 ? short_number(x) : short_text(x); };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "measure/mesh_evaluation.h"
+#include "mesh/quality.h"
 #include "model/model.h"
 #include "support/monitor.h"
 #include "surface/result.h"
@@ -14,7 +15,7 @@ namespace carreau {
 void report_short_curves(const Model& model, const ModelSupports& supports, double eps_ends, Monitor& monitor);
 
 /// The few lines that a person wants after a run.
-void describe_result(const CompositeResult& result, int threads, Monitor& monitor);
+void describe_result(const CompositeResult& result, const QualitySummary& shapes, Monitor& monitor);
 
 /// Histograms as a summary, and a warning for each prescription that is not met.
 void describe_evaluation(const MeshEvaluation& delivered, Monitor& monitor);

@@ -14,6 +14,7 @@
 #include "io/pardom.h"
 #include "measure/composite_evaluation.h"
 #include "measure/discrete_evaluation.h"
+#include "mesh/quality.h"
 #include "model/geometries.h"
 #include "model/places.h"
 #include "session/derivatives.h"
@@ -83,6 +84,7 @@ struct Session::State {
   std::optional<MeshEvaluation> delivered;         // of `result`
   std::vector<Interface> interfaces;               // of `result`
   std::vector<WholeFace> whole_faces;              // of `result`
+  std::optional<QualitySummary> shapes, quality;   // of `result`, once somebody has asked: without edges, and all
 
   /// The host first.
   [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const {
@@ -252,6 +254,31 @@ const std::vector<Interface>& Session::interfaces() const { return (void)mesh(),
 const std::vector<WholeFace>& Session::whole_faces() const { return (void)mesh(), state_->whole_faces; }
 const ModelSupports& Session::supports() const { return (void)mesh(), state_->meshed.supports; }
 
+const std::vector<TriangleIntersection>& Session::crossings() const { return (void)mesh(), state_->result.crossings; }
+
+bool Session::knows_crossings(std::size_t limit) const {
+  const std::size_t known = crossings().size();
+  const std::int64_t all = report().crossings;
+  return all >= 0 && (known >= limit || known == static_cast<std::size_t>(all));
+}
+
+const QualitySummary& Session::shapes() const {
+  State& s = *state_;
+  if (!s.shapes) s.shapes = summarise_shapes(TriangleLists(mesh()), threads_of(s.parameters));
+  return *s.shapes;
+}
+
+const QualitySummary& Session::quality() const {
+  State& s = *state_;
+  (void)mesh();
+  if (!s.quality) {
+    QualitySummary all = shapes();
+    summarise_edges(TriangleLists(s.result.mesh), threads_of(s.parameters), all);
+    s.quality = all;
+  }
+  return *s.quality;
+}
+
 void Session::make_mesh(double from, double to) {
   if (Team* const team = state_->team.get(); team != nullptr)
     team->run([&] { make_mesh_alone(from, to); });
@@ -376,7 +403,8 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
   s.meshed_parameters = s.tried_parameters;
   s.has_mesh = true;
   s.last_failed = false;
-  describe_result(s.result, s.meshed.options.threads, s.monitor);
+  s.shapes.reset(), s.quality.reset();
+  if (s.monitor.hears(Level::summary)) describe_result(s.result, shapes(), s.monitor);
   tell_interfaces(s.interfaces, s.monitor);
   if (s.delivered) describe_evaluation(*s.delivered, s.monitor);
 }

@@ -105,6 +105,12 @@ class Session {
 
   /// Faces of the mesh as the caller knows them, parts made whole. Throws like mesh().
   [[nodiscard]] const std::vector<WholeFace>& whole_faces() const;
+  /// Shapes and lengths, measured when somebody asks for the first time. Throws like mesh().
+  [[nodiscard]] const QualitySummary& quality() const;
+  /// Pairs of triangles that cross as meshing has found them; it may not have looked, or kept the first ones only.
+  [[nodiscard]] const std::vector<TriangleIntersection>& crossings() const;
+  /// Whether these are all, or `limit` at least. Their number is that of report(). Throws like mesh().
+  [[nodiscard]] bool knows_crossings(std::size_t limit) const;
   /// The curves of the mesh in space. Throws like mesh().
   [[nodiscard]] const std::vector<Interface>& interfaces() const;
   /// Geometric supports of the curves of the last make_mesh() (what option smo3d exports).
@@ -123,6 +129,7 @@ class Session {
   void read_env(const std::string& path);
 
  private:
+  [[nodiscard]] const QualitySummary& shapes() const;
   void make_mesh_alone(double from, double to);
   void make_mesh_of(Model& known, Monitor& run);
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);

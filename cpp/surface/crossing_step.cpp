@@ -216,22 +216,23 @@ void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mes
     return;
   }
   Crossings now(run);
-  std::int64_t fewest = now.found.count;
+  Intersections fewest = now.found;
   const std::size_t first = now.all.triangles.size();
   Attempts attempts(run, mesh_again);
   FinerPlaces places = places_to_refine(run, now);
   for (int round = 0; round < run.options.crossing_rounds && !places.edges.empty(); ++round) {
     if (!attempts.again([&] { make_finer(run, places); })) break;
     now = Crossings(run);
-    const bool best = attempts.keep_if(now.found.count < fewest);
-    if (best) fewest = now.found.count;
+    const bool best = attempts.keep_if(now.found.count < fewest.count);
+    if (best) fewest = now.found;
     if (now.all.triangles.size() > most_growth * first) break;
     FinerPlaces next = places_to_refine(run, now);
     if (!best && surfaces_cross(places, next)) break;
     places = std::move(next);
   }
   attempts.finish();
-  run.result.report.crossings = fewest;
+  run.result.report.crossings = fewest.count;
+  run.result.crossings = std::move(fewest.pairs);
 }
 
 }  // namespace carreau

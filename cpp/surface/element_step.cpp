@@ -99,6 +99,7 @@ void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   }
   attempts.finish();
   run.result.report.crossings = -1;  // those of straight triangles say nothing of these
+  run.result.crossings.clear();
   tell(run, best);
 }
 

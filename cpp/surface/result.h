@@ -10,6 +10,7 @@
 #include "control_space/control_space.h"
 #include "curve/edge_accuracy.h"
 #include "gradation/graded_field.h"
+#include "mesh/intersections.h"
 #include "mesh/surface_mesh.h"
 #include "surface/patch.h"
 
@@ -52,6 +53,7 @@ struct CompositeResult {
   std::vector<std::vector<std::int32_t>> feet;
   std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
+  std::vector<TriangleIntersection> crossings;  ///< the first of the report's, by triangles face after face
 };
 
 }  // namespace carreau

@@ -168,7 +168,8 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
     const Intersections found = crossings(made.mesh, options.threads, monitor);
     if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);
-      if (why.empty() && result.report.crossings >= 0) result.report.crossings = found.count;
+      if (why.empty() && result.report.crossings >= 0)
+        result.report.crossings = found.count, result.crossings = found.pairs;
       break;
     }
     guard(found, made, *frame.charts);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -74,6 +75,45 @@ TEST(QualitySummary, OfAnyNumberOfThreadsIsThatOfEachTriangle) {
   EXPECT_EQ(summarise_shapes(mesh, 2).angle_min_deg, 0);
   mesh.vertices[1] = {0.5, 0, 0};
   EXPECT_NEAR(summarise_shapes(mesh, 2).angle_max_deg, 180, 1e-12);
+}
+
+// Faces number their vertices themselves; what is read where it is must be what a flat copy has.
+TEST(QualitySummary, OfFacesIsThatOfTheirFlatCopy) {
+  SurfaceMesh mesh;
+  for (int i = 0; i < 3000; ++i) mesh.vertices.push_back({i % 60 + 0.3 * std::sin(i), i / 60 + 0.3 * std::cos(3 * i), 0.1 * (i % 7)});
+  mesh.vertex_ref.assign(mesh.vertices.size(), 0);
+  for (const int face : {0, 1, 2}) {  // rows of squares from 0, none, and on to the end; backwards in the last one
+    mesh.faces.push_back({.ref = face + 1, .status = FaceStatus::meshed, .why = {}, .uv = {}, .vertex = {}, .triangles = {}, .flattened = {}});
+    FaceMesh& made = mesh.faces.back();
+    for (int v = 0; v < 3000; ++v) made.vertex.push_back(face == 2 ? 2999 - v : v);
+    const int rows = face == 0 ? 20 : face == 1 ? 0 : 29;
+    for (int row = 0; row < rows; ++row)
+      for (int k = 60 * row; k < 60 * row + 59; ++k) {
+        made.triangles.push_back({k, k + 1, k + 61});
+        made.triangles.push_back({k, k + 61, k + 60});
+      }
+  }
+  const FlatMesh flat = flatten(mesh, false);
+  ASSERT_GT(flat.triangles.size(), 5000U);  // more than one part of the sums
+  for (const int threads : {1, 3}) {
+    const QualitySummary p = summarise_quality(flat, threads), q = summarise_quality(TriangleLists(mesh), threads);
+    EXPECT_EQ(p.triangles, q.triangles);
+    EXPECT_EQ(p.edges, q.edges);
+    EXPECT_EQ(p.open_edges, q.open_edges);
+    EXPECT_EQ(p.area, q.area);
+    EXPECT_EQ(p.q1.mean, q.q1.mean);
+    EXPECT_EQ(p.q2.p1, q.q2.p1);
+    EXPECT_EQ(p.edge_mean, q.edge_mean);
+    EXPECT_EQ(p.angle_min_deg, q.angle_min_deg);
+    EXPECT_EQ(p.degree6, q.degree6);
+  }
+  std::size_t next = 2359, seen = 0;  // from the last triangle of the first face into the third
+  TriangleLists(mesh).for_each(2359, 2362, [&](std::size_t t, const std::array<std::int32_t, 3>& corners) {
+    EXPECT_EQ(t, next++);
+    EXPECT_EQ(corners, flat.triangles[t]);
+    ++seen;
+  });
+  EXPECT_EQ(seen, 3U);
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The triangles of a mesh where they are: nothing is copied.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/flat_mesh.h"
+#include "mesh/surface_mesh.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// Those of a surface mesh are numbered face after face, as flatten() has them. The mesh outlives the lists.
+class TriangleLists {
+ public:
+  explicit TriangleLists(const FlatMesh& mesh) : vertices_(mesh.vertices), nodes_(mesh.vertices.size()) {
+    add(mesh.triangles, nullptr);
+  }
+  explicit TriangleLists(const SurfaceMesh& mesh)
+      : vertices_(mesh.vertices), nodes_(mesh.vertices.size() + mesh.mid_vertices.size()) {
+    for (const FaceMesh& face : mesh.faces) add(face.triangles, face.vertex.data());
+  }
+
+  /// Of corners; nodes on edges come after them.
+  [[nodiscard]] std::span<const Vec3> vertices() const noexcept { return vertices_; }
+  [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+  /// use(t, corners) for each triangle t, begin <= t < end, in order.
+  template <typename Use>
+  void for_each(std::size_t begin, std::size_t end, const Use& use) const {
+    if (begin >= end) return;
+    auto list = std::upper_bound(lists_.begin(), lists_.end(), begin,
+                                 [](std::size_t t, const List& each) { return t < each.first; }) - 1;
+    for (std::size_t t = begin; t < end; ++list)
+      for (std::size_t i = t - list->first; i < list->triangles.size() && t < end; ++i, ++t) {
+        const std::array<std::int32_t, 3>& own = list->triangles[i];
+        if (list->vertex == nullptr)
+          use(t, own);
+        else
+          use(t, std::array{list->vertex[own[0]], list->vertex[own[1]], list->vertex[own[2]]});
+      }
+  }
+
+ private:
+  struct List {
+    std::size_t first;
+    std::span<const std::array<std::int32_t, 3>> triangles;
+    const std::int32_t* vertex;  // local -> whole; null: the same
+  };
+
+  void add(std::span<const std::array<std::int32_t, 3>> triangles, const std::int32_t* vertex) {
+    if (triangles.empty()) return;
+    lists_.push_back({size_, triangles, vertex});
+    size_ += triangles.size();
+  }
+
+  std::span<const Vec3> vertices_;
+  std::size_t nodes_, size_ = 0;
+  std::vector<List> lists_;  // none is empty
+};
+
+}  // namespace carreau
