@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/box_pairs.h"
+#include "mesh/crossings/box_pairs.h"
 #include "predicates/orientation_3d.h"
 #include "support/stepped_tasks.h"
 

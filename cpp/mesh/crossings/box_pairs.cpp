@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mesh/box_pairs.h"
+#include "mesh/crossings/box_pairs.h"
 
 #include <algorithm>
 
