@@ -36,7 +36,8 @@ class TriangleLists {
   void for_each(std::size_t begin, std::size_t end, const Use& use) const {
     if (begin >= end) return;
     auto list = std::upper_bound(lists_.begin(), lists_.end(), begin,
-                                 [](std::size_t t, const List& each) { return t < each.first; }) - 1;
+                                 [](std::size_t t, const List& each) { return t < each.first; }) -
+                1;
     for (std::size_t t = begin; t < end; ++list)
       for (std::size_t i = t - list->first; i < list->triangles.size() && t < end; ++i, ++t) {
         const std::array<std::int32_t, 3>& own = list->triangles[i];

@@ -56,12 +56,25 @@ std::unique_ptr<Session> meshed(const AnalyticCad& cad, int rounds, int threads,
   return session;
 }
 
-std::int64_t crossings(const SurfaceMesh& mesh) {
+Intersections all_crossings(const SurfaceMesh& mesh) {
   std::vector<std::array<std::int32_t, 3>> triangles;
   for (const FaceMesh& face : mesh.faces)
     for (const auto& [a, b, c] : face.triangles) triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
   Monitor silent;
-  return find_intersections(mesh.vertices, triangles, {}, silent).count;
+  return find_intersections(mesh.vertices, triangles, {}, silent);
+}
+std::int64_t crossings(const SurfaceMesh& mesh) { return all_crossings(mesh).count; }
+
+// What meshing has found is what a search in its mesh finds.
+void expect_known(const Session& session) {
+  const Intersections found = all_crossings(session.mesh());
+  ASSERT_TRUE(session.knows_crossings(found.pairs.size()));
+  EXPECT_EQ(session.report().crossings, found.count);
+  ASSERT_GE(session.crossings().size(), found.pairs.size());
+  for (std::size_t i = 0; i < found.pairs.size(); ++i) {
+    EXPECT_EQ(session.crossings()[i].triangles, found.pairs[i].triangles);
+    EXPECT_EQ(session.crossings()[i].place, found.pairs[i].place);
+  }
 }
 
 bool equal(const SurfaceMesh& a, const SurfaceMesh& b) {
@@ -95,6 +108,8 @@ TEST(CloseWalls, ThatCrossOrCoincideThemselvesStayAsTheyAre) {
     const auto as_it_is = meshed(cad, 0, 1, monitor), tried = meshed(cad, 10, 1, monitor);
     EXPECT_GT(crossings(as_it_is->mesh()), 0);
     EXPECT_TRUE(equal(as_it_is->mesh(), tried->mesh()));
+    EXPECT_FALSE(as_it_is->knows_crossings(0));  // nobody has looked
+    expect_known(*tried);
   }
 }
 
