@@ -10,68 +10,95 @@ namespace carreau::discrete {
 
 namespace {
 
-/// A number with its derivatives by u and v.
+/// A number with its derivatives by u and v, of second order where wanted.
+template <bool second>
 struct Jet {
   double f = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
 };
-Jet operator*(const Jet& p, const Jet& q) noexcept {
-  return {p.f * q.f,
-          p.u * q.f + p.f * q.u,
-          p.v * q.f + p.f * q.v,
-          p.uu * q.f + 2 * p.u * q.u + p.f * q.uu,
-          p.uv * q.f + p.u * q.v + p.v * q.u + p.f * q.uv,
-          p.vv * q.f + 2 * p.v * q.v + p.f * q.vv};
+template <>
+struct Jet<false> {
+  double f = 0, u = 0, v = 0;
+};
+template <bool second>
+Jet<second> operator*(const Jet<second>& p, const Jet<second>& q) noexcept {
+  Jet<second> r;
+  r.f = p.f * q.f;
+  r.u = p.u * q.f + p.f * q.u;
+  r.v = p.v * q.f + p.f * q.v;
+  if constexpr (second) {
+    r.uu = p.uu * q.f + 2 * p.u * q.u + p.f * q.uu;
+    r.uv = p.uv * q.f + p.u * q.v + p.v * q.u + p.f * q.uv;
+    r.vv = p.vv * q.f + 2 * p.v * q.v + p.f * q.vv;
+  }
+  return r;
 }
-Jet operator*(double a, const Jet& p) noexcept { return {a * p.f, a * p.u, a * p.v, a * p.uu, a * p.uv, a * p.vv}; }
+template <bool second>
+Jet<second> operator*(double a, const Jet<second>& p) noexcept {
+  if constexpr (second)
+    return {a * p.f, a * p.u, a * p.v, a * p.uu, a * p.uv, a * p.vv};
+  else
+    return {a * p.f, a * p.u, a * p.v};
+}
+/// 1 - p.
+template <bool second>
+Jet<second> rest_of(const Jet<second>& p) noexcept {
+  if constexpr (second)
+    return {1 - p.f, -p.u, -p.v, -p.uu, -p.uv, -p.vv};
+  else
+    return {1 - p.f, -p.u, -p.v};
+}
 
 /// Adds a weight times a point.
-void add(SurfaceJet& jet, const Jet& w, const Vec3& p) noexcept {
+template <bool second>
+void add(SurfaceJet& jet, const Jet<second>& w, const Vec3& p) noexcept {
   jet.s += w.f * p;
   jet.su += w.u * p, jet.sv += w.v * p;
-  jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
+  if constexpr (second) jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
 }
 
 /// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives but in x = y = 0,
 /// where those along x = y are taken.
-Jet share_of(const Jet& x, const Jet& y) noexcept {
+template <bool second>
+Jet<second> share_of(const Jet<second>& x, const Jet<second>& y) noexcept {
   double a = std::max(x.f, 0.0), b = std::max(y.f, 0.0);
   const double s = a + b;
-  if (!(s > thresholds::tiny)) return {0.5, 0, 0, 0, 0, 0};
+  Jet<second> r;
+  r.f = 0.5;
+  if (!(s > thresholds::tiny)) return r;
   // g = a / s: g_a = b / s^2, g_b = -a / s^2, g_aa = -2 b / s^3, g_ab = (a - b) / s^3, g_bb = 2 a / s^3.
-  const double s2 = s * s, s3 = s2 * s, ga = b / s2, gb = -a / s2, gaa = -2 * b / s3, gab = (a - b) / s3,
-               gbb = 2 * a / s3;
-  return {a / s,
-          ga * x.u + gb * y.u,
-          ga * x.v + gb * y.v,
-          gaa * x.u * x.u + 2 * gab * x.u * y.u + gbb * y.u * y.u,
-          gaa * x.u * x.v + gab * (x.u * y.v + x.v * y.u) + gbb * y.u * y.v,
-          gaa * x.v * x.v + 2 * gab * x.v * y.v + gbb * y.v * y.v};
+  const double s2 = s * s, ga = b / s2, gb = -a / s2;
+  r.f = a / s;
+  r.u = ga * x.u + gb * y.u;
+  r.v = ga * x.v + gb * y.v;
+  if constexpr (second) {
+    const double s3 = s2 * s, gaa = -2 * b / s3, gab = (a - b) / s3, gbb = 2 * a / s3;
+    r.uu = gaa * x.u * x.u + 2 * gab * x.u * y.u + gbb * y.u * y.u;
+    r.uv = gaa * x.u * x.v + gab * (x.u * y.v + x.v * y.u) + gbb * y.u * y.v;
+    r.vv = gaa * x.v * x.v + 2 * gab * x.v * y.v + gbb * y.v * y.v;
+  }
+  return r;
 }
 
-/// Position and first derivatives, which is what most callers want: those by barycentric coordinates as if these were independent, of which
-/// the position is the sum (Euler, degree 4).
-SurfaceJet first_jet(const GregoryTriangle& patch, Vec2 uv) noexcept {
-  const std::array<double, 3> b{1 - uv.x() - uv.y(), uv.x(), uv.y()};
-  std::array<Vec3, 3> g{Vec3{0, 0, 0}, Vec3{0, 0, 0}, Vec3{0, 0, 0}};
-  const double all = b[0] * b[1] * b[2];
+template <bool second>
+SurfaceJet jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
+  std::array<Jet<second>, 3> b;
+  b[0].f = 1 - uv.x() - uv.y(), b[0].u = b[0].v = -1;
+  b[1].f = uv.x(), b[1].u = 1;
+  b[2].f = uv.y(), b[2].v = 1;
+  const std::array<Jet<second>, 3> b2{b[0] * b[0], b[1] * b[1], b[2] * b[2]};
+  SurfaceJet jet{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const Vec3* const p = &patch.border[4 * i];
-    const double ii = b[i] * b[i], jj = b[j] * b[j], iij = 3 * ii * b[j], ijj = 3 * b[i] * jj, iii = ii * b[i];
+    const Jet<second> ij = b[i] * b[j];
+    add(jet, b2[i] * b2[i], patch.border[4 * i]);
+    add(jet, 4 * (b2[i] * ij), patch.border[4 * i + 1]);
+    add(jet, 6 * (ij * ij), patch.border[4 * i + 2]);
+    add(jet, 4 * (ij * b2[j]), patch.border[4 * i + 3]);
     // Beside corner i: of side i, which keeps its planes where b(k) is 0, and of side k, where b(j) is.
-    const double x = std::max(b[j], 0.0), y = std::max(b[k], 0.0), s = x + y;
-    const bool apart = s > thresholds::tiny;
-    const double share = apart ? x / s : 0.5, change = apart ? 3 * ii * b[j] * b[k] / (s * s) : 0;
-    const Vec3 difference = patch.inner[2 * i] - patch.inner[2 * k + 1];
-    const Vec3 inner = patch.inner[2 * k + 1] + share * difference;
-    g[i] += iii * p[0] + iij * p[1] + ijj * p[2] + (jj * b[j]) * p[3] + (6 * all) * inner;
-    g[j] += iii * p[1] + iij * p[2] + ijj * p[3] + (3 * ii * b[k]) * inner + (change * y) * difference;
-    g[k] += iij * inner - (change * x) * difference;
+    const Jet<second> weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
+    add(jet, weight * share, patch.inner[2 * i]);
+    add(jet, weight * rest_of(share), patch.inner[2 * k + 1]);
   }
-  SurfaceJet jet{};
-  jet.s = b[0] * g[0] + b[1] * g[1] + b[2] * g[2];
-  jet.su = 4 * (g[1] - g[0]);
-  jet.sv = 4 * (g[2] - g[0]);
   return jet;
 }
 
@@ -127,24 +154,7 @@ GregoryTriangle gregory_triangle(const std::array<Cubic, 3>& sides, const std::a
 }
 
 SurfaceJet GregoryTriangle::at(Vec2 uv, unsigned want) const noexcept {
-  if ((want & want_second) == 0) return first_jet(*this, uv);
-  const std::array<Jet, 3> b{Jet{1 - uv.x() - uv.y(), -1, -1}, Jet{uv.x(), 1, 0}, Jet{uv.y(), 0, 1}};
-  const std::array<Jet, 3> b2{b[0] * b[0], b[1] * b[1], b[2] * b[2]};
-  SurfaceJet jet{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const Jet ij = b[i] * b[j];
-    add(jet, b2[i] * b2[i], border[4 * i]);
-    add(jet, 4 * (b2[i] * ij), border[4 * i + 1]);
-    add(jet, 6 * (ij * ij), border[4 * i + 2]);
-    add(jet, 4 * (ij * b2[j]), border[4 * i + 3]);
-    // Beside corner i: of side i, which keeps its planes where b(k) is 0, and of side k, where b(j) is.
-    const Jet weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
-    const Jet rest{1 - share.f, -share.u, -share.v, -share.uu, -share.uv, -share.vv};
-    add(jet, weight * share, inner[2 * i]);
-    add(jet, weight * rest, inner[2 * k + 1]);
-  }
-  return jet;
+  return (want & want_second) != 0 ? jet_of<true>(*this, uv) : jet_of<false>(*this, uv);
 }
 
 double GregoryTriangle::deviation() const noexcept {

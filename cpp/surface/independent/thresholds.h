@@ -54,7 +54,7 @@ inline constexpr double least_shape = 0.15;
 inline constexpr double good_enough = 0.7;
 /// Shape that a swap for the sake of degrees may leave, and rounds that have such swaps.
 inline constexpr double least_shape_of_degrees = 0.55;
-inline constexpr int most_rounds_of_degrees = 9;
+inline constexpr int most_rounds_of_degrees = 4;
 /// Share of the size. Shorter moves are not worth an evaluation.
 inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
 /// Shape. Gains below do not count.
