@@ -9,7 +9,7 @@ namespace carreau::atlas::thresholds {
 inline constexpr int grid_of_t = 24;
 /// Area of the surface beside that of its charts' planes: below, a place counts as turned over. Above 0, as what is
 /// nearly turned over is meshed slowly.
-inline constexpr double least_jacobian = 0.05;
+inline constexpr double least_jacobian = 0.03;
 
 /// What the vertices of a chart count beside its neighbours: at first, by what factor less in each round, and at least.
 inline constexpr double first_anchor = 1, loosening = 0.5, least_anchor = 1e-3;
