@@ -15,9 +15,9 @@ struct FoldReport {
   std::size_t mended_charts = 0;
 };
 
-/// Where the blended surface is turned over at a place of a grid on a T, primitives of the charts around are fitted to
-/// one another as well as to their vertices, the more the longer it stays so. Those elsewhere are left as they are.
-/// Deterministic.
+/// Where the blended surface is turned over at a place of a grid on a T (ours), primitives of the charts around are
+/// fitted to one another as well as to their vertices, the more the longer it stays so. Those elsewhere are left as
+/// they are. Deterministic.
 FoldReport mend_folds(const Covering& covering, std::vector<Primitive>& primitives);
 
 }  // namespace carreau::atlas
