@@ -6,16 +6,13 @@
 namespace carreau::atlas {
 
 BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering)) {
-  for (const Chart& chart : covering_.charts()) fields_.push_back(fit_heights(covering_.surface(), chart));
+  for (const Chart& chart : covering_.charts())
+    primitives_.push_back(primitive_of(fit_heights(covering_.surface(), chart), chart.frame));
+  folds_ = mend_folds(covering_, primitives_);
 }
 
 BlendedSurface::Point BlendedSurface::own(std::size_t chart, const Pair<Jet>& m) const {
-  const Frame& f = covering_.charts()[chart].frame;
-  const Jet height = fields_[chart].at(m);
-  Point p;
-  for (int k = 0; k < 3; ++k)
-    p[static_cast<std::size_t>(k)] = f.origin[k] + m[0] * f.u[k] + m[1] * f.v[k] + height * f.normal[k];
-  return p;
+  return primitives_[chart].at(m);
 }
 
 BlendedSurface::Point BlendedSurface::blended(const Covering::OnT<Jet>& on, const Point& own_point) const {

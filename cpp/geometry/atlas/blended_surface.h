@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cad/cad.h"
-#include "geometry/atlas/height_field.h"
+#include "geometry/atlas/mend_folds.h"
 #include "geometry/built_geometry.h"
 
 namespace carreau::atlas {
@@ -16,8 +16,10 @@ class BlendedSurface {
   explicit BlendedSurface(Covering covering);
 
   [[nodiscard]] const Covering& covering() const { return covering_; }
-  [[nodiscard]] const HeightField& field(std::size_t chart) const { return fields_[chart]; }
-  /// Point and derivatives to order two. Beyond the chart's region it is the chart's own height field.
+  [[nodiscard]] const Primitive& primitive(std::size_t chart) const { return primitives_[chart]; }
+  /// What was found and mended where charts disagree.
+  [[nodiscard]] const FoldReport& folds() const { return folds_; }
+  /// Point and derivatives to order two. Beyond the chart's region it is the chart's own primitive.
   [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m) const;
 
   /// The part of a chart that is its own: of each T, what is nearer to its corner than to the others. Side k runs from
@@ -30,7 +32,8 @@ class BlendedSurface {
   [[nodiscard]] Point blended(const Covering::OnT<Jet>& on, const Point& own) const;
 
   Covering covering_;
-  std::vector<HeightField> fields_;
+  std::vector<Primitive> primitives_;
+  FoldReport folds_;
 };
 
 /// Each chart becomes a face, whose reference is its rank from 1, trimmed to what is its own; double zones become

@@ -78,7 +78,7 @@ TEST(Annulus, PolygonalBordersAreTheGivenOnes) {
 TEST(Annulus, ThousandRandomOnesAreDescribed) {
   std::mt19937_64 random(1);
   int made = 0, by_skeleton = 0;
-  double spline = 0, cubic = 0, least = 1, worst = 0;
+  double spline = 0, cubic = 0, least = 1, worst = 0, worst_phi = 0, in_space = 0;
   std::uniform_real_distribution<double> unit(0, 1);
   while (made < 1000) {
     const auto borders = test::random_borders(random);
@@ -94,14 +94,22 @@ TEST(Annulus, ThousandRandomOnesAreDescribed) {
         EXPECT_GT(p[0].u * p[1].v - p[0].v * p[1].u, 0) << "Jacobian of annulus " << made;
         const auto back = one->find(Pair<double>{p[0].f, p[1].f});
         ASSERT_TRUE(back.has_value()) << made;
-        worst = std::max({worst, std::abs(back->tau - tau), circular(back->phi - phi, a.period())});
+        // One rounding of the point, which no inverse can undo, is 1e-16 by the width of the annulus in tau.
+        const double off_tau = std::abs(back->tau - tau), off_phi = circular(back->phi - phi, a.period());
+        const double width = norm(Vec2(p[0].u, p[1].u));
+        in_space = std::max(in_space, off_tau * width);
+        if (width > .01) worst = std::max(worst, off_tau);
+        worst_phi = std::max(worst_phi, off_phi);
       }
     const double share = covered(a);
     spline += share, cubic += covered(simple), least = std::min(least, share);
   }
   std::cout << "pivots by the skeleton " << by_skeleton << " of " << made << "; covered by splines " << spline / made
-            << ", least " << least << ", by cubics " << cubic / made << "; there and back " << worst << "\n";
-  EXPECT_LT(worst, 1e-9);
+            << ", least " << least << ", by cubics " << cubic / made << "; there and back: tau in space " << in_space
+            << ", phi " << worst_phi << ", tau where wider than .01 " << worst << "\n";
+  EXPECT_LT(in_space, 1e-14);
+  EXPECT_LT(worst_phi, 1e-12);
+  EXPECT_LT(worst, 1e-12);
   EXPECT_GT(by_skeleton, 700);
   EXPECT_GT(spline, cubic);
 }

@@ -61,6 +61,44 @@ TEST(BlendedSurface, ChartsOfATorusAgree) {
   check_agreement(BlendedSurface(Covering(test::torus(2, .8, 36, 18))), unused);
 }
 
+/// Charts of the sphere of 1280 triangles disagree at some places by more than they are wide.
+TEST(BlendedSurface, FoldsAreMendedAndChartsStillAgree) {
+  const BlendedSurface surface(Covering(test::icosphere(3)));
+  const Covering& covering = surface.covering();
+  EXPECT_GT(surface.folds().folded_before, 0u);
+  EXPECT_EQ(surface.folds().folded_after, 0u);
+  double farthest = 0;
+  check_agreement(surface, farthest);
+  EXPECT_LT(farthest, .02);
+  std::size_t changed = 0;
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (std::size_t i = 0; i < covering.charts().size(); ++i) {
+    const Chart& chart = covering.charts()[i];
+    const Primitive fitted = primitive_of(fit_heights(covering.surface(), chart), chart.frame);
+    changed += surface.primitive(i).coefficient != fitted.coefficient;
+    // At places that are not those of the mend's grid.
+    for (int k = 0; k < 200; ++k) {
+      const SurfaceJet jet =
+          surface.at(i, value_of(chart.annulus.at(unit(random), chart.annulus.period() * unit(random))));
+      EXPECT_GT(dot(unit_normal(jet), jet.s), 0) << i;
+    }
+  }
+  EXPECT_EQ(changed, surface.folds().mended_charts);
+  EXPECT_LT(changed, covering.charts().size() / 2);
+}
+
+TEST(BlendedSurface, SurfacesThatDoNotFoldKeepTheirHeightFields) {
+  const BlendedSurface surface(Covering(test::icosphere(2)));
+  EXPECT_EQ(surface.folds().folded_before, 0u);
+  EXPECT_EQ(surface.folds().mended_charts, 0u);
+  for (std::size_t i = 0; i < surface.covering().charts().size(); ++i) {
+    const Chart& chart = surface.covering().charts()[i];
+    EXPECT_EQ(surface.primitive(i).coefficient,
+              primitive_of(fit_heights(surface.covering().surface(), chart), chart.frame).coefficient);
+  }
+}
+
 TEST(BlendedSurface, DerivativesAreThoseOfDifferences) {
   const BlendedSurface surface(Covering(test::icosphere(2)));
   std::mt19937_64 random(4);
