@@ -150,6 +150,7 @@ void FreeMesh::judge(std::int32_t a, std::int32_t b, std::int32_t c, TriangleSha
   const double quality = by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(p[0], p[1], p[2]);
   shapes.worst = std::min(shapes.worst, quality);
   shapes.inverses += 1 / std::max(quality, flat_quality);
+  shapes.short_of += good_shape - quality;
   const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
   const double area = norm(n);
   std::array<Vec3, 3> normal;

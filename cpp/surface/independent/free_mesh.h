@@ -25,6 +25,7 @@ struct SurfaceTolerances {
 struct TriangleShapes {
   double worst = 1;      ///< Q2 in the metric
   double inverses = 0;   ///< sum of 1 / Q2
+  double short_of = 0;   ///< sum of good_shape - Q2
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 

@@ -13,6 +13,7 @@
 #include "surface/independent/reassembly.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
+#include "surface/independent/worst_first.h"
 
 namespace carreau {
 
@@ -117,12 +118,14 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
   const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
   RemeshingReport report;
+  const double worst = worst_shape(free);
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::size_t changed = remesh_lines(free, worked, of_lines, monitor).size();
     if (round > 0 && changed == 0) break;
     if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
     report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely);
   }
+  raise_worst(free, worst + above_worst, monitor);
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
                                      " swapped, " + std::to_string(report.moves) + " moves of vertices, " +

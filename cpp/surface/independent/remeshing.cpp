@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "metric/metric2.h"
+#include "surface/independent/collapse_price.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {
@@ -173,6 +174,7 @@ class Remesher {
       mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
     if (!adjacent || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape)) return -1;
+    if (costs_too_much(mesh_, gone, kept, before, after)) return -1;
     return after.worst;
   }
 
@@ -219,6 +221,7 @@ class Remesher {
       mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
     if (!FreeMesh::agrees(before, after) || after.worst < least_shape_when_dense) return -1;
+    if (costs_too_much(mesh_, gone, kept, before, after)) return -1;
     return after.worst;
   }
 
