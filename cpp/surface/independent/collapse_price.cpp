@@ -35,7 +35,7 @@ bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, 
     gain += is_out_of_range(mesh, gone, w);
     if (w != kept && std::ranges::find(both, w) == both.end()) gain -= is_out_of_range(mesh, kept, w);
   }
-  return after.short_of - all.short_of > price_of_length * gain;
+  return after.short_of - all.short_of > mesh.price_of_length() * gain;
 }
 
 }  // namespace carreau

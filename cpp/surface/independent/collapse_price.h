@@ -8,8 +8,7 @@
 
 namespace carreau {
 
-/// Whether shapes around lose more by a collapse than the lengths that come into range are worth (thresholds.h,
-/// price_of_length). `before`, `after`: the triangles around `gone` that stay. The two that go count as triangles of
+/// Whether shapes around lose more by a collapse than the lengths that come into range are worth (SurfaceTolerances). `before`, `after`: the triangles around `gone` that stay. The two that go count as triangles of
 /// `good_shape` each would: a mesh with fewer good triangles is no better for it.
 [[nodiscard]] bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept,
                                   const TriangleShapes& before, const TriangleShapes& after);

@@ -19,6 +19,7 @@ struct SurfaceTolerances {
   double angle_deg = 0;       ///< A1: of a triangle's normal with those of the surface at its corners
   double deviation = 0;       ///< A0, model length; 0: `share_of_size` counts
   double share_of_size = 0;   ///< A0 as a share of the size
+  double price_of_length = 0; ///< sum of differences of Q2 that a collapse may cost for an edge that comes into range
 };
 
 /// Of some triangles.
@@ -94,6 +95,9 @@ class FreeMesh {
   /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
   std::int32_t try_vertex(const SurfacePlace& at);
   void forget_vertex();
+
+  /// See SurfaceTolerances.
+  [[nodiscard]] double price_of_length() const noexcept { return asked_.price_of_length; }
 
   // Edits. Those that are refused change nothing.
   bool collapse(std::int32_t gone, std::int32_t kept) { return mesh_->collapse(gone, kept); }

@@ -74,9 +74,10 @@ inline constexpr double above_worst = 0.03;
 // What collapses may cost (collapse_price)
 /// Shape of a triangle that is no loss when it goes: about the mean of a mesh.
 inline constexpr double good_shape = 0.95;
-/// Sum of differences of shapes that one more edge in range is worth. Between sharp lines nearer than the size lengths and shapes are at odds:
-/// by .4 frame.step at 2 % has 72 % of its edges in range and a mean of .897, by .2 it has 61 % and .918, and .913 to begin with.
-inline constexpr double price_of_length = 0.2;
+/// Sum of differences of shapes that one more edge in range is worth: first, and where the mean shape falls by it. Between sharp lines
+/// nearer than the size lengths and shapes are at odds: by .4 frame.step at 2 % has 72 % of its edges in range and a mean of .897, by .2
+/// it has 61 % and .918, and .913 to begin with.
+inline constexpr double high_price = 1, low_price = 0.2;
 
 // Triangles in (u, v) (reassembly)
 /// Share of an edge in space. Where what derivatives make of it in (u, v) differs more, the corners are not of one chart.

@@ -119,11 +119,12 @@ class WorstFirst {
 
 }  // namespace
 
-double worst_shape(const FreeMesh& mesh) {
+ShapeSummary summarise_shapes(const FreeMesh& mesh) {
   TriangleShapes shapes;
+  std::int64_t count = 0;
   for (const Corners& t : mesh.triangles())
-    if (t[0] >= 0) mesh.judge(t[0], t[1], t[2], shapes);
-  return shapes.worst;
+    if (t[0] >= 0) mesh.judge(t[0], t[1], t[2], shapes), ++count;
+  return {good_shape - shapes.short_of / static_cast<double>(std::max<std::int64_t>(count, 1)), shapes.worst};
 }
 
 std::int64_t raise_worst(FreeMesh& mesh, double floor, Monitor& monitor) {

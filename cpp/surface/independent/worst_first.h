@@ -9,8 +9,11 @@
 
 namespace carreau {
 
-/// Q2 of the worst triangle.
-double worst_shape(const FreeMesh& mesh);
+/// Of all triangles, in the metric.
+struct ShapeSummary {
+  double mean = 1, worst = 1;  ///< Q2
+};
+ShapeSummary summarise_shapes(const FreeMesh& mesh);
 
 /// Swaps edges of triangles below `floor` and moves their corners, worst first, where the worst one around is better
 /// for it, no more lengths are out of range and the surface agrees. Number of edits. Deterministic. Throws what the
