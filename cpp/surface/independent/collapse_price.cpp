@@ -17,10 +17,20 @@ int is_out_of_range(const FreeMesh& mesh, std::int32_t v, std::int32_t w) {
   return l < shortest || l > longest ? 1 : 0;
 }
 
+// Whether a triangle of the collapse would have all corners on sharp lines.
+bool spans_lines(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
+  if (mesh.is_free(kept)) return false;
+  return std::ranges::any_of(mesh.mesh().fan(gone), [&](FreeMesh::Place p) {
+    const auto& t = mesh.mesh().at(p);
+    return std::ranges::none_of(t, [&](std::int32_t w) { return w != gone && (w == kept || mesh.is_free(w)); });
+  });
+}
+
 }  // namespace
 
 bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, const TriangleShapes& before,
                     const TriangleShapes& after) {
+  if (!spans_lines(mesh, gone, kept)) return false;
   TriangleShapes all = before;
   std::vector<std::int32_t> both;  // neighbours of the two ends
   for (const FreeMesh::Place p : mesh.mesh().fan(gone)) {
