@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "support/infinity.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {
@@ -17,12 +18,12 @@ int is_out_of_range(const FreeMesh& mesh, std::int32_t v, std::int32_t w) {
   return l < shortest || l > longest ? 1 : 0;
 }
 
-// Whether a triangle of the collapse would have all corners on sharp lines.
+// Whether a triangle around would have all corners on sharp lines, or had the ones that stay.
 bool spans_lines(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
-  if (mesh.is_free(kept)) return false;
   return std::ranges::any_of(mesh.mesh().fan(gone), [&](FreeMesh::Place p) {
     const auto& t = mesh.mesh().at(p);
-    return std::ranges::none_of(t, [&](std::int32_t w) { return w != gone && (w == kept || mesh.is_free(w)); });
+    const bool on_lines = std::ranges::none_of(t, [&](std::int32_t w) { return w != gone && mesh.is_free(w); });
+    return on_lines && (mesh.is_free(gone) || (!mesh.is_free(kept) && std::ranges::find(t, kept) == t.end()));
   });
 }
 
@@ -30,7 +31,7 @@ bool spans_lines(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
 
 bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, const TriangleShapes& before,
                     const TriangleShapes& after) {
-  if (!spans_lines(mesh, gone, kept)) return false;
+  if (!(mesh.price_of_length() < infinity) || !spans_lines(mesh, gone, kept)) return false;
   TriangleShapes all = before;
   std::vector<std::int32_t> both;  // neighbours of the two ends
   for (const FreeMesh::Place p : mesh.mesh().fan(gone)) {

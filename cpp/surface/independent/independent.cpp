@@ -9,6 +9,7 @@
 
 #include "mesh/flat_mesh.h"
 #include "mesh/intersections.h"
+#include "support/infinity.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/reassembly.h"
 #include "surface/independent/remeshing.h"
@@ -25,7 +26,7 @@ SurfaceTolerances tolerances_of(const CompositeOptions& options) {
   const GeometricLimits limits = geometric_limits(options.size);
   // What is folded by less than the sharp angle may be flattened.
   const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
-  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation, .price_of_length = high_price};
+  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation, .price_of_length = options.sharp_angle > most_angle_of_price ? infinity : high_price};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg;
   if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
   return tolerances;
@@ -167,7 +168,7 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
     // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
     const bool ruled = geometric_limits(options.size).any();
     made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
-    if (made.worse_shaped && tolerances.price_of_length > low_price) {
+    if (made.worse_shaped && tolerances.price_of_length == high_price) {
       tolerances.price_of_length = low_price;
       made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
     }
