@@ -149,6 +149,7 @@ void FreeMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, Trian
       by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(place_[a].xyz, place_[b].xyz, place_[c].xyz);
   shapes.worst = std::min(shapes.worst, quality);
   shapes.inverses += 1 / std::max(quality, flat_quality);
+  shapes.short_of += good_shape - quality;
 }
 
 void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {

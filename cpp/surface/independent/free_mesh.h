@@ -19,12 +19,14 @@ struct SurfaceTolerances {
   double angle_deg = 0;       ///< A1: of a triangle's normal with those of the surface at its corners
   double deviation = 0;       ///< A0, model length; 0: `share_of_size` counts
   double share_of_size = 0;   ///< A0 as a share of the size
+  double price_of_length = 0; ///< sum of differences of Q2 that a collapse may cost for an edge that comes into range
 };
 
 /// Of some triangles.
 struct TriangleShapes {
   double worst = 1;      ///< Q2 in the metric
   double inverses = 0;   ///< sum of 1 / Q2
+  double short_of = 0;   ///< sum of good_shape - Q2
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 
@@ -102,6 +104,9 @@ class FreeMesh {
   /// A vertex beside the mesh, to be judged with it; the last one until it is forgotten.
   std::int32_t try_vertex(const SurfacePlace& at);
   void forget_vertex();
+
+  /// See SurfaceTolerances.
+  [[nodiscard]] double price_of_length() const noexcept { return asked_.price_of_length; }
 
   // Edits. Those that are refused change nothing.
   bool collapse(std::int32_t gone, std::int32_t kept) { return mesh_->collapse(gone, kept); }

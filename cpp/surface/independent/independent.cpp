@@ -10,10 +10,12 @@
 
 #include "mesh/flat_mesh.h"
 #include "mesh/intersections.h"
+#include "support/infinity.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/reassembly.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
+#include "surface/independent/worst_first.h"
 
 namespace carreau {
 
@@ -25,7 +27,7 @@ SurfaceTolerances tolerances_of(const CompositeOptions& options) {
   const GeometricLimits limits = geometric_limits(options.size);
   // What is folded by less than the sharp angle may be flattened.
   const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
-  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
+  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation, .price_of_length = options.sharp_angle > most_angle_of_price ? infinity : high_price};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg;
   if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
   return tolerances;
@@ -118,6 +120,7 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
   const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
   RemeshingReport report;
+  const ShapeSummary before = summarise_shapes(free);
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::vector<std::int32_t> changed = remesh_lines(free, worked, of_lines, monitor);
     if (round > 0 && changed.empty()) break;
@@ -126,11 +129,14 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame.everywhere ? changed.size() : 0);
     report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely, around);
   }
+  raise_worst(free, before.worst + above_worst, monitor);
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
                                      " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
                                      std::to_string(report.rounds) + " rounds");
-  return reassemble(result.mesh, free, frame.lines, worked, frame.corners, monitor);
+  FreedMesh made = reassemble(result.mesh, free, frame.lines, worked, frame.corners, monitor);
+  made.worse_shaped = summarise_shapes(free).mean < before.mean;
+  return made;
 }
 
 // Around triangles that cross.
@@ -165,6 +171,10 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
     // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
     const bool ruled = geometric_limits(options.size).any();
     made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
+    if (made.worse_shaped && tolerances.price_of_length == high_price) {
+      tolerances.price_of_length = low_price;
+      made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
+    }
     const Intersections found = crossings(made.mesh, options.threads, monitor);
     if (found.count == 0 || found.count <= known()) {
       why = worse(made.mesh, result.mesh);

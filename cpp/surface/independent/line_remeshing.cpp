@@ -8,6 +8,7 @@
 #include "curve/unit_discretisation.h"
 #include "support/infinity.h"
 #include "support/segment.h"
+#include "surface/independent/collapse_price.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {
@@ -100,7 +101,8 @@ class LineRemesher {
       const int i = mesh_.mesh().rank_in(p, gone);
       mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
-    return FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape);
+    return FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape) &&
+           !costs_too_much(mesh_, gone, kept, before, after);
   }
 
   // Where both edges have one length in the metric.

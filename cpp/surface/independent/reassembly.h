@@ -19,6 +19,7 @@ struct FreedMesh {
   std::vector<std::vector<double>> curve_size;     ///< by curve of the mesh
   std::vector<CurveParameters> curve_parameters;   ///< the same
   std::vector<std::vector<std::int32_t>> feet;  ///< [face][local vertex]: triangle of the atlas
+  bool worse_shaped = false;                    ///< the mean shape has fallen
 };
 
 /// A triangle belongs to the face of the foot of its centroid. Faces without a triangle are collapsed; edges of lines

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "metric/metric2.h"
+#include "surface/independent/collapse_price.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {
@@ -204,6 +205,7 @@ class Remesher {
       mesh_.judge_shape(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
     if (!adjacent || after.worst < std::min(before.worst, least_shape)) return -1;
+    if (costs_too_much(mesh_, gone, kept, before, after)) return -1;
     return after.worst;
   }
 
@@ -252,16 +254,18 @@ class Remesher {
   [[nodiscard]] double worst_when_dense(std::int32_t gone, std::int32_t kept) const {
     if (!mesh_.is_free(gone)) return -1;
     const EditableMesh& mesh = mesh_.mesh();
-    TriangleShapes after;
+    TriangleShapes before, after;
     for (const Place p : mesh.fan(gone)) {
       const auto t = mesh.at(p);
       if (t[0] == kept || t[1] == kept || t[2] == kept) continue;
+      mesh_.judge_shape(t[0], t[1], t[2], before);
       const int i = mesh.rank_in(p, gone);
       for (const std::int32_t w : {t[(i + 1) % 3], t[(i + 2) % 3]})
         if (mesh_.length(kept, w) > never_longer) return -1;
       mesh_.judge_shape(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
-    return after.worst < least_shape_when_dense ? -1 : after.worst;
+    if (after.worst < least_shape_when_dense || costs_too_much(mesh_, gone, kept, before, after)) return -1;
+    return after.worst;
   }
 
   bool collapse(std::int32_t gone, std::int32_t kept, double worst) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/independent/collapse_price.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "support/infinity.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+int is_out_of_range(const FreeMesh& mesh, std::int32_t v, std::int32_t w) {
+  const double l = mesh.length(v, w);
+  return l < shortest || l > longest ? 1 : 0;
+}
+
+// Whether a triangle around would have all corners on sharp lines, or had the ones that stay.
+bool spans_lines(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
+  return std::ranges::any_of(mesh.mesh().fan(gone), [&](FreeMesh::Place p) {
+    const auto& t = mesh.mesh().at(p);
+    const bool on_lines = std::ranges::none_of(t, [&](std::int32_t w) { return w != gone && mesh.is_free(w); });
+    return on_lines && (mesh.is_free(gone) || (!mesh.is_free(kept) && std::ranges::find(t, kept) == t.end()));
+  });
+}
+
+}  // namespace
+
+bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, const TriangleShapes& before,
+                    const TriangleShapes& after) {
+  if (!(mesh.price_of_length() < infinity) || !spans_lines(mesh, gone, kept)) return false;
+  TriangleShapes all = before;
+  std::vector<std::int32_t> both;  // neighbours of the two ends
+  for (const FreeMesh::Place p : mesh.mesh().fan(gone)) {
+    const auto& t = mesh.mesh().at(p);
+    if (t[0] != kept && t[1] != kept && t[2] != kept) continue;
+    mesh.judge_shape(t[0], t[1], t[2], all);
+    for (const std::int32_t w : t)
+      if (w != gone && w != kept) both.push_back(w);
+  }
+  int gain = 0;
+  for (const std::int32_t w : mesh.mesh().ring(gone)) {
+    gain += is_out_of_range(mesh, gone, w);
+    if (w != kept && std::ranges::find(both, w) == both.end()) gain -= is_out_of_range(mesh, kept, w);
+  }
+  return after.short_of - all.short_of > mesh.price_of_length() * gain;
+}
+
+}  // namespace carreau

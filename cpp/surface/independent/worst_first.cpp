@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/independent/worst_first.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+using Corners = EditableMesh::Triangle;
+
+class WorstFirst {
+ public:
+  WorstFirst(FreeMesh& mesh, double floor, Monitor& monitor) : mesh_(mesh), floor_(floor), monitor_(monitor) {}
+
+  std::int64_t run() {
+    for (int pass = 0; pass < most_worst_passes; ++pass) {
+      const std::int64_t before = edits_;
+      for (const auto& [shape, t] : below_floor()) {
+        monitor_.checkpoint();
+        if (!mesh_.is_alive(t[0]) || !is_triangle(t) || shape_of(t) >= floor_) continue;
+        for (int i = 0; i < 3 && is_triangle(t); ++i) swap(t[i], t[(i + 1) % 3]);
+        for (int i = 0; i < 3; ++i)
+          if (mesh_.is_free(t[i])) move(t[i]);
+      }
+      if (edits_ == before) break;
+    }
+    return edits_;
+  }
+
+ private:
+  [[nodiscard]] double shape_of(const Corners& t) const {
+    TriangleShapes shapes;
+    mesh_.judge(t[0], t[1], t[2], shapes);
+    return shapes.worst;
+  }
+
+  [[nodiscard]] std::vector<std::pair<double, Corners>> below_floor() const {
+    std::vector<std::pair<double, Corners>> found;
+    for (const Corners& t : mesh_.triangles())
+      if (t[0] >= 0)
+        if (const double shape = shape_of(t); shape < floor_) found.emplace_back(shape, t);
+    std::ranges::sort(found);
+    return found;
+  }
+
+  [[nodiscard]] bool is_triangle(const Corners& t) const {
+    return std::ranges::any_of(mesh_.mesh().fan(t[0]), [&](FreeMesh::Place p) { return mesh_.mesh().at(p) == t; });
+  }
+
+  void swap(std::int32_t v, std::int32_t w) {
+    const auto q = mesh_.mesh().quad_between({0, v}, w);
+    if (!q || mesh_.length(q->c, q->d) > std::max(longest, mesh_.length(v, w))) return;
+    TriangleShapes before, after;
+    mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
+    mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
+    if (after.worst < before.worst + least_gain || !FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
+    ++edits_;
+  }
+
+  [[nodiscard]] int out_of_range(std::int32_t v) const {
+    int out = 0;
+    for (const std::int32_t w : mesh_.mesh().ring(v)) {
+      const double l = mesh_.length(v, w);
+      out += l < shortest || l > longest ? 1 : 0;
+    }
+    return out;
+  }
+
+  // Uphill in the tangent plane, by steps that become shorter.
+  void move(std::int32_t v) {
+    for (double step = first_worst_step; step > last_worst_step;)
+      if (!step_uphill(v, step)) step /= 2;
+  }
+
+  bool step_uphill(std::int32_t v, double step) {
+    const SurfacePlace from = mesh_.place(v);
+    if (!from.regular) return false;
+    const WantedSize size = mesh_.wanted(v);
+    const TriangleShapes before = mesh_.judge_around(v);
+    if (before.worst >= floor_) return false;
+    const int out = out_of_range(v);
+    const Vec3 least = std::abs(from.normal[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 across = cross(from.normal, least);
+    const Vec3 p = (1 / norm(across)) * across, q = cross(from.normal, p);
+    SurfacePlace best = from;
+    double worst = before.worst + least_gain;
+    for (int k = 0; k < worst_directions; ++k) {
+      const double angle = 2 * std::numbers::pi * k / worst_directions;
+      const auto to =
+          mesh_.near(v, from.normal, from.xyz + (step * size.h) * (std::cos(angle) * p + std::sin(angle) * q));
+      if (!to) continue;
+      mesh_.put(v, *to, mesh_.wanted_at(*to));
+      const TriangleShapes after = mesh_.judge_around(v);
+      if (after.worst > worst && FreeMesh::agrees(before, after) && out_of_range(v) <= out)
+        worst = after.worst, best = *to;
+      mesh_.put(v, from, size);
+    }
+    if (worst <= before.worst + least_gain) return false;
+    mesh_.put(v, best, mesh_.wanted_at(best));
+    ++edits_;
+    return true;
+  }
+
+  FreeMesh& mesh_;
+  double floor_;
+  Monitor& monitor_;
+  std::int64_t edits_ = 0;
+};
+
+}  // namespace
+
+ShapeSummary summarise_shapes(const FreeMesh& mesh) {
+  TriangleShapes shapes;
+  std::int64_t count = 0;
+  for (const Corners& t : mesh.triangles())
+    if (t[0] >= 0) mesh.judge(t[0], t[1], t[2], shapes), ++count;
+  return {good_shape - shapes.short_of / static_cast<double>(std::max<std::int64_t>(count, 1)), shapes.worst};
+}
+
+std::int64_t raise_worst(FreeMesh& mesh, double floor, Monitor& monitor) {
+  return WorstFirst(mesh, floor, monitor).run();
+}
+
+}  // namespace carreau
