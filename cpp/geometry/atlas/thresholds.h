@@ -12,7 +12,7 @@ inline constexpr int grid_of_t = 24;
 inline constexpr double least_jacobian = 0.03;
 
 /// What the vertices of a chart count beside its neighbours: at first, by what factor less in each round, and at least.
-inline constexpr double first_anchor = 1, loosening = 0.5, least_anchor = 1e-3;
+inline constexpr double first_anchor = 10, loosening = 0.5, least_anchor = 1e-3;
 /// Below this, neighbours give way as well: before, charts at the fold alone, so that the mend stays local.
 inline constexpr double giving_way = 0.1;
 /// How much more a place that is turned over counts in each round. Ten leaves more folds than three.
