@@ -18,7 +18,7 @@ inline constexpr double first_anchor = 10, loosening = 0.5, least_anchor = 1e-3;
 inline constexpr double giving_way = 0.1;
 /// How much more a place that is turned over counts in each round. Ten leaves more folds than three.
 inline constexpr double emphasis = 3;
-/// Rounds, and sweeps over the charts in each. joint.off needs six rounds.
+/// Rounds, and sweeps over the charts in each.
 inline constexpr int mend_rounds = 24, mend_sweeps = 4;
 
 }  // namespace carreau::atlas::thresholds
