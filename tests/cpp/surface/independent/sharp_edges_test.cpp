@@ -19,7 +19,8 @@ AnalyticCad folded_sheet(const std::vector<Vec2>& profile) {
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
     const Vec2 p = profile[k], d = profile[k + 1] - profile[k];
     const auto plane = [p, d](Vec2 q) {
-      return SurfaceJet{{p.x() + q.x() * d.x(), q.y(), p.y() + q.x() * d.y()}, {d.x(), 0, d.y()}, {0, 1, 0}, {}, {}, {}};
+      return SurfaceJet{
+          {p.x() + q.x() * d.x(), q.y(), p.y() + q.x() * d.y()}, {d.x(), 0, d.y()}, {0, 1, 0}, {}, {}, {}};
     };
     cad.faces[static_cast<int>(k) + 1] = {plane, rectangle({0, 0}, {1, 4})};
   }
@@ -60,6 +61,35 @@ TEST(SharpEdges, ChamfersStayUntilTheAngleIsRaised) {
   EXPECT_NE(gone->mesh().faces[1].why.find("face 2"), std::string::npos);
 }
 
+/// A square of side 4 with `count` by `count` square holes of the given side.
+AnalyticCad perforated(int count, double side) {
+  const auto plane = [](Vec2 p) { return SurfaceJet{{p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0}, {}, {}, {}}; };
+  AnalyticCad cad;
+  cad.faces[1] = {plane, rectangle({0, 0}, {4, 4})};
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) {
+      const Vec2 a{(4. * i + 2) / count, (4. * j + 2) / count}, c = a + Vec2(side, side);
+      const Vec2 b{c.x(), a.y()}, d{a.x(), c.y()};
+      for (const AnalyticCurve& s : {segment(a, d), segment(d, c), segment(c, b), segment(b, a)})
+        cad.faces[1].curves.push_back(s);
+    }
+  return cad;
+}
+
+// Sides of holes are shorter than the size, so that lengths beside them cannot be as asked: shapes do not pay for it.
+TEST(SharpEdges, ShapesBesideSmallHolesAreNoWorse) {
+  Monitor quiet;
+  for (const int count : {3, 4}) {
+    const AnalyticCad cad = perforated(count, 0.2);
+    const auto patches = session_of_size(cad, 0.5, quiet);
+    patches->make_mesh();
+    const auto mesh = freed(cad, 0.5, 1, quiet);
+    const QualitySummary before = summarise_quality(patches->exported()), after = summarise_quality(mesh->exported());
+    EXPECT_GE(after.q2.mean, before.q2.mean);
+    EXPECT_GE(after.q2.min, before.q2.min);
+  }
+}
+
 TEST(SharpEdges, CornersAndLinesOfASquareAreKept) {
   Monitor quiet;
   const auto session = freed(folded_sheet({{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}), 1, 1, quiet);
@@ -70,7 +100,8 @@ TEST(SharpEdges, CornersAndLinesOfASquareAreKept) {
     for (std::size_t i = 1; i < curve.vertices.size(); ++i) {
       const Vec3 p = session->mesh().vertices[curve.vertices[i - 1]], q = session->mesh().vertices[curve.vertices[i]];
       length += norm(q - p);
-      const bool on_rim = (p.x() == q.x() && (p.x() == 0 || p.x() == 4)) || (p.y() == q.y() && (p.y() == 0 || p.y() == 4));
+      const bool on_rim =
+          (p.x() == q.x() && (p.x() == 0 || p.x() == 4)) || (p.y() == q.y() && (p.y() == 0 || p.y() == 4));
       EXPECT_TRUE(on_rim);
     }
   for (const Vec3& p : session->mesh().vertices)
