@@ -181,29 +181,11 @@ void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, T
   shapes.share = std::max(shapes.share, guarded ? guarded_factor * share : share);
 }
 
-TriangleShapes FreeMesh::judge_around(std::int32_t v) const {
+TriangleShapes FreeMesh::judge_fan(std::int32_t v, Judge how) const {
   TriangleShapes shapes;
   for (const Place p : mesh_->fan(v)) {
     const auto& [a, b, c] = mesh_->at(p);
-    judge(a, b, c, shapes);
-  }
-  return shapes;
-}
-
-TriangleShapes FreeMesh::judge_shapes_around(std::int32_t v) const {
-  TriangleShapes shapes;
-  for (const Place p : mesh_->fan(v)) {
-    const auto& [a, b, c] = mesh_->at(p);
-    judge_shape(a, b, c, shapes);
-  }
-  return shapes;
-}
-
-TriangleShapes FreeMesh::judge_agreement_around(std::int32_t v) const {
-  TriangleShapes shapes;
-  for (const Place p : mesh_->fan(v)) {
-    const auto& [a, b, c] = mesh_->at(p);
-    judge_agreement(a, b, c, shapes);
+    (this->*how)(a, b, c, shapes);
   }
   return shapes;
 }

@@ -81,9 +81,11 @@ class FreeMesh {
   void judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
   /// Of its share alone.
   void judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const;
-  [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const;
-  [[nodiscard]] TriangleShapes judge_shapes_around(std::int32_t v) const;
-  [[nodiscard]] TriangleShapes judge_agreement_around(std::int32_t v) const;
+  [[nodiscard]] TriangleShapes judge_around(std::int32_t v) const { return judge_fan(v, &FreeMesh::judge); }
+  [[nodiscard]] TriangleShapes judge_shapes_around(std::int32_t v) const { return judge_fan(v, &FreeMesh::judge_shape); }
+  [[nodiscard]] TriangleShapes judge_agreement_around(std::int32_t v) const {
+    return judge_fan(v, &FreeMesh::judge_agreement);
+  }
   /// Whether edits may leave `after` where there was `before`.
   [[nodiscard]] static bool agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept;
 
@@ -121,6 +123,8 @@ class FreeMesh {
   [[nodiscard]] Cad& cad() const noexcept { return cad_; }
 
  private:
+  using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
+  [[nodiscard]] TriangleShapes judge_fan(std::int32_t v, Judge how) const;
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
   void place_metrics();
   [[nodiscard]] Metric2 gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const;

@@ -40,7 +40,7 @@ class WorstFirst {
  private:
   [[nodiscard]] double shape_of(const Corners& t) const {
     TriangleShapes shapes;
-    mesh_.judge(t[0], t[1], t[2], shapes);
+    mesh_.judge_shape(t[0], t[1], t[2], shapes);
     return shapes.worst;
   }
 
@@ -123,7 +123,7 @@ ShapeSummary summarise_shapes(const FreeMesh& mesh) {
   TriangleShapes shapes;
   std::int64_t count = 0;
   for (const Corners& t : mesh.triangles())
-    if (t[0] >= 0) mesh.judge(t[0], t[1], t[2], shapes), ++count;
+    if (t[0] >= 0) mesh.judge_shape(t[0], t[1], t[2], shapes), ++count;
   return {good_shape - shapes.short_of / static_cast<double>(std::max<std::int64_t>(count, 1)), shapes.worst};
 }
 
