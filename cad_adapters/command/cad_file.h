@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "cad_input.h"
+#include "cad_library.h"
 
 namespace command {
 
 struct CloseCadFile {
-  void operator()(carreau_cad_file* file) const noexcept { carreau_cad_close(file); }
+  void operator()(carreau_cad_file* file) const noexcept { cad_library().close(file); }
 };
 using CadFileHandle = std::unique_ptr<carreau_cad_file, CloseCadFile>;
 

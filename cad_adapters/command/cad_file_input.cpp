@@ -5,18 +5,19 @@
 #include <numeric>
 
 #include "cad_file.h"
+#include "cad_library.h"
 #include "failure.h"
 #include "session_handle.h"
 
 namespace command {
 
 void require(carreau_cad_file* file, carreau_status status) {
-  if (status != CARREAU_OK) throw Failure(carreau_cad_last_error(file));
+  if (status != CARREAU_OK) throw Failure(cad_library().last_error(file));
 }
 
 CadFileHandle read_cad(const std::string& path, const ReadingProgress& progress) {
   carreau_cad_file* created = nullptr;
-  if (carreau_cad_create(&created) != CARREAU_OK) throw Failure("'" + path + "': out of memory.");
+  if (cad_library().create(&created) != CARREAU_OK) throw Failure("'" + path + "': out of memory.");
   CadFileHandle file(created);
   carreau_cad_options options{};
   options.struct_size = sizeof options;
@@ -27,7 +28,7 @@ CadFileHandle read_cad(const std::string& path, const ReadingProgress& progress)
     if (tell) tell(fraction);
     return std::int32_t{0};
   };
-  const carreau_status status = carreau_cad_read(file.get(), path.c_str(), &options);
+  const carreau_status status = cad_library().read(file.get(), path.c_str(), &options);
   if (status == CARREAU_ERR_MEMORY) throw Failure("'" + path + "': out of memory.");
   require(file.get(), status);
   return file;
@@ -36,7 +37,7 @@ CadFileHandle read_cad(const std::string& path, const ReadingProgress& progress)
 carreau_cad_content content_of(carreau_cad_file* file) {
   carreau_cad_content content{};
   content.struct_size = sizeof content;
-  require(file, carreau_cad_info(file, &content));
+  require(file, cad_library().info(file, &content));
   return content;
 }
 
@@ -46,10 +47,10 @@ std::vector<FaceLook> faces_of(carreau_cad_file* file) {
   for (std::int32_t number = 1; number <= count; ++number) {
     carreau_cad_face face{};
     face.struct_size = sizeof face;
-    require(file, carreau_cad_file_face(file, number, &face));
+    require(file, cad_library().file_face(file, number, &face));
     carreau_cad_figures figures{};
     figures.struct_size = sizeof figures;
-    require(file, carreau_cad_measure_face(file, number, &figures));
+    require(file, cad_library().measure_face(file, number, &figures));
     FaceLook look{.number = number, .name = face.name, .kind = figures.kind, .area = figures.area,
                   .perimeter = figures.perimeter};
     std::copy(std::begin(figures.low), std::end(figures.low), look.low.begin());
@@ -61,14 +62,14 @@ std::vector<FaceLook> faces_of(carreau_cad_file* file) {
 
 std::vector<std::string> losses_of(carreau_cad_file* file) {
   std::vector<std::string> sentences;
-  for (std::int64_t i = 0; const char* loss = carreau_cad_loss(file, i); ++i) sentences.emplace_back(loss);
+  for (std::int64_t i = 0; const char* loss = cad_library().loss(file, i); ++i) sentences.emplace_back(loss);
   return sentences;
 }
 
 carreau_cad_report inspect(carreau_cad_file* file) {
   carreau_cad_report report{};
   report.struct_size = sizeof report;
-  require(file, carreau_cad_inspect(file, 0, &report));
+  require(file, cad_library().inspect(file, 0, &report));
   return report;
 }
 
@@ -77,7 +78,7 @@ std::vector<carreau_cad_danger> dangers_of(carreau_cad_file* file, const carreau
   for (std::int32_t i = 0; i < report.dangers; ++i) {
     carreau_cad_danger& danger = dangers[static_cast<std::size_t>(i)];
     danger.struct_size = sizeof danger;
-    require(file, carreau_cad_danger_at(file, i, &danger));
+    require(file, cad_library().danger_at(file, i, &danger));
   }
   return dangers;
 }
@@ -90,7 +91,7 @@ class CadFileInput final : public CadInput {
 
   carreau_status give_to(carreau_session* session) override {
     const carreau_status status = carreau_model_clear(session);
-    return status == CARREAU_OK ? carreau_cad_add(file_.get(), session) : status;
+    return status == CARREAU_OK ? cad_library().add(file_.get(), session) : status;
   }
   // Without a usable face there is none: any length will do for a run that tells why of each.
   [[nodiscard]] double diagonal() const override { return content_.diagonal > 0 ? content_.diagonal : 1; }
@@ -99,12 +100,12 @@ class CadFileInput final : public CadInput {
   [[nodiscard]] bool answers_face_sizes() const override { return true; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   bool set_face_size(const std::string& face, double size) override {
-    return carreau_cad_set_face_size(file_.get(), face.c_str(), size) == CARREAU_OK;
+    return cad_library().set_face_size(file_.get(), face.c_str(), size) == CARREAU_OK;
   }
 
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
     double xyz[3], uv[2];
-    if (carreau_cad_point(file_.get(), face, u, v, xyz, uv) != CARREAU_OK) return false;
+    if (cad_library().point(file_.get(), face, u, v, xyz, uv) != CARREAU_OK) return false;
     place = {xyz[0], xyz[1], xyz[2], uv[0], uv[1]};
     return true;
   }
@@ -119,24 +120,24 @@ class CadFileInput final : public CadInput {
   [[nodiscard]] std::string face_name(std::int32_t number) const override {
     carreau_cad_face face{};
     face.struct_size = sizeof face;
-    return carreau_cad_file_face(file_.get(), number, &face) == CARREAU_OK ? face.name : "";
+    return cad_library().file_face(file_.get(), number, &face) == CARREAU_OK ? face.name : "";
   }
   [[nodiscard]] std::int32_t whole_face(std::int32_t face) const override {
-    return carreau_cad_whole_face(file_.get(), face);
+    return cad_library().whole_face(file_.get(), face);
   }
   [[nodiscard]] std::int32_t whole_curve(std::int32_t curve) const override {
-    return carreau_cad_whole_edge(file_.get(), curve);
+    return cad_library().whole_edge(file_.get(), curve);
   }
   [[nodiscard]] std::vector<std::int32_t> parts(std::int32_t face) const override {
-    return list_of(face, carreau_cad_parts);
+    return list_of(face, cad_library().parts);
   }
   [[nodiscard]] std::vector<std::int32_t> curves(std::int32_t face) const override {
-    return list_of(face, carreau_cad_curves);
+    return list_of(face, cad_library().curves);
   }
   [[nodiscard]] bool on_curve(std::int32_t face, std::int32_t ic, double share, double& u,
                               double& v) const noexcept override {
     double uv[2];
-    if (carreau_cad_curve_point(file_.get(), face, ic, share, uv) != CARREAU_OK) return false;
+    if (cad_library().curve_point(file_.get(), face, ic, share, uv) != CARREAU_OK) return false;
     u = uv[0], v = uv[1];
     return true;
   }
@@ -155,7 +156,7 @@ class CadFileInput final : public CadInput {
   [[nodiscard]] std::string gaps() const override {
     carreau_cad_gaps gaps{};
     gaps.struct_size = sizeof gaps;
-    require(file_.get(), carreau_cad_measure_gaps(file_.get(), &gaps));
+    require(file_.get(), cad_library().measure_gaps(file_.get(), &gaps));
     if (!(gaps.largest > 0)) return "none";
     char text[160];
     std::snprintf(text, sizeof text, "largest %.3g (edge %d on face %d); %d above twice the tolerance of their edges",

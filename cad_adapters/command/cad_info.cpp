@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cad_file.h"
+#include "cad_library.h"
 #include "commands.h"
 #include "json_output.h"
 
@@ -20,7 +21,7 @@ std::string number(double x) {
 std::string name_of(carreau_cad_file* file, std::int32_t number_of_face) {
   carreau_cad_face face{};
   face.struct_size = sizeof face;
-  require(file, carreau_cad_file_face(file, number_of_face, &face));
+  require(file, cad_library().file_face(file, number_of_face, &face));
   return face.name;
 }
 
@@ -30,7 +31,7 @@ std::vector<std::pair<std::string, int>> surfaces_of(carreau_cad_file* file, con
   for (std::int32_t i = 0; i < report.kinds; ++i) {
     const char* kind = "";
     std::int32_t count = 0;
-    require(file, carreau_cad_surfaces(file, i, &kind, &count));
+    require(file, cad_library().surfaces(file, i, &kind, &count));
     surfaces.emplace_back(kind, count);
   }
   return surfaces;
