@@ -132,7 +132,7 @@ TEST(FreeElements, CylinderOfStrips) {
 TEST(FreeElements, CubeOfSquares) {
   Monitor quiet;
   for (const Case& c : cases) {
-    const auto session = meshed(cube_of_squares(6), 0.125, c.element, quiet);
+    const auto session = meshed(cube_of_squares(6), 0.1, c.element, quiet);
     expect_elements(session->mesh(), c, true, [](const Vec3& p) {
       double off = 1;
       for (int k = 0; k < 3; ++k) off = std::min({off, std::abs(p[k]), std::abs(p[k] - 1)});
@@ -152,7 +152,7 @@ TEST(FreeElements, AreaConvergesAsThePolynomialsPromise) {
     const auto error = [&](double size) {
       return std::abs(area_of(meshed(cad, size, c.element, quiet)->mesh()) - 4 * pi);
     };
-    const double order = std::log2(error(0.4) / error(0.2));
+    const double order = std::log2(error(0.3) / error(0.15));
     EXPECT_GE(order, c.element == "q2.0" ? 2 : c.curved ? 3.5 : 1.7) << c.element;
   }
 }
