@@ -46,10 +46,13 @@ class CellMaker {
             const std::vector<FreeCell>& triangles)
       : vertices_(vertices), lines_(lines), triangles_(triangles), corners_(3 * triangles.size()), made_{SpaceQuads(surface), {}} {}
 
-  FreeCells run() {
+  FreeCells run(Monitor& monitor) {
     join_over_edges();
+    monitor.checkpoint();
     add_vertices();
+    monitor.checkpoint();
     find_flat_corners();
+    monitor.checkpoint();
     return std::move(made_);
   }
 
@@ -136,8 +139,8 @@ class CellMaker {
 }  // namespace
 
 FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
-                     const std::vector<FreeCell>& triangles) {
-  return CellMaker(surface, vertices, lines, triangles).run();
+                     const std::vector<FreeCell>& triangles, Monitor& monitor) {
+  return CellMaker(surface, vertices, lines, triangles).run(monitor);
 }
 
 bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b) {

@@ -23,7 +23,7 @@ struct FreeCells {
 /// `triangles`: by vertices of space, as the atlas is turned. Edges of lines are imposed, and so are those without exactly
 /// two triangles that run along them in opposite ways.
 FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
-                     const std::vector<FreeCell>& triangles);
+                     const std::vector<FreeCell>& triangles, Monitor& monitor);
 
 /// An edge that is imposed, between local vertices.
 [[nodiscard]] bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b);

@@ -36,7 +36,7 @@ class FreeElements {
         surface_(*frame.charts, cad),
         vertices_(*made.free),
         lines_(surface_, vertices_, lines_left(frame, *made.free), made.worked, monitor),
-        cells_(free_cells(surface_, vertices_, lines_, triangles_of(*made.free))) {}
+        cells_(free_cells(surface_, vertices_, lines_, triangles_of(*made.free), monitor)) {}
 
   void run() {
     if (has_quads(options_.element)) {

@@ -60,6 +60,15 @@ void for_elements(const SurfaceMesh& mesh, const Use& use) {
 
 double area_of(const SurfaceMesh& mesh) { return summarise_cells(flatten(mesh, true)).area; }
 
+class Counting final : public Monitor {
+ public:
+  void checkpoint() override {
+    if (++looks == stop_at) request_stop();
+    Monitor::checkpoint();
+  }
+  long looks = 0, stop_at = -1;
+};
+
 struct Case {
   std::string element;
   bool quads, only, curved;
@@ -201,6 +210,24 @@ TEST(FreeElements, MeshDoesNotDependOnThreads) {
     const FlatMesh other = meshed(sphere_of_triangles(1), 0.3, c.element, quiet, 8)->exported();
     EXPECT_TRUE(one.cells == other.cells) << c.element;
     EXPECT_TRUE(one.vertices == other.vertices) << c.element;
+  }
+}
+
+TEST(FreeElements, StopWhereverTheyAreAskedAndLeaveNothing) {
+  const AnalyticCad cad = sphere_of_triangles(1);
+  Counting all;
+  (void)meshed(cad, 0.3, "q2.1", all);
+  ASSERT_GT(all.looks, 20);
+  for (int k = 1; k <= 10; ++k) {
+    Counting monitor;
+    auto session = session_of_size(cad, 0.3, monitor);
+    session->parameters().set("patches", "independent");
+    session->parameters().set("element", std::string("q2.1"));
+    session->parameters().set("angle_mesh", 30.);
+    session->parameters().set("threads", 1);
+    monitor.stop_at = all.looks * k / 10;
+    EXPECT_THROW(session->make_mesh(), Cancelled) << k;
+    EXPECT_FALSE(session->has_mesh()) << k;
   }
 }
 
