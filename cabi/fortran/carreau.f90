@@ -49,7 +49,8 @@ module carreau
   public :: carreau_mesh_triangles, carreau_mesh_triangle_refs, carreau_mesh_corner_uv, carreau_mesh_corner_faces
   public :: carreau_mesh_edges, carreau_mesh_edge_refs, carreau_mesh_face, carreau_mesh_quality, carreau_mesh_defects
   public :: carreau_mesh_intersections
-  public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_edge_mids
+  public :: carreau_mesh_cell_count, carreau_mesh_cells, carreau_mesh_cell_uv, carreau_mesh_cell_faces
+  public :: carreau_mesh_edge_mids
   public :: carreau_mesh_cell_quality, carreau_cell_quality
   public :: carreau_exr_options, carreau_write_exr
   public :: carreau_session_delivered, carreau_delivered_measure, carreau_delivered_histogram
@@ -1445,6 +1446,20 @@ contains
     status = c_mesh_cell_uv(mesh%handle, kind, count, uv)
     if (status /= CARREAU_OK) deallocate (uv)
   end subroutine carreau_mesh_cell_uv
+
+  !> refs(nodes of the kind, elements): of the faces that carreau_mesh_cell_uv is of
+  subroutine carreau_mesh_cell_faces(mesh, kind, refs, status)
+    type(carreau_mesh), intent(in) :: mesh
+    integer(c_int32_t), intent(in) :: kind
+    integer(c_int32_t), allocatable, intent(out) :: refs(:, :)
+    integer(c_int32_t), intent(out) :: status
+    integer(c_int64_t) :: count
+    call carreau_mesh_cell_count(mesh, kind, count, status)
+    if (status /= CARREAU_OK) return
+    allocate (refs(nodes_of_kind(kind), count))
+    status = c_mesh_cell_faces(mesh%handle, kind, count, refs)
+    if (status /= CARREAU_OK) deallocate (refs)
+  end subroutine carreau_mesh_cell_faces
 
   pure integer function nodes_of_kind(kind)
     integer(c_int32_t), intent(in) :: kind

@@ -984,7 +984,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_mesh_cells
 
-    !> u v of each node of each element of a kind in its face, in the same order; mesh of a session only.
+    !> u v of each node of each element of a kind in its face, or, when the mesh is independent of its patches
+    !! (parameter patches), in that of carreau_mesh_cell_faces, in the same order; mesh of a session only.
     function c_mesh_cell_uv(mesh, kind, capacity, uv) result(status) bind(c, name="carreau_mesh_cell_uv")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none
@@ -994,6 +995,18 @@ module carreau_c
       real(c_double), intent(inout) :: uv(*)
       integer(c_int32_t) :: status
     end function c_mesh_cell_uv
+
+    !> For each node of each element of a kind the reference of the face that carreau_mesh_cell_uv is of, in the same
+    !! order; mesh of a session only.
+    function c_mesh_cell_faces(mesh, kind, capacity, refs) result(status) bind(c, name="carreau_mesh_cell_faces")
+      import :: c_int32_t, c_int64_t, c_ptr
+      implicit none
+      type(c_ptr), value :: mesh
+      integer(c_int32_t), value :: kind
+      integer(c_int64_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: refs(*)
+      integer(c_int32_t) :: status
+    end function c_mesh_cell_faces
 
     !> For each edge of carreau_mesh_edges the node between its ends; -1: the edge is straight.
     function c_mesh_edge_mids(mesh, capacity, vertices) result(status) bind(c, name="carreau_mesh_edge_mids")

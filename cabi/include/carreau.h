@@ -818,8 +818,13 @@ CARREAU_API carreau_status carreau_mesh_cell_count(carreau_mesh* mesh, int32_t k
  * faces. Errors as above, and ARGUMENT for a capacity (rows) that is too small. */
 CARREAU_API carreau_status carreau_mesh_cells(carreau_mesh* mesh, int32_t kind, int64_t capacity, int32_t out_nodes[],
                                               int32_t out_refs[]);
-/* u v of each node of each element of a kind in its face, in the same order; mesh of a session only. Errors as above. */
+/* u v of each node of each element of a kind in its face, or, when the mesh is independent of its patches (parameter
+ * patches), in that of carreau_mesh_cell_faces, in the same order; mesh of a session only. Errors as above. */
 CARREAU_API carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t capacity, double out_uv[]);
+/* For each node of each element of a kind the reference of the face that carreau_mesh_cell_uv is of, in the same order;
+ * mesh of a session only. Errors as above. */
+CARREAU_API carreau_status carreau_mesh_cell_faces(carreau_mesh* mesh, int32_t kind, int64_t capacity,
+                                                   int32_t out_refs[]);
 /* For each edge of carreau_mesh_edges the node between its ends; -1: the edge is straight. Errors as there. */
 CARREAU_API carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t capacity, int32_t out_vertices[]);
 

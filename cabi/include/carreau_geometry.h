@@ -317,7 +317,7 @@ typedef struct carreau_triangles {
  * positive); curves are the lines, corners points where lines end, meet or turn. Carreau joins vertices at one place, drops repeated triangles and
  * those with two corners at one place, and turns triangles that run against their neighbours; messages tell it.
  * carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as
- * their least, and elements are straight triangles. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
+ * their least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
  * that is not finite, a triangle without area between three places, an angle, a session with a model), SEQUENCE. */
 CARREAU_API carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                  const carreau_triangles* triangles);

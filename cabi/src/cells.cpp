@@ -90,6 +90,21 @@ carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t ca
   });
 }
 
+carreau_status carreau_mesh_cell_faces(carreau_mesh* mesh, int32_t kind, int64_t capacity, int32_t* out_refs) {
+  return guarded(mesh, [&] {
+    required(out_refs, "out_refs");
+    require_content(*mesh);
+    const carreau::CellKind wanted = kind_of(kind);
+    check_capacity(capacity, count_cells(*mesh, wanted), "elements");
+    std::int32_t* out = out_refs;
+    const SurfaceMesh& surface = session_only(*mesh, "(u, v)");
+    for (std::size_t f = 0; f < surface.faces.size(); ++f)
+      for (const carreau::Cell& cell : carreau::local_cells(surface.faces[f]))
+        for (int i = 0; cell.kind == wanted && i < carreau::node_count(wanted); ++i)
+          *out++ = surface.faces[mesh->session->session.uv_face(f, cell.nodes[std::size_t(i)])].shown_ref();
+  });
+}
+
 carreau_status carreau_mesh_edge_mids(carreau_mesh* mesh, int64_t capacity, int32_t* out_vertices) {
   return guarded(mesh, [&] {
     required(out_vertices, "out_vertices");

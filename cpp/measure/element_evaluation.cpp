@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
@@ -65,14 +66,15 @@ struct ElementMap {
 
 class ElementEvaluation {
  public:
-  ElementEvaluation(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed, Monitor& monitor,
-                    MeshEvaluation& delivered)
-      : mesh_(mesh), cad_(cad), prescribed_(prescribed), monitor_(monitor), delivered_(delivered) {}
+  ElementEvaluation(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed, const SpreadAtlas& atlas,
+                    Monitor& monitor, MeshEvaluation& delivered)
+      : mesh_(mesh), cad_(cad), prescribed_(prescribed), atlas_(atlas), monitor_(monitor), delivered_(delivered) {}
 
   void run() {
     for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
       face_ = &mesh_.faces[f];
       for (const bool quad : {true, false}) measure(static_cast<int>(f), quad);
+      if (atlas_.charts != nullptr) measure_spread(f);
       drop_diagonals();
       first_ += face_->triangles.size();
     }
@@ -87,13 +89,14 @@ class ElementEvaluation {
     std::array<Vec3, 8> uv, xyz;
   };
 
-  [[nodiscard]] std::vector<Placed> elements(bool quad) const {
+  // Those of (u, v), or those that are not.
+  [[nodiscard]] std::vector<Placed> elements(bool quad, bool spread) const {
     std::vector<Placed> placed;
     const auto corners = static_cast<std::int32_t>(face_->uv.size());
     std::size_t t = first_;
     for (const Cell& cell : local_cells(*face_)) {
       const int n = corner_count(cell.kind);
-      if ((n == 4) == quad && cell.kind != CellKind::triangle3) {
+      if ((n == 4) == quad && cell.kind != CellKind::triangle3 && face_->is_spread(t - first_) == spread) {
         Placed& p = placed.emplace_back();
         p.cell = cell, p.triangle = t;
         for (std::size_t i = 0; i < static_cast<std::size_t>(node_count(cell.kind)); ++i) {
@@ -109,7 +112,7 @@ class ElementEvaluation {
   }
 
   void measure(int f, bool quad) {
-    const std::vector<Placed> all = elements(quad);
+    const std::vector<Placed> all = elements(quad, false);
     if (all.empty()) return;
     const std::vector<Vec2> places = sample_places(quad);
     std::vector<Vec2> uv;
@@ -127,10 +130,67 @@ class ElementEvaluation {
                   for (std::size_t k = 0; k < here.size(); ++k) {
                     const Placed& p = all[(begin + k) / places.size()];
                     const std::size_t rank = (begin + k) % places.size();
-                    compare(p, places[rank], jets[k]);
+                    compare(p, places[rank], jets[k].s, unit_normal(jets[k]));
                     if (quad && rank == 0) judge_in_metric(p, metric[k]);
                   }
                 });
+  }
+
+  // Elements of several charts: the surface beside their own points.
+  void measure_spread(std::size_t f) {
+    for (const bool quad : {true, false}) {
+      const std::vector<Vec2> places = sample_places(quad);
+      for (const Placed& p : elements(quad, true)) {
+        monitor_.checkpoint();
+        start(p);
+        const std::vector<SurfacePlace> corner = corners_on_surface(f, p);
+        for (std::size_t rank = 0; rank < places.size(); ++rank) {
+          const auto found = surface_below(corner, map_of(p, p.xyz).at(places[rank]));
+          if (!found) continue;
+          const bool turned = atlas_.charts->triangles()[found->foot.triangle].turned !=
+                              atlas_.is_turned(static_cast<std::int32_t>(f), found->foot.triangle);
+          compare(p, places[rank], found->xyz, turned ? Vec3(-found->normal) : found->normal);
+          if (quad && rank == 0) judge_in_metric_at(p, *found);
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<SurfacePlace> corners_on_surface(std::size_t f, const Placed& p) const {
+    std::vector<SurfacePlace> corner;
+    for (int i = 0; i < corner_count(p.cell.kind); ++i) {
+      const std::int32_t local = p.cell.nodes[i];
+      const SurfacePlace at = atlas_.charts->evaluate(cad_, {atlas_.feet[f][local], face_->uv[local]});
+      if (at.regular) corner.push_back(at);
+    }
+    return corner;
+  }
+
+  // From the nearest corner that leads there, or to a barrier beside.
+  [[nodiscard]] std::optional<SurfacePlace> surface_below(std::vector<SurfacePlace> corner, const Vec3& point) const {
+    std::ranges::stable_sort(corner, {}, [&](const SurfacePlace& c) { return norm(c.xyz - point); });
+    for (const SurfacePlace& from : corner)
+      if (const auto found = atlas_.charts->towards(cad_, from, point, true)) return found;
+    return {};
+  }
+
+  // Its corners as the tangent plane of its middle has them in (u, v).
+  void judge_in_metric_at(const Placed& p, const SurfacePlace& middle) {
+    const std::int32_t face = atlas_.charts->face(middle.foot);
+    const std::array<SurfaceJet, 1> jet{
+        surface_at(cad_, mesh_.faces[face].ref, want_position | want_first | prescribed_.wants, middle.foot.uv)};
+    std::array<Metric2, 1> metric{};
+    prescribed_.at(face, {&middle.foot.uv, 1}, jet, metric);
+    const double e = dot(middle.su, middle.su), f = dot(middle.su, middle.sv), g = dot(middle.sv, middle.sv);
+    Placed flat = p;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3 d = p.xyz[i] - middle.xyz;
+      const double x = dot(middle.su, d), y = dot(middle.sv, d), det = e * g - f * f;
+      flat.uv[i] = {(g * x - f * y) / det, (e * y - f * x) / det, 0};
+    }
+    // As the face runs in its own (u, v).
+    if (dot(cross(p.xyz[2] - p.xyz[0], p.xyz[3] - p.xyz[1]), cross(middle.su, middle.sv)) < 0) std::swap(flat.uv[1], flat.uv[3]);
+    judge_in_metric(flat, metric[0]);
   }
 
   static ElementMap map_of(const Placed& p, const std::array<Vec3, 8>& nodes) {
@@ -152,10 +212,9 @@ class ElementEvaluation {
     set(p, EvaluationKind::q2, q.scaled_jacobian);
   }
 
-  void compare(const Placed& p, const Vec2& at, const SurfaceJet& jet) {
+  void compare(const Placed& p, const Vec2& at, const Vec3& surface, const std::optional<Vec3>& normal) {
     const ElementMap map = map_of(p, p.xyz);
-    set(p, EvaluationKind::deviation, std::max(of(EvaluationKind::deviation)[p.triangle], map.distance(jet.s, at)));
-    const std::optional<Vec3> normal = unit_normal(jet);
+    set(p, EvaluationKind::deviation, std::max(of(EvaluationKind::deviation)[p.triangle], map.distance(surface, at)));
     if (!normal) return;
     const auto [a, b] = map.slopes(at);
     const Vec3 own = cross(a, b);
@@ -182,6 +241,7 @@ class ElementEvaluation {
   const SurfaceMesh& mesh_;
   Cad& cad_;
   const PrescribedMetric& prescribed_;
+  const SpreadAtlas& atlas_;
   Monitor& monitor_;
   MeshEvaluation& delivered_;
   const FaceMesh* face_ = nullptr;
@@ -190,9 +250,9 @@ class ElementEvaluation {
 
 }  // namespace
 
-void evaluate_elements(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed, Monitor& monitor,
-                       MeshEvaluation& delivered) {
-  if (mesh.cells_are_not_triangles()) ElementEvaluation(mesh, cad, prescribed, monitor, delivered).run();
+void evaluate_elements(const SurfaceMesh& mesh, Cad& cad, const PrescribedMetric& prescribed, const SpreadAtlas& atlas,
+                       Monitor& monitor, MeshEvaluation& delivered) {
+  if (mesh.cells_are_not_triangles()) ElementEvaluation(mesh, cad, prescribed, atlas, monitor, delivered).run();
 }
 
 }  // namespace carreau

@@ -539,7 +539,7 @@ MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const Prescribed
   const auto start = std::chrono::steady_clock::now();
   const CallCounts before = cad.counts();
   MeshEvaluation d = Measurement(mesh, cad, prescribed, options, monitor).run();
-  evaluate_elements(mesh, cad, prescribed, monitor, d);
+  evaluate_elements(mesh, cad, prescribed, options.atlas, monitor, d);
   evaluate_curves(mesh, cad, options.curve_parameters, monitor, d);
   for (const EvaluationKind kind : {EvaluationKind::edge_angle, EvaluationKind::curve_angle, EvaluationKind::vertex_angle})
     d[kind].limit = options.edge_angle_limit;

@@ -60,8 +60,7 @@ class FaceAppender {
     edges_.clear();
     mid_rank_.assign(face.mid_uv.size(), -1);
     if (!goes_on) flat_.faces.push_back(whole_of(face.shown_ref()));
-    if (of_cells_)
-      for (const Cell& cell : local_cells(face)) append_cell(face, cell);
+    if (of_cells_) append_cells(face);
     for (std::size_t t = 0; t < face.triangles.size(); ++t, ++first) {
       if (plane_ && face.is_spread(t)) continue;  // no triangle of (u, v)
       append_triangle(face, face.triangles[t]);
@@ -111,6 +110,14 @@ class FaceAppender {
       source_.push_back(-1);
     }
     return rank;
+  }
+
+  void append_cells(const FaceMesh& face) {
+    std::size_t t = 0;
+    for (const Cell& cell : local_cells(face)) {
+      if (!plane_ || !face.is_spread(t)) append_cell(face, cell);
+      t += corner_count(cell.kind) == 4 ? 2 : 1;
+    }
   }
 
   void append_cell(const FaceMesh& face, const Cell& cell) {

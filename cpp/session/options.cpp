@@ -97,9 +97,6 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.frontal = parameters.integer("frontal") != 0;
   options.independent = parameters.text("patches") == "independent";
   options.sharp_angle = parameters.real("sharp_angle");
-  if (options.independent && options.element != Element::p1)
-    throw InvalidArgument("a mesh that is independent of its patches has triangles of three nodes: element " +
-                          parameters.text("element") + " and patches independent do not go together");
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);
   return options;

@@ -30,6 +30,7 @@
 #include "support/part_monitor.h"
 #include "support/ranks/team.h"
 #include "surface/discrete/discrete_run.h"
+#include "surface/independent/charts.h"
 #include "surface/team/same_hosts.h"
 
 namespace carreau {
@@ -247,6 +248,14 @@ bool Session::has_previous_mesh() const noexcept { return state_->has_previous; 
 const SurfaceMesh& Session::previous_mesh() const {
   if (!state_->has_previous) throw InvalidArgument("there is no mesh before this one: make a second one first");
   return state_->previous;
+}
+std::size_t Session::uv_face(std::size_t face, std::int32_t node) const {
+  const FaceMesh& of = mesh().faces[face];
+  const auto k = static_cast<std::size_t>(node);
+  if (k < of.uv.size()) return of.uv_face.empty() ? face : static_cast<std::size_t>(of.uv_face[k]);
+  const CompositeResult& result = state_->result;
+  if (!result.atlas || face >= result.mid_feet.size() || result.mid_feet[face].empty()) return face;
+  return static_cast<std::size_t>(result.atlas->face({result.mid_feet[face][k - of.uv.size()], {}}));
 }
 const std::vector<double>& Session::vertex_sizes() const { return (void)mesh(), state_->result.vertex_size; }
 const CompositeReport& Session::report() const { return (void)mesh(), state_->result.report; }

@@ -73,6 +73,9 @@ class Session {
   /// The mesh before mesh(): what fields are transferred from. Throws InvalidArgument before the second make_mesh().
   [[nodiscard]] const SurfaceMesh& previous_mesh() const;
   [[nodiscard]] bool has_previous_mesh() const noexcept;
+  /// The face whose (u, v) a node has (local_cells()), as an index in mesh().faces: of a mesh that is independent of its patches it may be
+  /// another one than the face that the node is listed in.
+  [[nodiscard]] std::size_t uv_face(std::size_t face, std::int32_t node) const;
   /// Size prescribed at each vertex of mesh().
   [[nodiscard]] const std::vector<double>& vertex_sizes() const;
   [[nodiscard]] const CompositeReport& report() const;

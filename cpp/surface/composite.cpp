@@ -8,7 +8,9 @@
 #include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
+#include "surface/free_elements/free_elements.h"
 #include "surface/independent/independent.h"
+#include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
 #include "surface/team/same_hosts.h"
 #include "surface/thresholds.h"
@@ -91,6 +93,21 @@ bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
 
+// With all its elements.
+bool make_free(CompositeRun& run) {
+  const CompositeOptions& options = run.options;
+  ElementMaker elements;
+  if (options.element != Element::p1)
+    elements = [&](const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made) {
+      make_free_elements(before, frame, options, run.cad, made, run.monitor);
+    };
+  if (!free_from_patches(run.curve_model, run.curves, options, run.rules.uses_metrics(), elements, run.result,
+                         run.monitor))
+    return false;
+  if (has_quads_only(options.element)) halve_sizes(run.result, run.curves);
+  return true;
+}
+
 }  // namespace
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
@@ -113,11 +130,12 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   mesh();
   part_crossing_triangles(run, mesh);
   run.known.end();
+  bool is_free = false;
   if (options.independent && any_prescribed(run))
     run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
-  else if (options.independent)
-    free_from_patches(run.curve_model, run.curves, options, run.rules.uses_metrics(), run.result, monitor);
-  make_elements(run, mesh);
+  else
+    is_free = options.independent && make_free(run);
+  if (!is_free) make_elements(run, mesh);
   place_on_curves(run);
   tell_prescribed(run);
   if (options.cracks) open_cracks(run.result);

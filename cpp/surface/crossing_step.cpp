@@ -10,7 +10,7 @@
 
 #include "mesh/intersections.h"
 #include "surface/attempts.h"
-#include "surface/common_points.h"
+#include "surface/crossings/common_points.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 

@@ -30,7 +30,7 @@ class FaceJob final : public SteppedTask {
         options_(options),
         reentrant_(reentrant),
         given_slope_(input_.slope),
-        squares_(has_quads(options.element)) {}
+        squares_(has_quads(options.element) && !options.independent) {}
 
   [[nodiscard]] bool finished() const override { return next_ == Step::none; }
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }

@@ -51,6 +51,7 @@ struct CompositeResult {
   /// its (u, v). Null and empty: of another mesh.
   std::shared_ptr<const Charts> atlas;
   std::vector<std::vector<std::int32_t>> feet;
+  std::vector<std::vector<std::int32_t>> mid_feet;  ///< the same of nodes on edges, by index in FaceMesh::mid_uv
   std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
   std::vector<TriangleIntersection> crossings;  ///< the first of the report's, by triangles face after face

@@ -113,6 +113,67 @@ TEST_F(SessionTest, ElementsComeBackFromFiles) {
   }
 }
 
+/// An octahedron over the unit sphere, each side divided `times` in two.
+struct Octahedron {
+  std::vector<double> xyz;
+  std::vector<std::int32_t> triangles;
+
+  explicit Octahedron(int times) {
+    const double corner[6][3] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    for (int k = 0; k < 4; ++k)
+      for (int top = 4; top < 6; ++top) {
+        const int a = k, b = (k + 1) % 4;
+        divide(corner[top == 4 ? a : b], corner[top == 4 ? b : a], corner[top], times);
+      }
+  }
+  void divide(const double* a, const double* b, const double* c, int times) {
+    if (times == 0) {
+      for (const double* p : {a, b, c}) {
+        triangles.push_back(std::int32_t(xyz.size() / 3));
+        xyz.insert(xyz.end(), p, p + 3);
+      }
+      return;
+    }
+    double m[3][3];
+    const double* ends[3][2] = {{a, b}, {b, c}, {c, a}};
+    for (int i = 0; i < 3; ++i) {
+      double size = 0;
+      for (int k = 0; k < 3; ++k) m[i][k] = ends[i][0][k] + ends[i][1][k], size += m[i][k] * m[i][k];
+      for (int k = 0; k < 3; ++k) m[i][k] /= std::sqrt(size);
+    }
+    divide(a, m[0], m[2], times - 1), divide(m[0], b, m[1], times - 1);
+    divide(m[2], m[1], c, times - 1), divide(m[0], m[1], m[2], times - 1);
+  }
+};
+
+TEST_F(SessionTest, SurfacesOfTrianglesHaveAllElements) {
+  const Octahedron sphere(3);
+  auto given = sized<carreau_triangles>();
+  given.vertices = sphere.xyz.data(), given.vertex_count = std::int64_t(sphere.xyz.size() / 3);
+  given.triangles = sphere.triangles.data(), given.triangle_count = std::int64_t(sphere.triangles.size() / 3);
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &given), CARREAU_OK) << error();
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.2), CARREAU_OK);
+  for (const char* element : {"p2", "q1.0", "q1.1", "q2.0", "q2.1"}) {
+    ASSERT_EQ(carreau_set_text(session, "element", element), CARREAU_OK) << error();
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    EXPECT_EQ(defects_of(mesh()), "") << element;
+    auto quality = sized<carreau_cell_quality>();
+    ASSERT_EQ(carreau_mesh_cell_quality(mesh(), &quality), CARREAU_OK);
+    EXPECT_EQ(quality.invalid, 0) << element;
+    EXPECT_EQ(quality.quads4 > 0, element[1] == '1') << element;
+    EXPECT_EQ(quality.triangles6 > 0, element[0] == 'p' || (element[1] == '2' && element[3] == '0' && quality.triangle_share > 0)) << element;
+    if (element[0] == 'q' && element[3] == '1') {
+      EXPECT_EQ(quality.triangle_share, 0) << element;
+    }
+    const bool curved = element[1] == '2';
+    EXPECT_NEAR(quality.area, 4 * std::acos(-1.0), curved ? 0.003 : 0.15) << element;
+    // The surface over 512 triangles is as near to the sphere.
+    const MeshData data = data_of(mesh());
+    for (std::size_t v = 0; v < data.vertex_count(); ++v)
+      EXPECT_NEAR(std::hypot(data.xyz[3 * v], data.xyz[3 * v + 1], data.xyz[3 * v + 2]), 1, 5e-4) << element;
+  }
+}
+
 TEST_F(SessionTest, WhatElementsCannotDoIsTold) {
   use_paraboloid();
   ASSERT_EQ(carreau_set_text(session, "element", "p2"), CARREAU_OK) << error();

@@ -383,7 +383,7 @@ contains
     type(carreau_mesh) :: mesh
     type(carreau_cell_quality) :: quality
     real(c_double), allocatable :: xyz(:, :), uv(:, :, :)
-    integer(c_int32_t), allocatable :: triangles(:, :), nodes(:, :), refs(:), mids(:)
+    integer(c_int32_t), allocatable :: triangles(:, :), nodes(:, :), refs(:), mids(:), faces(:, :)
     integer(c_int64_t) :: n, m, k, f, cells, e
     integer(c_int32_t) :: status
     real(c_double) :: off
@@ -417,6 +417,26 @@ contains
     call carreau_mesh_cell_quality(mesh, quality, status)
     call expect(status == CARREAU_OK .and. quality%triangles6 == m .and. quality%invalid == 0 .and. &
       quality%least_jacobian_min > 0, 'cell_quality')
+    ! The same free of patches: quadrilaterals whose nodes are at their (u, v) of the faces that are told.
+    call carreau_set_text(session, 'patches', 'independent', status)
+    call carreau_set_text(session, 'element', 'q2.1', status)
+    call carreau_mesh_generate(session, status)
+    call expect_ok(status, session, 'generate q2.1, independent')
+    call carreau_session_mesh(session, mesh, status)
+    call carreau_mesh_vertices(mesh, xyz, status)
+    call carreau_mesh_cells(mesh, CARREAU_CELL_QUAD8, nodes, refs, status)
+    call carreau_mesh_cell_uv(mesh, CARREAU_CELL_QUAD8, uv, status)
+    call carreau_mesh_cell_faces(mesh, CARREAU_CELL_QUAD8, faces, status)
+    call expect(status == CARREAU_OK .and. all(shape(faces) == shape(nodes)) .and. size(refs) > 0, 'cell_faces')
+    off = 0
+    do e = 1, size(refs)
+      do i = 1, 8
+        off = max(off, maxval(abs(uv(:, i, e) - xyz(1:2, nodes(i, e)))))
+      end do
+    end do
+    call expect(all(faces == 1) .and. off < 1d-14, '(u, v) of each node, independent')
+    call carreau_mesh_cell_quality(mesh, quality, status)
+    call expect(quality%quads8 == size(refs) .and. quality%invalid == 0, 'only valid quadrilaterals')
     call carreau_session_free(session)
   end subroutine test_elements
 

@@ -99,6 +99,7 @@ TEST(Wrapper, GivesTheArraysOfTheCInterface) {
   EXPECT_EQ(mesh.cells(CARREAU_CELL_TRIANGLE3), data.triangles);
   EXPECT_EQ(mesh.cell_refs(CARREAU_CELL_TRIANGLE3), data.triangle_refs);
   EXPECT_EQ(mesh.cell_uv(CARREAU_CELL_TRIANGLE3).back()[1], data.uv.back());
+  EXPECT_EQ(mesh.cell_faces(CARREAU_CELL_TRIANGLE3), std::vector<std::int32_t>(data.triangles.size(), 1));
   EXPECT_EQ(mesh.edge_mids(), std::vector<std::int32_t>(data.edge_count(), -1));
   EXPECT_EQ(mesh.corner_faces().size(), data.triangle_count());
   EXPECT_EQ(mesh.dimension(), 3);

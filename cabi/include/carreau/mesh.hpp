@@ -168,6 +168,13 @@ class Mesh {
     if (n > 0) done(carreau_mesh_cell_uv(mesh_, kind, n, detail::flat(out)));
     return out;
   }
+  /// References of the faces that cell_uv is of, of all nodes.
+  [[nodiscard]] std::vector<std::int32_t> cell_faces(int kind) const {
+    const std::int64_t n = cell_count(kind);
+    std::vector<std::int32_t> out(static_cast<std::size_t>(n * nodes_of(kind)));
+    if (n > 0) done(carreau_mesh_cell_faces(mesh_, kind, n, out.data()));
+    return out;
+  }
 
   [[nodiscard]] std::vector<Face> faces() const {
     std::vector<Face> out;

@@ -948,6 +948,7 @@ CARREAU = {
     "carreau_mesh_cell_count": (c_int32, [c_void_p, c_int32, POINTER(c_int64)]),
     "carreau_mesh_cells": (c_int32, [c_void_p, c_int32, c_int64, Int32s, Int32s]),
     "carreau_mesh_cell_uv": (c_int32, [c_void_p, c_int32, c_int64, Doubles]),
+    "carreau_mesh_cell_faces": (c_int32, [c_void_p, c_int32, c_int64, Int32s]),
     "carreau_mesh_edge_mids": (c_int32, [c_void_p, c_int64, Int32s]),
     "carreau_mesh_cell_quality": (c_int32, [c_void_p, POINTER(carreau_cell_quality)]),
     "carreau_mesh_face": (c_int32, [c_void_p, c_int64, POINTER(carreau_face)]),

@@ -88,8 +88,9 @@ class CellDefects {
 
   void check_face(const FaceMesh& face) {
     const std::vector<Cell> cells = local_cells(face);
+    const auto quads = static_cast<std::size_t>(face.quads);
     for (std::size_t c = 0; c < cells.size(); ++c) {
-      check_jacobian(face, cells[c], c);
+      check_jacobian(face, cells[c], c, !face.is_spread(c < quads ? 2 * c : c + quads));
       if (is_quadratic(cells[c].kind)) check_sides(face, cells[c]);
     }
   }
@@ -107,8 +108,8 @@ class CellDefects {
     }
   }
 
-  // (u, v) of faces that are turned over in part tell nothing (FaceMesh::triangles).
-  void check_jacobian(const FaceMesh& face, const Cell& cell, std::size_t c) {
+  // (u, v) of faces that are turned over in part tell nothing (FaceMesh::triangles), nor where it is of several charts.
+  void check_jacobian(const FaceMesh& face, const Cell& cell, std::size_t c, bool in_plane) {
     if (cell.kind == CellKind::triangle3) return;
     const auto n = static_cast<std::size_t>(node_count(cell.kind));
     const auto corners = static_cast<std::int32_t>(face.uv.size());
@@ -122,7 +123,7 @@ class CellDefects {
     }
     const std::string what = name(face) + "element " + std::to_string(c) + " has a Jacobian that is not positive in ";
     const auto in = [&](const std::array<Vec3, 8>& nodes) { return jacobian(cell.kind, {nodes.data(), n}); };
-    if (!(in(plane).least_along({0, 0, 1}) > 0)) add(what + "(u, v)");
+    if (in_plane && !(in(plane).least_along({0, 0, 1}) > 0)) add(what + "(u, v)");
     if (!(in(space).least() > 0)) add(what + "space");
   }
 

@@ -3,16 +3,42 @@
 
 #include <chrono>
 
-#include "support/error.h"
 #include "surface/discrete/start_mesh.h"
+#include "surface/free_elements/free_elements.h"
+#include "surface/quads/quadrilaterals.h"
 
 namespace carreau {
 
+namespace {
+
+// The mesh that the triangles were cut into, of straight triangles.
+void keep_as_it_is(const std::shared_ptr<Charts>& atlas, CompositeResult& result) {
+  result.atlas = atlas;
+  result.feet.resize(result.mesh.faces.size());
+  std::int32_t t = 0;
+  for (std::size_t f = 0; f < result.mesh.faces.size(); ++f) {
+    FaceMesh& face = result.mesh.faces[f];
+    result.feet[f].resize(face.vertex.size());
+    face.uv_face.assign(face.vertex.size(), static_cast<std::int32_t>(f));
+    face.spread.assign(face.triangles.size(), 0);
+    for (const auto& corners : face.triangles) {
+      for (const std::int32_t v : corners) result.feet[f][static_cast<std::size_t>(v)] = t;
+      ++t;
+    }
+  }
+  for (const CurveMesh& curve : result.mesh.curves) {
+    auto& of_curve = result.curve_size.emplace_back();
+    for (const std::int32_t v : curve.vertices) of_curve.push_back(result.vertex_size[static_cast<std::size_t>(v)]);
+  }
+}
+
+}  // namespace
+
 CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& surface, Cad& cad,
-                              const CompositeOptions& options, Monitor& monitor) {
+                              const CompositeOptions& given, Monitor& monitor) {
+  CompositeOptions options = given;
+  options.size = enlarged(given.size, enlargement_for(given.element));
   const auto start = std::chrono::steady_clock::now();
-  if (options.element != Element::p1)
-    throw InvalidArgument("a surface given as triangles gets straight triangles: element must be p1");
   const DiscreteSizes sizes(model, cad, surface, options);
   monitor.progress(Phase::curves, 0, 0);
   const discrete::RefinedMesh refined = refine_by_sizes(surface.discrete(), sizes, options, monitor);
@@ -25,26 +51,17 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   monitor.progress(Phase::patches, 0, 0.2);
   RemeshingFrame frame = start_frame(surface, refined, result.mesh, wanted, options, cad, monitor);
   const auto atlas = frame.charts;
+  if (options.element != Element::p1)
+    frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) {
+      make_free_elements(before, frame, options, cad, made, monitor);
+    };
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
   if (!why.empty()) {
     monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
-    result.atlas = atlas;
-    result.feet.resize(result.mesh.faces.size());
-    std::int32_t t = 0;
-    for (std::size_t f = 0; f < result.mesh.faces.size(); ++f) {
-      FaceMesh& face = result.mesh.faces[f];
-      result.feet[f].resize(face.vertex.size());
-      face.uv_face.assign(face.vertex.size(), static_cast<std::int32_t>(f));
-      face.spread.assign(face.triangles.size(), 0);
-      for (const auto& corners : face.triangles) {
-        for (const std::int32_t v : corners) result.feet[f][static_cast<std::size_t>(v)] = t;
-        ++t;
-      }
-    }
-    for (const CurveMesh& curve : result.mesh.curves) {
-      auto& of_curve = result.curve_size.emplace_back();
-      for (const std::int32_t v : curve.vertices) of_curve.push_back(result.vertex_size[static_cast<std::size_t>(v)]);
-    }
+    if (frame.elements)
+      make_elements_of_frame(frame, cad, options, result, monitor);
+    else
+      keep_as_it_is(atlas, result);
   }
   result.report.calls = cad.counts();
   result.report.diag = surface.discrete().mesh().diagonal();

@@ -164,6 +164,15 @@ PlaneMetric Charts::metric(const Foot& f, const Vec3& normal) const {
   return wanted;
 }
 
+WantedSize Charts::wanted(std::span<const SurfacePlace> places) const {
+  if (!by_direction()) return {size(places.front().foot), {}};
+  std::vector<PlaneMetric> planes;
+  for (const SurfacePlace& p : places) planes.push_back(metric(p.foot, p.normal));
+  WantedSize wanted{infinity, where_planes_meet(planes)};
+  for (const PlaneMetric& m : planes) wanted.h = std::min(wanted.h, mean_size(m));
+  return wanted;
+}
+
 // The shortest way over edges, in sizes.
 std::vector<double> Charts::factors_beside(const std::vector<char>& kept, double most, double growth) const {
   std::vector<double> factor(xyz_.size(), most);

@@ -13,26 +13,13 @@
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
 #include "surface/independent/tangent_metrics.h"
+#include "surface/surface_place.h"
 
 namespace carreau {
 
 /// An edge of the mesh in space: the smaller vertex first.
 using MeshEdge = std::array<std::int32_t, 2>;
 inline MeshEdge mesh_edge(std::int32_t v, std::int32_t w) noexcept { return v < w ? MeshEdge{v, w} : MeshEdge{w, v}; }
-
-/// A place of the surface: (u, v) in the face of a triangle of the atlas which holds it.
-struct Foot {
-  std::int32_t triangle = -1;
-  Vec2 uv;
-};
-
-/// The surface at a foot.
-struct SurfacePlace {
-  Foot foot;
-  Vec3 xyz, su, sv;
-  Vec3 normal;           ///< unit, on the side that the atlas has turned to; zero where singular
-  bool regular = false;  ///< there is a normal
-};
 
 /// Triangles of all faces with their (u, v), linked over the edges that may be crossed. Copies what it needs; safe from
 /// several threads.
@@ -80,6 +67,8 @@ class Charts {
   [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
   /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero where there is none.
   [[nodiscard]] PlaneMetric metric(const Foot& f, const Vec3& normal) const;
+  /// At a vertex with several places: of one size the first one's, else what holds in all of their planes.
+  [[nodiscard]] WantedSize wanted(std::span<const SurfacePlace> places) const;
   /// One evaluation.
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// Barycentric coordinates of a place of its chart, by corner.

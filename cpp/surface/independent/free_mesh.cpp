@@ -76,15 +76,6 @@ void FreeMesh::place_metrics() {
   }
 }
 
-WantedSize FreeMesh::wanted_at(std::span<const SurfacePlace> places) const {
-  if (!by_direction()) return {charts_.size(places.front().foot), {}};
-  std::vector<PlaneMetric> planes;
-  for (const SurfacePlace& p : places) planes.push_back(charts_.metric(p.foot, p.normal));
-  WantedSize wanted{infinity, where_planes_meet(planes)};
-  for (const PlaneMetric& m : planes) wanted.h = std::min(wanted.h, mean_size(m));
-  return wanted;
-}
-
 void FreeMesh::update_sizes() {
   for (std::size_t v = 0; v < place_.size(); ++v) {
     const auto here = static_cast<std::int32_t>(v);

@@ -30,15 +30,9 @@ struct TriangleShapes {
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
 
-/// What is wanted at a vertex.
-struct WantedSize {
-  double h = 0;    ///< sqrt(h1 h2) where sizes differ by direction
-  Metric3 metric;  ///< counts where they do; of a vertex that is not kept it knows nothing along the normal
-};
-
 /// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`
 /// and `cad`.
-class FreeMesh {
+class FreeMesh final : public PlacedVertices {
  public:
   using Place = EditableMesh::Place;
   using Quad = EditableMesh::Quad;
@@ -50,23 +44,19 @@ class FreeMesh {
   FreeMesh& operator=(const FreeMesh&) = delete;
 
   [[nodiscard]] const EditableMesh& mesh() const noexcept { return *mesh_; }
-  [[nodiscard]] std::size_t vertices() const noexcept { return place_.size(); }
+  [[nodiscard]] std::size_t vertices() const noexcept override { return place_.size(); }
   [[nodiscard]] const std::vector<EditableMesh::Triangle>& triangles() const noexcept { return triangles_; }
-  /// Neither on a sharp edge nor a corner.
-  [[nodiscard]] bool is_free(std::int32_t v) const { return several_[v] < 0; }
+  [[nodiscard]] bool is_free(std::int32_t v) const override { return several_[v] < 0; }
   [[nodiscard]] bool is_alive(std::int32_t v) const { return !mesh_->fan(v).empty(); }
   [[nodiscard]] const SurfacePlace& place(std::int32_t v) const { return place_[v]; }
-  /// The places of a vertex: several where it is kept, one for each vertex of a face that it was.
-  [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const;
-  [[nodiscard]] double size(std::int32_t v) const { return size_[v]; }
-  /// Whether sizes differ by direction.
-  [[nodiscard]] bool by_direction() const noexcept { return charts_.by_direction(); }
+  [[nodiscard]] std::span<const SurfacePlace> places(std::int32_t v) const override;
+  [[nodiscard]] double size(std::int32_t v) const override { return size_[v]; }
+  [[nodiscard]] bool by_direction() const noexcept override { return charts_.by_direction(); }
   /// If they do.
   [[nodiscard]] const Metric3& metric(std::int32_t v) const { return metric_[v]; }
   [[nodiscard]] WantedSize wanted(std::int32_t v) const { return {size_[v], by_direction() ? metric_[v] : Metric3{}}; }
-  /// At v, along the way to w.
-  [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const;
-  [[nodiscard]] Vec3 position(std::int32_t v) const { return place_[v].xyz; }
+  [[nodiscard]] double size_along(std::int32_t v, std::int32_t w) const override;
+  [[nodiscard]] Vec3 position(std::int32_t v) const override { return place_[v].xyz; }
 
   /// In the prescribed metric (HDR eq. 4.83).
   [[nodiscard]] double length(std::int32_t v, std::int32_t w) const;
@@ -95,7 +85,7 @@ class FreeMesh {
     return wanted_at(std::span<const SurfacePlace>(&place, 1));
   }
   /// At a vertex with several places.
-  [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const;
+  [[nodiscard]] WantedSize wanted_at(std::span<const SurfacePlace> places) const { return charts_.wanted(places); }
 
   /// After the sizes of the charts have changed.
   void update_sizes();

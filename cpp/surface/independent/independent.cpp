@@ -113,11 +113,33 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
   return report += halve(free, monitor);
 }
 
+struct Start {
+  std::unique_ptr<FreeMesh> free;
+  std::vector<WorkedLine> worked;
+};
+
+Start free_mesh_of(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame) {
+  Start start{std::make_unique<FreeMesh>(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances,
+                                         *frame.charts, cad),
+              {}};
+  for (const SharpLine& line : frame.lines) start.worked.emplace_back(line, frame.geometry(line));
+  return start;
+}
+
+// Of the triangles that are left.
+FreedMesh reassembled(const SurfaceMesh& before, Start&& start, const RemeshingFrame& frame, Monitor& monitor) {
+  CellsInSpace cells{*start.free, *frame.charts, start.free->cad(), {}, {}};
+  for (const auto& t : start.free->triangles())
+    if (t[0] >= 0) cells.cells.push_back({t[0], t[1], t[2], -1});
+  FreedMesh made = reassemble(before, cells, frame.lines, start.worked, frame.corners, monitor);
+  if (frame.elements) made.free = std::move(start.free), made.worked = std::move(start.worked);
+  return made;
+}
+
 FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, const CompositeResult& result,
                 RemeshingFrame& frame, Monitor& monitor) {
-  FreeMesh free(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances, *frame.charts, cad);
-  std::vector<WorkedLine> worked;
-  for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
+  auto [mesh, worked] = free_mesh_of(cad, tolerances, result, frame);
+  FreeMesh& free = *mesh;
   const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
   RemeshingReport report;
   const ShapeSummary before = summarise_shapes(free);
@@ -134,8 +156,9 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
                                      " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
                                      std::to_string(report.rounds) + " rounds");
-  FreedMesh made = reassemble(result.mesh, free, frame.lines, worked, frame.corners, monitor);
-  made.worse_shaped = summarise_shapes(free).mean < before.mean;
+  const bool worse_shaped = summarise_shapes(free).mean < before.mean;
+  FreedMesh made = reassembled(result.mesh, {std::move(mesh), std::move(worked)}, frame, monitor);
+  made.worse_shaped = worse_shaped;
   return made;
 }
 
@@ -153,7 +176,27 @@ std::string worse(const SurfaceMesh& made, const SurfaceMesh& before) {
   return euler(made) != euler(before) ? "its Euler number would differ" : "";
 }
 
+void take(FreedMesh&& made, RemeshingFrame& frame, CompositeResult& result, Monitor& monitor) {
+  for (std::size_t f = 0; f < made.mesh.faces.size(); ++f)
+    if (made.mesh.faces[f].status != result.mesh.faces[f].status)
+      monitor.message(Level::warning, made.mesh.faces[f].why);
+  result.mesh = std::move(made.mesh);
+  result.vertex_size = std::move(made.vertex_size);
+  result.curve_size = std::move(made.curve_size);
+  result.curve_parameters = std::move(made.curve_parameters);
+  result.atlas = std::move(frame.charts);
+  result.feet = std::move(made.feet);
+  result.mid_feet = std::move(made.mid_feet);
+}
+
 }  // namespace
+
+void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                            Monitor& monitor) {
+  FreedMesh made = reassembled(result.mesh, free_mesh_of(cad, tolerances_of(options), result, frame), frame, monitor);
+  if (frame.elements) frame.elements(result.mesh, made);
+  take(std::move(made), frame, result, monitor);
+}
 
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
@@ -185,26 +228,25 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
     guard(found, made, *frame.charts);
   }
   if (!why.empty()) return why;
-  for (std::size_t f = 0; f < made.mesh.faces.size(); ++f)
-    if (made.mesh.faces[f].status != result.mesh.faces[f].status)
-      monitor.message(Level::warning, made.mesh.faces[f].why);
-  result.mesh = std::move(made.mesh);
-  result.vertex_size = std::move(made.vertex_size);
-  result.curve_size = std::move(made.curve_size);
-  result.curve_parameters = std::move(made.curve_parameters);
-  result.atlas = std::move(frame.charts);
-  result.feet = std::move(made.feet);
+  if (frame.elements) {
+    frame.elements(result.mesh, made);
+    result.report.crossings = -1;  // those of straight triangles say nothing of these
+    result.crossings.clear();
+  }
+  take(std::move(made), frame, result, monitor);
   return "";
 }
 
-void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                       bool by_direction, CompositeResult& result, Monitor& monitor) {
+bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
+                       bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
   RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
+  if (elements) frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) { elements(before, frame, made); };
   frame.geometry = [&](const SharpLine& line) {
     return std::make_unique<LinePlaces>(line, result.mesh, model, curves, *frame.charts, model.cad);
   };
-  if (const std::string why = remesh_in_frame(frame, model.cad, options, result, monitor); !why.empty())
-    monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
+  const std::string why = remesh_in_frame(frame, model.cad, options, result, monitor);
+  if (!why.empty()) monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
+  return why.empty();
 }
 
 }  // namespace carreau

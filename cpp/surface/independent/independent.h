@@ -18,6 +18,8 @@
 
 namespace carreau {
 
+struct FreedMesh;
+
 /// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
 struct RemeshingFrame {
   VertexJets jets;
@@ -27,6 +29,8 @@ struct RemeshingFrame {
   std::vector<SharpLine> lines;
   std::function<std::unique_ptr<LineGeometry>(const SharpLine&)> geometry;
   bool everywhere = false;  ///< see remesh()
+  /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
+  std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
 };
 
@@ -35,10 +39,17 @@ struct RemeshingFrame {
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 
+/// As it is: only frame.elements makes something of its triangles.
+void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                            Monitor& monitor);
+
+/// RemeshingFrame::elements.
+using ElementMaker = std::function<void(const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made)>;
+
 /// `curves`: what it was made with. Makes the mesh of `result` free of borders that are not sharp: lengths, shapes, references, curves and (u, v) of its
-/// corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have them. It stays as it is where the outcome would have a defect or triangles that cross and did not. Sentences
+/// corners. `by_direction`: sizes may differ by direction, as the control spaces of the patches have them. `elements` may be empty. It stays as it is where the outcome would have a defect or triangles that cross and did not: false. Sentences
 /// about faces that have vanished go to `monitor`. Throws what the host throws, and Cancelled: then nothing is changed.
-void free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
-                       bool by_direction, CompositeResult& result, Monitor& monitor);
+bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
+                       bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 
 }  // namespace carreau

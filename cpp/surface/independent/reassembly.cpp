@@ -5,182 +5,29 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
-#include "predicates/predicates.h"
 #include "support/error.h"
-#include "support/infinity.h"
-#include "surface/independent/thresholds.h"
+#include "surface/independent/cell_placer.h"
 
 namespace carreau {
 
 namespace {
 
-using namespace thresholds::independent;
-
-/// A corner of a triangle: a vertex, and which of its places.
-struct Corner {
-  std::int32_t vertex, place;
-  friend auto operator<=>(const Corner&, const Corner&) = default;
-};
-
-struct PlacedTriangle {
-  std::int32_t face = -1;
-  std::array<Corner, 3> corners{};  ///< as the face turns
-  bool spread = false;
-};
-
-/// Which face a triangle belongs to, and where in (u, v) its corners are.
-class TrianglePlacer {
- public:
-  explicit TrianglePlacer(FreeMesh& mesh) : mesh_(mesh) {}
-
-  PlacedTriangle operator()(const EditableMesh::Triangle& t) {
-    vertex_ = t;
-    const Vec3 a = mesh_.position(t[0]);
-    normal_ = cross(mesh_.position(t[1]) - a, mesh_.position(t[2]) - a);
-    for (const std::int32_t face : common_faces())
-      if (auto placed = in_one_chart(face)) return *placed;
-    return over_several();
-  }
-
- private:
-  [[nodiscard]] std::int32_t face_of(const SurfacePlace& p) const { return mesh_.charts().face(p.foot); }
-  [[nodiscard]] bool is_turned(const SurfacePlace& p) const {
-    return mesh_.charts().triangles()[p.foot.triangle].turned;
-  }
-
-  // Those in which each corner has a place, on the side of the triangle; ascending.
-  [[nodiscard]] std::vector<std::int32_t> common_faces() const {
-    std::vector<std::int32_t> common;
-    for (int i = 0; i < 3; ++i) {
-      std::vector<std::int32_t> faces;
-      for (const SurfacePlace& p : mesh_.places(vertex_[i]))
-        if (!p.regular || dot(p.normal, normal_) > 0) faces.push_back(face_of(p));
-      std::ranges::sort(faces);
-      faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-      if (i == 0) {
-        common = std::move(faces);
-      } else {
-        std::erase_if(common, [&](std::int32_t f) { return !std::ranges::binary_search(faces, f); });
-      }
-    }
-    return common;
-  }
-
-  // Among the places of the corners in a face, those that are as far apart in (u, v) as in space.
-  [[nodiscard]] std::optional<PlacedTriangle> in_one_chart(std::int32_t face) const {
-    std::array<std::vector<std::int32_t>, 3> choice;
-    for (int i = 0; i < 3; ++i) {
-      const auto places = mesh_.places(vertex_[i]);
-      for (std::size_t k = 0; k < places.size(); ++k)
-        if (face_of(places[k]) == face) choice[i].push_back(static_cast<std::int32_t>(k));
-    }
-    for (const std::int32_t a : choice[0])
-      for (const std::int32_t b : choice[1])
-        for (const std::int32_t c : choice[2])
-          if (fits({a, b, c})) return turned(face, {a, b, c}, false);
-    return {};
-  }
-
-  [[nodiscard]] bool fits(const std::array<std::int32_t, 3>& k) const {
-    std::array<const SurfacePlace*, 3> p{};
-    for (int i = 0; i < 3; ++i) p[i] = &mesh_.places(vertex_[i])[k[i]];
-    const double sign = is_turned(*p[0]) ? -1 : 1;
-    if (!(sign * orientation(p[0]->foot.uv, p[1]->foot.uv, p[2]->foot.uv) > 0)) return false;
-    for (int i = 0; i < 3; ++i) {
-      if (!p[i]->regular) continue;
-      for (const int j : {(i + 1) % 3, (i + 2) % 3}) {
-        const Vec2 step = p[j]->foot.uv - p[i]->foot.uv;
-        const Vec3 chord = p[j]->xyz - p[i]->xyz;
-        if (!(norm(step.x() * p[i]->su + step.y() * p[i]->sv - chord) <= most_distortion * norm(chord))) return false;
-      }
-    }
-    return true;
-  }
-
-  [[nodiscard]] PlacedTriangle turned(std::int32_t face, const std::array<std::int32_t, 3>& k, bool spread) const {
-    PlacedTriangle placed{face, {}, spread};
-    for (int i = 0; i < 3; ++i) placed.corners[i] = {vertex_[i], k[i]};
-    if (is_turned(mesh_.places(vertex_[0])[k[0]])) std::swap(placed.corners[1], placed.corners[2]);
-    return placed;
-  }
-
-  [[nodiscard]] std::int32_t nearest_place(std::int32_t v, std::int32_t face) const {
-    const auto places = mesh_.places(v);
-    std::int32_t best = 0;
-    std::pair<bool, double> most{false, -infinity};
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      const std::pair here{face_of(places[k]) == face && dot(places[k].normal, normal_) > 0,
-                           dot(places[k].normal, normal_)};
-      if (here > most) most = here, best = static_cast<std::int32_t>(k);
-    }
-    return best;
-  }
-
-  /// The surface over a place of the triangle, from the nearest corner that has a normal.
-  [[nodiscard]] std::optional<SurfacePlace> below(const std::array<double, 3>& weight,
-                                                  const std::array<std::int32_t, 3>& k) {
-    const Vec3 target = weight[0] * mesh_.position(vertex_[0]) + weight[1] * mesh_.position(vertex_[1]) +
-                        weight[2] * mesh_.position(vertex_[2]);
-    std::array<int, 3> order{0, 1, 2};
-    std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
-    for (const int i : order) {
-      const SurfacePlace& from = mesh_.places(vertex_[i])[k[i]];
-      if (!from.regular) continue;
-      if (auto place = mesh_.charts().towards(mesh_.cad(), from, target)) return place;
-    }
-    return {};
-  }
-
-  // The face that holds most of some places, where the corners are of three; else that of the centroid.
-  [[nodiscard]] std::optional<SurfacePlace> most_of(const std::array<std::int32_t, 3>& k) {
-    constexpr double third = 1. / 3, most = 2. / 3, rest = 1. / 6;
-    auto found = below({third, third, third}, k);
-    const auto corner = [&](int i) { return face_of(mesh_.places(vertex_[i])[k[i]]); };
-    if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) return found;
-    std::map<std::int32_t, int> votes;
-    std::vector<SurfacePlace> places;
-    if (found) places.push_back(*found);
-    for (const auto& weight : {std::array{most, rest, rest}, {rest, most, rest}, {rest, rest, most},
-                               {0.5, 0.5, 0.}, {0., 0.5, 0.5}, {0.5, 0., 0.5}})
-      if (auto place = below(weight, k)) places.push_back(*place);
-    for (const SurfacePlace& p : places) ++votes[face_of(p)];
-    for (const SurfacePlace& p : places)
-      if (!found || votes[face_of(p)] > votes[face_of(*found)]) found = p;
-    return found;
-  }
-
-  PlacedTriangle over_several() {
-    std::array<std::int32_t, 3> k{};
-    for (int i = 0; i < 3; ++i) k[i] = nearest_place(vertex_[i], -1);
-    const std::optional<SurfacePlace> foot = most_of(k);
-    const SurfacePlace middle = foot ? *foot : mesh_.places(vertex_[0])[k[0]];
-    const std::int32_t face = face_of(middle);
-    PlacedTriangle placed{face, {}, true};
-    for (int i = 0; i < 3; ++i) placed.corners[i] = {vertex_[i], nearest_place(vertex_[i], face)};
-    if (is_turned(middle)) std::swap(placed.corners[1], placed.corners[2]);
-    return placed;
-  }
-
-  FreeMesh& mesh_;
-  EditableMesh::Triangle vertex_{};
-  Vec3 normal_;
-};
-
+/// Deals cells out to faces, and edges of lines to curves.
 class Reassembler {
  public:
-  Reassembler(const SurfaceMesh& before, FreeMesh& free, Monitor& monitor)
-      : before_(before), free_(free), monitor_(monitor) {
+  Reassembler(const SurfaceMesh& before, const CellsInSpace& cells, Monitor& monitor)
+      : before_(before), free_(cells.vertices), in_space_(cells), monitor_(monitor) {
     result_.mesh.independent = true;
   }
 
   FreedMesh run(const std::vector<SharpLine>& lines, std::span<const WorkedLine> worked,
                 const std::vector<std::int32_t>& corners) {
     number_vertices(corners);
-    place_triangles();
+    place_cells();
     result_.feet.resize(before_.faces.size());
+    result_.mid_feet.resize(before_.faces.size());
     for (std::size_t f = 0; f < before_.faces.size(); ++f) add_face(f);
     add_curves(lines);
     place_on_curves(worked);
@@ -190,9 +37,10 @@ class Reassembler {
  private:
   void number_vertices(const std::vector<std::int32_t>& corners) {
     number_.assign(free_.vertices(), -1);
-    for (const auto& t : free_.triangles())
-      if (t[0] >= 0)
-        for (const std::int32_t v : t) number_[v] = 0;
+    node_number_.assign(in_space_.nodes.empty() ? 0 : free_.vertices(), -1);
+    for (const FreeCell& cell : in_space_.cells)
+      for (const std::int32_t v : cell)
+        if (v >= 0) number_[v] = 0;
     for (std::size_t v = 0; v < number_.size(); ++v) {
       if (number_[v] < 0) continue;
       const auto old = static_cast<std::int32_t>(v);
@@ -202,19 +50,30 @@ class Reassembler {
       result_.vertex_size.push_back(free_.size(old));
       old_vertex_.push_back(old);
     }
+    for (const FreeCell& nodes : in_space_.nodes)
+      for (const std::int32_t v : nodes)
+        if (v >= 0) node_number_[v] = 0;
+    for (std::size_t v = 0; v < node_number_.size(); ++v) {
+      if (node_number_[v] < 0) continue;
+      node_number_[v] = static_cast<std::int32_t>(result_.mesh.mid_vertices.size());
+      result_.mesh.mid_vertices.push_back(free_.position(static_cast<std::int32_t>(v)));
+    }
   }
 
-  void place_triangles() {
-    TrianglePlacer place(free_);
-    std::size_t count = 0;
+  void place_cells() {
+    CellPlacer place(free_, in_space_.charts, in_space_.cad);
     of_face_.resize(before_.faces.size());
-    for (const auto& t : free_.triangles()) {
-      if (t[0] < 0) continue;
-      if (count++ % 256 == 0) monitor_.checkpoint();
-      PlacedTriangle placed = place(t);
-      for (int i = 0; i < 3; ++i) {
-        const std::int32_t v = t[i], w = t[(i + 1) % 3];
-        if (!free_.is_free(v) && !free_.is_free(w)) beside_[mesh_edge(v, w)].push_back(placed.face);
+    for (std::size_t c = 0; c < in_space_.cells.size(); ++c) {
+      if (c % 256 == 0) monitor_.checkpoint();
+      const FreeCell& cell = in_space_.cells[c];
+      const FreeCell nodes = in_space_.nodes.empty() ? FreeCell{-1, -1, -1, -1} : in_space_.nodes[c];
+      PlacedCell placed = place(cell, nodes);
+      for (int i = 0; i < placed.count; ++i) {
+        const std::int32_t v = cell[i], w = cell[(i + 1) % placed.count];
+        if (free_.is_free(v) || free_.is_free(w)) continue;
+        Beside& beside = beside_[mesh_edge(v, w)];
+        beside.faces.push_back(placed.face);
+        beside.node = nodes[i];
       }
       of_face_[placed.face].push_back(placed);
     }
@@ -233,23 +92,69 @@ class Reassembler {
       return;
     }
     std::vector<std::int32_t>& feet = result_.feet[f];
-    std::vector<Corner> locals;
-    for (const PlacedTriangle& t : of_face_[f]) locals.insert(locals.end(), t.corners.begin(), t.corners.end());
-    std::ranges::sort(locals);
-    locals.erase(std::unique(locals.begin(), locals.end()), locals.end());
-    for (const Corner& c : locals) {
+    std::vector<PlacedCorner> locals;
+    for (const PlacedCell& c : of_face_[f]) locals.insert(locals.end(), c.corners.begin(), c.corners.begin() + c.count);
+    sort_uniquely(locals);
+    for (const PlacedCorner& c : locals) {
       const SurfacePlace& p = free_.places(c.vertex)[c.place];
       face.uv.push_back(p.foot.uv);
       face.vertex.push_back(number_[c.vertex]);
-      face.uv_face.push_back(free_.charts().face(p.foot));
+      face.uv_face.push_back(in_space_.charts.face(p.foot));
       feet.push_back(p.foot.triangle);
     }
-    for (const PlacedTriangle& t : of_face_[f]) {
-      std::array<std::int32_t, 3> corners{};
-      for (int i = 0; i < 3; ++i)
-        corners[i] = static_cast<std::int32_t>(std::ranges::lower_bound(locals, t.corners[i]) - locals.begin());
-      face.triangles.push_back(corners);
-      face.spread.push_back(static_cast<char>(t.spread));
+    add_cells(of_face_[f], locals, face);
+    if (!in_space_.nodes.empty()) add_nodes(of_face_[f], locals, face, result_.mid_feet[f]);
+  }
+
+  template <typename T>
+  static void sort_uniquely(std::vector<T>& all) {
+    std::ranges::sort(all);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+  }
+  static std::int32_t rank_of(const PlacedCorner& c, const std::vector<PlacedCorner>& all) {
+    return static_cast<std::int32_t>(std::ranges::lower_bound(all, c) - all.begin());
+  }
+
+  void add_cells(const std::vector<PlacedCell>& cells, const std::vector<PlacedCorner>& locals, FaceMesh& face) const {
+    std::vector<std::array<std::int32_t, 4>> four;
+    std::vector<std::array<std::int32_t, 3>> three;
+    std::vector<char> spread;  // of triangles
+    for (const PlacedCell& c : cells) {
+      std::array<std::int32_t, 4> corners{};
+      for (int i = 0; i < c.count; ++i) corners[i] = rank_of(c.corners[i], locals);
+      if (c.count == 4)
+        four.push_back(corners), face.spread.insert(face.spread.end(), 2, static_cast<char>(c.spread));
+      else
+        three.push_back({corners[0], corners[1], corners[2]}), spread.push_back(static_cast<char>(c.spread));
+    }
+    set_cells(face, four, three, result_.mesh.vertices);
+    face.spread.insert(face.spread.end(), spread.begin(), spread.end());
+  }
+
+  // An edge of a face has the same node from both of its sides.
+  void add_nodes(const std::vector<PlacedCell>& cells, const std::vector<PlacedCorner>& locals, FaceMesh& face,
+                 std::vector<std::int32_t>& feet) const {
+    std::vector<PlacedCorner> nodes;
+    std::map<std::array<std::int32_t, 2>, PlacedCorner> on_edge;  // by local corners, as the cell runs
+    for (const PlacedCell& c : cells)
+      for (int i = 0; i < c.count; ++i) {
+        nodes.push_back(c.nodes[i]);
+        on_edge[{rank_of(c.corners[i], locals), rank_of(c.corners[(i + 1) % c.count], locals)}] = c.nodes[i];
+      }
+    sort_uniquely(nodes);
+    for (const PlacedCorner& n : nodes) {
+      const SurfacePlace& p = free_.places(n.vertex)[n.place];
+      face.mid_uv.push_back(p.foot.uv);
+      face.mid_vertex.push_back(node_number_[n.vertex]);
+      feet.push_back(p.foot.triangle);
+    }
+    for (std::size_t t = 0; t < face.triangles.size(); ++t) {
+      std::array<std::int32_t, 3>& mid = face.mid.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto found = on_edge.find({face.triangles[t][i], face.triangles[t][(i + 1) % 3]});
+        const bool diagonal = t < 2 * static_cast<std::size_t>(face.quads) && i == (t % 2 == 0 ? 2U : 0U);
+        mid[i] = diagonal || found == on_edge.end() ? -1 : rank_of(found->second, nodes);
+      }
     }
   }
 
@@ -258,6 +163,7 @@ class Reassembler {
     std::int32_t curve = -1;
     std::vector<std::int32_t> faces;
     std::vector<std::int32_t> vertices;
+    std::vector<std::int32_t> nodes;  // of its edges
   };
 
   void add_curves(const std::vector<SharpLine>& lines) {
@@ -270,8 +176,10 @@ class Reassembler {
     for (Run& run : runs) {
       CurveMesh curve = mesh.curves[run.curve];
       curve.uses = uses_of(run);
-      curve.vertices.clear();
+      curve.vertices.clear(), curve.mid.clear();
       for (const std::int32_t v : run.vertices) curve.vertices.push_back(number_[v]);
+      for (const std::int32_t v : run.nodes)
+        if (v >= 0) curve.mid.push_back(node_number_[v]);
       if (mesh.curves[run.curve].vertices.empty())
         mesh.curves[run.curve] = std::move(curve);
       else
@@ -323,28 +231,17 @@ class Reassembler {
     }
   }
 
-  void add_runs(const SharpLine& line, std::vector<Run>& runs) {
+  void add_runs(const SharpLine& whole, std::vector<Run>& runs) {
+    const auto [left, curve] = what_is_left(whole, [&](std::int32_t v) { return number_[v] >= 0; });
     bool fresh = true;
-    std::size_t first = 0;
-    while (first < line.vertices.size() && number_[line.vertices[first]] < 0) ++first;
-    std::vector<std::int32_t> left, curve;  // vertices that are there, and the curve of each edge
-    const std::size_t n = line.curve.size();
-    if (first > n) return;
-    left.push_back(line.vertices[first]);
-    std::size_t from = first;
-    for (std::size_t k = first + 1; k <= (line.closed() ? first + n : n); ++k) {
-      const std::int32_t v = line.vertices[k <= n ? k : k - n];
-      if (number_[v] < 0) continue;
-      left.push_back(v);
-      curve.push_back(line.curve[((from + k - 1) / 2) % n]);
-      from = k;
-    }
     for (std::size_t k = 0; k < curve.size(); ++k) {
-      std::vector<std::int32_t> faces = beside_[mesh_edge(left[k], left[k + 1])];
+      const Beside& beside = beside_[mesh_edge(left[k], left[k + 1])];
+      std::vector<std::int32_t> faces = beside.faces;
       std::ranges::sort(faces);
       if (fresh || runs.back().curve != curve[k] || runs.back().faces != faces)
-        runs.push_back({curve[k], std::move(faces), {left[k]}});
+        runs.push_back({curve[k], std::move(faces), {left[k]}, {}});
       runs.back().vertices.push_back(left[k + 1]);
+      runs.back().nodes.push_back(beside.node);
       fresh = false;
     }
   }
@@ -359,23 +256,48 @@ class Reassembler {
     return uses;
   }
 
+  /// Of an edge between kept vertices: faces of the cells on it, and its node.
+  struct Beside {
+    std::vector<std::int32_t> faces;
+    std::int32_t node = -1;
+  };
+
   const SurfaceMesh& before_;
-  FreeMesh& free_;
+  const PlacedVertices& free_;
+  const CellsInSpace& in_space_;
   Monitor& monitor_;
   FreedMesh result_;
   std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
-  std::vector<std::vector<PlacedTriangle>> of_face_;
-  std::map<MeshEdge, std::vector<std::int32_t>> beside_;  // faces of the triangles on edges between kept vertices
+  std::vector<std::int32_t> node_number_;          // of those that are nodes on edges
+  std::vector<std::vector<PlacedCell>> of_face_;
+  std::map<MeshEdge, Beside> beside_;
   std::vector<CurveMesh> more_;
   std::vector<std::int32_t> old_curve_;  // by curve: that of before
 };
 
 }  // namespace
 
-FreedMesh reassemble(const SurfaceMesh& before, FreeMesh& free, const std::vector<SharpLine>& lines,
-                     std::span<const WorkedLine> worked,
-                     const std::vector<std::int32_t>& corners, Monitor& monitor) {
-  return Reassembler(before, free, monitor).run(lines, worked, corners);
+SharpLine what_is_left(const SharpLine& line, const std::function<bool(std::int32_t)>& is_there) {
+  SharpLine left;
+  std::size_t first = 0;
+  while (first < line.vertices.size() && !is_there(line.vertices[first])) ++first;
+  const std::size_t n = line.curve.size();
+  if (first > n) return left;
+  left.vertices.push_back(line.vertices[first]);
+  std::size_t from = first;
+  for (std::size_t k = first + 1; k <= (line.closed() ? first + n : n); ++k) {
+    const std::int32_t v = line.vertices[k <= n ? k : k - n];
+    if (!is_there(v)) continue;
+    left.vertices.push_back(v);
+    left.curve.push_back(line.curve[((from + k - 1) / 2) % n]);
+    from = k;
+  }
+  return left;
+}
+
+FreedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
+                     std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, Monitor& monitor) {
+  return Reassembler(before, cells, monitor).run(lines, worked, corners);
 }
 
 }  // namespace carreau

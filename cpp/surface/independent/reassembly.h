@@ -2,9 +2,12 @@
 // From a free mesh back to faces, curves and (u, v).
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "surface/independent/cell_placer.h"
 #include "surface/independent/free_mesh.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/sharp_edges.h"
@@ -19,13 +22,30 @@ struct FreedMesh {
   std::vector<std::vector<double>> curve_size;     ///< by curve of the mesh
   std::vector<CurveParameters> curve_parameters;   ///< the same
   std::vector<std::vector<std::int32_t>> feet;  ///< [face][local vertex]: triangle of the atlas
+  std::vector<std::vector<std::int32_t>> mid_feet;  ///< the same of nodes on edges, by index in FaceMesh::mid_uv
   bool worse_shaped = false;                    ///< the mean shape has fallen
+  // What it was made of, for those who make other elements of it.
+  std::unique_ptr<FreeMesh> free = {};
+  std::vector<WorkedLine> worked = {};  ///< by line
 };
 
-/// A triangle belongs to the face of the foot of its centroid. Faces without a triangle are collapsed; edges of lines
+/// The line with its vertices that are there; each edge has the curve of the middle one of those that it stands for.
+SharpLine what_is_left(const SharpLine& line, const std::function<bool(std::int32_t)>& is_there);
+
+/// Cells over a surface. Keeps references.
+struct CellsInSpace {
+  const PlacedVertices& vertices;
+  const Charts& charts;
+  Cad& cad;
+  std::vector<FreeCell> cells;  ///< as the atlas is turned
+  /// Of elements of second order, else empty: by cell the vertices that are the nodes of its sides, from corner k to the next one.
+  std::vector<FreeCell> nodes = {};
+};
+
+/// A cell belongs to the face of the foot of its centroid. Faces without a cell are collapsed; edges of lines
 /// have the curve of the middle one of the edges that they stand for, and curves without an edge have no vertices.
 /// `worked`: by line, where the vertices are that are left of it.
-FreedMesh reassemble(const SurfaceMesh& before, FreeMesh& free, const std::vector<SharpLine>& lines,
+FreedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
                      std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, Monitor& monitor);
 
 }  // namespace carreau

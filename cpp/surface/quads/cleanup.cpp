@@ -10,6 +10,7 @@
 #include "support/incidence.h"
 #include "surface/quads/quad_shape.h"
 #include "surface/quads/smoothing.h"
+#include "surface/quads/space_quads.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
@@ -20,31 +21,32 @@ using namespace thresholds::quads;
 using Cells = std::vector<MixedCell>;
 constexpr MixedCell none{-1, -1, -1, -1};
 
-/// One pass: changes whose vertices no other change of the pass has met.
+/// One pass: changes whose vertices no other change of the pass has met. Quads: PlaneQuads or SpaceQuads.
+template <typename Quads>
 class Pass {
  public:
-  Pass(QuadPatch& patch, const FaceCharts& charts, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
+  Pass(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
        const std::vector<std::int8_t>& ideal, Monitor& monitor)
-      : patch_(patch),
-        charts_(charts),
+      : quads_(quads),
+        cells_(quads.cells()),
         is_imposed_(is_imposed),
         ideal_(ideal),
         monitor_(monitor),
-        around_(patch.uv.size(), closed(patch.cells)),
-        degree_(patch.uv.size(), 0),
-        touched_(patch.uv.size(), 0) {
-    for (const MixedCell& cell : patch.cells)
+        around_(quads.vertices(), closed(quads.cells())),
+        degree_(quads.vertices(), 0),
+        touched_(quads.vertices(), 0) {
+    for (const MixedCell& cell : cells_)
       for (int k = 0; k < corners_of(cell); ++k) ++degree_[cell[k]];
   }
 
   /// How many changes were made.
   int run() {
     int changes = 0;
-    for (std::int32_t c = 0, n = static_cast<std::int32_t>(patch_.cells.size()); c < n; ++c) {
+    for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {
       if (c % searches_between_checks == 0) monitor_.checkpoint();
       if (is_irregular(c) && (remove_doublet(c) || draw_together(c) || turn_edge(c))) ++changes;
     }
-    std::erase(patch_.cells, none);
+    std::erase(cells_, none);
     return changes;
   }
 
@@ -67,7 +69,7 @@ class Pass {
   [[nodiscard]] int degree(std::int32_t v) const { return degree_[v]; }
   // All changes mend vertices of cells that have some to mend.
   [[nodiscard]] bool is_irregular(std::int32_t c) const {
-    const MixedCell& cell = patch_.cells[c];
+    const MixedCell& cell = cells_[c];
     if (cell == none) return false;
     for (int k = 0; k < corners_of(cell); ++k)
       if (degree_[cell[k]] != ideal_[cell[k]]) return true;
@@ -80,9 +82,9 @@ class Pass {
   }
   [[nodiscard]] bool is_untouched(std::span<const std::int32_t> cells) const {
     for (const std::int32_t c : cells) {
-      if (patch_.cells[c] == none) return false;
-      for (int k = 0; k < corners_of(patch_.cells[c]); ++k)
-        if (touched_[patch_.cells[c][k]] != 0) return false;
+      if (cells_[c] == none) return false;
+      for (int k = 0; k < corners_of(cells_[c]); ++k)
+        if (touched_[cells_[c][k]] != 0) return false;
     }
     return true;
   }
@@ -90,28 +92,28 @@ class Pass {
     for (int k = 0; k < corners_of(cell); ++k) touched_[cell[k]] = 1;
   }
   [[nodiscard]] bool is_good(const MixedCell& cell) const {
-    return is_convex(patch_, cell) && !has_flat_corner(patch_, cell) && cell_quality(patch_, charts_, cell) > least_after_change;
+    return quads_.is_convex(cell) && !quads_.has_flat_corner(cell) && quads_.quality(cell) > least_after_change;
   }
   [[nodiscard]] bool has_good_length(std::int32_t a, std::int32_t b) const {
-    const double l = length_in(charts_, patch_.uv[a], patch_.uv[b]);
+    const double l = quads_.length(a, b);
     return l > shortest_edge && l < longest_edge;
   }
 
   // A vertex inside with two cells.
   bool remove_doublet(std::int32_t c) {
-    const MixedCell cell = patch_.cells[c];
+    const MixedCell cell = cells_[c];
     for (int k = 0, n = corners_of(cell); cell != none && k < n; ++k) {
       const std::int32_t v = cell[k];
-      if (patch_.fixed[v] != 0) continue;
+      if (quads_.is_fixed(v)) continue;
       const std::vector<std::int32_t> cells = cells_at(v);
       if (cells.size() != 2 || !is_untouched(cells)) continue;
-      const MixedCell& other = patch_.cells[cells[0] == c ? cells[1] : cells[0]];
+      const MixedCell& other = cells_[cells[0] == c ? cells[1] : cells[0]];
       if (n == 3 || corners_of(other) == 3) continue;
       const auto at = static_cast<int>(std::find(other.begin(), other.end(), v) - other.begin());
       const MixedCell joined{cell[(k + 1) % 4], cell[(k + 2) % 4], cell[(k + 3) % 4], other[(at + 2) % 4]};
-      if (joined[3] == joined[1] || !is_convex(patch_, joined) || has_flat_corner(patch_, joined)) continue;
-      for (const std::int32_t one : cells) touch(patch_.cells[one]), patch_.cells[one] = none;
-      patch_.cells[c] = joined;
+      if (joined[3] == joined[1] || !quads_.is_convex(joined) || quads_.has_flat_corner(joined)) continue;
+      for (const std::int32_t one : cells) touch(cells_[one]), cells_[one] = none;
+      cells_[c] = joined;
       return true;
     }
     return false;
@@ -119,18 +121,18 @@ class Pass {
 
   // Two opposite corners become one.
   bool draw_together(std::int32_t c) {
-    const MixedCell q = patch_.cells[c];
+    const MixedCell q = cells_[c];
     if (q == none || corners_of(q) == 3) return false;
     for (int k = 0; k < 2; ++k) {
       std::int32_t gone = q[k], kept = q[k + 2];
-      if (patch_.fixed[gone] != 0) std::swap(gone, kept);
-      if (patch_.fixed[gone] != 0) continue;
+      if (quads_.is_fixed(gone)) std::swap(gone, kept);
+      if (quads_.is_fixed(gone)) continue;
       const std::int32_t b = q[k + 1], d = q[(k + 3) % 4];
       const int together = degree(gone) + degree(kept) - 2 - ideal_[kept];
       const int gain = excess(gone) + excess(kept) + excess(b) + excess(d) - together * together - excess(b, -1) -
                        excess(d, -1);
-      if (gain <= 0 || degree(b) < 3 + (patch_.fixed[b] != 0 ? -1 : 0) ||
-          degree(d) < 3 + (patch_.fixed[d] != 0 ? -1 : 0))
+      if (gain <= 0 || degree(b) < 3 + (quads_.is_fixed(b) ? -1 : 0) ||
+          degree(d) < 3 + (quads_.is_fixed(d) ? -1 : 0))
         continue;
       if (draw(c, gone, kept)) return true;
     }
@@ -144,26 +146,26 @@ class Pass {
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     if (!is_untouched(cells)) return false;
-    const Vec2 home = patch_.uv[kept];
-    if (patch_.fixed[kept] == 0) patch_.uv[kept] = 0.5 * (home + patch_.uv[gone]);
+    const typename Quads::Place home = quads_.place(kept);
+    if (!quads_.is_fixed(kept)) quads_.approach(kept, gone);
     Cells now;
     bool good = true;
     for (const std::int32_t one : cells) {
       if (one == c) continue;
-      MixedCell cell = patch_.cells[one];
+      MixedCell cell = cells_[one];
       std::replace(cell.begin(), cell.end(), gone, kept);
       const bool twice = std::count(cell.begin(), cell.end(), kept) > 1;
       good = good && !twice && is_good(cell) && has_good_edges(cell, kept);
       now.push_back(cell);
     }
     if (!good) {
-      patch_.uv[kept] = home;
+      quads_.put(kept, home);
       return false;
     }
     std::size_t next = 0;
     for (const std::int32_t one : cells) {
-      touch(patch_.cells[one]);
-      patch_.cells[one] = one == c ? none : now[next++];
+      touch(cells_[one]);
+      cells_[one] = one == c ? none : now[next++];
     }
     return true;
   }
@@ -172,22 +174,22 @@ class Pass {
     const int n = corners_of(cell);
     for (int k = 0; k < n; ++k) {
       const std::int32_t a = cell[k], b = cell[(k + 1) % n];
-      if ((a == v || b == v) && !(patch_.fixed[a] != 0 && patch_.fixed[b] != 0) && !has_good_length(a, b)) return false;
+      if ((a == v || b == v) && !(quads_.is_fixed(a) && quads_.is_fixed(b)) && !has_good_length(a, b)) return false;
     }
     return true;
   }
 
   // The edge between two quadrilaterals becomes another diagonal of their hexagon.
   bool turn_edge(std::int32_t c) {
-    const MixedCell q = patch_.cells[c];
+    const MixedCell q = cells_[c];
     if (q == none || corners_of(q) == 3) return false;
     for (int k = 0; k < 4; ++k) {
       const std::int32_t a = q[k], b = q[(k + 1) % 4];
       const std::optional<std::int32_t> other = beyond(c, a, b);
-      if (!other || corners_of(patch_.cells[*other]) == 3 || is_imposed_(a, b)) continue;
+      if (!other || corners_of(cells_[*other]) == 3 || is_imposed_(a, b)) continue;
       const std::array<std::int32_t, 2> cells{c, *other};
       if (!is_untouched(cells)) continue;
-      const MixedCell& o = patch_.cells[*other];
+      const MixedCell& o = cells_[*other];
       const auto at = static_cast<int>(std::find(o.begin(), o.end(), a) - o.begin());
       // Round the hexagon from b: two of q, a, two of o.
       const std::array<std::int32_t, 6> h{b,  q[(k + 2) % 4], q[(k + 3) % 4], a, o[(at + 1) % 4], o[(at + 2) % 4]};
@@ -206,8 +208,8 @@ class Pass {
       if (is_good(part(h, s)) && is_good(part(h, s + 3))) best = s, best_gain = gain;
     }
     if (best == 0) return false;
-    for (const std::int32_t c : cells) touch(patch_.cells[c]);
-    patch_.cells[cells[0]] = part(h, best), patch_.cells[cells[1]] = part(h, best + 3);
+    for (const std::int32_t c : cells) touch(cells_[c]);
+    cells_[cells[0]] = part(h, best), cells_[cells[1]] = part(h, best + 3);
     return true;
   }
   static MixedCell part(const std::array<std::int32_t, 6>& h, int s) {
@@ -218,7 +220,7 @@ class Pass {
   [[nodiscard]] std::optional<std::int32_t> beyond(std::int32_t c, std::int32_t a, std::int32_t b) const {
     for (const std::int32_t o : around_.of(a)) {
       if (o == c) continue;
-      const MixedCell& cell = patch_.cells[o];
+      const MixedCell& cell = cells_[o];
       const int n = corners_of(cell);
       for (int k = 0; k < n; ++k)
         if (cell[k] == b && cell[(k + 1) % n] == a) return o;
@@ -226,8 +228,8 @@ class Pass {
     return {};
   }
 
-  QuadPatch& patch_;
-  const FaceCharts& charts_;
+  Quads& quads_;
+  Cells& cells_;
   const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
   const std::vector<std::int8_t>& ideal_;
   Monitor& monitor_;
@@ -237,31 +239,32 @@ class Pass {
 };
 
 // Cells wanted around a vertex: of the angle that cells there have together, in the metric.
-std::vector<std::int8_t> ideal_degrees(const QuadPatch& patch, const FaceCharts& charts) {
-  std::vector<double> angle(patch.uv.size(), 0);
-  for (const MixedCell& cell : patch.cells) {
+template <typename Quads>
+std::vector<std::int8_t> ideal_degrees(const Quads& quads) {
+  std::vector<double> angle(quads.vertices(), 0);
+  for (const MixedCell& cell : quads.cells()) {
     const int n = corners_of(cell);
     bool any = false;
-    for (int k = 0; k < n; ++k) any = any || patch.fixed[cell[k]] != 0;
+    for (int k = 0; k < n; ++k) any = any || quads.is_fixed(cell[k]);
     if (!any) continue;
-    const Chart chart = charts.about(patch, cell);
+    const auto frame = quads.about(cell);
     for (int k = 0; k < n; ++k) {
-      if (patch.fixed[cell[k]] == 0) continue;
-      const Vec2 p = chart.at(patch.uv[cell[k]]);
-      const Vec2 d = chart.at(patch.uv[cell[(k + 1) % n]]) - p, e = chart.at(patch.uv[cell[(k + n - 1) % n]]) - p;
+      if (!quads.is_fixed(cell[k])) continue;
+      const Vec2 p = quads.at(frame, cell[k]);
+      const Vec2 d = quads.at(frame, cell[(k + 1) % n]) - p, e = quads.at(frame, cell[(k + n - 1) % n]) - p;
       angle[cell[k]] += std::atan2(cross(d, e), dot(d, e));
     }
   }
-  std::vector<std::int8_t> ideal(patch.uv.size(), 4);
+  std::vector<std::int8_t> ideal(quads.vertices(), 4);
   for (std::size_t v = 0; v < ideal.size(); ++v)
-    if (patch.fixed[v] != 0)
+    if (quads.is_fixed(v))
       ideal[v] = static_cast<std::int8_t>(std::max(1., std::round(angle[v] / (std::numbers::pi / 2))));
   return ideal;
 }
 
-std::vector<char> with_neighbours(const QuadPatch& patch, const std::vector<char>& some) {
+std::vector<char> with_neighbours(const Cells& cells, const std::vector<char>& some) {
   std::vector<char> all = some;
-  for (const MixedCell& cell : patch.cells) {
+  for (const MixedCell& cell : cells) {
     const int n = corners_of(cell);
     if (std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return some[v] != 0; })) continue;
     for (int k = 0; k < n; ++k) all[cell[k]] = 1;
@@ -269,18 +272,29 @@ std::vector<char> with_neighbours(const QuadPatch& patch, const std::vector<char
   return all;
 }
 
+template <typename Quads, typename Smooth>
+void clean(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor,
+           const Smooth& smooth) {
+  const std::vector<std::int8_t> ideal = ideal_degrees(quads);
+  for (int round = 0; round < cleanup_passes; ++round) {
+    Pass<Quads> pass(quads, is_imposed, ideal, monitor);
+    if (pass.run() == 0) break;
+    std::vector<char> moving;  // all, the first time
+    if (round > 0) moving = with_neighbours(quads.cells(), pass.take_touched());
+    smooth({.passes = passes_after_changes, .moving = moving});
+  }
+}
+
 }  // namespace
 
 void clean_up(QuadPatch& patch, const FaceCharts& charts,
               const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
-  const std::vector<std::int8_t> ideal = ideal_degrees(patch, charts);
-  for (int round = 0; round < cleanup_passes; ++round) {
-    Pass pass(patch, charts, is_imposed, ideal, monitor);
-    if (pass.run() == 0) break;
-    std::vector<char> moving;  // all, the first time
-    if (round > 0) moving = with_neighbours(patch, pass.take_touched());
-    smooth_quads(patch, charts, {.passes = passes_after_changes, .moving = moving}, monitor);
-  }
+  PlaneQuads quads(patch, charts);
+  clean(quads, is_imposed, monitor, [&](const QuadSmoothing& how) { smooth_quads(patch, charts, how, monitor); });
+}
+
+void clean_up(SpaceQuads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
+  clean(quads, is_imposed, monitor, [&](const QuadSmoothing& how) { smooth_quads(quads, how, monitor); });
 }
 
 }  // namespace carreau

@@ -7,6 +7,7 @@
 #include "support/incidence.h"
 #include "surface/quads/matching.h"
 #include "surface/quads/quad_shape.h"
+#include "surface/quads/space_quads.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
@@ -15,38 +16,41 @@ namespace {
 
 using namespace thresholds::quads;
 
+/// Quality: of a quadrilateral, 0 where it may not be.
+template <typename Quality>
 class Pairing {
  public:
-  Pairing(QuadPatch& patch, const FaceCharts* charts, const PairRules& rules, Monitor& monitor)
-      : patch_(patch), charts_(charts), rules_(rules), monitor_(monitor) {}
+  Pairing(std::vector<MixedCell>& cells, std::size_t vertices, const Quality& quality, const PairRules& rules,
+          Monitor& monitor)
+      : cells_(cells), vertices_(vertices), quality_(quality), rules_(rules), monitor_(monitor) {}
 
   void run() {
     collect();
-    const std::vector<std::int32_t> chosen = match(patch_.cells.size(), pairs_, monitor_);
-    std::vector<char> gone(patch_.cells.size(), 0);
+    const std::vector<std::int32_t> chosen = match(cells_.size(), pairs_, monitor_);
+    std::vector<char> gone(cells_.size(), 0);
     for (const std::int32_t e : chosen) {
       const auto [t, u] = pairs_[e].triangles;
-      patch_.cells[t] = quads_[e];
+      cells_[t] = quads_[e];
       gone[u] = 1;
     }
     std::size_t kept = 0;
     for (std::size_t c = 0; c < gone.size(); ++c)
-      if (gone[c] == 0) patch_.cells[kept++] = patch_.cells[c];
-    patch_.cells.resize(kept);
+      if (gone[c] == 0) cells_[kept++] = cells_[c];
+    cells_.resize(kept);
   }
 
  private:
   using Key = std::array<std::int32_t, 3>;  // ends of an edge, ascending, and a triangle
 
   void collect() {
-    std::vector<std::array<std::int32_t, 4>> with_first(patch_.cells);
+    std::vector<std::array<std::int32_t, 4>> with_first(cells_);
     for (auto& cell : with_first) cell[3] = cell[0];
-    const Incidence around(patch_.uv.size(), with_first);
+    const Incidence around(vertices_, with_first);
     int n = 0;
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(patch_.cells.size()); ++t) {
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(cells_.size()); ++t) {
       if (++n % searches_between_checks == 0) monitor_.checkpoint();
       for (int k = 0; k < 3; ++k) {
-        const std::int32_t a = patch_.cells[t][k], b = patch_.cells[t][(k + 1) % 3];
+        const std::int32_t a = cells_[t][k], b = cells_[t][(k + 1) % 3];
         if (a < b) continue;
         for (const std::int32_t u : around.of(a))
           if (u != t && add_if_good(t, k, u)) break;
@@ -56,7 +60,7 @@ class Pairing {
 
   // Whether u lies beyond side k of t.
   bool add_if_good(std::int32_t t, int k, std::int32_t u) {
-    const MixedCell &T = patch_.cells[t], &U = patch_.cells[u];
+    const MixedCell &T = cells_[t], &U = cells_[u];
     const std::int32_t a = T[k], b = T[(k + 1) % 3], c = T[(k + 2) % 3];
     for (int j = 0; j < 3; ++j) {
       if (U[j] != b || U[(j + 1) % 3] != a) continue;
@@ -67,12 +71,11 @@ class Pairing {
   }
 
   void add(std::int32_t t, std::int32_t u, const MixedCell& quad) {
-    if (!is_convex(patch_, quad) || has_flat_corner(patch_, quad)) return;
+    const double quality = quality_(quad);
+    if (quality < least_pair) return;
     const std::array<Vec3, 4> p{rules_.position(quad[0]), rules_.position(quad[1]), rules_.position(quad[2]),
                                 rules_.position(quad[3])};
     if (!(turn(p) <= rules_.most_turn) || !(scaled_jacobian(p) > rules_.least_jacobian)) return;
-    const double quality = charts_ != nullptr ? cell_quality(patch_, *charts_, quad) : quad_quality(p);
-    if (quality < least_pair) return;
     pairs_.push_back({{t, u}, pair_bonus + quality});
     quads_.push_back(quad);
   }
@@ -84,18 +87,90 @@ class Pairing {
     return std::atan2(norm(cross(right, left)), dot(right, left));
   }
 
-  QuadPatch& patch_;
-  const FaceCharts* charts_;
+  std::vector<MixedCell>& cells_;
+  std::size_t vertices_;
+  const Quality& quality_;
   const PairRules& rules_;
   Monitor& monitor_;
   std::vector<WeightedPair> pairs_;
   std::vector<MixedCell> quads_;  // of the pairs
 };
 
+// The corner whose sides go on smoothly into each other; -1: none.
+template <typename Quads>
+int flat_corner(const Quads& quads, const MixedCell& t) {
+  for (int k = 0; k < 3; ++k)
+    if (std::ranges::binary_search(quads.flat(), std::array{t[k], t[(k + 1) % 3], t[(k + 2) % 3]})) return k;
+  return -1;
+}
+
+// The vertex of a triangle beyond its side from a to b; -1: it has no such side.
+std::int32_t apex(const MixedCell& t, std::int32_t a, std::int32_t b) {
+  for (int k = 0; k < 3; ++k)
+    if (t[k] == a && t[(k + 1) % 3] == b) return t[(k + 2) % 3];
+  return -1;
+}
+
+template <typename Quads>
+bool turn_ear(Quads& quads, const ImposedEdges& is_imposed, MixedCell& ear, int corner) {
+  const std::int32_t v = ear[corner], a = ear[(corner + 1) % 3], b = ear[(corner + 2) % 3];
+  if (is_imposed(a, b)) return false;
+  for (MixedCell& other : quads.cells()) {
+    const std::int32_t c = apex(other, b, a);
+    if (c < 0) continue;
+    const MixedCell left{v, a, c, -1}, right{v, c, b, -1};
+    if (!quads.is_convex(left) || !quads.is_convex(right)) return false;
+    ear = left, other = right;
+    return true;
+  }
+  return false;
+}
+
+template <typename Quads>
+std::size_t turn_all_ears(Quads& quads, const ImposedEdges& is_imposed) {
+  std::size_t count = 0;
+  if (quads.flat().empty()) return count;
+  for (MixedCell& cell : quads.cells())
+    if (const int k = flat_corner(quads, cell); k >= 0 && turn_ear(quads, is_imposed, cell, k)) ++count;
+  return count;
+}
+
+/// Cells, as far as ears need them: no metric.
+class FlatCells {
+ public:
+  explicit FlatCells(QuadPatch& patch) : patch_(patch) {}
+  [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return patch_.cells; }
+  [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return patch_.flat; }
+  [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept { return carreau::is_convex(patch_, cell); }
+
+ private:
+  QuadPatch& patch_;
+};
+
 }  // namespace
 
 void pair_triangles(QuadPatch& patch, const FaceCharts* charts, const PairRules& rules, Monitor& monitor) {
-  Pairing(patch, charts, rules, monitor).run();
+  const auto quality = [&](const MixedCell& quad) -> double {
+    if (!is_convex(patch, quad) || has_flat_corner(patch, quad)) return 0;
+    if (charts != nullptr) return cell_quality(patch, *charts, quad);
+    return quad_quality(std::array<Vec3, 4>{rules.position(quad[0]), rules.position(quad[1]), rules.position(quad[2]),
+                                            rules.position(quad[3])});
+  };
+  Pairing(patch.cells, patch.uv.size(), quality, rules, monitor).run();
 }
+
+void pair_triangles(SpaceQuads& quads, const PairRules& rules, Monitor& monitor) {
+  const auto quality = [&](const MixedCell& quad) -> double {
+    return quads.is_convex(quad) && !quads.has_flat_corner(quad) ? quads.quality(quad) : 0;
+  };
+  Pairing(quads.cells(), quads.vertices(), quality, rules, monitor).run();
+}
+
+std::size_t turn_ears(QuadPatch& patch, const ImposedEdges& is_imposed) {
+  FlatCells cells(patch);
+  return turn_all_ears(cells, is_imposed);
+}
+
+std::size_t turn_ears(SpaceQuads& quads, const ImposedEdges& is_imposed) { return turn_all_ears(quads, is_imposed); }
 
 }  // namespace carreau

@@ -78,12 +78,13 @@ bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
   return true;
 }
 
-bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexcept {
+bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,
+                     const MixedCell& cell) noexcept {
   const int n = corners_of(cell);
-  for (int k = 0; k < n && !patch.flat.empty(); ++k) {
+  for (int k = 0; k < n && !flat.empty(); ++k) {
     const std::int32_t a = cell[k], v = cell[(k + 1) % n], b = cell[(k + 2) % n];
-    if (patch.fixed[a] == 0 || patch.fixed[v] == 0 || patch.fixed[b] == 0) continue;
-    if (std::binary_search(patch.flat.begin(), patch.flat.end(), std::array{v, a, b})) return true;
+    if (fixed[a] == 0 || fixed[v] == 0 || fixed[b] == 0) continue;
+    if (std::binary_search(flat.begin(), flat.end(), std::array{v, a, b})) return true;
   }
   return false;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "surface/quads/quad_patch.h"
 
@@ -19,8 +20,13 @@ double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept;
 
 /// Strictly convex and counterclockwise in (u, v), exactly; of triangles: counterclockwise.
 bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept;
-/// Whether two sides of it are edges of curves that go on smoothly into each other (QuadPatch::flat).
-bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexcept;
+/// Whether two sides of it, between fixed vertices, are edges of curves that go on smoothly into each other: `flat` as in
+/// QuadPatch.
+bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,
+                     const MixedCell& cell) noexcept;
+inline bool has_flat_corner(const QuadPatch& patch, const MixedCell& cell) noexcept {
+  return has_flat_corner(patch.fixed, patch.flat, cell);
+}
 /// Quality in the metric: of a triangle Q2 (HDR eq. 1.6).
 double cell_quality(const QuadPatch& patch, const FaceCharts& charts, const MixedCell& cell) noexcept;
 /// The same in a given chart.
@@ -28,5 +34,56 @@ double cell_quality(const QuadPatch& patch, const Chart& chart, const MixedCell&
 
 /// The same, and below 0 the scaled Jacobian, for cells that are turned over somewhere: what a search can follow.
 double untangling_quality(const QuadPatch& patch, const Chart& chart, const MixedCell& cell) noexcept;
+
+/// The cells of one face as the passes of this room see them, whose other surface is SpaceQuads. Keeps references.
+class PlaneQuads {
+ public:
+  using Place = Vec2;
+  using Way = Vec2;
+  using Frame = Chart;
+  static constexpr bool on_surface = true;  ///< wherever vertices go
+
+  PlaneQuads(QuadPatch& patch, const FaceCharts& charts) : patch_(patch), charts_(charts) {}
+
+  [[nodiscard]] std::size_t vertices() const noexcept { return patch_.uv.size(); }
+  [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return patch_.cells; }
+  [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return patch_.cells; }
+  [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return patch_.fixed[v] != 0; }
+  [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return patch_.flat; }
+
+  [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept { return carreau::is_convex(patch_, cell); }
+  [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept {
+    return carreau::has_flat_corner(patch_.fixed, patch_.flat, cell);
+  }
+  [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return cell_quality(patch_, charts_, cell); }
+  [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept {
+    return carreau::untangling_quality(patch_, frame, cell);
+  }
+  [[nodiscard]] double length(std::int32_t a, std::int32_t b) const noexcept {
+    return length_in(charts_, patch_.uv[a], patch_.uv[b]);
+  }
+
+  [[nodiscard]] Frame about(const MixedCell& cell) const noexcept { return charts_.about(patch_, cell); }
+  [[nodiscard]] Frame about(std::int32_t v) const noexcept { return charts_.about(patch_.uv[v]); }
+  [[nodiscard]] Vec2 at(const Frame& frame, std::int32_t v) const noexcept { return frame.at(patch_.uv[v]); }
+  static Way no_way() noexcept { return {0, 0}; }
+  static Way way(const Frame& frame, const Vec2& y) noexcept { return frame.offset(y); }
+
+  [[nodiscard]] const Place& place(std::size_t v) const noexcept { return patch_.uv[v]; }
+  [[nodiscard]] const std::vector<Place>& places() const noexcept { return patch_.uv; }
+  [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return patch_.uv[v] == place; }
+  void put(std::size_t v, const Place& place) noexcept { patch_.uv[v] = place; }
+  /// Beside a place, for a trial.
+  void try_at(std::size_t v, const Place& from, const Way& way) noexcept { patch_.uv[v] = from + way; }
+  /// Where a trial has put it; false: it cannot be.
+  static bool settle(std::size_t /*v*/, const Place& /*from*/) noexcept { return true; }
+  void move(std::size_t v, const Way& way) noexcept { patch_.uv[v] += way; }
+  /// Halfway to another vertex.
+  void approach(std::size_t v, std::size_t other) noexcept { patch_.uv[v] = 0.5 * (patch_.uv[v] + patch_.uv[other]); }
+
+ private:
+  QuadPatch& patch_;
+  const FaceCharts& charts_;
+};
 
 }  // namespace carreau

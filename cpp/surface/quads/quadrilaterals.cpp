@@ -9,7 +9,6 @@
 
 #include "support/stepped_tasks.h"
 #include "surface/quads/cleanup.h"
-#include "surface/quads/ears.h"
 #include "surface/quads/face_quads.h"
 #include "surface/quads/halving.h"
 #include "surface/quads/pairing.h"
@@ -25,6 +24,10 @@ namespace {
 
 using namespace thresholds::quads;
 
+void halve(std::vector<double>& sizes) {
+  for (double& h : sizes) h /= 2;
+}
+
 class Quadrilaterals {
  public:
   explicit Quadrilaterals(const ElementWork& work) : work_(work) {}
@@ -34,7 +37,7 @@ class Quadrilaterals {
       if (!work_.result.mesh.faces[f].triangles.empty()) faces_.emplace_back().face = f;
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       quads = face_quads(work_, quads.face);
-      turn_ears(quads);
+      turn_ears(quads.patch, [&](std::int32_t a, std::int32_t b) { return quads.side_between(a, b) != nullptr; });
       pair(quads, monitor);
     });
     if (has_quads_only(work_.options.element)) cut();
@@ -98,7 +101,9 @@ class Quadrilaterals {
 
   void cut() {
     const std::vector<std::vector<std::int32_t>> middles = halve_curves(work_, faces_);
-    halve_sizes();
+    halve(work_.result.vertex_size);
+    for (std::vector<double>& sizes : work_.result.curve_size) halve(sizes);
+    halve_sizes(work_.result, work_.curves);
     for_each([&](FaceQuads& quads, Monitor& monitor) {
       halve_cells(work_, middles, quads);
       if (space(quads) == nullptr) return;
@@ -131,24 +136,18 @@ class Quadrilaterals {
     if (invalid.count > 0) report.invalid.push_back(invalid);
   }
 
-  void halve_sizes() {
-    CompositeResult& result = work_.result;
-    const auto halve = [](std::vector<double>& sizes) {
-      for (double& h : sizes) h /= 2;
-    };
-    halve(result.vertex_size);
-    for (std::vector<double>& sizes : result.curve_size) halve(sizes);
-    for (FaceInterfaces& face : result.interfaces) halve(face.physical);
-    for (DiscreteCurve& curve : work_.curves) halve(curve.size), halve(curve.physical);
-    for (std::optional<ControlSpace>& space : result.spaces)
-      if (space) space->scale_lengths(2);
-  }
-
   const ElementWork& work_;
   std::vector<FaceQuads> faces_;
 };
 
 }  // namespace
+
+void halve_sizes(CompositeResult& result, std::vector<DiscreteCurve>& curves) {
+  for (FaceInterfaces& face : result.interfaces) halve(face.physical);
+  for (DiscreteCurve& curve : curves) halve(curve.size), halve(curve.physical);
+  for (std::optional<ControlSpace>& space : result.spaces)
+    if (space) space->scale_lengths(2);
+}
 
 QuadraticReport make_quadrilaterals(const ElementWork& work) { return Quadrilaterals(work).run(); }
 

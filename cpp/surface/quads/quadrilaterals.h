@@ -16,6 +16,10 @@ namespace carreau {
 /// (those of the result) and the lengths there that are too coarse for it. Without has_quads_only() there is none.
 QuadraticReport make_quadrilaterals(const ElementWork& work);
 
+/// What was made with sizes twice those asked for is made with the latter: sizes of faces, of their insides and of curves. Those of vertices
+/// and of curve_size stay.
+void halve_sizes(CompositeResult& result, std::vector<DiscreteCurve>& curves);
+
 /// How many times as large as asked for sizes must be in the mesh that make_quadrilaterals() gets.
 constexpr double enlargement_for(Element element) noexcept { return has_quads_only(element) ? 2 : 1; }
 

@@ -8,6 +8,7 @@
 #include "mesh/local_search.h"
 #include "support/incidence.h"
 #include "surface/quads/quad_shape.h"
+#include "surface/quads/space_quads.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
@@ -38,18 +39,20 @@ std::array<Vec2, 4> fitted_triangle(const std::array<Vec2, 4>& y, double radius,
   return {mean + z, mean + turned(z, s), mean + turned(z, -s), mean};
 }
 
+/// Quads: PlaneQuads or SpaceQuads.
+template <typename Quads>
 class Smoothing {
  public:
-  Smoothing(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor)
-      : patch_(patch), how_(how), monitor_(monitor), sum_(patch.uv.size()), count_(patch.uv.size()) {
-    for (const MixedCell& cell : patch.cells) {
+  Smoothing(Quads& quads, const QuadSmoothing& how, Monitor& monitor)
+      : quads_(quads), how_(how), monitor_(monitor), sum_(quads.vertices()), count_(quads.vertices()) {
+    for (const MixedCell& cell : quads.cells()) {
       const int n = corners_of(cell);
       if (!how.moving.empty() &&
           std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return how.moving[v] != 0; }))
         continue;
       if (cells_.size() % cells_between_checks == 0) monitor.checkpoint();
       cells_.push_back(cell);
-      charts_.push_back(charts.about(patch, cell));
+      frames_.push_back(quads.about(cell));
     }
   }
 
@@ -57,9 +60,11 @@ class Smoothing {
     for (int pass = 0; pass < how_.passes; ++pass) {
       monitor_.checkpoint();
       propose();
-      before_ = patch_.uv;
-      for (std::size_t v = 0; v < sum_.size(); ++v)
-        if (may_move(v)) patch_.uv[v] += (how_.share / count_[v]) * sum_[v];
+      before_ = quads_.places();
+      for (std::size_t v = 0; v < sum_.size(); ++v) {
+        if (v % cells_between_checks == 0) monitor_.checkpoint();
+        if (may_move(v)) quads_.move(v, (how_.share / count_[v]) * sum_[v]);
+      }
       while (take_back()) {
       }
     }
@@ -67,25 +72,25 @@ class Smoothing {
 
  private:
   [[nodiscard]] bool may_move(std::size_t v) const {
-    return patch_.fixed[v] == 0 && count_[v] > 0 && (how_.moving.empty() || how_.moving[v] != 0);
+    return !quads_.is_fixed(v) && count_[v] > 0 && (how_.moving.empty() || how_.moving[v] != 0);
   }
 
   void propose() {
-    std::fill(sum_.begin(), sum_.end(), Vec2{0, 0});
+    std::fill(sum_.begin(), sum_.end(), Quads::no_way());
     std::fill(count_.begin(), count_.end(), 0.);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (c % cells_between_checks == 0) monitor_.checkpoint();
       const MixedCell& cell = cells_[c];
-      const Chart& chart = charts_[c];
+      const typename Quads::Frame& frame = frames_[c];
       const int n = corners_of(cell);
       std::array<Vec2, 4> y;
-      for (int k = 0; k < n; ++k) y[k] = chart.at(patch_.uv[cell[k]]);
+      for (int k = 0; k < n; ++k) y[k] = quads_.at(frame, cell[k]);
       const std::array<Vec2, 4> wanted =
           n == 4 ? fitted_square(y, how_.unit * std::numbers::sqrt2 / 2, how_.pull)
                  : fitted_triangle(y, how_.unit / std::numbers::sqrt3, how_.pull);
       const double weight = n == 4 ? 1 : triangle_weight;
       for (int k = 0; k < n; ++k) {
-        sum_[cell[k]] += weight * chart.offset(wanted[k] - y[k]);
+        sum_[cell[k]] += weight * Quads::way(frame, wanted[k] - y[k]);
         count_[cell[k]] += weight;
       }
     }
@@ -95,27 +100,29 @@ class Smoothing {
   bool take_back() {
     bool any = false;
     for (const MixedCell& cell : cells_) {
-      if (is_convex(patch_, cell)) continue;
+      if (quads_.is_convex(cell)) continue;
       for (int k = 0; k < corners_of(cell); ++k)
-        if (patch_.uv[cell[k]] != before_[cell[k]]) patch_.uv[cell[k]] = before_[cell[k]], any = true;
+        if (!quads_.is_at(cell[k], before_[cell[k]])) quads_.put(cell[k], before_[cell[k]]), any = true;
     }
     return any;
   }
 
-  QuadPatch& patch_;
+  Quads& quads_;
   const QuadSmoothing& how_;
   Monitor& monitor_;
   std::vector<MixedCell> cells_;  // with a vertex that may move
-  std::vector<Chart> charts_;     // of these; they stay while vertices move
-  std::vector<Vec2> sum_, before_;
+  std::vector<typename Quads::Frame> frames_;  // of these; they stay while vertices move
+  std::vector<typename Quads::Way> sum_;
+  std::vector<typename Quads::Place> before_;
   std::vector<double> count_;
 };
 
-/// The cells around each vertex.
+/// The cells around each vertex. Quads: PlaneQuads or SpaceQuads.
+template <typename Quads>
 class Worst {
  public:
-  Worst(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor)
-      : patch_(patch), charts_(charts), good_(good), monitor_(monitor), around_(patch.uv.size(), closed(patch.cells)) {}
+  Worst(Quads& quads, double good, Monitor& monitor)
+      : quads_(quads), good_(good), monitor_(monitor), around_(quads.vertices(), closed(quads.cells())) {}
 
   void run() {
     improve_in_passes(
@@ -132,22 +139,23 @@ class Worst {
 
   std::vector<std::int32_t> corners_of_bad() const {
     std::vector<std::pair<double, std::int32_t>> bad;
-    for (std::size_t c = 0; c < patch_.cells.size(); ++c)
-      if (const double q = untangling_quality(patch_, charts_.about(patch_, patch_.cells[c]), patch_.cells[c]); q < good_)
+    const std::vector<MixedCell>& cells = quads_.cells();
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (const double q = quads_.untangling_quality(quads_.about(cells[c]), cells[c]); q < good_)
         bad.emplace_back(q, static_cast<std::int32_t>(c));
     std::sort(bad.begin(), bad.end());
     std::vector<std::int32_t> corners;
     for (const auto& [q, c] : bad)
-      for (int k = 0; k < corners_of(patch_.cells[c]); ++k)
-        if (patch_.fixed[patch_.cells[c][k]] == 0) corners.push_back(patch_.cells[c][k]);
+      for (int k = 0; k < corners_of(cells[c]); ++k)
+        if (!quads_.is_fixed(cells[c][k])) corners.push_back(cells[c][k]);
     return corners;
   }
 
   // Below `enough` it need not be known; beyond what is good all are alike.
   double worst_around(double enough) const {
     double worst = good_;
-    for (const auto& [c, chart] : star_) {
-      worst = std::min(worst, untangling_quality(patch_, chart, patch_.cells[c]));
+    for (const auto& [c, frame] : star_) {
+      worst = std::min(worst, quads_.untangling_quality(frame, quads_.cells()[c]));
       if (worst < enough) break;
     }
     return worst;
@@ -155,35 +163,48 @@ class Worst {
 
   bool improve(std::int32_t v) {
     star_.clear();
-    for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, charts_.about(patch_, patch_.cells[c]));
+    for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, quads_.about(quads_.cells()[c]));
     const double start = worst_around(-2);
     if (start >= good_) return false;
-    const Vec2 home = patch_.uv[v];
-    const Chart chart = charts_.about(home);
+    const typename Quads::Place home = quads_.place(v);
+    const typename Quads::Frame frame = quads_.about(v);
     const Vec2 way = search_along_compass(start, first_step, last_step, [&](const Vec2& there, double best) {
-      patch_.uv[v] = home + chart.offset(there);
+      quads_.try_at(v, home, Quads::way(frame, there));
       return worst_around(best);
     });
-    patch_.uv[v] = home + chart.offset(way);
+    quads_.try_at(v, home, Quads::way(frame, way));
+    if constexpr (!Quads::on_surface) {
+      if (way == Vec2{0, 0} || !quads_.settle(v, home) || !(worst_around(-2) > start)) {
+        quads_.put(v, home);
+        return false;
+      }
+    }
     return !(way == Vec2{0, 0});
   }
 
-  QuadPatch& patch_;
-  const FaceCharts& charts_;
+  Quads& quads_;
   double good_;
   Monitor& monitor_;
   Incidence around_;
-  std::vector<std::pair<std::int32_t, Chart>> star_;  // cells around the vertex at hand, with charts that stay
+  std::vector<std::pair<std::int32_t, typename Quads::Frame>> star_;  // cells around the vertex at hand, with frames that stay
 };
 
 }  // namespace
 
 void smooth_quads(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor) {
-  Smoothing(patch, charts, how, monitor).run();
+  PlaneQuads quads(patch, charts);
+  Smoothing<PlaneQuads>(quads, how, monitor).run();
+}
+void smooth_quads(SpaceQuads& quads, const QuadSmoothing& how, Monitor& monitor) {
+  Smoothing<SpaceQuads>(quads, how, monitor).run();
 }
 
 void improve_worst_quads(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor) {
-  Worst(patch, charts, good, monitor).run();
+  PlaneQuads quads(patch, charts);
+  Worst<PlaneQuads>(quads, good, monitor).run();
+}
+void improve_worst_quads(SpaceQuads& quads, double good, Monitor& monitor) {
+  Worst<SpaceQuads>(quads, good, monitor).run();
 }
 
 }  // namespace carreau

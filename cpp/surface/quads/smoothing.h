@@ -9,6 +9,8 @@
 
 namespace carreau {
 
+class SpaceQuads;
+
 struct QuadSmoothing {
   int passes = 10;
   double share = 1.4;   ///< of the way to the mean of the places that cells propose
@@ -23,8 +25,10 @@ struct QuadSmoothing {
 /// the metric, and each vertex that is not fixed goes towards the mean of proposals. No cell that is convex turns over
 /// or gets flat.
 void smooth_quads(QuadPatch& patch, const FaceCharts& charts, const QuadSmoothing& how, Monitor& monitor);
+void smooth_quads(SpaceQuads& quads, const QuadSmoothing& how, Monitor& monitor);
 
 /// Vertices of cells below `good`, worst first, go where the worst cell around is best.
 void improve_worst_quads(QuadPatch& patch, const FaceCharts& charts, double good, Monitor& monitor);
+void improve_worst_quads(SpaceQuads& quads, double good, Monitor& monitor);
 
 }  // namespace carreau

@@ -7,6 +7,7 @@
 
 #include "support/incidence.h"
 #include "surface/quads/quad_shape.h"
+#include "surface/quads/space_quads.h"
 #include "surface/quads/thresholds.h"
 
 namespace carreau {
@@ -16,28 +17,29 @@ namespace {
 using namespace thresholds::quads;
 constexpr MixedCell none{-1, -1, -1, -1};
 
+/// Quads: PlaneQuads or SpaceQuads.
+template <typename Quads>
 class Walks {
  public:
-  Walks(QuadPatch& patch, const FaceCharts& charts, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
-        Monitor& monitor)
-      : patch_(patch),
-        charts_(charts),
+  Walks(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor)
+      : quads_(quads),
+        cells_(quads.cells()),
         is_imposed_(is_imposed),
         monitor_(monitor),
-        around_(patch.uv.size(), closed(patch.cells)),
-        met_(patch.cells.size(), -1),
-        from_(patch.cells.size(), -1),
-        touched_(patch.cells.size(), 0) {}
+        around_(quads.vertices(), closed(quads.cells())),
+        met_(quads.cells().size(), -1),
+        from_(quads.cells().size(), -1),
+        touched_(quads.cells().size(), 0) {}
 
   /// How many pairs have met.
   int run() {
     int pairs = 0;
-    for (std::int32_t c = 0, n = static_cast<std::int32_t>(patch_.cells.size()); c < n; ++c) {
-      if (corners_of(patch_.cells[c]) == 4 || touched_[c] != 0) continue;
+    for (std::int32_t c = 0, n = static_cast<std::int32_t>(cells_.size()); c < n; ++c) {
+      if (corners_of(cells_[c]) == 4 || touched_[c] != 0) continue;
       monitor_.checkpoint();
       if (walk_to_another(c)) ++pairs;
     }
-    std::erase(patch_.cells, none);
+    std::erase(cells_, none);
     return pairs;
   }
 
@@ -56,11 +58,11 @@ class Walks {
     for (int length = 0; length < longest_walk && !ring.empty(); ++length) {
       std::vector<std::int32_t> next;
       for (const std::int32_t x : ring)
-        for (int k = 0, n = corners_of(patch_.cells[x]); k < n; ++k) {
-          const std::optional<std::int32_t> y = beyond(x, patch_.cells[x][k], patch_.cells[x][(k + 1) % n]);
+        for (int k = 0, n = corners_of(cells_[x]); k < n; ++k) {
+          const std::optional<std::int32_t> y = beyond(x, cells_[x][k], cells_[x][(k + 1) % n]);
           if (!y || met_[*y] == c || touched_[*y] != 0) continue;
           met_[*y] = c, from_[*y] = x;
-          if (corners_of(patch_.cells[*y]) == 3) return walk(way_to(*y));
+          if (corners_of(cells_[*y]) == 3) return walk(way_to(*y));
           next.push_back(*y);
         }
       ring = std::move(next);
@@ -77,7 +79,7 @@ class Walks {
   // The cell beyond the side from a to b of x, unless the edge is imposed.
   [[nodiscard]] std::optional<std::int32_t> beyond(std::int32_t x, std::int32_t a, std::int32_t b) const {
     for (const std::int32_t y : around_.of(a))
-      if (y != x && side_of(patch_.cells[y], {b, a}) >= 0) return is_imposed_(a, b) ? std::nullopt : std::optional(y);
+      if (y != x && side_of(cells_[y], {b, a}) >= 0) return is_imposed_(a, b) ? std::nullopt : std::optional(y);
     return {};
   }
   static int side_of(const MixedCell& cell, const Side& side) {
@@ -93,26 +95,26 @@ class Walks {
   }
 
   [[nodiscard]] double quality(const MixedCell& cell) const {
-    return is_convex(patch_, cell) && !has_flat_corner(patch_, cell) ? cell_quality(patch_, charts_, cell) : 0;
+    return quads_.is_convex(cell) && !quads_.has_flat_corner(cell) ? quads_.quality(cell) : 0;
   }
 
   bool walk(const std::vector<std::int32_t>& way) {
-    MixedCell triangle = patch_.cells[way.front()];
+    MixedCell triangle = cells_[way.front()];
     std::vector<MixedCell> now;
     for (std::size_t k = 1; k + 1 < way.size(); ++k) {
-      const std::optional<MixedCell> quad = pass(patch_.cells[way[k]], patch_.cells[way[k + 1]], triangle);
+      const std::optional<MixedCell> quad = pass(cells_[way[k]], cells_[way[k + 1]], triangle);
       if (!quad) return false;
       now.push_back(*quad);
     }
-    const MixedCell& last = patch_.cells[way.back()];
+    const MixedCell& last = cells_[way.back()];
     const int side = common_side(triangle, last);
     if (side < 0) return false;
     const int apex = common_side(last, triangle);
     const MixedCell joined{triangle[side], last[(apex + 2) % 3], triangle[(side + 1) % 3], triangle[(side + 2) % 3]};
     if (joined[1] == joined[3] || quality(joined) < least_on_walk) return false;
     now.push_back(joined);
-    for (const std::int32_t c : way) touched_[c] = 1, patch_.cells[c] = none;
-    for (std::size_t k = 0; k < now.size(); ++k) patch_.cells[way[k]] = now[k];
+    for (const std::int32_t c : way) touched_[c] = 1, cells_[c] = none;
+    for (std::size_t k = 0; k < now.size(); ++k) cells_[way[k]] = now[k];
     return true;
   }
 
@@ -138,8 +140,8 @@ class Walks {
     return behind;
   }
 
-  QuadPatch& patch_;
-  const FaceCharts& charts_;
+  Quads& quads_;
+  std::vector<MixedCell>& cells_;
   const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
   Monitor& monitor_;
   Incidence around_;
@@ -147,12 +149,23 @@ class Walks {
   std::vector<char> touched_;             // by cell
 };
 
+template <typename Quads>
+void join(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
+  for (int pass = 0; pass < walk_passes; ++pass)
+    if (Walks<Quads>(quads, is_imposed, monitor).run() == 0) break;
+}
+
 }  // namespace
 
 void join_triangles(QuadPatch& patch, const FaceCharts& charts,
                     const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
-  for (int pass = 0; pass < walk_passes; ++pass)
-    if (Walks(patch, charts, is_imposed, monitor).run() == 0) break;
+  PlaneQuads quads(patch, charts);
+  join(quads, is_imposed, monitor);
+}
+
+void join_triangles(SpaceQuads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
+                    Monitor& monitor) {
+  join(quads, is_imposed, monitor);
 }
 
 }  // namespace carreau

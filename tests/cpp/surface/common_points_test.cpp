@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Where surfaces cross in the geometry itself: what Newton's method finds over triangles that cross.
-#include "surface/common_points.h"
+#include "surface/crossings/common_points.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/common_points.h"
+#include "surface/crossings/common_points.h"
 
 #include <iterator>
 

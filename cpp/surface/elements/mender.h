@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elements whose Jacobian is not positive: nodes that are not fixed move until it is.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "mesh/cells.h"
+#include "support/infinity.h"
+#include "support/monitor.h"
+#include "surface/elements/thresholds.h"
+
+namespace carreau {
+
+/// A pattern search over the nodes of elements below thresholds::elements::good_jacobian: nodes of edges first, then
+/// corners, with half their way for the nodes beside. Nodes are those of `cells`, corners before the nodes of edges. What a
+/// place is, and where nodes may go, Derived says:
+///   Way, Trial (with a member `node`);
+///   double score(const Cell&)                          least Jacobian over its mean
+///   std::array<double, 2> orientations(const Cell&)    of its straight triangles; their signs are kept
+///   std::array<Way, 8> ways(std::int32_t node, double step)      around it, `step` its longest edge long
+///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; none: they cannot
+///   Trial trial_of(std::int32_t node), void put(const Trial&)
+template <typename Derived, typename Way>
+class Mender {
+ public:
+  Mender(std::vector<Cell> cells, std::int32_t corners, std::int32_t nodes, std::vector<char> fixed, Monitor& monitor)
+      : cells_(std::move(cells)), corners_(corners), nodes_(nodes), fixed_(std::move(fixed)), monitor_(monitor) {}
+
+  [[nodiscard]] const std::vector<Cell>& cells() const noexcept { return cells_; }
+  /// Elements that are not good, now.
+  [[nodiscard]] const std::vector<std::int32_t>& bad() const noexcept { return bad_; }
+  [[nodiscard]] std::size_t moves() const noexcept { return moves_; }
+
+  /// Lists elements below `least`. How many are not valid.
+  std::size_t find_below(double least) {
+    std::size_t invalid = 0;
+    bad_.clear();
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      if (c % cells_between_checks == 0) monitor_.checkpoint();
+      const double found = self().score(cells_[c]);
+      if (found < least) bad_.push_back(static_cast<std::int32_t>(c));
+      if (found < thresholds::elements::least_jacobian) ++invalid;
+    }
+    return invalid;
+  }
+
+  /// What find_below(good_jacobian) has listed.
+  void mend() {
+    using namespace thresholds::elements;
+    if (bad_.empty()) return;
+    find_cells_of_nodes();
+    for (int round = 0; round < most_rounds; ++round) {
+      const std::size_t before = moves_;
+      for (std::size_t i = 0, n = bad_.size(); i < n; ++i) {
+        monitor_.checkpoint();
+        mend(cells_[bad_[i]]);
+      }
+      std::erase_if(bad_, [&](std::int32_t c) { return self().score(cells_[c]) >= good_jacobian; });
+      if (moves_ == before || bad_.empty()) break;
+    }
+  }
+
+ protected:
+  [[nodiscard]] std::span<const std::int32_t> around(std::int32_t node) const {
+    return std::span(of_node_).subspan(first_[node], first_[node + 1] - first_[node]);
+  }
+  [[nodiscard]] std::int32_t corners() const noexcept { return corners_; }
+
+  /// The other corners of the cells' sides that end at corner `v`, and the nodes on them.
+  template <typename Use>
+  void for_sides(std::int32_t v, const Use& use) const {
+    for (const std::int32_t c : around(v)) {
+      const Cell& cell = cells_[c];
+      const int n = corner_count(cell.kind);
+      for (int i = 0; i < n; ++i) {
+        const std::int32_t a = cell.nodes[i], b = cell.nodes[(i + 1) % n];
+        if (a == v || b == v) use(a == v ? b : a, cell.nodes[n + i]);
+      }
+    }
+  }
+
+  /// The longest side by `length(a, b)` that ends at a corner, or that the node of an edge halves.
+  template <typename Length>
+  [[nodiscard]] double reach(std::int32_t node, const Length& length) const {
+    double longest = 0;
+    if (node < corners_) {
+      for_sides(node, [&](std::int32_t end, std::int32_t) { longest = std::max(longest, length(node, end)); });
+      return longest;
+    }
+    for (const std::int32_t c : around(node)) {
+      const Cell& cell = cells_[c];
+      const int n = corner_count(cell.kind);
+      for (int i = 0; i < n; ++i)
+        if (cell.nodes[n + i] == node) longest = std::max(longest, length(cell.nodes[i], cell.nodes[(i + 1) % n]));
+    }
+    return longest;
+  }
+
+ private:
+  static constexpr std::size_t cells_between_checks = 4096;
+  Derived& self() { return static_cast<Derived&>(*this); }
+  using Trials = std::vector<typename std::pair<std::int32_t, Way>>;
+
+  void find_cells_of_nodes() {
+    first_.assign(static_cast<std::size_t>(nodes_) + 1, 0);
+    for (const Cell& cell : cells_)
+      for (const std::int32_t node : cell.nodes)
+        if (node >= 0) ++first_[node + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    of_node_.resize(static_cast<std::size_t>(first_.back()));
+    std::vector<std::int32_t> next = first_;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+      for (const std::int32_t node : cells_[c].nodes)
+        if (node >= 0) of_node_[next[node]++] = static_cast<std::int32_t>(c);
+  }
+
+  [[nodiscard]] double worst(std::int32_t node) {
+    double least = thresholds::elements::good_jacobian;  // more is not wanted
+    for (const std::int32_t c : around(node)) least = std::min(least, self().score(cells_[c]));
+    return least;
+  }
+
+  void mend(const Cell& cell) {
+    const int corners = corner_count(cell.kind), all = node_count(cell.kind);
+    const auto is_bad = [&] { return self().score(cell) < thresholds::elements::good_jacobian; };
+    for (int i = corners; i < all && is_bad(); ++i) search(cell.nodes[i]);
+    for (int i = 0; i < corners && is_bad(); ++i) search(cell.nodes[i]);
+  }
+
+  /// The node, and, of a corner, the nodes on its sides, by half its way.
+  [[nodiscard]] Trials moves_with(std::int32_t node, const Way& by) const {
+    Trials moves{{node, by}};
+    if (node < corners_)
+      for_sides(node, [&](std::int32_t, std::int32_t mid) {
+        const bool known = std::any_of(moves.begin(), moves.end(), [&](const auto& m) { return m.first == mid; });
+        if (!known && fixed_[mid] == 0) moves.push_back({mid, 0.5 * by});
+      });
+    return moves;
+  }
+
+  // The straight triangles stay as they are turned.
+  [[nodiscard]] bool keeps_triangles(std::int32_t node, const std::vector<double>& before) {
+    std::size_t i = 0;
+    for (const std::int32_t c : around(node))
+      for (const double side : self().orientations(cells_[c]))
+        if (side * before[i++] <= 0) return false;
+    return true;
+  }
+
+  /// Worst score around the node with `trials` in their places.
+  template <typename Places>
+  double judge(const Places& trials) {
+    const std::int32_t node = trials.front().node;
+    Places back;
+    std::vector<double> sides;
+    for (const auto& trial : trials) back.push_back(self().trial_of(trial.node));
+    for (const std::int32_t c : around(node))
+      for (const double side : self().orientations(cells_[c])) sides.push_back(side);
+    for (const auto& trial : trials) self().put(trial);
+    const double found = keeps_triangles(node, sides) ? worst(node) : -infinity;
+    for (const auto& trial : back) self().put(trial);
+    return found;
+  }
+
+  // Eight directions, halved steps.
+  void search(std::int32_t node) {
+    using namespace thresholds::elements;
+    if (fixed_[node] != 0) return;
+    double best = worst(node);
+    for (double step = first_step; step >= last_step && best < good_jacobian;) {
+      decltype(self().places(Trials{})) chosen;
+      for (const Way& way : self().ways(node, step)) {
+        auto trials = self().places(moves_with(node, way));
+        if (trials.empty()) continue;
+        const double found = judge(trials);
+        if (found > best) best = found, chosen = std::move(trials);
+      }
+      if (chosen.empty()) {
+        step /= 2;
+        continue;
+      }
+      for (const auto& trial : chosen) self().put(trial);
+      ++moves_;
+      note_bad(node);
+    }
+  }
+
+  // What was good may be bad now, as long as something beside was worse.
+  void note_bad(std::int32_t node) {
+    for (const std::int32_t c : around(node))
+      if (self().score(cells_[c]) < thresholds::elements::good_jacobian &&
+          std::find(bad_.begin(), bad_.end(), c) == bad_.end())
+        bad_.push_back(c);
+  }
+
+  std::vector<Cell> cells_;
+  std::int32_t corners_, nodes_;
+  std::vector<char> fixed_;  // by node
+  Monitor& monitor_;
+  std::vector<std::int32_t> bad_, first_, of_node_;
+  std::size_t moves_ = 0;
+};
+
+}  // namespace carreau

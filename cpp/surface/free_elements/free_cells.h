@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Cells of a free mesh with a vertex for each smooth side.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "surface/free_elements/element_vertices.h"
+#include "surface/free_elements/line_middles.h"
+#include "surface/independent/cell_placer.h"
+#include "surface/quads/space_quads.h"
+
+namespace carreau {
+
+/// The cells on their way to elements. Vertices of `quads` are local: of a kept vertex of space there is one for each set of
+/// cells around it that hang together over edges which are not imposed.
+struct FreeCells {
+  SpaceQuads quads;
+  std::vector<std::int32_t> vertex;  ///< local -> ElementVertices; -1: new, and free
+};
+
+/// `triangles`: by vertices of space, as the atlas is turned. Edges of lines are imposed, and so are those without exactly
+/// two triangles that run along them in opposite ways.
+FreeCells free_cells(const FreeSurface& surface, const ElementVertices& vertices, const LineMiddles& lines,
+                     const std::vector<FreeCell>& triangles, Monitor& monitor);
+
+/// An edge that is imposed, between local vertices.
+[[nodiscard]] bool is_imposed(const FreeCells& cells, const LineMiddles& lines, std::int32_t a, std::int32_t b);
+
+/// The surface between two local vertices, near a place of space; on a barrier, where one is in the way.
+std::optional<SurfacePlace> place_between(const FreeSurface& surface, const SpaceQuads& quads, std::int32_t a,
+                                          std::int32_t b, const Vec3& target);
+
+/// Cuts edges in two, quadrilaterals in four, triangles in three, lines too; sizes are half of what they were.
+void halve(FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells, Monitor& monitor);
+
+/// Free vertices go where the cells have them, and new ones are added.
+void put_vertices(const FreeCells& cells, ElementVertices& vertices, std::vector<std::int32_t>& vertex);
+
+}  // namespace carreau

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quadrilaterals and elements of second order on meshes that are free of patches, and on surfaces given as triangles.
+#pragma once
+
+#include "surface/independent/independent.h"
+#include "surface/independent/reassembly.h"
+#include "surface/options.h"
+
+namespace carreau {
+
+/// For RemeshingFrame::elements: makes the elements that options.element wants of a mesh of straight triangles in space, on the surface under it, and a mesh of
+/// faces of them. With has_quads_only() the sizes that the mesh was made with were twice those asked for; those of `made` are the latter. What stays invalid is told, and its face `mended`. Throws what the host throws, and Cancelled.
+void make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
+                        Cad& cad, FreedMesh& made, Monitor& monitor);
+
+}  // namespace carreau

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// To which face a cell of a free mesh belongs, and where in (u, v) its corners and nodes are.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "surface/independent/charts.h"
+
+namespace carreau {
+
+/// Corners of a cell; the last one of a triangle is -1.
+using FreeCell = std::array<std::int32_t, 4>;
+
+/// A vertex of a cell, and which of its places.
+struct PlacedCorner {
+  std::int32_t vertex = -1, place = 0;
+  friend auto operator<=>(const PlacedCorner&, const PlacedCorner&) = default;
+};
+
+struct PlacedCell {
+  std::int32_t face = -1;
+  int count = 3;  ///< of corners
+  std::array<PlacedCorner, 4> corners{};  ///< as the face turns
+  std::array<PlacedCorner, 4> nodes{};    ///< on the sides from each corner to the next one, of cells of second order
+  bool spread = false;  ///< it is no element of (u, v)
+};
+
+/// Keeps references.
+class CellPlacer {
+ public:
+  CellPlacer(const PlacedVertices& vertices, const Charts& charts, Cad& cad)
+      : vertices_(vertices), charts_(charts), cad_(cad) {}
+
+  /// `cell`: as the atlas is turned; `nodes`: vertices on its sides from corner k to the next one, or -1. A cell belongs to a face in which all of its corners have
+  /// places that fit, else to that of the foot of its centroid.
+  PlacedCell operator()(const FreeCell& cell, const FreeCell& nodes = {-1, -1, -1, -1});
+
+ private:
+  using Choice = std::array<std::int32_t, 4>;
+  [[nodiscard]] std::int32_t face_of(const SurfacePlace& p) const { return charts_.face(p.foot); }
+  [[nodiscard]] bool is_turned(const SurfacePlace& p) const { return charts_.triangles()[p.foot.triangle].turned; }
+  [[nodiscard]] const SurfacePlace& place(int corner, const Choice& k) const {
+    return vertices_.places(vertex_[corner])[k[corner]];
+  }
+  [[nodiscard]] std::vector<std::int32_t> common_faces() const;
+  [[nodiscard]] std::optional<PlacedCell> in_one_chart(std::int32_t face) const;
+  [[nodiscard]] bool fits(const Choice& k) const;
+  [[nodiscard]] PlacedCell placed(std::int32_t face, const Choice& k, bool turned, bool spread) const;
+  [[nodiscard]] std::int32_t nearest_place(std::int32_t v, std::int32_t face) const;
+  [[nodiscard]] std::optional<SurfacePlace> below(const std::array<double, 4>& weight, const Choice& k) const;
+  [[nodiscard]] std::optional<SurfacePlace> most_of(const Choice& k) const;
+  [[nodiscard]] PlacedCell over_several() const;
+  void place_nodes(const FreeCell& nodes, PlacedCell& cell) const;
+  [[nodiscard]] std::int32_t place_of_node(std::int32_t node, const PlacedCell& cell, const Vec2& middle) const;
+  [[nodiscard]] bool is_valid_in_chart(const PlacedCell& cell) const;
+
+  const PlacedVertices& vertices_;
+  const Charts& charts_;
+  Cad& cad_;
+  FreeCell vertex_{};
+  int n_ = 3;
+  Vec3 normal_;
+};
+
+}  // namespace carreau

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Quadrilaterals and triangles of several faces, in space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "metric/chart.h"
+#include "surface/quads/quad_patch.h"
+#include "surface/surface_place.h"
+
+namespace carreau {
+
+/// Cells whose vertices lie on a surface, whatever its faces; the other surface of the passes of this room is PlaneQuads.
+/// A vertex on a border or a sharp line is there once for each smooth side, so that each has one normal. Shapes are those of
+/// the cell in its tangent plane, in the metric wanted at its corners. Keeps a reference to the surface.
+class SpaceQuads {
+ public:
+  using Place = SurfacePlace;
+  using Way = Vec3;
+  static constexpr bool on_surface = false;  ///< of trials: settle() brings them there
+
+  /// A plane with a metric.
+  struct Frame {
+    Vec3 origin, e1, e2;
+    Chart chart;
+  };
+
+  explicit SpaceQuads(const SurfaceAround& surface) : surface_(surface) {}
+
+  /// Its number. A vertex that is fixed neither moves nor goes.
+  std::int32_t add_vertex(const SurfacePlace& place, const WantedSize& wanted, bool fixed);
+  std::int32_t add_vertex(const SurfacePlace& place, bool fixed) { return add_vertex(place, surface_.wanted(place), fixed); }
+  void set_flat(std::vector<std::array<std::int32_t, 3>> flat) { flat_ = std::move(flat); }
+  /// All sizes become so many times as large.
+  void scale_sizes(double factor);
+  [[nodiscard]] const WantedSize& wanted(std::int32_t v) const { return wanted_[v]; }
+  [[nodiscard]] const SurfaceAround& surface() const noexcept { return surface_; }
+
+  [[nodiscard]] std::size_t vertices() const noexcept { return place_.size(); }
+  [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return cells_; }
+  [[nodiscard]] const std::vector<MixedCell>& cells() const noexcept { return cells_; }
+  [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return fixed_[v] != 0; }
+  /// As in QuadPatch.
+  [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return flat_; }
+
+  /// About its own normal, which is on the side of those of the surface.
+  [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept;
+  [[nodiscard]] bool has_flat_corner(const MixedCell& cell) const noexcept;
+  [[nodiscard]] double quality(const MixedCell& cell) const noexcept { return quality(about(cell), cell); }
+  /// The same, and below 0 the least sine of an angle, for cells that are turned over somewhere.
+  [[nodiscard]] double untangling_quality(const Frame& frame, const MixedCell& cell) const noexcept;
+  /// In the metric wanted at its ends.
+  [[nodiscard]] double length(std::int32_t a, std::int32_t b) const noexcept;
+
+  [[nodiscard]] Frame about(const MixedCell& cell) const noexcept;
+  [[nodiscard]] Frame about(std::int32_t v) const noexcept;
+  /// The tangent plane there, with lengths as they are.
+  static Frame plane_at(const SurfacePlace& place) noexcept;
+  [[nodiscard]] Vec2 at(const Frame& frame, std::int32_t v) const noexcept;
+  static Way no_way() noexcept { return {0, 0, 0}; }
+  static Way way(const Frame& frame, const Vec2& y) noexcept {
+    const Vec2 offset = frame.chart.offset(y);
+    return offset.x() * frame.e1 + offset.y() * frame.e2;
+  }
+
+  [[nodiscard]] const Place& place(std::size_t v) const noexcept { return place_[v]; }
+  [[nodiscard]] const std::vector<Place>& places() const noexcept { return place_; }
+  [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return place_[v].xyz == place.xyz; }
+  void put(std::size_t v, const Place& place);
+  /// Beside the surface, for a trial: no evaluation.
+  void try_at(std::size_t v, const Place& from, const Way& way) noexcept { place_[v].xyz = from.xyz + way; }
+  /// On the surface, from where it was before the trial; false: there is no way.
+  bool settle(std::size_t v, const Place& from);
+  /// It stays where there is no way.
+  void move(std::size_t v, const Way& way);
+  void approach(std::size_t v, std::size_t other) { move(v, 0.5 * (place_[other].xyz - place_[v].xyz)); }
+
+ private:
+  [[nodiscard]] double quality(const Frame& frame, const MixedCell& cell) const noexcept;
+  [[nodiscard]] Frame frame(const Vec3& origin, const Vec3& normal, const WantedSize* const* wanted, int n) const noexcept;
+  [[nodiscard]] Vec3 area_normal(const MixedCell& cell) const noexcept;
+  [[nodiscard]] Vec3 surface_normal(const MixedCell& cell) const noexcept;
+
+  const SurfaceAround& surface_;
+  std::vector<SurfacePlace> place_;
+  std::vector<WantedSize> wanted_;
+  std::vector<char> fixed_;
+  std::vector<MixedCell> cells_;
+  std::vector<std::array<std::int32_t, 3>> flat_;
+};
+
+}  // namespace carreau

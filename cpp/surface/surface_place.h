@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places of a surface of several faces, and the way from one to another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "metric/metric3.h"
+#include "support/vec.h"
+
+namespace carreau {
+
+/// A place of the surface: (u, v) in the face of a triangle of the atlas which holds it.
+struct Foot {
+  std::int32_t triangle = -1;
+  Vec2 uv;
+};
+
+/// The surface at a foot.
+struct SurfacePlace {
+  Foot foot;
+  Vec3 xyz, su, sv;
+  Vec3 normal;           ///< unit, on the side that the atlas has turned to; zero where singular
+  bool regular = false;  ///< there is a normal
+};
+
+/// What is wanted at a vertex.
+struct WantedSize {
+  double h = 0;    ///< sqrt(h1 h2) where sizes differ by direction
+  Metric3 metric;  ///< counts where they do; of a vertex that is not kept it knows nothing along the normal
+};
+
+/// So many times as large.
+inline WantedSize scaled(const WantedSize& wanted, double factor) noexcept {
+  WantedSize result = wanted;
+  result.h *= factor;
+  const double k = 1 / (factor * factor);
+  Metric3& m = result.metric;
+  for (double* entry : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) *entry *= k;
+  return result;
+}
+
+/// The surface for those who move vertices on it, whatever its faces.
+class SurfaceAround {
+ public:
+  virtual ~SurfaceAround() = default;
+  /// Near `target`, sought from a regular place; empty where a barrier or a singular place is in the way.
+  [[nodiscard]] virtual std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target) const = 0;
+  [[nodiscard]] virtual WantedSize wanted(const SurfacePlace& place) const = 0;
+  [[nodiscard]] virtual bool by_direction() const noexcept = 0;
+};
+
+/// Vertices with their places, for those who deal cells out to faces.
+class PlacedVertices {
+ public:
+  virtual ~PlacedVertices() = default;
+  [[nodiscard]] virtual std::size_t vertices() const = 0;
+  /// Neither on a sharp edge nor a corner.
+  [[nodiscard]] virtual bool is_free(std::int32_t v) const = 0;
+  /// Several where it is kept, one for each vertex of a face that it was.
+  [[nodiscard]] virtual std::span<const SurfacePlace> places(std::int32_t v) const = 0;
+  [[nodiscard]] virtual Vec3 position(std::int32_t v) const = 0;
+  [[nodiscard]] virtual double size(std::int32_t v) const = 0;
+  /// At v, along the way to w.
+  [[nodiscard]] virtual double size_along(std::int32_t v, std::int32_t w) const = 0;
+  /// Whether sizes differ by direction.
+  [[nodiscard]] virtual bool by_direction() const noexcept = 0;
+};
+
+}  // namespace carreau

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Elements of all kinds on meshes that are independent of their patches: sound, closed, on the surface, valid, of the order
+// that they promise.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "independent/patchworks.h"
+#include "mesh/elements/cell_quality.h"
+#include "mesh/elements/jacobian.h"
+#include "session_of_size.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+constexpr double pi = std::numbers::pi;
+
+std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, const std::string& element, Monitor& monitor,
+                                int threads = 1) {
+  auto session = session_of_size(cad, size, monitor);
+  session->parameters().set("patches", "independent");
+  session->parameters().set("element", element);
+  session->parameters().set("angle_mesh", 30.);
+  session->parameters().set("threads", threads);
+  session->make_mesh();
+  return session;
+}
+
+/// Vertices - edges + elements, of corners alone.
+int euler(const SurfaceMesh& mesh) {
+  std::set<std::array<std::int32_t, 2>> edges;
+  int cells = 0;
+  for (const FaceMesh& face : mesh.faces)
+    for (const Cell& cell : cells_of(mesh, face)) {
+      ++cells;
+      for (int i = 0, n = corner_count(cell.kind); i < n; ++i)
+        edges.insert({std::min(cell.nodes[i], cell.nodes[(i + 1) % n]), std::max(cell.nodes[i], cell.nodes[(i + 1) % n])});
+    }
+  return static_cast<int>(mesh.vertices.size()) - static_cast<int>(edges.size()) + cells;
+}
+
+/// Use(kind, positions of the nodes).
+template <typename Use>
+void for_elements(const SurfaceMesh& mesh, const Use& use) {
+  for (const FaceMesh& face : mesh.faces)
+    for (const Cell& cell : cells_of(mesh, face)) {
+      std::vector<Vec3> nodes;
+      for (int i = 0; i < node_count(cell.kind); ++i) {
+        const auto node = static_cast<std::size_t>(cell.nodes[i]), corners = mesh.vertices.size();
+        nodes.push_back(node < corners ? mesh.vertices[node] : mesh.mid_vertices[node - corners]);
+      }
+      use(cell.kind, nodes);
+    }
+}
+
+double area_of(const SurfaceMesh& mesh) { return summarise_cells(flatten(mesh, true)).area; }
+
+class Counting final : public Monitor {
+ public:
+  void checkpoint() override {
+    if (++looks == stop_at) request_stop();
+    Monitor::checkpoint();
+  }
+  long looks = 0, stop_at = -1;
+};
+
+struct Case {
+  std::string element;
+  bool quads, only, curved;
+};
+const Case cases[] = {{"p2", false, false, true},   {"q1.0", true, false, false}, {"q1.1", true, true, false},
+                      {"q2.0", true, false, true}, {"q2.1", true, true, true}};
+
+/// Sound, valid, of the kinds asked for; `off`: distance of a place from the surface.
+template <typename Off>
+void expect_elements(const SurfaceMesh& mesh, const Case& c, bool closed, const Off& off) {
+  const std::vector<std::string> defects = find_defects(mesh, {.closed = closed});
+  EXPECT_TRUE(defects.empty()) << c.element << ": " << defects.front();
+  double farthest = 0, least = 1, worst = 1, sum = 0;
+  std::size_t triangles = 0, quads = 0;
+  for_elements(mesh, [&](CellKind kind, const std::vector<Vec3>& nodes) {
+    ++(corner_count(kind) == 3 ? triangles : quads);
+    EXPECT_EQ(is_quadratic(kind), c.curved);
+    for (const Vec3& p : nodes) farthest = std::max(farthest, off(p));
+    if (kind != CellKind::triangle3) least = std::min(least, jacobian(kind, nodes).least());
+    if (corner_count(kind) == 3) return;
+    const double shape = cell_quality(kind, nodes).shape;
+    worst = std::min(worst, shape), sum += shape;
+  });
+  EXPECT_LE(farthest, 1e-12) << c.element;
+  EXPECT_GT(least, 0) << c.element;
+  if (c.only) {
+    EXPECT_EQ(triangles, 0U) << c.element;
+  }
+  if (!c.quads) {
+    EXPECT_EQ(quads, 0U) << c.element;
+    return;
+  }
+  EXPECT_LE(static_cast<double>(triangles), 0.1 * static_cast<double>(quads)) << c.element;
+  EXPECT_GE(sum / static_cast<double>(quads), 0.75) << c.element;
+  EXPECT_GE(worst, 0.15) << c.element;
+}
+
+double off_sphere(const Vec3& p) { return std::abs(norm(p) - 1); }
+
+TEST(FreeElements, SphereOfManyPatches) {
+  Monitor quiet;
+  const AnalyticCad cad = sphere_of_triangles(1);
+  for (const Case& c : cases) {
+    const auto session = meshed(cad, 0.25, c.element, quiet);
+    expect_elements(session->mesh(), c, true, off_sphere);
+    EXPECT_EQ(euler(session->mesh()), 2) << c.element;
+  }
+}
+
+TEST(FreeElements, CylinderOfStrips) {
+  Monitor quiet;
+  const AnalyticCad cad = cylinder_of_strips(24);
+  for (const Case& c : cases) {
+    const auto session = meshed(cad, 0.5, c.element, quiet);
+    expect_elements(session->mesh(), c, false,
+                    [](const Vec3& p) { return std::abs(std::hypot(p.x(), p.y()) - 1); });
+    EXPECT_EQ(euler(session->mesh()), 0) << c.element;
+    // Both rims are kept, and their nodes are in their planes.
+    for (const CurveMesh& curve : session->mesh().curves) {
+      if (curve.vertices.empty()) continue;
+      const double z = session->mesh().vertices[curve.vertices.front()].z();
+      EXPECT_TRUE(z == 0 || z == 10);
+      for (const std::int32_t v : curve.vertices) EXPECT_EQ(session->mesh().vertices[v].z(), z);
+      for (const std::int32_t m : curve.mid) EXPECT_EQ(session->mesh().mid_vertices[m].z(), z);
+      EXPECT_EQ(curve.mid.size() + 1, c.curved ? curve.vertices.size() : 1) << c.element;
+    }
+  }
+}
+
+TEST(FreeElements, CubeOfSquares) {
+  Monitor quiet;
+  for (const Case& c : cases) {
+    const auto session = meshed(cube_of_squares(6), 0.1, c.element, quiet);
+    expect_elements(session->mesh(), c, true, [](const Vec3& p) {
+      double off = 1;
+      for (int k = 0; k < 3; ++k) off = std::min({off, std::abs(p[k]), std::abs(p[k] - 1)});
+      return off;
+    });
+    EXPECT_EQ(euler(session->mesh()), 2) << c.element;
+    EXPECT_NEAR(area_of(session->mesh()), 6, 1e-10) << c.element;  // all twelve edges are exact
+  }
+}
+
+// Of straight elements h^2, of curved ones h^4. Eight nodes do not hold all quadratic polynomials on quadrilaterals that are no
+// parallelograms: pairs of any triangles (q2.0) fall short of that order, not those that are cut (q2.1).
+TEST(FreeElements, AreaConvergesAsThePolynomialsPromise) {
+  Monitor quiet;
+  const AnalyticCad cad = sphere_of_triangles(1);
+  for (const Case& c : cases) {
+    const auto error = [&](double size) {
+      return std::abs(area_of(meshed(cad, size, c.element, quiet)->mesh()) - 4 * pi);
+    };
+    const double order = std::log2(error(0.3) / error(0.15));
+    EXPECT_GE(order, c.element == "q2.0" ? 2 : c.curved ? 3.5 : 1.7) << c.element;
+  }
+}
+
+// In the faces that they are said to be of.
+TEST(FreeElements, NodesKnowTheirPlacesOnTheSurface) {
+  Monitor quiet;
+  AnalyticCad cad = sphere_of_triangles(1);
+  for (const Case& c : cases) {
+    const auto session = meshed(cad, 0.25, c.element, quiet);
+    const SurfaceMesh& mesh = session->mesh();
+    bool several = false;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+      const FaceMesh& face = mesh.faces[f];
+      const auto corners = face.uv.size();
+      for (std::size_t k = 0; k < corners + face.mid_uv.size(); ++k) {
+        const std::size_t of = session->uv_face(f, static_cast<std::int32_t>(k));
+        several = several || (k >= corners && of != f);
+        const Vec2 uv = k < corners ? face.uv[k] : face.mid_uv[k - corners];
+        const Vec3 p = k < corners ? mesh.vertices[face.vertex[k]] : mesh.mid_vertices[face.mid_vertex[k - corners]];
+        EXPECT_LE(norm(surface_at(cad, mesh.faces[of].ref, want_position, uv).s - p), 1e-12) << c.element;
+      }
+    }
+    EXPECT_EQ(several, c.curved) << c.element;
+  }
+}
+
+TEST(FreeElements, WhatIsDeliveredIsOfTheElements) {
+  Monitor quiet;
+  for (const Case& c : cases) {
+    const auto session = meshed(sphere_of_triangles(1), 0.25, c.element, quiet);
+    const MeshEvaluation& d = session->delivered();
+    double deviation = 0;
+    for (const double each : d[EvaluationKind::deviation].values) deviation = std::max(deviation, each);
+    EXPECT_GT(deviation, 0) << c.element;
+    // Below a square of 1.75 sizes the sphere is half the square of its half diagonal away.
+    EXPECT_LE(deviation, c.curved ? 0.003 : 0.05) << c.element;
+    for (const double angle : d[EvaluationKind::angle].values) EXPECT_LE(angle, c.curved ? 5 : 25) << c.element;
+  }
+}
+
+TEST(FreeElements, MeshDoesNotDependOnThreads) {
+  Monitor quiet;
+  for (const Case& c : cases) {
+    const FlatMesh one = meshed(sphere_of_triangles(1), 0.3, c.element, quiet)->exported();
+    const FlatMesh other = meshed(sphere_of_triangles(1), 0.3, c.element, quiet, 8)->exported();
+    EXPECT_TRUE(one.cells == other.cells) << c.element;
+    EXPECT_TRUE(one.vertices == other.vertices) << c.element;
+  }
+}
+
+TEST(FreeElements, StopWhereverTheyAreAskedAndLeaveNothing) {
+  const AnalyticCad cad = sphere_of_triangles(1);
+  Counting all;
+  (void)meshed(cad, 0.3, "q2.1", all);
+  ASSERT_GT(all.looks, 20);
+  for (int k = 1; k <= 10; ++k) {
+    Counting monitor;
+    auto session = session_of_size(cad, 0.3, monitor);
+    session->parameters().set("patches", "independent");
+    session->parameters().set("element", std::string("q2.1"));
+    session->parameters().set("angle_mesh", 30.);
+    session->parameters().set("threads", 1);
+    monitor.stop_at = all.looks * k / 10;
+    EXPECT_THROW(session->make_mesh(), Cancelled) << k;
+    EXPECT_FALSE(session->has_mesh()) << k;
+  }
+}
+
+}  // namespace
+}  // namespace carreau
