@@ -26,10 +26,12 @@ double bound_of(carreau_session* session) {
 
 }  // namespace
 
-ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh) {
+ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh, const carreau_quality& quality) {
   ShortEdges found;
   found.bound = bound_of(session);
   const double limit = found.bound / std::sqrt(2.0);
+  constexpr double beyond_rounding = 1.001;
+  if (quality.edge_min > beyond_rounding * limit) return found;  // the mesh need not be looked at
   std::int64_t n = 0, t = 0, k = 0, f = 0;
   require(mesh, carreau_mesh_count(mesh, &n, &t, &k, &f));
   if (t == 0 || !(limit > 0)) return found;
@@ -49,7 +51,7 @@ ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh) {
       const auto& q = xyz[static_cast<std::size_t>(edge.second)];
       // Beyond doubt, which most are: a distance that cannot overflow costs ten times as much.
       const double dx = q[0] - p[0], dy = q[1] - p[1], dz = q[2] - p[2];
-      if (dx * dx + dy * dy + dz * dz > 1.001 * limit * limit) continue;
+      if (dx * dx + dy * dy + dz * dz > beyond_rounding * limit * limit) continue;
       const double length = std::hypot(dx, dy, dz);
       if (length >= limit) continue;
       edges.push_back(edge);

@@ -17,6 +17,7 @@ struct ShortEdges {
 };
 
 /// Those more than sqrt(2) times shorter than the bound: unit meshes have edges of 1 / sqrt(2) to sqrt(2).
-ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh);
+/// `quality`: of the mesh.
+ShortEdges find_short_edges(carreau_session* session, carreau_mesh* mesh, const carreau_quality& quality);
 
 }  // namespace command

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "mesh/crossings/box_pairs.h"
 #include "predicates/orientation_3d.h"
@@ -13,7 +15,7 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-constexpr int no_axis = -1;
+constexpr std::int8_t no_axis = -1;
 
 /// A view along an axis, which keeps orders of rotation.
 Vec2 along(int axis, const Vec3& p) noexcept {
@@ -142,10 +144,10 @@ bool intersect(const Corners& s, const Corners& t, int axis, Vec3& place) noexce
   return true;
 }
 
-/// What is left of a mesh that can be asked.
+/// What of a mesh can be asked.
 struct SoundTriangles {
-  std::vector<std::array<std::int32_t, 3>> corners;
-  std::vector<std::int32_t> number, axis;  // in the whole mesh; of axis_of
+  std::vector<std::int32_t> numbers;
+  std::vector<std::int8_t> axis;  // of axis_of, by triangle of the whole mesh
 };
 
 Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t) noexcept {
@@ -159,29 +161,22 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
     return v >= 0 && static_cast<std::size_t>(v) < vertices.size() && is_finite(vertices[static_cast<std::size_t>(v)]);
   };
   constexpr std::size_t at_once = 16384;
-  std::vector<SoundTriangles> parts((triangles.size() + at_once - 1) / at_once);
-  run_each(
-      parts.size(), false, threads,
-      [&](std::size_t part, Monitor&) {
-        SoundTriangles& some = parts[part];
-        for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i) {
-          const auto& t = triangles[i];
-          if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
-          const int axis = axis_of(corners_of(vertices, t));
-          if (axis == no_axis) continue;
-          some.corners.push_back(t);
-          some.number.push_back(static_cast<std::int32_t>(i));
-          some.axis.push_back(axis);
-        }
-      },
-      monitor);
   SoundTriangles sound;
-  sound.corners.reserve(triangles.size()), sound.number.reserve(triangles.size()), sound.axis.reserve(triangles.size());
-  for (const SoundTriangles& some : parts) {
-    sound.corners.insert(sound.corners.end(), some.corners.begin(), some.corners.end());
-    sound.number.insert(sound.number.end(), some.number.begin(), some.number.end());
-    sound.axis.insert(sound.axis.end(), some.axis.begin(), some.axis.end());
-  }
+  sound.axis.assign(triangles.size(), no_axis);
+  const std::size_t parts = (triangles.size() + at_once - 1) / at_once;
+  std::vector<std::size_t> count(parts, 0);
+  const auto look = [&](std::size_t part, Monitor&) {
+    for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i) {
+      const auto& t = triangles[i];
+      if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
+      sound.axis[i] = static_cast<std::int8_t>(axis_of(corners_of(vertices, t)));
+      if (sound.axis[i] != no_axis) ++count[part];
+    }
+  };
+  run_each(parts, false, threads, look, monitor);
+  sound.numbers.reserve(std::accumulate(count.begin(), count.end(), std::size_t{0}));
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    if (sound.axis[i] != no_axis) sound.numbers.push_back(static_cast<std::int32_t>(i));
   return sound;
 }
 
@@ -222,16 +217,15 @@ bool triangles_intersect(const Corners& s, const Corners& t, Vec3* place) noexce
 
 Intersections find_intersections(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                                  const IntersectionOptions& options, Monitor& monitor) {
-  const SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
-  const BoxPairs near(vertices, sound.corners, monitor, options.threads);
+  SoundTriangles sound = sound_triangles(vertices, triangles, options.threads, monitor);
+  const BoxPairs near(vertices, triangles, std::move(sound.numbers), monitor, options.threads);
   std::vector<Intersections> of_part(near.parts());
   const auto ask = [&](std::size_t part, Monitor&) {
     FirstPairs first(options.limit, of_part[part]);
     near.each(part, [&](std::size_t i, std::size_t j) {
       Vec3 place;
-      if (intersect(corners_of(vertices, sound.corners[i]), corners_of(vertices, sound.corners[j]), sound.axis[i],
-                    place))
-        first.add({{sound.number[i], sound.number[j]}, place});
+      if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))
+        first.add({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}, place});
     });
   };
   run_each(near.parts(), false, options.threads, ask, monitor);

@@ -11,6 +11,8 @@
 
 namespace carreau {
 
+class Team;
+
 struct PlaneMesherOptions {
   bool frontal = true;        ///< false: algebraic placement, points on edges longer than unity (RT-0232 `frontal`)
   bool squares = false;       ///< points for quadrilaterals: those of lattices of unit squares; `frontal` says nothing
@@ -25,6 +27,8 @@ struct PlaneMesherOptions {
   /// By vertex of the domain, or empty: layers go on from no edge that has an end that is not 0.
   std::span<const std::uint8_t> resting = {};
   int threads = 1;  ///< at work on a large domain; the mesh does not depend on it
+  /// Processes that mesh this domain together, each with this call, null: this one alone. The mesh does not depend on it.
+  Team* team = nullptr;
 };
 
 }  // namespace carreau

@@ -19,7 +19,8 @@ namespace {
 void refuse_degenerate(CompositeRun& run) {
   for (std::size_t f = 0; f < run.patches.size(); ++f) {
     if (!run.patches[f]) continue;
-    const std::string why = degenerate_inside(run.model.faces[f].ref, *run.domains.domain[f], *run.patches[f]);
+    const std::string why = degenerate_inside(run.model.faces[f].ref, *run.domains.domain[f], *run.patches[f],
+                                              run.options.threads, run.monitor);
     if (why.empty()) continue;
     run.fail(f, why);
     run.patches[f].reset();

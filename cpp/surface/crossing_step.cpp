@@ -27,18 +27,24 @@ struct MeshTriangle {
 
 struct WholeMesh {
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::vector<MeshTriangle> origin;
+  std::vector<std::int32_t> first;  // by face, and one more: its first triangle
+
+  [[nodiscard]] MeshTriangle origin(std::int32_t t) const {
+    const auto next = std::upper_bound(first.begin(), first.end(), t);  // faces without triangles have none of them
+    return {static_cast<int>(next - first.begin()) - 1, t - *(next - 1)};
+  }
 };
 
 WholeMesh whole(const SurfaceMesh& mesh) {
   WholeMesh all;
-  for (int f = 0; f < static_cast<int>(mesh.faces.size()); ++f) {
-    const FaceMesh& face = mesh.faces[static_cast<std::size_t>(f)];
-    for (int t = 0; t < static_cast<int>(face.triangles.size()); ++t) {
-      const auto& [a, b, c] = face.triangles[static_cast<std::size_t>(t)];
+  std::size_t n = 0;
+  for (const FaceMesh& face : mesh.faces) n += face.triangles.size();
+  all.triangles.reserve(n), all.first.reserve(mesh.faces.size() + 1);
+  all.first.push_back(0);
+  for (const FaceMesh& face : mesh.faces) {
+    for (const auto& [a, b, c] : face.triangles)
       all.triangles.push_back({face.vertex[a], face.vertex[b], face.vertex[c]});
-      all.origin.push_back({f, t});
-    }
+    all.first.push_back(static_cast<std::int32_t>(all.triangles.size()));
   }
   return all;
 }
@@ -69,7 +75,7 @@ struct FinerPlaces {
 
 void add(const SurfaceMesh& mesh, const WholeMesh& all, std::int32_t triangle, double share, FinerPlaces& places) {
   const std::array<std::int32_t, 3>& corners = all.triangles[static_cast<std::size_t>(triangle)];
-  const int face = all.origin[static_cast<std::size_t>(triangle)].face;
+  const int face = all.origin(triangle).face;
   double longest = 0;
   for (std::size_t k = 0; k < 3; ++k)
     longest = std::max(longest, norm(mesh.vertices[corners[(k + 1) % 3]] - mesh.vertices[corners[k]]));
@@ -92,7 +98,7 @@ struct Crossings {
 };
 
 PatchTriangle triangle_of(const CompositeRun& run, const Crossings& crossings, std::int32_t triangle) {
-  const MeshTriangle& which = crossings.all.origin[static_cast<std::size_t>(triangle)];
+  const MeshTriangle which = crossings.all.origin(triangle);
   return {run.result.mesh, which.face, which.local};
 }
 
@@ -135,8 +141,8 @@ std::vector<Gap> gaps_of(const CompositeRun& run, const Crossings& crossings) {
   const std::vector<TriangleIntersection>& pairs = crossings.found.pairs;
   const auto faces_of = [&](std::size_t k) -> std::pair<int, int> {
     const auto [s, t] = pairs[k].triangles;
-    const int a = crossings.all.origin[static_cast<std::size_t>(s)].face;
-    const int b = crossings.all.origin[static_cast<std::size_t>(t)].face;
+    const int a = crossings.all.origin(s).face;
+    const int b = crossings.all.origin(t).face;
     return {std::min(a, b), std::max(a, b)};
   };
   std::vector<Gap> gaps(pairs.size());

@@ -18,6 +18,7 @@
 #include "surface/reparametrise/even_parameters.h"
 #include "surface/sample/edge_growth.h"
 #include "surface/sample/thresholds.h"
+#include "surface/team/same_hosts.h"
 #include "surface/thresholds.h"
 
 namespace carreau {
@@ -137,6 +138,7 @@ void FaceJob::bound_growth_from_edges(Monitor& monitor) {
 
 void FaceJob::mesh(Monitor& monitor) {
   const Stopwatch watch(report_.seconds_plane);
+  if (team_ != nullptr) require_same_samples(*team_, input_.ref, *space_);
   mesh_.emplace();
   mesh_->plane = mesh_plane(input_.domain->plane, *space_,
                             {.frontal = options_.frontal,
@@ -145,7 +147,8 @@ void FaceJob::mesh(Monitor& monitor) {
                              .normals = normals_.differ() ? &normals_ : nullptr,
                              .max_triangles = options_.max_triangles,
                              .undersampled = undersampled_,
-                             .threads = options_.threads},
+                             .threads = options_.threads,
+                             .team = team_},
                             monitor);
   next_ = Step::lift;
 }

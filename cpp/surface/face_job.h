@@ -36,6 +36,9 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
+  /// All processes of the team make this face, step by step, and share the work on its plane mesh.
+  void share() noexcept { team_ = options_.team; }
+
   /// What came of the face. After a finish, once.
   FaceOutcome take_outcome();
 
@@ -100,6 +103,7 @@ class FaceJob final : public SteppedTask {
   std::optional<Attempt> best_;
   SurfaceAgreement prescribed_;  // of the mesh of the sizes prescribed
   int bounded_rounds_ = 0;       // that had them bounded
+  Team* team_ = nullptr;         // null: this process alone makes the face
   bool squares_ = false;         // points are placed for quadrilaterals
   std::optional<PatchMesh> mesh_;
   std::string failure_, remark_;

@@ -57,9 +57,15 @@ inline constexpr std::size_t curves_at_once = 64;
 inline constexpr double gradation_share = 0.3, curves_share = 0.1, patches_share = 0.85;
 
 // Memory (run)
-/// Bytes that a triangle may cost while a patch is meshed, the mesh itself and copies included.
-/// [Memory.AMillionTrianglesNeedAtMostTwoHundredBytesEachAboveTheMesh]
-inline constexpr double bytes_per_triangle = 300;
+/// Bytes that a triangle may cost while a patch is meshed, the mesh itself and copies included: twice what a whole process
+/// takes (docs/scale.md), for metrics, curved elements and copies of hosts.
+/// [Memory.AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh]
+inline constexpr double bytes_per_triangle = 200;
+/// Triangles over the square of the edges of the boundary: 4 / sqrt(3) / 16, unit equilateral triangles in a square.
+inline constexpr double triangles_of_squared_edges = 0.1443;
+/// Triangles so reckoned. Faces with fewer are not made by several processes together: the plane mesher would not cut
+/// them. [plane::least_divided]
+inline constexpr double least_shared = 250'000;
 
 }  // namespace carreau::thresholds::patches
 

@@ -31,8 +31,8 @@ std::int32_t world() { return MPI_Comm_c2f(MPI_COMM_WORLD); }
 
 /// A session of the waves, with parameters "name=word".
 struct Run {
-  explicit Run(const std::vector<std::string>& settings = {}, Fault fault = Fault::none) {
-    waves.fault = fault;
+  explicit Run(const std::vector<std::string>& settings = {}, Fault fault = Fault::none, int cells = 4) {
+    waves.fault = fault, waves.cells = cells;
     expect(carreau_session_create(&session) == CARREAU_OK, "a session is made");
     expect(mpi_tests::give(session, waves) == CARREAU_OK, "the model is taken");
     std::vector<std::string> all{"hphydef=0.1"};
@@ -73,16 +73,18 @@ std::string encoded(carreau_mesh* mesh) {
   return bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
 }
 
-// The mesh of all ranks is that of one process, bit for bit, with its sizes and parameters, its status and sentence.
-void same(const std::vector<std::string>& settings, Fault fault = Fault::none) {
+// The mesh of all ranks is that of one process, bit for bit, with its sizes and parameters, its status and sentence. How
+// often this rank's host was asked for it.
+std::int64_t same(const std::vector<std::string>& settings, Fault fault = Fault::none, int cells = 4) {
   const std::string what = settings.empty() ? "default" : settings.front();
-  Run alone(settings, fault), together(settings, fault);
+  Run alone(settings, fault, cells), together(settings, fault, cells);
   const carreau_status status = carreau_mesh_generate(alone.session);
   const std::string sentence = alone.sentence();
   expect(carreau_mesh_generate_mpi(together.session, world()) == status, what + ": the same status; " + together.sentence());
   expect(together.sentence() == sentence, what + ": the same sentence; " + together.sentence());
   expect(status == (fault == Fault::none ? CARREAU_OK : CARREAU_ERR_PARTIAL), what + ": " + sentence);
   expect(encoded(alone.mesh()) == encoded(together.mesh()), what + ": the same mesh");
+  return together.waves.asked;
 }
 
 void same_meshes() {
@@ -97,10 +99,19 @@ void same_meshes() {
   same({"failing_faces=leave_out"}, Fault::status_inside);
 }
 
+// One face of 285 000 triangles, whose pieces are dealt out.
+const std::vector<std::string> one_large_face{"hphydef=0.003"};
+void same_large_faces() {
+  constexpr std::int64_t vertices = 130'000;
+  expect(same(one_large_face, Fault::none, 1) > vertices, "each rank makes the face");
+  same({"hphydef=0.003", "threads=2", "shape_trials=1"}, Fault::none, 1);
+}
+
 /// What the last rank does is an error of all: these statuses, and these words somewhere in the sentence.
-void fails(Fault fault, carreau_status expected, const std::string& words) {
+void fails(Fault fault, carreau_status expected, const std::string& words, const std::vector<std::string>& settings = {},
+           int cells = 4) {
   const bool last = rank == size - 1;
-  Run run({}, last ? fault : Fault::none);
+  Run run(settings, last ? fault : Fault::none, cells);
   const carreau_status status = carreau_mesh_generate_mpi(run.session, world());
   mpi_tests::memory_is_short = false;
   const bool short_of_memory = last && fault == Fault::no_memory && status == CARREAU_ERR_MEMORY;
@@ -262,6 +273,16 @@ void run_case(const std::string& name, const std::string& folder) {
     fails(Fault::stop, CARREAU_ERR_CANCELLED, "stopped");
   else if (name == "no_memory")
     fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory");
+  else if (name == "large_same")
+    same_large_faces();
+  else if (name == "large_other_inside")
+    fails(Fault::other_inside, CARREAU_ERR_MODEL, "face 1 is another one on rank " + std::to_string(size - 1), one_large_face, 1);
+  else if (name == "large_status_inside")
+    fails(Fault::status_inside, CARREAU_ERR_CALLBACK, "43", one_large_face, 1);
+  else if (name == "large_stop")
+    fails(Fault::stop, CARREAU_ERR_CANCELLED, "stopped", one_large_face, 1);
+  else if (name == "large_no_memory")
+    fails(Fault::no_memory, CARREAU_ERR_LIMIT, "memory", one_large_face, 1);
   else if (name == "dies")
     fails(Fault::dies, CARREAU_OK, "nobody comes here");
   else

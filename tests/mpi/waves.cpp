@@ -11,10 +11,12 @@ namespace {
 
 bool is_inside(double u, double v) { return u > 0.01 && u < 0.99 && v > 0.01 && v < 0.99; }
 
+bool is_at_fault(const Waves& waves, std::int32_t face) { return waves.cells == 1 || face == waves.face; }
+
 /// 0, or what the callback returns.
 std::int32_t misbehave(Waves& waves, std::int32_t face, double u, double v) {
   if (waves.fault == Fault::status) return 42;
-  if (face != waves.face || !is_inside(u, v)) return 0;
+  if (!is_at_fault(waves, face) || !is_inside(u, v)) return 0;
   if (waves.fault == Fault::status_inside) return 43;
   if (waves.fault == Fault::stop) carreau_stop(waves.session);
   if (waves.fault == Fault::no_memory) memory_is_short = true;
@@ -25,13 +27,14 @@ std::int32_t misbehave(Waves& waves, std::int32_t face, double u, double v) {
 double height(const Waves& waves, std::int32_t face, double u, double v) {
   constexpr double slightly = 1e-9;
   if (waves.fault == Fault::other_curves) return slightly;
-  if (waves.fault == Fault::other_inside && face == waves.face) return is_inside(u, v) ? slightly : 0;
+  if (waves.fault == Fault::other_inside && is_at_fault(waves, face)) return is_inside(u, v) ? slightly : 0;
   return 0;
 }
 
 std::int32_t surface(std::int32_t face, double u, double v, std::int32_t order, double* S, double* Su, double* Sv,
                      double* Suu, double* Suv, double* Svv, void* user) {
   auto& waves = *static_cast<Waves*>(user);
+  ++waves.asked;
   if (const std::int32_t status = misbehave(waves, face, u, v); status != 0) return status;
   const int cell = face - 1;
   const double x = cell % waves.cells + u, y = cell / waves.cells + v;

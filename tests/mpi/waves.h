@@ -23,10 +23,11 @@ enum class Fault {
 };
 
 struct Waves {
-  int cells = 4;  ///< in each direction
+  int cells = 4;  ///< in each direction; with 1 there is one face
   Fault fault = Fault::none;
   std::int32_t face = 6;
   carreau_session* session = nullptr;
+  std::atomic<std::int64_t> asked{0};  ///< times
 };
 
 /// Large allocations of the program and its libraries throw std::bad_alloc (short_memory.cpp).

@@ -1,69 +1,99 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mesh/crossings/box_pairs.h"
 
-#include <algorithm>
+#include <bit>
 
+#include "mesh/crossings/spatial_order.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau {
 
 namespace {
 
-// Triangles of a part at most. [time only]
-constexpr std::size_t largest_part = 1024;
+// Pairs of blocks that are kept at a time. [memory only]
+constexpr std::size_t most_kept = 4096;
 
 }  // namespace
 
-BoxPairs::BoxPairs(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
-                   Monitor& monitor, int threads) {
-  constexpr std::size_t at_once = 16384;
-  const std::size_t n = triangles.size();
-  std::vector<BoxTree::Box> boxes(n);
-  std::vector<Vec3> centres(n);
-  const auto enclose = [&](std::size_t part, Monitor&) {
-    for (std::size_t k = part * at_once; k < std::min((part + 1) * at_once, n); ++k) {
-      const auto corner = [&](std::size_t i) { return vertices[static_cast<std::size_t>(triangles[k][i])]; };
-      for (std::size_t i = 0; i < 3; ++i) boxes[k].add(corner(i));
-      centres[k] = (1.0 / 3) * (corner(0) + corner(1) + corner(2));
-    }
-  };
-  run_each((n + at_once - 1) / at_once, false, threads, enclose, monitor);
-  tree_ = BoxTree(boxes, centres, &monitor, threads);
-  if (tree_.empty()) return;
-  boxes_.reserve(n);
-  for (const std::int32_t t : tree_.order()) boxes_.push_back(boxes[static_cast<std::size_t>(t)]);
-  range_.resize(tree_.nodes());
-  for (std::size_t node = tree_.nodes(); node-- > 0;) {
-    const BoxTree::Node& of = tree_.node(node);
-    const auto first = static_cast<std::size_t>(of.first);
-    range_[node] = of.count > 0 ? Range{first, first + static_cast<std::size_t>(of.count)}
-                                : Range{range_[first].begin, range_[first + 1].end};
+BoxPairs::BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                   std::vector<std::int32_t> numbers, Monitor& monitor, int threads)
+    : vertices_(vertices),
+      triangles_(triangles),
+      order_(spatial_order(vertices, triangles, std::move(numbers), monitor, threads)),
+      blocks_((order_.size() + block_size - 1) / block_size) {
+  if (blocks_ == 0) return;
+  std::size_t nodes = 0;
+  for (std::size_t level = 0;; ++level) {
+    const std::size_t of_level = (blocks_ + (std::size_t{1} << level) - 1) >> level;
+    first_.push_back(nodes);
+    nodes += of_level;
+    if (of_level == 1) break;
   }
-  std::vector<std::size_t> todo{0};
-  while (!todo.empty()) {
-    const std::size_t node = todo.back();
-    todo.pop_back();
-    const auto first = static_cast<std::size_t>(tree_.node(node).first);
-    if (tree_.node(node).count > 0 || range_[node].end - range_[node].begin <= largest_part)
-      parts_.push_back(node);
-    else
-      todo.push_back(first + 1), todo.push_back(first);
+  boxes_.resize(nodes);
+  const auto enclose = [this](std::size_t part, Monitor&) {
+    for (std::size_t b = part * blocks_of_part; b < std::min((part + 1) * blocks_of_part, blocks_); ++b)
+      for (std::size_t k = 0; k < size_of(b); ++k) boxes_[b].add(box_of(order_[b * block_size + k]));
+  };
+  run_each(parts(), false, threads, enclose, monitor);
+  for (std::size_t level = 1; level < first_.size(); ++level) {
+    const std::size_t below = first_[level - 1], end = first_[level];
+    for (std::size_t k = below; k < end; ++k) boxes_[end + (k - below) / 2].add(boxes_[k]);
   }
 }
 
-void BoxPairs::go_down(std::size_t a, std::size_t b, std::vector<std::pair<std::size_t, std::size_t>>& todo) const {
-  const auto first = [&](std::size_t node) { return static_cast<std::size_t>(tree_.node(node).first); };
-  if (a == b) {
-    todo.emplace_back(first(a), first(a) + 1);
-    todo.emplace_back(first(a) + 1, first(a) + 1);
-    todo.emplace_back(first(a), first(a));
-  } else if (range_[b].end - range_[b].begin >= range_[a].end - range_[a].begin) {
-    todo.emplace_back(a, first(b) + 1);
-    todo.emplace_back(a, first(b));
-  } else {
-    todo.emplace_back(first(a) + 1, b);
-    todo.emplace_back(first(a), b);
+BoxPairs::Part BoxPairs::boxes_of(std::size_t part) const {
+  Part own;
+  own.first = part * blocks_of_part;
+  const std::size_t begin = own.first * block_size, end = std::min(begin + blocks_of_part * block_size, order_.size());
+  own.boxes.reserve(end - begin);
+  for (std::size_t k = begin; k < end; ++k) own.boxes.push_back(box_of(order_[k]));
+  return own;
+}
+
+void BoxPairs::load(std::size_t block, Loaded& loaded) const {
+  loaded.block = block;
+  loaded.size = size_of(block);
+  for (std::size_t k = 0; k < loaded.size; ++k) loaded.boxes[k] = box_of(order_[block * block_size + k]);
+}
+
+void BoxPairs::start(std::size_t part, Meeting& meeting) const {
+  const std::size_t root = first_.size() - 1;
+  const std::size_t level = std::min<std::size_t>(std::bit_width(blocks_of_part) - 1, root);
+  meeting.todo.push_back({{level, part}, {root, 0}});
+}
+
+// What comes before a meets it in its own part.
+bool BoxPairs::find_some(Meeting& meeting) const {
+  meeting.blocks.clear();
+  while (!meeting.todo.empty() && meeting.blocks.size() < most_kept) {
+    const auto [a, b] = meeting.todo.back();
+    meeting.todo.pop_back();
+    if (b.end() <= a.begin() || box(a).is_apart(box(b))) continue;
+    if (a.level > 0 || b.level > 0)
+      go_down(a, b, meeting.todo);
+    else
+      meeting.blocks.emplace_back(b.index, a.index);
   }
+  std::sort(meeting.blocks.begin(), meeting.blocks.end());
+  return !meeting.blocks.empty();
+}
+
+void BoxPairs::go_down(const Node& a, const Node& b, std::vector<std::pair<Node, Node>>& todo) const {
+  // The second child may be none: the list ends before it.
+  const auto children = [this](const Node& node, const auto& use) {
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const Node child{node.level - 1, 2 * node.index + k}; child.begin() < blocks_) use(child);
+  };
+  if (a.level == b.level && a.index == b.index)
+    children(a, [&](const Node& of_a) {
+      children(a, [&](const Node& of_b) {
+        if (of_a.index <= of_b.index) todo.emplace_back(of_a, of_b);
+      });
+    });
+  else if (b.level >= a.level)
+    children(b, [&](const Node& child) { todo.emplace_back(a, child); });
+  else
+    children(a, [&](const Node& child) { todo.emplace_back(child, b); });
 }
 
 }  // namespace carreau

@@ -2,6 +2,7 @@
 // Pairs of triangles whose boxes meet, each once. Private to mesh/.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,52 +18,99 @@ namespace carreau {
 
 /// All pairs of triangles whose closed boxes have a point in common: a tree of boxes is asked against itself, so that
 /// neighbours go down together. In parts, which do not depend on the number of threads and may be asked from several.
+/// The tree is over blocks of triangles that are neighbours in space, and halves their list: it needs no links, and
+/// boxes of triangles are made when they are compared. So it takes ten bytes a triangle.
 class BoxPairs {
  public:
-  /// Indices lie in range, coordinates are finite. Throws Cancelled soon after `monitor` was asked to stop.
-  BoxPairs(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles, Monitor& monitor,
-           int threads);
+  using Box = BoxTree::Box;
+  using Triangle = std::array<std::int32_t, 3>;
 
-  [[nodiscard]] std::size_t parts() const noexcept { return parts_.size(); }
+  /// Of the triangles of `numbers`, whose indices lie in range and whose coordinates are finite. Refers to vertices and
+  /// triangles. Throws Cancelled soon after `monitor` was asked to stop.
+  BoxPairs(std::span<const Vec3> vertices, std::span<const Triangle> triangles, std::vector<std::int32_t> numbers,
+           Monitor& monitor, int threads);
+
+  [[nodiscard]] std::size_t parts() const noexcept {
+    return blocks_ == 0 ? 0 : (blocks_ + blocks_of_part - 1) / blocks_of_part;
+  }
   /// Calls look(i, j), i < j, for each pair of the part, in any order.
   template <typename Look>
   void each(std::size_t part, const Look& look) const {
-    std::vector<std::pair<std::size_t, std::size_t>> todo{{parts_[part], 0}};
-    while (!todo.empty()) {
-      const auto [a, b] = todo.back();
-      todo.pop_back();
-      // What comes before a meets it in its own part.
-      if (range_[b].end <= range_[a].begin || tree_.node(a).box.is_apart(tree_.node(b).box)) continue;
-      if (tree_.node(a).count > 0 && tree_.node(b).count > 0)
-        compare(range_[a], range_[b], look);
-      else
-        go_down(a, b, todo);
+    const Part own = boxes_of(part);
+    Meeting meeting;
+    start(part, meeting);
+    while (find_some(meeting)) {
+      Loaded other;
+      for (const auto& [b, a] : meeting.blocks) {
+        if (other.block != b) load(b, other);
+        compare(own, a, other, look);
+      }
     }
   }
 
  private:
-  /// Of tree_.order().
-  struct Range {
-    std::size_t begin = 0, end = 0;
+  static constexpr std::size_t block_size = 16, blocks_of_part = 64;  // [time only]
+
+  /// Of the halves of the list: block << level is its first block.
+  struct Node {
+    std::size_t level = 0, index = 0;
+    [[nodiscard]] std::size_t begin() const noexcept { return index << level; }
+    [[nodiscard]] std::size_t end() const noexcept { return (index + 1) << level; }
+  };
+  /// The boxes of the triangles of a part.
+  struct Part {
+    std::size_t first = 0;  // block
+    std::vector<Box> boxes;
+  };
+  struct Loaded {
+    std::size_t block = static_cast<std::size_t>(-1), size = 0;
+    std::array<Box, block_size> boxes;
+  };
+  /// Blocks whose boxes meet, some at a time; and nodes that are still to be compared.
+  struct Meeting {
+    std::vector<std::pair<Node, Node>> todo;
+    std::vector<std::pair<std::size_t, std::size_t>> blocks;  // the later one first, ascending
   };
 
-  void go_down(std::size_t a, std::size_t b, std::vector<std::pair<std::size_t, std::size_t>>& todo) const;
+  [[nodiscard]] const Box& box(const Node& node) const noexcept { return boxes_[first_[node.level] + node.index]; }
+  [[nodiscard]] std::size_t size_of(std::size_t block) const noexcept {
+    return std::min(block_size, order_.size() - block * block_size);
+  }
+  [[nodiscard]] Box box_of(std::int32_t number) const noexcept {
+    Box box;
+    for (const std::int32_t v : triangles_[static_cast<std::size_t>(number)])
+      box.add(vertices_[static_cast<std::size_t>(v)]);
+    return box;
+  }
+  [[nodiscard]] Part boxes_of(std::size_t part) const;
+  void load(std::size_t block, Loaded& loaded) const;
+  void start(std::size_t part, Meeting& meeting) const;
+  /// Whether there are any more.
+  bool find_some(Meeting& meeting) const;
+  void go_down(const Node& a, const Node& b, std::vector<std::pair<Node, Node>>& todo) const;
 
+  /// a <= the block that is loaded.
   template <typename Look>
-  void compare(const Range& a, const Range& b, const Look& look) const {
-    const std::span<const std::int32_t> order = tree_.order();
-    const bool same = a.begin == b.begin;
-    for (std::size_t k = a.begin; k < a.end; ++k)
-      for (std::size_t l = same ? k + 1 : b.begin; l < b.end; ++l)
-        if (!boxes_[k].is_apart(boxes_[l]))
-          order[k] < order[l] ? look(static_cast<std::size_t>(order[k]), static_cast<std::size_t>(order[l]))
-                              : look(static_cast<std::size_t>(order[l]), static_cast<std::size_t>(order[k]));
+  void compare(const Part& own, std::size_t a, const Loaded& other, const Look& look) const {
+    const Box* boxes = own.boxes.data() + (a - own.first) * block_size;
+    const std::int32_t *of_a = order_.data() + a * block_size, *of_b = order_.data() + other.block * block_size;
+    const Box& all_of_a = box({0, a});
+    const std::size_t size = size_of(a);
+    for (std::size_t l = 0; l < other.size; ++l) {
+      if (all_of_a.is_apart(other.boxes[l])) continue;
+      for (std::size_t k = 0; k < (a == other.block ? l : size); ++k)
+        if (!boxes[k].is_apart(other.boxes[l]))
+          look(static_cast<std::size_t>(std::min(of_a[k], of_b[l])),
+               static_cast<std::size_t>(std::max(of_a[k], of_b[l])));
+    }
   }
 
-  BoxTree tree_;
-  std::vector<BoxTree::Box> boxes_;  // in the tree's order
-  std::vector<Range> range_;         // by node
-  std::vector<std::size_t> parts_;   // nodes that hold all, in the tree's order
+  std::span<const Vec3> vertices_;
+  std::span<const Triangle> triangles_;
+  std::vector<std::int32_t> order_;
+  std::size_t blocks_ = 0;
+  std::vector<std::size_t> first_;  // by level: in boxes_
+  std::vector<Box> boxes_;          // of nodes, level by level: those of blocks first
 };
 
 }  // namespace carreau

@@ -10,10 +10,12 @@
 #include "plane/division/coarse_domain.h"
 #include "plane/division/partition.h"
 #include "plane/division/pieces.h"
+#include "plane/division/shared_tasks.h"
 #include "plane/division/zone.h"
 #include "plane/kernel/boundary.h"
 #include "plane/thresholds.h"
 #include "plane/undivided.h"
+#include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau::plane {
@@ -53,20 +55,30 @@ bool layers_can_start(const Piece& piece) {
   });
 }
 
+void put_piece(PacketWriter& packet, const UndividedMesh& piece) {
+  packet.put(piece.mesh.vertices);
+  put_triangles(packet, piece.mesh.triangles);
+  packet.put(std::int64_t{piece.fixed});
+}
+UndividedMesh get_piece(PacketReader& packet) {
+  UndividedMesh piece;
+  piece.mesh.vertices = packet.plane_points();
+  piece.mesh.triangles = triangles_of(packet);
+  piece.fixed = static_cast<int>(packet.integer());
+  return piece;
+}
+
 std::vector<UndividedMesh> mesh_pieces(const Pieces& pieces, const ZoneContext& context) {
-  std::vector<UndividedMesh> meshes(pieces.pieces.size());
-  run_each(
-      meshes.size(), false, context.options.threads,
-      [&](std::size_t p, Monitor& monitor) {
-        const Piece& piece = pieces.pieces[p];
-        PlaneMesherOptions options = context.options;
-        options.threads = 1;
-        if (layers_can_start(piece)) options.resting = piece.on_separator;
-        meshes[p] = mesh_undivided(piece.domain, context.metric,
-                                   {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
-      },
-      context.monitor);
-  return meshes;
+  const auto mesh_piece = [&](std::size_t p, Monitor& monitor) {
+    const Piece& piece = pieces.pieces[p];
+    PlaneMesherOptions options = context.options;
+    options.threads = 1;
+    if (layers_can_start(piece)) options.resting = piece.on_separator;
+    return mesh_undivided(piece.domain, context.metric,
+                          {.bends = context.known.bends, .triangles = piece.triangles}, options, monitor);
+  };
+  return results_of<UndividedMesh>("pieces", pieces.pieces.size(), context.options, context.monitor,
+                                   {put_piece, get_piece}, mesh_piece);
 }
 
 // Memory comes page by page, which takes longer than what is written there: a stop is looked for on the way.

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 
+#include "plane/division/shared_tasks.h"
 #include "plane/division/zone_part.h"
 #include "plane/thresholds.h"
+#include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
 
 namespace carreau::plane {
@@ -138,6 +140,21 @@ class Bands {
   std::vector<std::int32_t> triangles_;
 };
 
+void put_part(PacketWriter& packet, const ZonePart& part) {
+  packet.put(part.moved);
+  packet.put(part.to);
+  packet.put(part.added);
+  put_triangles(packet, part.triangles);
+}
+ZonePart get_part(PacketReader& packet) {
+  ZonePart part;
+  part.moved = packet.integers();
+  part.to = packet.plane_points();
+  part.added = packet.plane_points();
+  part.triangles = triangles_of(packet);
+  return part;
+}
+
 // Vertices of triangles that belong to several bands wait for the second round; the others' bands know all around them.
 std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) {
   context.monitor.checkpoint();
@@ -150,13 +167,11 @@ std::vector<std::uint8_t> improve_bands(Zone& zone, const ZoneContext& context) 
   const Bands bands(zone);
   std::vector<std::uint8_t> replaced(zone.triangles.size(), 0);
   for (std::size_t t = 0; t < zone.triangles.size(); ++t) replaced[t] = zone.band[t] < 0 ? 0 : 1;
-  std::vector<ZonePart> parts(bands.count());
-  run_each(
-      parts.size(), false, context.options.threads,
-      [&](std::size_t b, Monitor& monitor) {
-        parts[b] = optimise_part(zone, bands.triangles(b), free, context, monitor);
-      },
-      context.monitor);
+  const auto improve = [&](std::size_t b, Monitor& monitor) {
+    return optimise_part(zone, bands.triangles(b), free, context, monitor);
+  };
+  const std::vector<ZonePart> parts =
+      results_of<ZonePart>("bands", bands.count(), context.options, context.monitor, {put_part, get_part}, improve);
   apply(zone, parts, replaced, context.monitor);
   waiting.resize(zone.vertices.size(), 0);
   return waiting;

@@ -7,6 +7,8 @@ namespace carreau {
 
 namespace {
 
+// Points are put as memory has them: their coordinates one after the other (support/vec.h asserts it).
+
 [[noreturn]] void refuse() {
   throw Error("what another process has sent ends early: all processes must run the same version of the library");
 }
@@ -34,12 +36,12 @@ void PacketWriter::put(const std::vector<std::int32_t>& values) {
 
 void PacketWriter::put(const std::vector<Vec2>& points) {
   put(static_cast<std::int64_t>(points.size()));
-  for (const Vec2& p : points) put(p);
+  append(points.data(), points.size() * sizeof(Vec2));
 }
 
 void PacketWriter::put(const std::vector<Vec3>& points) {
   put(static_cast<std::int64_t>(points.size()));
-  for (const Vec3& p : points) put(p.x()), put(p.y()), put(p.z());
+  append(points.data(), points.size() * sizeof(Vec3));
 }
 
 void PacketWriter::put(const Where& where) {
@@ -101,14 +103,13 @@ Vec2 PacketReader::plane_point() {
 
 std::vector<Vec2> PacketReader::plane_points() {
   std::vector<Vec2> points(count(2 * sizeof(double)));
-  for (Vec2& p : points) p = plane_point();
+  copy(points.data(), points.size() * sizeof(Vec2));
   return points;
 }
 
 std::vector<Vec3> PacketReader::points() {
   std::vector<Vec3> points(count(3 * sizeof(double)));
-  for (Vec3& p : points)
-    for (int i = 0; i < 3; ++i) p[i] = real();
+  copy(points.data(), points.size() * sizeof(Vec3));
   return points;
 }
 

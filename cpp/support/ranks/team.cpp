@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/ranks/team.h"
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 #include <new>
 
 #include "support/error.h"
@@ -27,6 +29,12 @@ template <typename E>
   if (teller.empty()) throw E(where, rest);
   // The place is in the sentence once, behind the teller.
   throw E(teller + where.prefix() + rest);
+}
+
+std::string digits_of(std::uint64_t hash) {
+  std::string digits(16, '0');
+  for (auto d = digits.rbegin(); d != digits.rend(); ++d, hash >>= 4) *d = "0123456789abcdef"[hash & 15U];
+  return digits;
 }
 
 constexpr std::int64_t none_left = std::int64_t{1} << 40;  // more than jobs, and far from overflow for any number of ranks
@@ -191,12 +199,23 @@ void Team::run(const std::function<void()>& body) {
   }
 }
 
+void LongChecksum::add(const void* from, std::size_t size) noexcept {
+  const auto* bytes = static_cast<const unsigned char*>(from);
+  for (; size > 0;) {
+    std::uint64_t word = 0;
+    const std::size_t n = std::min(size, sizeof word);
+    std::memcpy(&word, bytes, n);
+    add(word);
+    bytes += n, size -= n;
+  }
+}
+
+std::string LongChecksum::text() const { return digits_of(hash_); }
+
 std::string checksum(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  std::string digits(16, '0');
-  for (auto d = digits.rbegin(); d != digits.rend(); ++d, hash >>= 4) *d = "0123456789abcdef"[hash & 15U];
-  return digits;
+  return digits_of(hash);
 }
 
 }  // namespace carreau

@@ -9,7 +9,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
+
+#include "support/vec.h"
 
 namespace carreau {
 
@@ -73,6 +76,29 @@ class Team {
   TeamLink& link_;
   std::int64_t step_ = 0;
   bool over_ = false;  // some process has left the run: none waits for another one any more
+};
+
+/// Sums up values that are too many to be copied for checksum(): FNV-1a of words of 64 bits, with their halves folded,
+/// since a product carries upwards only. All processes must add the same arrays in the same order.
+class LongChecksum {
+ public:
+  template <typename T>
+  void add(const std::vector<T>& values) {
+    static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3>);
+    add(values.size());
+    add(values.data(), values.size() * sizeof(T));
+  }
+  void add(std::uint64_t word) noexcept {
+    hash_ = (hash_ ^ word) * 0x100000001b3U;
+    hash_ ^= hash_ >> 32;
+  }
+  /// As 16 digits.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  void add(const void* from, std::size_t size) noexcept;
+
+  std::uint64_t hash_ = 0xcbf29ce484222325U;
 };
 
 /// 64 bits of FNV-1a (Fowler, Noll, Vo), as 16 digits.

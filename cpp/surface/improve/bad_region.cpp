@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mesh/quality.h"
+#include "support/all_that_hold.h"
 
 namespace carreau {
 
@@ -19,19 +20,19 @@ Vec3 unit_normal_in_space(const std::array<std::int32_t, 3>& t, const std::vecto
   return l > 0 ? (1 / l) * n : Vec3{0, 0, 0};
 }
 
-BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound)
+BadRegion::BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
+                     int threads, Monitor& monitor)
     : mesh_(mesh), xyz_(xyz) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (is_below(bound, mesh.triangles[t])) triangles_.push_back(static_cast<std::int32_t>(t));
+  const std::size_t n = mesh.triangles.size();
+  triangles_ = all_that_hold(n, threads, monitor, [&](std::size_t t) { return is_below(bound, mesh.triangles[t]); });
   if (triangles_.empty()) return;
   movable_.assign(mesh.vertices.size(), 0);
   for (int ring = 0; ring < 2; ++ring) {
     mark_corners(triangles_, movable_);
-    triangles_.clear();
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    triangles_ = all_that_hold(n, threads, monitor, [&](std::size_t t) {
       const Triangle& c = mesh.triangles[t];
-      if ((movable_[c[0]] | movable_[c[1]] | movable_[c[2]]) != 0) triangles_.push_back(static_cast<std::int32_t>(t));
-    }
+      return (movable_[c[0]] | movable_[c[1]] | movable_[c[2]]) != 0;
+    });
   }
   std::fill_n(movable_.begin(), domain.vertices.size(), 0);
 }

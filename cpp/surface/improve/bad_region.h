@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/plane_mesh.h"
+#include "support/monitor.h"
 
 namespace carreau {
 
@@ -22,7 +23,8 @@ class BadRegion {
  public:
   /// Two rings of triangles around those below `bound`. Keeps references to the mesh and its positions, whose numbers
   /// of vertices and triangles stay.
-  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound);
+  BadRegion(const PlaneDomain& domain, const PlaneMesh& mesh, const std::vector<Vec3>& xyz, double bound,
+            int threads, Monitor& monitor);
 
   /// Indices, increasing.
   [[nodiscard]] const std::vector<std::int32_t>& triangles() const noexcept { return triangles_; }

@@ -13,6 +13,7 @@
 #include "mesh/local_search.h"
 #include "mesh/quality.h"
 #include "mesh/triangle_distance.h"
+#include "support/all_that_hold.h"
 #include "surface/improve/corner_agreement.h"
 #include "surface/improve/thresholds.h"
 
@@ -93,10 +94,9 @@ class Refinement {
     }
     if (known_) ask_curves();
     const std::vector<Vec3>& normal = known_ ? mesh_.normal : around;
-    std::vector<int> wrong;
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (is_doubtful(triangles[t], normal) && !collapsed(triangles[t])) wrong.push_back(static_cast<int>(t));
-    return wrong;
+    return all_that_hold(triangles.size(), input_.threads, monitor_, [&](std::size_t t) {
+      return is_doubtful(triangles[t], normal) && !collapsed(triangles[t]);
+    });
   }
 
   // At imposed vertices.

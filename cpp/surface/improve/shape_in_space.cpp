@@ -13,13 +13,15 @@ namespace carreau {
 
 void swap_poor_edges(const PatchInput& input, PatchMesh& mesh, Monitor& monitor) {
   if (!input.isotropic) return;
-  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::poor);
+  const BadRegion poor(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::poor, input.threads,
+                       monitor);
   swap_in_space(poor, input.domain->plane, mesh.plane, mesh.xyz, monitor);
 }
 
 void shape_in_space(const PatchInput& input, Cad& cad, const SizeRules& rules, PatchMesh& mesh, Monitor& monitor) {
   if (!input.isotropic) return;
-  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::good);
+  const BadRegion region(input.domain->plane, mesh.plane, mesh.xyz, thresholds::shape::good, input.threads,
+                         monitor);
   if (region.triangles().empty()) return;
   std::vector<std::int32_t> moved;
   for (int round = 0; round < thresholds::shape::most_rounds; ++round) {

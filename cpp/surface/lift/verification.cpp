@@ -8,6 +8,7 @@
 
 #include "cad/fundamental_forms.h"
 #include "predicates/polygon_locator.h"
+#include "support/all_that_hold.h"
 #include "support/format.h"
 #include "support/stepped_tasks.h"
 #include "surface/lift/thresholds.h"
@@ -227,9 +228,10 @@ UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpac
   return result;
 }
 
-std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh) {
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh, int threads, Monitor& monitor) {
   const auto imposed = static_cast<std::int32_t>(domain.origin.size());
-  for (const auto& t : mesh.plane.triangles) {
+  // The first side of a triangle that is a point of space, although it has an end inside; 3: there is none.
+  const auto point_side = [&](const std::array<std::int32_t, 3>& t) -> std::size_t {
     std::array<double, 3> in_space, in_domain;  // squared
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t a = t[i], b = t[(i + 1) % 3];
@@ -240,15 +242,21 @@ std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh
     const double far = one_point * one_point * *std::max_element(in_space.begin(), in_space.end());
     const double apart = one_point * one_point * *std::max_element(in_domain.begin(), in_domain.end());
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int32_t a = t[i], b = t[(i + 1) % 3];
-      if ((a < imposed && b < imposed) || in_space[i] > far || !(in_domain[i] > apart)) continue;
-      const Vec2 to = mesh.plane.vertices[b];
-      return Where{.face = ref, .uv = mesh.plane.vertices[a]}.prefix() +
-             "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x()) + ", " +
-             format_number(to.y()) + ") is the same point of space";
+      const bool inside = t[i] >= imposed || t[(i + 1) % 3] >= imposed;
+      if (inside && !(in_space[i] > far) && in_domain[i] > apart) return i;
     }
-  }
-  return {};
+    return 3;
+  };
+  const auto& triangles = mesh.plane.triangles;
+  const std::vector<std::int32_t> found = all_that_hold(triangles.size(), threads, monitor,
+                                                        [&](std::size_t t) { return point_side(triangles[t]) < 3; });
+  if (found.empty()) return {};
+  const auto& t = triangles[static_cast<std::size_t>(found.front())];
+  const std::size_t i = point_side(t);
+  const Vec2 to = mesh.plane.vertices[t[(i + 1) % 3]];
+  return Where{.face = ref, .uv = mesh.plane.vertices[t[i]]}.prefix() +
+         "the surface is degenerate inside its domain: (u, v) = (" + format_number(to.x()) + ", " +
+         format_number(to.y()) + ") is the same point of space";
 }
 
 }  // namespace carreau

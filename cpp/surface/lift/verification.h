@@ -42,6 +42,6 @@ UndersampledRegions find_undersampled(const PatchInput& input, const ControlSpac
 
 /// Sides of a domain may shrink to a point, places inside may not: where vertices inside coincide in space, triangles
 /// have no area. The sentence that says where; empty when there is no such place.
-std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh);
+std::string degenerate_inside(int ref, const FaceDomain& domain, const PatchMesh& mesh, int threads, Monitor& monitor);
 
 }  // namespace carreau

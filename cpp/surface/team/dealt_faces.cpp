@@ -15,7 +15,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int64_t packet_version = 1;
+constexpr std::int64_t packet_version = 2;
 
 using Message = std::pair<Level, std::string>;
 
@@ -100,14 +100,14 @@ class Taker final : public SteppedTask {
 
  private:
   void take() {
-    const std::optional<std::size_t> next = faces_.team.take(faces_.jobs.size());
+    const std::optional<std::size_t> next = faces_.team.take(faces_.order.size());
     done_ = !next;
     if (done_) return;
     i_ = faces_.order[*next];
     if (i_ > sent_.first_failed()) return;
     job_ = static_cast<FaceJob*>(faces_.jobs[i_].get());
     messages_.clear();
-    if (std::this_thread::get_id() == caller_) faces_.on_begun(i_, *next);
+    if (std::this_thread::get_id() == caller_) faces_.on_begun(i_, faces_.shared.size() + *next);
   }
 
   void work(Monitor& monitor) {
@@ -170,6 +170,32 @@ std::vector<std::string> by_job(std::vector<std::string> packets, std::size_t n)
   return faces;
 }
 
+/// A face that all have made.
+struct SharedFace {
+  std::vector<Message> messages;
+  std::optional<FaceOutcome> outcome;
+};
+
+// One after the other, and each with all threads of all processes.
+std::vector<SharedFace> make_together(const DealtFaces& faces, Monitor& monitor) {
+  std::vector<SharedFace> made(faces.shared.size());
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    const std::size_t i = faces.shared[k];
+    faces.on_begun(i, k);
+    auto& job = static_cast<FaceJob&>(*faces.jobs[i]);
+    job.share();
+    FaceMonitor of_face(made[k].messages);
+    of_face.listen(monitor);
+    while (!job.finished()) {
+      monitor.checkpoint();
+      job.step(of_face);
+    }
+    made[k].outcome = job.take_outcome();
+    faces.jobs[i].reset();
+  }
+  return made;
+}
+
 void deliver(const DealtFaces& faces, std::size_t i, const std::string& bytes, Monitor& monitor) {
   PacketReader packet(bytes);
   packet.integer();
@@ -184,10 +210,18 @@ void deliver(const DealtFaces& faces, std::size_t i, const std::string& bytes, M
 }  // namespace
 
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
+  std::vector<SharedFace> shared = make_together(faces, monitor);
   Sent sent;
   const SharedError error = mesh_own_share(faces, sent, monitor);
   std::vector<std::string> all = by_job(faces.team.exchange("patches", sent.packed(error)), faces.jobs.size());
+  auto next = shared.begin();
   for (std::size_t i = 0; i < all.size(); ++i) {
+    if (next != shared.end() && faces.shared[static_cast<std::size_t>(next - shared.begin())] == i) {
+      for (const auto& [level, text] : next->messages) monitor.message(level, text);
+      faces.on_finished(i, *std::exchange(next->outcome, std::nullopt));
+      ++next;
+      continue;
+    }
     const std::string bytes = std::exchange(all[i], {});
     if (bytes.empty()) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
     deliver(faces, i, bytes, monitor);

@@ -17,7 +17,8 @@ namespace carreau {
 struct DealtFaces {
   Team& team;
   std::span<std::unique_ptr<SteppedTask>> jobs;  ///< FaceJob; one that this process has meshed is null afterwards
-  std::vector<std::size_t> order;                ///< indices of jobs, longest first
+  std::vector<std::size_t> shared;               ///< indices of jobs that all processes make together, ascending
+  std::vector<std::size_t> order;                ///< those of the others, longest first
   int threads = 1;
   /// Called from the thread that runs when job `i` is begun, the `begun`-th of all processes.
   std::function<void(std::size_t i, std::size_t begun)> on_begun;
@@ -25,9 +26,9 @@ struct DealtFaces {
   std::function<void(std::size_t i, FaceOutcome)> on_finished;
 };
 
-/// Each process takes a face whenever a thread of it has none, then all tell each other what came of them. The error of
+/// First the faces that all make together. Then each process takes a face whenever a thread of it has none, then all tell each other what came of them. The error of
 /// the first face in order comes out of all processes, after the outcomes before it; that of a process that has none
-/// of its faces to blame (a stop, no memory) comes first. Messages of faces reach all hosts, in order of the faces.
+/// of its faces to blame (a stop, no memory) comes first, as that of a face made together does. Messages of faces reach all hosts, in order of the faces.
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor);
 
 }  // namespace carreau

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/team/face_outcome.h"
 
+#include "support/ranks/triangle_packet.h"
+
 namespace carreau {
 
 namespace {
 
 void put(PacketWriter& packet, const PatchMesh& patch) {
   packet.put(patch.plane.vertices);
-  packet.put(static_cast<std::int64_t>(patch.plane.triangles.size()));
-  for (const auto& triangle : patch.plane.triangles)
-    for (const std::int32_t v : triangle) packet.put(std::int64_t{v});
+  put_triangles(packet, patch.plane.triangles);
   packet.put(patch.xyz);
   packet.put(patch.size);
   packet.put(static_cast<std::int64_t>(patch.excesses.size()));
@@ -20,9 +20,7 @@ void put(PacketWriter& packet, const PatchMesh& patch) {
 PatchMesh patch_of(PacketReader& packet) {
   PatchMesh patch;
   patch.plane.vertices = packet.plane_points();
-  patch.plane.triangles.resize(packet.count(3 * sizeof(std::int64_t)));
-  for (auto& triangle : patch.plane.triangles)
-    for (std::int32_t& v : triangle) v = static_cast<std::int32_t>(packet.integer());
+  patch.plane.triangles = triangles_of(packet);
   patch.xyz = packet.points();
   patch.size = packet.reals();
   patch.excesses.resize(packet.count(5 * sizeof(double)));

@@ -63,6 +63,11 @@ std::string answers(const CompositeRun& run, std::size_t f, const std::vector<Ve
   return packet.take();
 }
 
+[[noreturn]] void refuse_face(int ref, std::size_t rank) {
+  throw InvalidModel("face " + std::to_string(ref) + " is another one on rank " + std::to_string(rank) +
+                     " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
+}
+
 }  // namespace
 
 std::int64_t least_of(Team& team, std::int64_t most_triangles) {
@@ -88,17 +93,17 @@ void require_same_curves(Team& team, const CompositeRun& run) {
 }
 
 void require_same_mesh(Team& team, const SurfaceMesh& mesh) {
-  PacketWriter packet;
-  packet.put(mesh.vertices);
-  packet.put(mesh.mid_vertices);
-  packet.put(mesh.vertex_ref);
+  LongChecksum sum;
+  sum.add(mesh.vertices);
+  sum.add(mesh.mid_vertices);
+  sum.add(mesh.vertex_ref);
   for (const FaceMesh& face : mesh.faces) {
-    packet.put(static_cast<std::int64_t>(face.status));
-    packet.put(face.vertex);
-    packet.put(face.uv);
-    for (const auto& corners : face.triangles) packet.put(std::vector<std::int32_t>(corners.begin(), corners.end()));
+    sum.add(static_cast<std::uint64_t>(face.status));
+    sum.add(face.vertex);
+    sum.add(face.uv);
+    sum.add(face.triangles);
   }
-  team.require_same("mesh", checksum(packet.bytes()), [](int rank) {
+  team.require_same("mesh", sum.text(), [](int rank) {
     return "the mesh of rank " + std::to_string(rank) +
            " is another one than that of rank 0: its callbacks or parameters differ, or its host does not answer twice the same";
   });
@@ -116,10 +121,16 @@ void require_same_surfaces(Team& team, const CompositeRun& run) {
   for (std::size_t r = 1; r < all.size(); ++r) {
     if (all[r] == all[0]) continue;
     const std::size_t i = first_other(all[0], all[r]);
-    throw InvalidModel("face " + std::to_string(i < faces.size() ? faces[i] : 0) + " is another one on rank " +
-                       std::to_string(r) +
-                       " than on rank 0: its callbacks or prescribed sizes differ; all ranks must mesh the same model");
+    refuse_face(i < faces.size() ? faces[i] : 0, r);
   }
+}
+
+void require_same_samples(Team& team, int face, const ControlSpace& space) {
+  PacketWriter packet;
+  space.put(packet);
+  const std::vector<std::string> all = team.exchange("samples", checksum(packet.bytes()));
+  for (std::size_t r = 1; r < all.size(); ++r)
+    if (all[r] != all[0]) refuse_face(face, r);
 }
 
 }  // namespace carreau

@@ -20,6 +20,9 @@ void require_same_curves(Team& team, const CompositeRun& run);
 /// The same of what hosts say at a few vertices of each patch: their positions and prescribed sizes.
 void require_same_surfaces(Team& team, const CompositeRun& run);
 
+/// The same of what a face that all make together was sampled as: its pieces fit together only where it is the same.
+void require_same_samples(Team& team, int face, const ControlSpace& space);
+
 /// The same of the whole mesh: steps after the patches are made by every process, from what its own host says.
 void require_same_mesh(Team& team, const SurfaceMesh& mesh);
 

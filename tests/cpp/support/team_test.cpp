@@ -1,67 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A team of threads, each a process with its own Team.
 #include "support/ranks/team.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <barrier>
 #include <new>
-#include <thread>
+#include <set>
 
+#include "common/thread_team.h"
 #include "support/error.h"
+#include "support/ranks/dealt_work.h"
 #include "support/ranks/packet.h"
+#include "support/ranks/triangle_packet.h"
 
 namespace carreau {
 namespace {
 
-/// What the processes share.
-struct Common {
-  explicit Common(int n) : given(static_cast<std::size_t>(n)), meeting(n) {}
-  std::vector<std::string> given;
-  std::atomic<std::int64_t> next{0};
-  std::barrier<> meeting;
-};
-
-class ThreadLink final : public TeamLink {
- public:
-  ThreadLink(Common& common, int rank) : common_(common), rank_(rank) {}
-  [[nodiscard]] int rank() const noexcept override { return rank_; }
-  [[nodiscard]] int size() const noexcept override { return static_cast<int>(common_.given.size()); }
-  [[nodiscard]] bool takes_from_any_thread() const noexcept override { return true; }
-  std::int64_t take(std::int64_t count) override { return common_.next.fetch_add(count); }
-  std::vector<std::string> exchange(std::string_view mine) override {
-    common_.given[static_cast<std::size_t>(rank_)] = mine;
-    common_.meeting.arrive_and_wait();
-    std::vector<std::string> all = common_.given;
-    common_.next = 0;
-    common_.meeting.arrive_and_wait();
-    return all;
-  }
-
- private:
-  Common& common_;
-  int rank_;
-};
-
-/// Runs body(team) in n processes; what each threw, or "".
-std::vector<std::string> in_processes(int n, const std::function<void(Team&)>& body) {
-  Common common(n);
-  std::vector<std::string> thrown(static_cast<std::size_t>(n));
-  std::vector<std::thread> processes;
-  for (int rank = 0; rank < n; ++rank)
-    processes.emplace_back([&, rank] {
-      ThreadLink link(common, rank);
-      Team team(link);
-      try {
-        team.run([&] { body(team); });
-      } catch (const std::exception& error) {
-        thrown[static_cast<std::size_t>(rank)] = error.what();
-      }
-    });
-  for (std::thread& process : processes) process.join();
-  return thrown;
-}
+using testing::in_processes;
 
 TEST(Team, EveryJobIsTakenOnceInEachRound) {
   constexpr std::size_t jobs = 1000, rounds = 3;
@@ -130,6 +85,68 @@ TEST(Team, DifferentValuesNameTheRank) {
   for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "rank 1 differs");
 }
 
+std::string squared(std::size_t i) { return std::to_string(i * i); }
+
+TEST(DealtWork, ReachesAllWhoeverDidIt) {
+  for (const int threads : {1, 3}) {
+    std::vector<std::atomic<int>> times(100);
+    const auto thrown = in_processes(4, [&](Team& team) {
+      Monitor monitor;
+      for (const std::size_t n : {100, 0, 1, 7}) {
+        const auto work = [&](std::size_t i, Monitor&) {
+          if (n == 100) ++times[i];
+          return squared(i);
+        };
+        const std::vector<std::string> all = deal_out(team, "squares", n, threads, work, monitor);
+        ASSERT_EQ(all.size(), n);
+        for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(all[i], squared(i));
+      }
+    });
+    for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
+    for (const auto& each : times) EXPECT_EQ(each, 1);
+  }
+}
+
+TEST(DealtWork, ErrorsKeepTheirClassAndTheFirstComesOutOfAll) {
+  in_processes(3, [](Team& team) {
+    Monitor monitor;
+    const auto work = [](std::size_t i, Monitor&) -> std::string {
+      if (i == 5 || i == 9) throw DomainError(Where{.face = static_cast<int>(i)}, "no mesh");
+      return squared(i);
+    };
+    try {
+      deal_out(team, "squares", 12, 1, work, monitor);
+      ADD_FAILURE() << "nothing was thrown";
+    } catch (const DomainError& error) {
+      EXPECT_STREQ(error.what(), "face 5: no mesh");
+    }
+    // They may go on in another way.
+    EXPECT_EQ(team.exchange("next", "").size(), 3u);
+  });
+}
+
+TEST(DealtWork, TheStopOfOneProcessReachesAll) {
+  const auto thrown = in_processes(3, [](Team& team) {
+    Monitor monitor;
+    if (team.rank() == 1) monitor.request_stop();
+    const auto work = [](std::size_t i, Monitor&) { return squared(i); };
+    deal_out(team, "squares", 1000, 1, work, monitor);
+  });
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("stop"), std::string::npos) << sentence;
+}
+
+TEST(DealtWork, LackOfMemoryInOneProcessReachesAll) {
+  const auto thrown = in_processes(3, [](Team& team) {
+    Monitor monitor;
+    const auto work = [](std::size_t i, Monitor&) -> std::string {
+      if (i == 2) throw std::bad_alloc();
+      return squared(i);
+    };
+    deal_out(team, "squares", 6, 1, work, monitor);
+  });
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("there is not enough memory"), std::string::npos);
+}
+
 template <typename E>
 void expect_same_back(const E& error) {
   const SharedError shared = SharedError::of(std::make_exception_ptr(error));
@@ -161,6 +178,7 @@ TEST(Packet, GivesBackWhatWasPut) {
   PacketWriter packet;
   packet.put(std::int64_t{-5}), packet.put(0.1), packet.put(true), packet.put(std::string_view("text"));
   packet.put(std::vector<std::int32_t>{1, -2}), packet.put(std::vector<Vec3>{Vec3{1, 2, 3}});
+  put_triangles(packet, {{0, 1, 2}, {2, 1, 3}}), packet.put(std::vector<Vec2>{{4, 5}});
   PacketReader reader(packet.bytes());
   EXPECT_EQ(reader.integer(), -5);
   EXPECT_EQ(reader.real(), 0.1);
@@ -168,6 +186,8 @@ TEST(Packet, GivesBackWhatWasPut) {
   EXPECT_EQ(reader.text(), "text");
   EXPECT_EQ(reader.integers(), (std::vector<std::int32_t>{1, -2}));
   EXPECT_EQ(reader.points(), (std::vector<Vec3>{Vec3{1, 2, 3}}));
+  EXPECT_EQ(triangles_of(reader), (TriangleList{{0, 1, 2}, {2, 1, 3}}));
+  EXPECT_EQ(reader.plane_points(), (std::vector<Vec2>{{4, 5}}));
   EXPECT_TRUE(reader.at_end());
 }
 
@@ -185,6 +205,29 @@ TEST(Checksum, IsFnv1a) {
   EXPECT_EQ(checksum(""), "cbf29ce484222325");
   EXPECT_EQ(checksum("a"), "af63dc4c8601ec8c");
   EXPECT_EQ(checksum("foobar"), "85944171f73967e8");
+}
+
+TEST(Checksum, OfLongArraysTellsEachBitAndOrder) {
+  std::vector<std::int32_t> values(101);
+  for (std::size_t k = 0; k < values.size(); ++k) values[k] = static_cast<std::int32_t>(k);
+  const auto sum = [](const std::vector<std::int32_t>& of) {
+    LongChecksum sum;
+    sum.add(of);
+    return sum.text();
+  };
+  std::set<std::string> seen{sum(values)};
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (int bit = 0; bit < 32; ++bit) {
+      values[k] = static_cast<std::int32_t>(static_cast<std::uint32_t>(values[k]) ^ (1U << bit));
+      EXPECT_TRUE(seen.insert(sum(values)).second) << k << ", bit " << bit;
+      values[k] = static_cast<std::int32_t>(static_cast<std::uint32_t>(values[k]) ^ (1U << bit));
+    }
+  std::swap(values[3], values[90]);
+  EXPECT_TRUE(seen.insert(sum(values)).second);
+  EXPECT_EQ(sum(values).size(), 16u);
+  // Zeros at the end count.
+  EXPECT_NE(sum({0}), sum({0, 0}));
+  EXPECT_NE(sum({}), sum({0}));
 }
 
 }  // namespace

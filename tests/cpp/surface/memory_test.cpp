@@ -49,7 +49,7 @@ namespace carreau {
 namespace {
 
 // Paraboloid, uniform size.
-TEST(Memory, AMillionTrianglesNeedAtMostTwoHundredBytesEachAboveTheMesh) {
+TEST(Memory, AMillionTrianglesNeedAtMostFortyBytesEachAboveTheMesh) {
   auto cad = std::make_shared<testing::AnalyticCad>(testing::paraboloid());
   Monitor monitor;
   Session session(monitor);
@@ -72,7 +72,7 @@ TEST(Memory, AMillionTrianglesNeedAtMostTwoHundredBytesEachAboveTheMesh) {
   std::printf("%zu triangles; mesh %.1f bytes each, %.1f more at the peak; %lld allocations\n", count, mesh / triangles,
               (high - mesh) / triangles, allocations.load());
   EXPECT_GT(triangles, 950'000);
-  EXPECT_LE((high - mesh) / triangles, 200);
+  EXPECT_LE((high - mesh) / triangles, 40);
   // Structures grow; nothing is allocated for each triangle.
   EXPECT_LT(static_cast<double>(allocations.load()), 0.01 * triangles);
 }

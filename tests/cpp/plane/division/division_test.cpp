@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/thread_team.h"
 #include "metric_cases.h"
 #include "plane/division/coarse_domain.h"
 #include "plane/division/divided_mesh.h"
@@ -122,6 +123,24 @@ PlaneCase strip(int length, int width) {
   for (int k = 0; k < n; ++k) c.domain.edges.push_back({.a = k, .b = (k + 1) % n});
   c.high = {h * length, h * width};
   return c;
+}
+
+TEST(Division, IsTheSameForAnyNumberOfProcesses) {
+  const PlaneCase c = flat_square(0.003);
+  const ControlSpace space = control_space(c);
+  const auto one = cut(c.domain, space);
+  ASSERT_TRUE(one);
+  for (const int processes : {1, 2, 3, 7}) {
+    const auto thrown = in_processes(processes, [&](Team& team) {
+      Monitor monitor;
+      PlaneMesherOptions options;
+      options.team = &team;
+      const auto mesh = plane::mesh_divided(c.domain, space, known_of(space), options, monitor, 90'000);
+      ASSERT_TRUE(mesh);
+      expect_same(*mesh, *one);
+    });
+    for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
+  }
 }
 
 TEST(Division, LeavesStripsAlone) {

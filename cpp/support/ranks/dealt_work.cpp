@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/ranks/dealt_work.h"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <utility>
+
+#include "support/error.h"
+#include "support/ranks/packet.h"
+#include "support/stepped_tasks.h"
+
+namespace carreau {
+
+namespace {
+
+using Work = std::function<std::string(std::size_t, Monitor&)>;
+
+/// What this process has done. Used by several threads.
+class Done {
+ public:
+  void add(std::size_t i, std::string_view result, const SharedError& error) {
+    PacketWriter packet;
+    packet.put(static_cast<std::int64_t>(i));
+    packet.put(std::string_view(error.bytes));
+    packet.put(result);
+    const std::scoped_lock lock(mutex_);
+    results_.push_back(packet.take());
+  }
+  /// `error`: of the process itself, or none.
+  std::string packed(const SharedError& error) {
+    PacketWriter packet;
+    packet.put(std::string_view(error.bytes));
+    packet.put(static_cast<std::int64_t>(results_.size()));
+    for (std::string& result : results_) packet.put(std::string_view(std::exchange(result, {})));
+    return packet.take();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> results_;
+};
+
+/// Takes work until there is none left. Where only the calling thread may take, others do what it has taken.
+class Taker final : public SteppedTask {
+ public:
+  Taker(Team& team, std::size_t n, const Work& work, Done& all) : team_(team), n_(n), work_(work), all_(all) {}
+
+  [[nodiscard]] bool finished() const override { return finished_; }
+  [[nodiscard]] bool bound() const override { return !next_ && !team_.takes_from_any_thread(); }
+  void step(Monitor& monitor) override {
+    if (!next_) {
+      next_ = team_.take(n_);
+      finished_ = !next_;
+      return;
+    }
+    const std::size_t i = *std::exchange(next_, std::nullopt);
+    try {
+      all_.add(i, work_(i, monitor), {});
+    } catch (const Cancelled&) {  // of the process
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (...) {
+      all_.add(i, {}, SharedError::of(std::current_exception()));
+    }
+  }
+
+ private:
+  Team& team_;
+  std::size_t n_;
+  const Work& work_;
+  Done& all_;
+  std::optional<std::size_t> next_;
+  bool finished_ = false;
+};
+
+// The error that is nobody's but this process's; none when all went on to the end.
+SharedError do_own_share(Team& team, std::size_t n, int threads, const Work& work, Done& done, Monitor& monitor) {
+  try {
+    std::vector<std::unique_ptr<SteppedTask>> takers;
+    for (int t = 0; t < std::max(threads, 1); ++t) takers.push_back(std::make_unique<Taker>(team, n, work, done));
+    run_stepped(takers, {.threads = threads}, monitor);
+  } catch (...) {
+    team.stop_taking();
+    return SharedError::of(std::current_exception());
+  }
+  return {};
+}
+
+/// One piece of work as all processes get it.
+struct Result {
+  std::string bytes;
+  SharedError error;
+  bool known = false;
+};
+
+void read(std::string_view packet, const std::string& teller, std::vector<Result>& results) {
+  PacketReader reader(packet);
+  if (const SharedError error{reader.text()}; error.any()) error.raise(teller);
+  for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
+    const std::string one = reader.text();
+    PacketReader of_one(one);
+    const auto i = static_cast<std::uint64_t>(of_one.integer());
+    if (i >= results.size()) throw Error(teller + "has sent work that nobody knows");
+    results[i].error.bytes = of_one.text();
+    results[i].bytes = of_one.text();
+    results[i].known = true;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> deal_out(Team& team, std::string_view step, std::size_t n, int threads, const Work& work,
+                                  Monitor& monitor) {
+  Done done;
+  const SharedError own = do_own_share(team, n, threads, work, done, monitor);
+  std::vector<std::string> packets = team.exchange(step, done.packed(own));
+  std::vector<Result> results(n);
+  for (std::size_t r = 0; r < packets.size(); ++r) {
+    const std::string packet = std::exchange(packets[r], {});
+    read(packet, "rank " + std::to_string(r) + ": ", results);
+  }
+  std::vector<std::string> bytes;
+  bytes.reserve(n);
+  for (Result& result : results) {
+    if (result.error.any()) result.error.raise();
+    if (!result.known) throw Error("no process has done work that was dealt out");  // a process has stopped
+    bytes.push_back(std::move(result.bytes));
+  }
+  return bytes;
+}
+
+}  // namespace carreau
