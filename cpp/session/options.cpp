@@ -96,6 +96,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.crossing_rounds = parameters.integer("crossing_rounds");
   options.frontal = parameters.integer("frontal") != 0;
   options.independent = parameters.text("patches") == "independent";
+  options.measure_bounds = parameters.integer("measure_bounds") > (options.independent ? 0 : 1);
   options.sharp_angle = parameters.real("sharp_angle");
   if (options.independent && options.element != Element::p1)
     throw InvalidArgument("a mesh that is independent of its patches has triangles of three nodes: element " +
