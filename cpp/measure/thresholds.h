@@ -29,6 +29,8 @@ inline constexpr double variation = 1;
 inline constexpr double least_of_parent = 0.5;
 /// Share of the largest deviation seen by which a bound may exceed it before the triangle is cut: one of a sphere exceeds it by less.
 inline constexpr double bound_gap = 0.2;
+/// The same where the bound is beyond the tolerance: whether that is so is to be seen.
+inline constexpr double bound_gap_beyond = 0.05;
 /// Shares of the tolerances: bounds that exceed what is seen by less are near enough. [DeviationBounds.NarrowBumpIsFound]
 inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
 /// Times that a part of a triangle is cut into four, and parts of a triangle that are: bounds stay what they are then.

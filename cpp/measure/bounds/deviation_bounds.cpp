@@ -114,6 +114,8 @@ class Bounds {
     BoundedTriangle triangle = triangles_.at(t);
     const double tolerance = deviation_tolerance(t);
     triangle.deviation_floor = near_deviation * (tolerance > 0 ? tolerance : options_.deviation_share * triangle.longest);
+    if (tolerance > 0) triangle.deviation_tolerance = tolerance;
+    triangle.angle_tolerance = options_.angle_tolerance * degree;
     triangle.angle_floor = near_angle * options_.angle_tolerance * degree;
     return triangle;
   }

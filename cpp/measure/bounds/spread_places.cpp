@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "measure/thresholds.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -17,18 +18,21 @@ SpreadPlaces::SpreadPlaces(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Ca
   curvature_ = curvature_of(looks_);
   known_ = true;
   for (Look& each : looks_)
-    if (!each.found) lean_on_others(each);
+    if (!(norm(each.normal) > 0)) lean_on_others(each);
 }
 
 // Corners are on the surface.
 SpreadPlaces::Look SpreadPlaces::look(const PlaceInTriangle& place) const {
   const std::array<double, 3> weight{1 - place.x() - place.y(), place.x(), place.y()};
-  Look look{triangle_.flat(weight), {0, 0, 0}, {0, 0, 0}, true};
+  Look look{triangle_.flat(weight), {0, 0, 0}, {0, 0, 0}, true, 0};
   for (std::size_t i = 0; i < 3; ++i)
     if (weight[i] == 1) {
       const SurfacePlace& corner = triangle_.corner(i);
       look.offset = corner.xyz - look.flat;
-      if (corner.regular) look.normal = triangle_.normal(corner);
+      if (corner.regular)
+        look.normal = triangle_.normal(corner);
+      else if (known_)
+        lean_on_others(look);
       return look;
     }
   const auto nearest = std::ranges::min_element(flat_.p, {}, [&](const Vec3& p) { return norm(p - look.flat); });
@@ -45,11 +49,16 @@ SpreadPlaces::Look SpreadPlaces::look(const PlaceInTriangle& place) const {
 
 // The surface goes on beside the nearest place that was found.
 void SpreadPlaces::lean_on_others(Look& look) const {
+  double nearest = infinity;
+  Vec3 normal{0, 0, 0}, offset = look.offset;
   for (const Look& other : looks_) {
-    if (!other.found || !(norm(other.normal) > 0)) continue;
-    const Vec3 offset = other.flat + other.offset - look.flat;
-    if (norm(offset) <= norm(look.offset)) look.offset = offset, look.normal = other.normal;
+    if (!other.found || other.away > 0 || !(norm(other.normal) > 0)) continue;
+    const Vec3 there = other.flat + other.offset - look.flat;
+    if (norm(there) < nearest) nearest = norm(there), offset = there, normal = other.normal;
   }
+  if (nearest == infinity) return;
+  look.normal = normal, look.away = nearest;
+  if (!look.found) look.offset = offset;
 }
 
 // By how normals differ from place to place.
@@ -65,17 +74,18 @@ double SpreadPlaces::curvature_of(const std::array<Look, TriangleBound::lattice_
   return (1 + variation) * most;
 }
 
-// The distance of the tangent plane, and by how much the surface bends away from it beside the place that was found; or the distance of that.
+// The distance of the tangent plane, and by how much the surface bends away from it beside the place that was found; or the distance of a corner.
 BoundPlace SpreadPlaces::over(const Look& look) const {
-  const double length = norm(look.offset);
-  double signed_distance = length;
-  if (norm(look.normal) > 0) {
-    const double height = dot(look.offset, look.normal), beside = norm(look.offset - height * look.normal);
-    const double distance = std::min(length, std::abs(height) + curvature_ * beside * beside / 2);
-    signed_distance = std::copysign(distance, height * dot(look.normal, flat_.normal));
+  double nearest = norm(look.offset);
+  for (const Vec3& p : flat_.p) nearest = std::min(nearest, norm(p - look.flat));
+  if (!(norm(look.normal) > 0)) {
+    has_normals_ = false;
+    return {look.flat + nearest * flat_.normal, {0, 0, 0}, 0};
   }
-  has_normals_ = has_normals_ && look.found && norm(look.normal) > 0;
-  return {look.flat + signed_distance * flat_.normal, look.normal};
+  const double height = dot(look.offset, look.normal), beside = norm(look.offset - height * look.normal);
+  const double distance = std::min(nearest, std::abs(height) + curvature_ * beside * beside / 2);
+  const double signed_distance = std::copysign(distance, height * dot(look.normal, flat_.normal));
+  return {look.flat + signed_distance * flat_.normal, look.normal, curvature_ * look.away};
 }
 
 std::array<BoundPlace, TriangleBound::lattice_size> SpreadPlaces::lattice() const {

@@ -24,6 +24,7 @@ class SpreadPlaces {
   struct Look {
     Vec3 flat, offset, normal;  // the surface from there; its normal, zero: none
     bool found = false;         // near that place
+    double away = 0;            // where the normal is from
   };
   [[nodiscard]] Look look(const PlaceInTriangle& place) const;
   [[nodiscard]] BoundPlace over(const Look& look) const;

@@ -124,8 +124,11 @@ void TriangleBound::cut(const std::array<Seen, 3>& corner, const std::array<Seen
 
 void TriangleBound::judge(Part&& part) {
   const double deviation = deviation_of(part), angle = angle_of(part);
-  const bool near = deviation <= (1 + bound_gap) * seen_deviation_ + triangle_.deviation_floor &&
-                    angle <= (1 + bound_gap) * seen_angle_ + triangle_.angle_floor;
+  const auto is_near = [](double bound, double seen, double floor, double tolerance) {
+    return bound <= (1 + (bound > tolerance ? bound_gap_beyond : bound_gap)) * seen + floor;
+  };
+  const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
+                    is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance);
   if (near || part.cuts >= most_cuts || parts_ >= most_parts) {
     deviation_ = std::max(deviation_, deviation);
     angle_ = std::max(angle_, angle);
@@ -203,7 +206,7 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
       ++singular, pole = i;
       continue;
     }
-    largest = std::max(largest, c.angle), upright = std::min(upright, c.upright);
+    largest = std::max(largest, c.angle + c.place.lean), upright = std::min(upright, c.upright);
   }
   if (singular > 1) return turned;
   const auto off = [&](double Bend::*of) {
@@ -212,6 +215,7 @@ double TriangleBound::angle_of(const Part& part) const noexcept {
     return singular == 0 ? most_off(bend(0), bend(1), bend(2))
                          : (1 + variation) * (9. / 16 * std::max(bend(pole), bend(pole + 2)) + 3. / 8 * bend(pole + 1));
   };
+  if (largest >= right) return turned;
   // The interpolated normal is in the cone of those at the corners.
   const double least = upright - off(&Bend::upright);
   return least > 0 ? std::atan((std::tan(largest) * upright + off(&Bend::leaning)) / least) : turned;

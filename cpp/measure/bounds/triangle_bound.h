@@ -15,6 +15,7 @@ namespace carreau {
 /// The surface at a place of a triangle: a point, and a normal of any length (Su x Sv), zero where it has none.
 struct BoundPlace {
   Vec3 s, n;
+  double lean = 0;  ///< radians that the normal may be off by
 };
 
 /// A triangle of a mesh, and what lies beyond its sides. Side i goes from corner i to the next one.
@@ -31,6 +32,7 @@ struct BoundedTriangle {
   /// The triangles around: tangent of the largest angle with one of them, and their smallest height.
   double slope = infinity, reach = 0;
   double deviation_floor = 0, angle_floor = 0;  ///< bounds need not be nearer to what is seen; model length, radians
+  double deviation_tolerance = infinity, angle_tolerance = infinity;  ///< bounds beyond are nearer to it
 };
 
 /// Weights of the second and the third corner.
