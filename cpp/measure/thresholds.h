@@ -34,7 +34,7 @@ inline constexpr double bound_gap_beyond = 0.05;
 /// Shares of the tolerances: bounds that exceed what is seen by less are near enough. [DeviationBounds.NarrowBumpIsFound]
 inline constexpr double near_deviation = 1e-3, near_angle = 1e-2;
 /// Times that a part of a triangle is cut into four, and parts of a triangle that are: bounds stay what they are then.
-inline constexpr int most_cuts = 10, most_parts = 1000;
+inline constexpr int most_cuts = 10, most_parts = 150;
 /// Share of the largest |Su x Sv| of a triangle: where it is less the surface is singular.
 inline constexpr double singular_normal = 1e-9;
 /// Triangles at work at a time.

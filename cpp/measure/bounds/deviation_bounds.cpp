@@ -60,6 +60,7 @@ class Bounds {
     places.see(charted);
     std::vector<Open> open;
     for (std::size_t k = 0; k < charted.size(); ++k) {
+      if (k % 256 == 0) monitor_.checkpoint();
       const std::size_t t = first + static_cast<std::size_t>(charted[k]);
       const BoundedTriangle triangle = wanted(t);
       if (triangle.is_flat()) continue;

@@ -127,8 +127,10 @@ void TriangleBound::judge(Part&& part) {
   const auto is_near = [](double bound, double seen, double floor, double tolerance) {
     return bound <= (1 + (bound > tolerance ? bound_gap_beyond : bound_gap)) * seen + floor;
   };
+  // What is not known of a normal is no better known of parts.
+  const bool leans = std::ranges::any_of(part.corner, [](const Seen& c) { return c.place.lean > 0; });
   const bool near = is_near(deviation, seen_deviation_, triangle_.deviation_floor, triangle_.deviation_tolerance) &&
-                    is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance);
+                    (leans || is_near(angle, seen_angle_, triangle_.angle_floor, triangle_.angle_tolerance));
   if (near || part.cuts >= most_cuts || parts_ >= most_parts) {
     deviation_ = std::max(deviation_, deviation);
     angle_ = std::max(angle_, angle);
