@@ -1076,7 +1076,14 @@ CARREAU_API carreau_status carreau_metric_lengths(carreau_session* session, int3
  *   CARREAU_MEASURE_CURVE_A1        edges      of edges of curves: largest angle with tangents of its arc, degrees
  *   CARREAU_MEASURE_VERTEX_ANGLE    triangles  largest angle between its normal and those of the surface at its vertices,
  *                                              degrees: what angle_mesh limits (RT-0232 sec. 3.3)
+ *   CARREAU_MEASURE_A0_BOUND        triangles  upper bound of A0 over the whole triangle, of first order; model length
+ *   CARREAU_MEASURE_A1_BOUND        triangles  upper bound of A1 over the whole triangle, of first order; degrees
+ *   CARREAU_MEASURE_BOUND_SHARE     triangles  the larger of both over its tolerance: eps_chord and angle_mesh where they govern,
+ *                                              else 0.3 of the size and 52 degrees
  *
+ * Bounds suppose that over each part of a triangle second derivatives of the surface differ from a constant by at most the
+ * largest second difference of the places seen; triangles are cut into parts until that decides. They take 16 evaluations a vertex and more.
+ * By the parameter measure_bounds 0 never, 1 meshes free of patches and of triangles, 2 all meshes have them; else they are NaN.
  * A value is NaN where it has no meaning (sizes at a singular point, curves of edges inside faces). */
 enum {
   CARREAU_MEASURE_LENGTH = 1,
@@ -1090,7 +1097,10 @@ enum {
   CARREAU_MEASURE_A1 = 9,
   CARREAU_MEASURE_CURVE_A0 = 10,
   CARREAU_MEASURE_CURVE_A1 = 11,
-  CARREAU_MEASURE_VERTEX_ANGLE = 12
+  CARREAU_MEASURE_VERTEX_ANGLE = 12,
+  CARREAU_MEASURE_A0_BOUND = 13,
+  CARREAU_MEASURE_A1_BOUND = 14,
+  CARREAU_MEASURE_BOUND_SHARE = 15
 };
 /* What a measure has one value for. */
 enum { CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3 };

@@ -56,7 +56,7 @@ nlohmann::ordered_json delivered_json(carreau_session* session) {
   // The text lives until the next call.
   const std::vector<std::string> not_met = last_lines(delivered.text, static_cast<std::size_t>(delivered.not_met));
   nlohmann::ordered_json measures;
-  for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_VERTEX_ANGLE; ++kind) {
+  for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_BOUND_SHARE; ++kind) {
     carreau_measure measure{};
     measure.struct_size = sizeof measure;
     require(session, carreau_delivered_measure(session, kind, &measure));

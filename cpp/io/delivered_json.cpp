@@ -65,6 +65,30 @@ Json mesh_counts(const SurfaceMesh& mesh, const MeshEvaluation& delivered) {
           {"edges_on_curves", delivered.edges.segments.size()}};
 }
 
+const char* status_name(FaceStatus status) {
+  switch (status) {
+    case FaceStatus::mended:
+      return "mended";
+    case FaceStatus::failed:
+      return "failed";
+    case FaceStatus::collapsed:
+      return "collapsed";
+    default:
+      return "not meshed";
+  }
+}
+
+/// Those that are not meshed as they are: what has vanished, too.
+Json other_faces(const SurfaceMesh& mesh) {
+  Json list = Json::array();
+  for (const WholeFace& each : whole_faces(mesh)) {
+    const FlatFace& face = each.face;
+    if (face.status == FaceStatus::meshed) continue;
+    list.push_back({{"reference", face.ref}, {"name", face.name}, {"status", status_name(face.status)}, {"why", face.why}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const MeshEvaluation& delivered) {
@@ -72,6 +96,7 @@ std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& repor
   for (const EvaluatedMeasure& row : delivered_measures()) measures[row.name] = measure(row, delivered[row.kind]);
   const Json json = {{"format", "carreau delivered 1"},
                      {"mesh", mesh_counts(mesh, delivered)},
+                     {"faces", other_faces(mesh)},
                      {"diag", number(report.diag)},
                      {"measures", measures},
                      {"lengths_in_range", delivered.share_in_range()},

@@ -4,10 +4,11 @@
 #include <memory>
 
 #include "surface/improve/adjacent_lengths.h"
+#include "surface/independent/independent.h"
 
 namespace carreau {
 
-EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result) {
+EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result, double angle_slack) {
   EvaluationOptions measure;
   measure.curve_size = result.curve_size;
   measure.curve_parameters = result.curve_parameters;
@@ -16,6 +17,14 @@ EvaluationOptions evaluation_options(const CompositeOptions& options, const Comp
   measure.shortest_for_angle = geometric.shortest_divided;
   measure.deviation_limit = geometric.deviation;
   measure.atlas = {result.atlas.get(), result.feet};
+  measure.bounds = options.measure_bounds;
+  const bool by_direction = result.atlas != nullptr && result.atlas->by_direction();
+  const SurfaceTolerances tolerances = surface_tolerances(options, by_direction, angle_slack);
+  if (tolerances.deviation > 0) measure.deviation_tolerance = tolerances.deviation;
+  measure.deviation_share = tolerances.share_of_size, measure.angle_tolerance = tolerances.angle_deg;
+  measure.vertex_size = result.vertex_size;
+  // Only meshes that are freed are held to them.
+  if (result.mesh.independent) measure.bound_share_limit = 1;
   return measure;
 }
 

@@ -10,7 +10,8 @@
 namespace carreau {
 
 /// What every run says of its mesh: sizes and places along curves, the atlas, geometric limits. Refers to the result.
-EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result);
+/// `angle_slack`: of surface_tolerances().
+EvaluationOptions evaluation_options(const CompositeOptions& options, const CompositeResult& result, double angle_slack = 1);
 
 /// Measures the mesh of mesh_composite(), called with the same arguments, against the sizes and metrics that its rules
 /// prescribe: asked again, from the host and from sources. With a gradation

@@ -6,6 +6,7 @@
 #include "cad/fundamental_forms.h"
 #include "measure/composite_evaluation.h"
 #include "support/infinity.h"
+#include "surface/discrete/start_mesh.h"
 #include "surface/independent/charts.h"
 
 namespace carreau {
@@ -67,7 +68,7 @@ MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad,
       want_first, [&](int, std::span<const Vec2> uv, std::span<const SurfaceJet> jets, std::span<Metric2> out) {
         for (std::size_t k = 0; k < uv.size(); ++k) out[k] = atlas.metric(uv[k], jets[k]);
       }};
-  EvaluationOptions measure = evaluation_options(options, result);
+  EvaluationOptions measure = evaluation_options(options, result, angle_slack_of(options));
   measure.law = options.size.law;
   return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
 }

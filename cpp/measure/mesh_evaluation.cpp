@@ -9,6 +9,7 @@
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
+#include "measure/bounds/deviation_bounds.h"
 #include "measure/curve_evaluation.h"
 #include "measure/degenerate_sides.h"
 #include "measure/element_evaluation.h"
@@ -76,6 +77,8 @@ class Measurement {
     for (const EvaluationKind kind : {EvaluationKind::q1, EvaluationKind::q2, EvaluationKind::metric_quality,
                                       EvaluationKind::deviation, EvaluationKind::angle, EvaluationKind::vertex_angle})
       of(kind).assign(m, 0);
+    for (const EvaluationKind kind : {EvaluationKind::deviation_bound, EvaluationKind::angle_bound, EvaluationKind::bound_share})
+      of(kind).assign(m, nan);
     find_neighbours();
     above_.resize(n * gauss_.node.size());
     shortest_.assign(mesh_.vertices.size(), infinity);
@@ -541,12 +544,14 @@ MeshEvaluation evaluate_mesh(const SurfaceMesh& mesh, Cad& cad, const Prescribed
   MeshEvaluation d = Measurement(mesh, cad, prescribed, options, monitor).run();
   evaluate_elements(mesh, cad, prescribed, options.atlas, monitor, d);
   evaluate_curves(mesh, cad, options.curve_parameters, monitor, d);
+  if (options.bounds) bound_deviations(mesh, cad, options, monitor, d);
   for (const EvaluationKind kind : {EvaluationKind::edge_angle, EvaluationKind::curve_angle, EvaluationKind::vertex_angle})
     d[kind].limit = options.edge_angle_limit;
   d[EvaluationKind::curve_deviation].limit = options.deviation_limit;
   d[EvaluationKind::gradation].limit = options.gradation_limit;
   d[EvaluationKind::length_ratio].limit = options.length_ratio_limit;
   d[EvaluationKind::deviation].limit = options.deviation_limit;
+  d[EvaluationKind::bound_share].limit = options.bound_share_limit;
   summarise(d);
   count_forced(mesh, options.shortest_for_angle, d);
   d.calls = difference(cad.counts(), before);

@@ -67,8 +67,13 @@ enum class EvaluationKind : int {
   /// Of a straight triangle: largest angle between its normal and the normals of the surface at its vertices (what
   /// RT-0232 sec. 3.3 limits by angle_mesh); degrees, 0 to 180. NaN of other elements.
   vertex_angle = 12,
+  /// Of a straight triangle: upper bounds of A0 and A1 over all of it (measure/bounds), and the larger one of their shares of the
+  /// tolerances. NaN when they were not asked for, of other elements, and where nothing is known.
+  deviation_bound = 13,
+  angle_bound = 14,
+  bound_share = 15,
 };
-inline constexpr std::size_t evaluation_kinds = 12;
+inline constexpr std::size_t evaluation_kinds = 15;
 
 /// Of what one value is measured. Values are part of the C ABI.
 enum class EvaluationEntity : int { edge = 1, vertex = 2, triangle = 3 };
@@ -106,6 +111,12 @@ struct EvaluationOptions {
   /// Of a mesh that is independent of its patches. Triangles whose corners are of several charts are sampled over their
   /// places in space; gradations of their edges are not measured.
   SpreadAtlas atlas = {};
+  /// Whether A0 and A1 are bounded, about 16 evaluations a vertex; and the tolerances of which bound_share is a share: of A0 the model length, or
+  /// where that is infinite a share of the mean size at the corners of a triangle; of A1 degrees.
+  bool bounds = false;
+  double deviation_tolerance = infinity, deviation_share = 0.3, angle_tolerance = 52;
+  std::span<const double> vertex_size = {};  ///< by vertex; may be empty: bound_share is NaN where it is needed
+  double bound_share_limit = infinity;
 };
 
 /// Values counted in classes: class i holds bound[i] <= x < bound[i + 1]; the first bound is -infinity, the last one

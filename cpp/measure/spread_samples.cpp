@@ -2,49 +2,39 @@
 #include "measure/spread_samples.h"
 
 #include <algorithm>
-#include <optional>
+#include <functional>
 
 namespace carreau {
 
-namespace {
-
-class SpreadTriangle {
- public:
-  SpreadTriangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t f, std::size_t t)
-      : atlas_(atlas), cad_(cad), face_(static_cast<std::int32_t>(f)) {
-    const FaceMesh& face = mesh.faces[f];
-    for (int i = 0; i < 3; ++i) {
-      const std::int32_t local = face.triangles[t][i];
-      corner_[i] = mesh.vertices[face.vertex[local]];
-      place_[i] = atlas.charts->evaluate(cad, {atlas.feet[f][local], face.uv[local]});
-    }
+SpreadTriangle::SpreadTriangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t f, std::size_t t)
+    : atlas_(atlas), cad_(cad) {
+  const FaceMesh& face = mesh.faces[f];
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t local = face.triangles[t][i];
+    corner_[i] = mesh.vertices[face.vertex[local]];
+    place_[i] = atlas.charts->evaluate(cad, {atlas.feet[f][local], face.uv[local]});
   }
+  const auto& all = atlas.charts->triangles();
+  const std::int32_t any = place_[0].foot.triangle;
+  turned_ = all[any].turned != atlas.is_turned(static_cast<std::int32_t>(f), any);
+}
 
-  /// From the corner of the largest weight that leads there, or to a barrier beside.
-  void sample(const std::array<double, 3>& weight, SpreadSample& sample) const {
-    sample.flat = weight[0] * corner_[0] + weight[1] * corner_[1] + weight[2] * corner_[2];
-    std::array<int, 3> order{0, 1, 2};
-    std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
-    for (const int i : order) {
-      if (!place_[i].regular) continue;
-      if (const auto found = atlas_.charts->towards(cad_, place_[i], sample.flat, true)) {
-        sample.face = atlas_.charts->face(found->foot);
-        sample.uv = found->foot.uv;
-        sample.turned = atlas_.is_turned(face_, found->foot.triangle);
-        return;
-      }
-    }
-  }
+Vec3 SpreadTriangle::flat(const std::array<double, 3>& weight) const {
+  return weight[0] * corner_[0] + weight[1] * corner_[1] + weight[2] * corner_[2];
+}
 
- private:
-  const SpreadAtlas& atlas_;
-  Cad& cad_;
-  std::int32_t face_;
-  std::array<Vec3, 3> corner_;
-  std::array<SurfacePlace, 3> place_;
-};
+std::optional<SurfacePlace> SpreadTriangle::over(const std::array<double, 3>& weight) const {
+  const Vec3 target = flat(weight);
+  std::array<int, 3> order{0, 1, 2};
+  std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
+  for (const int i : order)
+    if (place_[i].regular)
+      if (const auto found = atlas_.charts->towards(cad_, place_[i], target, true)) return found;
+  return {};
+}
 
-}  // namespace
+// Normals of places are those of the atlas.
+Vec3 SpreadTriangle::normal(const SurfacePlace& place) const { return turned_ ? Vec3(-place.normal) : place.normal; }
 
 bool SpreadAtlas::is_turned(std::int32_t face, std::int32_t triangle) const {
   const auto& all = charts->triangles();
@@ -65,7 +55,12 @@ std::vector<SpreadSample> spread_samples(const SurfaceMesh& mesh, const SpreadAt
       const auto add = [&](int side, std::size_t rank, const std::array<double, 3>& weight) {
         SpreadSample& sample = samples.emplace_back();
         sample.triangle = first + t, sample.side = side, sample.rank = static_cast<int>(rank);
-        triangle.sample(weight, sample);
+        sample.flat = triangle.flat(weight);
+        const auto found = triangle.over(weight);
+        if (!found) return;
+        sample.face = atlas.charts->face(found->foot);
+        sample.uv = found->foot.uv;
+        sample.turned = atlas.is_turned(static_cast<std::int32_t>(f), found->foot.triangle);
       };
       for (int i = 0; i < 3; ++i)
         for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,29 @@ struct SpreadAtlas {
 
   /// Whether normals over a triangle of the atlas point to the other side than those of a face.
   [[nodiscard]] bool is_turned(std::int32_t face, std::int32_t triangle) const;
+};
+
+/// One of its triangles whose corners are of several charts. Keeps references to its arguments.
+class SpreadTriangle {
+ public:
+  /// Three evaluations.
+  SpreadTriangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t face, std::size_t triangle);
+
+  /// The place itself, with these weights of the corners.
+  [[nodiscard]] Vec3 flat(const std::array<double, 3>& weight) const;
+  /// The surface near that place: from the corner of the largest weight that leads there, or to a barrier beside.
+  [[nodiscard]] std::optional<SurfacePlace> over(const std::array<double, 3>& weight) const;
+  /// At a corner.
+  [[nodiscard]] const SurfacePlace& corner(std::size_t i) const { return place_[i]; }
+  /// The unit normal there, on the side of the triangle's face.
+  [[nodiscard]] Vec3 normal(const SurfacePlace& place) const;
+
+ private:
+  const SpreadAtlas& atlas_;
+  Cad& cad_;
+  std::array<Vec3, 3> corner_;
+  std::array<SurfacePlace, 3> place_;
+  bool turned_ = false;  // against its face
 };
 
 /// The surface over a place of a spread triangle.

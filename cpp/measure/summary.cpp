@@ -117,6 +117,9 @@ std::span<const EvaluatedMeasure> delivered_measures() {
       {Kind::curve_deviation, Entity::edge, "curve_A0", "deviation A0 of edges from their curves, model length"},
       {Kind::curve_angle, Entity::edge, "curve_A1", "deviation A1 of edges from their curves, degrees"},
       {Kind::vertex_angle, Entity::triangle, "vertex_angle", "angle of triangles with tangent planes at their vertices, degrees"},
+      {Kind::deviation_bound, Entity::triangle, "A0_bound", "upper bound of A0, model length"},
+      {Kind::angle_bound, Entity::triangle, "A1_bound", "upper bound of A1, degrees"},
+      {Kind::bound_share, Entity::triangle, "bound_share", "upper bounds of A0 and A1 over their tolerances"},
   }};
   return table;
 }
@@ -138,6 +141,7 @@ void summarise(MeshEvaluation& d) {
       case EvaluationKind::angle:
       case EvaluationKind::curve_angle:
       case EvaluationKind::vertex_angle:
+      case EvaluationKind::angle_bound:
         bounds = angles;
         break;
       case EvaluationKind::gradation:
@@ -146,6 +150,7 @@ void summarise(MeshEvaluation& d) {
         break;
       case EvaluationKind::deviation:
       case EvaluationKind::curve_deviation:
+      case EvaluationKind::deviation_bound:
         powers = decades(one.values);
         bounds = powers;
         break;
@@ -173,7 +178,8 @@ double MeshEvaluation::share_in_range() const noexcept {
 DeliveredText describe(const MeshEvaluation& d) {
   DeliveredText text;
   for (const EvaluatedMeasure& measure : delivered_measures())
-    text.summary.push_back(line_of(measure.title, d[measure.kind].spread));
+    if (measure.kind < EvaluationKind::deviation_bound || d[measure.kind].spread.count > 0)
+      text.summary.push_back(line_of(measure.title, d[measure.kind].spread));
   const auto edges = static_cast<std::int64_t>(d.edges.vertices.size());
   if (const std::int64_t n = d.short_edges + d.long_edges; n > 0)
     text.not_met.push_back(part_of(n, edges, "edges") + " metric lengths outside [0.7071, 1.414]: " +
@@ -198,6 +204,10 @@ DeliveredText describe(const MeshEvaluation& d) {
   check(EvaluationKind::curve_angle, "edges of curves", "an angle with a tangent of their curve of");
   check(EvaluationKind::curve_deviation, "edges of curves", "a distance from their curve of");
   check(EvaluationKind::vertex_angle, "triangles", "an angle with a tangent plane at their vertices of");
+  if (const Delivery& share = d[EvaluationKind::bound_share]; share.beyond > 0)
+    text.not_met.push_back(part_of(share.beyond, share.spread.count, "triangles") +
+                           " an upper bound of their distance from the surface or of their angle with it beyond the tolerance; the worst has " +
+                           short_number(share.spread.max) + " times it");
   if (d.folded_triangles > 0)
     text.not_met.push_back(
         part_of(d.folded_triangles, static_cast<std::int64_t>(d.edges.of_triangle.size()), "triangles") +

@@ -300,7 +300,8 @@ void add_evaluation(FlatMesh& flat, const ExportSource& source, const FlatSource
   for (const EvaluatedMeasure& row : delivered_measures()) {
     const bool known = std::any_of(flat.fields.begin(), flat.fields.end(),
                                    [&](const MeshField& field) { return field.name == row.name; });
-    if (known || (row.entity == EvaluationEntity::edge && !with_edges)) continue;
+    const bool unbounded = row.kind >= EvaluationKind::deviation_bound && delivered[row.kind].spread.count == 0;
+    if (known || unbounded || (row.entity == EvaluationEntity::edge && !with_edges)) continue;
     const std::vector<double>& values = delivered[row.kind].values;
     MeshField field{.name = row.name,
                     .on_vertices = row.entity == EvaluationEntity::vertex,

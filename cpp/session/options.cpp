@@ -96,6 +96,7 @@ CompositeOptions composite_options(const Parameters& parameters, double diag) {
   options.crossing_rounds = parameters.integer("crossing_rounds");
   options.frontal = parameters.integer("frontal") != 0;
   options.independent = parameters.text("patches") == "independent";
+  options.measure_bounds = parameters.integer("measure_bounds") > (options.independent ? 0 : 1);
   options.sharp_angle = parameters.real("sharp_angle");
   options.max_triangles = parameters.integer("max_triangles");
   options.threads = threads_of(parameters);

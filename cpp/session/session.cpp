@@ -365,6 +365,7 @@ void Session::make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, 
   State& s = *state_;
   const auto& surface = dynamic_cast<const discrete::DiscreteCad&>(*s.cad);
   CompositeOptions options = composite_options(s.parameters, surface.discrete().mesh().diagonal());
+  options.measure_bounds = s.parameters.integer("measure_bounds") > 0;
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, model.plane, s.background);
   options.team = s.team.get();
   options.size.sources = s.sources(background.get());

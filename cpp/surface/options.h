@@ -47,6 +47,8 @@ struct CompositeOptions {
   int proximity = 0;
   /// A face that the host fails on while its patch is meshed fails alone; false: its CallbackError comes out.
   bool failing_faces_alone = false;
+  /// Measures bound A0 and A1 from above.
+  bool measure_bounds = true;
   /// Times that a mesh is made again, with smaller triangles where some cross that need not; 0: none is looked for.
   int crossing_rounds = 0;
   bool frontal = true;

@@ -78,10 +78,11 @@ TEST_F(SessionTest, EveryKindHasItsSpreadAndHistogram) {
   use_paraboloid(0.3);
   ASSERT_EQ(carreau_set_integer(session, "hgeo_flag", 1), CARREAU_OK);
   ASSERT_EQ(carreau_set_integer(session, "measure", 1), CARREAU_OK);
+  ASSERT_EQ(carreau_set_integer(session, "measure_bounds", 2), CARREAU_OK);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   const std::int64_t calls = host.calls;
   const carreau_delivered delivered = evaluation_of(session);
-  for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_VERTEX_ANGLE; ++kind) {
+  for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_BOUND_SHARE; ++kind) {
     const carreau_measure m = measure_of(session, kind);
     std::vector<double> values = values_of(session, kind);
     EXPECT_EQ(m.values, m.entity == CARREAU_OF_EDGES      ? delivered.edges
@@ -116,6 +117,25 @@ TEST_F(SessionTest, EveryKindHasItsSpreadAndHistogram) {
   EXPECT_GT(delivered.not_met, 0);
 }
 
+TEST_F(SessionTest, BoundsAreToldWhereTheyAreAskedFor) {
+  use_paraboloid(0.3);
+  for (const std::int32_t asked : {1, 2}) {  // of meshes free of patches alone; of all
+    ASSERT_EQ(carreau_set_integer(session, "measure_bounds", asked), CARREAU_OK);
+    ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
+    const std::vector<double> seen[] = {values_of(session, CARREAU_MEASURE_A0), values_of(session, CARREAU_MEASURE_A1)};
+    const std::vector<double> bounds[] = {values_of(session, CARREAU_MEASURE_A0_BOUND),
+                                          values_of(session, CARREAU_MEASURE_A1_BOUND)};
+    EXPECT_EQ(measure_of(session, CARREAU_MEASURE_BOUND_SHARE).count, asked == 2 ? std::int64_t(seen[0].size()) : 0);
+    for (int i = 0; i < 2; ++i)
+      for (std::size_t t = 0; t < seen[i].size(); ++t) {
+        ASSERT_EQ(std::isnan(bounds[i][t]), asked == 1);
+        if (asked == 1) continue;
+        ASSERT_GE(bounds[i][t], seen[i][t]);
+        ASSERT_LE(bounds[i][t], 1.6 * seen[i][t] + 0.6);
+      }
+  }
+}
+
 TEST_F(SessionTest, WritesJsonAndVtuOfWhatWasDelivered) {
   use_paraboloid(0.5);
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
@@ -142,7 +162,7 @@ TEST_F(SessionTest, RefusesWhatCannotBeMeasured) {
   ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << error();
   EXPECT_EQ(carreau_session_delivered(session, nullptr), CARREAU_ERR_ARGUMENT);
   auto measure = sized<carreau_measure>();
-  for (const std::int32_t kind : {-1, 0, 13}) {
+  for (const std::int32_t kind : {-1, 0, 16}) {
     EXPECT_EQ(carreau_delivered_measure(session, kind, &measure), CARREAU_ERR_ARGUMENT);
     EXPECT_NE(error().find("there is no measure " + std::to_string(kind)), std::string::npos) << error();
   }

@@ -126,6 +126,8 @@ class PatchLine final : public LineGeometry {
 
 }  // namespace
 
+double angle_slack_of(const CompositeOptions& options) { return options.size.geo_guarantee ? 1 : angle_slack; }
+
 RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
                             const CompositeOptions& options, Monitor& monitor) {
   MeshSizes size;
@@ -202,7 +204,7 @@ RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const RefinedMe
                        .lines = {},
                        .geometry = {},
                        .everywhere = true,
-                       .angle_slack = options.size.geo_guarantee ? 1 : angle_slack};
+                       .angle_slack = angle_slack_of(options)};
   for (std::size_t c = 0; c < mesh.curves.size(); ++c) {
     const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
     for (std::size_t k = 1; k < chain.size(); ++k) frame.sharp.push_back(mesh_edge(chain[k - 1], chain[k]));

@@ -16,6 +16,9 @@ discrete::RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, 
 /// Each triangle has (u, v) on the tile of its patch; curves are the sharp lines. Faces as in the model.
 SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface, const discrete::RefinedMesh& refined);
 
+/// RemeshingFrame::angle_slack.
+double angle_slack_of(const CompositeOptions& options);
+
 /// Keeps references to `mesh` and `cad` until the frame is done with. `refined`: what the mesh was made of; `sizes`: on it.
 RemeshingFrame start_frame(const discrete::DiscreteCad& surface, const discrete::RefinedMesh& refined,
                            const SurfaceMesh& mesh, const MeshSizes& sizes, const CompositeOptions& options, Cad& cad,

@@ -23,16 +23,6 @@ namespace {
 
 using namespace thresholds::independent;
 
-SurfaceTolerances tolerances_of(const CompositeOptions& options) {
-  const GeometricLimits limits = geometric_limits(options.size);
-  // What is folded by less than the sharp angle may be flattened.
-  const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
-  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation, .price_of_length = options.sharp_angle > most_angle_of_price ? infinity : high_price};
-  if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg;
-  if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
-  return tolerances;
-}
-
 Intersections crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
   const FlatMesh flat = flatten(mesh, false);
   return find_intersections(flat.vertices, flat.triangles, {.threads = threads}, monitor);
@@ -191,18 +181,28 @@ void take(FreedMesh&& made, RemeshingFrame& frame, CompositeResult& result, Moni
 
 }  // namespace
 
+SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack) {
+  const GeometricLimits limits = geometric_limits(options.size);
+  // What is folded by less than the sharp angle may be flattened.
+  const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
+  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation, .price_of_length = options.sharp_angle > most_angle_of_price ? infinity : high_price};
+  if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg * angle_slack;
+  if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
+  if (by_direction && !options.size.geo_guarantee) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
+  return tolerances;
+}
+
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
-  FreedMesh made = reassembled(result.mesh, free_mesh_of(cad, tolerances_of(options), result, frame), frame, monitor);
+  const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
+  FreedMesh made = reassembled(result.mesh, free_mesh_of(cad, tolerances, result, frame), frame, monitor);
   if (frame.elements) frame.elements(result.mesh, made);
   take(std::move(made), frame, result, monitor);
 }
 
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
-  SurfaceTolerances tolerances = tolerances_of(options);
-  if (std::isfinite(geometric_limits(options.size).edge_angle_deg)) tolerances.angle_deg *= frame.angle_slack;
-  if (frame.charts->by_direction() && !options.size.geo_guarantee) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
+  SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;

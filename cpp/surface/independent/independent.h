@@ -11,6 +11,7 @@
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
 #include "surface/independent/charts.h"
+#include "surface/independent/free_mesh.h"
 #include "surface/independent/line_places.h"
 #include "surface/independent/sharp_edges.h"
 #include "surface/options.h"
@@ -33,6 +34,10 @@ struct RemeshingFrame {
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
 };
+
+/// How far triangles of meshes that are made so may leave the surface: by the geometric rule, else by the size. `by_direction`: sizes differ by
+/// direction; `angle_slack`: see RemeshingFrame.
+SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack);
 
 /// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns why it
 /// stays as it is, which has then been done four times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.

@@ -130,7 +130,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
   const Json json = Json::parse(text);  // throws when it is none
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"format", "mesh", "diag", "measures", "lengths_in_range", "short_edges",
+  EXPECT_EQ(keys, (std::vector<std::string>{"format", "mesh", "faces", "diag", "measures", "lengths_in_range", "short_edges",
                                             "long_edges", "folded_triangles", "not_met", "calls", "seconds"}));
   keys.clear();
   for (const auto& [key, value] : json["measures"].items()) {
@@ -142,7 +142,7 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
     EXPECT_TRUE(value["limit"].is_null()) << key;  // nothing but sizes was asked
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2",
-                                            "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle"}));
+                                            "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle", "A0_bound", "A1_bound", "bound_share"}));
   const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(json["measures"]["metric_length"]["mean"].get<double>(), d[Kind::length].spread.mean);
   EXPECT_EQ(json["measures"]["A0"]["max"].get<double>(), d[Kind::deviation].spread.max);
@@ -152,6 +152,21 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
   EXPECT_EQ(json["calls"]["run"]["surf0"].get<std::int64_t>(), session.report().calls.surf0);
   EXPECT_EQ(read("a.json").substr(0, text.find("\"seconds\"")),
             delivered_json(session.mesh(), session.report(), d).substr(0, text.find("\"seconds\"")));
+}
+
+TEST_F(SessionDelivered, JsonListsFacesThatAreNotMeshedAsTheyAre) {
+  SurfaceMesh mesh;
+  for (const auto& [ref, status, why] : {std::tuple{3, FaceStatus::meshed, ""}, {5, FaceStatus::collapsed, "face 5: gone"},
+                                         {8, FaceStatus::failed, "face 8: no \"curve\""}}) {
+    FaceMesh& face = mesh.faces.emplace_back();
+    face.ref = ref, face.status = status, face.why = why;
+  }
+  mesh.faces[1].name = "chamfer";
+  MeshEvaluation nothing;
+  summarise(nothing);
+  const Json faces = Json::parse(delivered_json(mesh, {}, nothing))["faces"];
+  EXPECT_EQ(faces, (Json{{{"reference", 5}, {"name", "chamfer"}, {"status", "collapsed"}, {"why", "face 5: gone"}},
+                         {{"reference", 8}, {"name", ""}, {"status", "failed"}, {"why", "face 8: no \"curve\""}}}));
 }
 
 TEST_F(SessionDelivered, JsonHasNullForWhatIsNoNumber) {
@@ -269,10 +284,12 @@ TEST_F(SessionDelivered, VtuHoldsTheValuesWhenMeasured) {
   EXPECT_EQ(read("bare.vtu").find("metric_quality"), std::string::npos);
   session.parameters().set("flag", 1);
   session.parameters().set("measure", 1);
+  session.parameters().set("measure_bounds", 2);
+  session.make_mesh();
   session.write(path("full.vtu"));
   const std::string full = read("full.vtu");
   for (const char* name :
-       {"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2", "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle"})
+       {"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2", "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle", "A0_bound", "A1_bound", "bound_share"})
     EXPECT_NE(full.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
   // Formats without fields stay as they are.
   session.write(path("full.mesh"));

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "geometry/discrete/discrete_cad.h"
+#include "geometry/discrete/refinement.h"
 #include "mesh/quality.h"
+#include "mesh/triangle_search.h"
 #include "session/session.h"
 #include "surfaces.h"
 
@@ -82,6 +84,36 @@ TEST(DiscreteMeshes, MostVerticesHaveSixNeighbours) {
     EXPECT_LE(static_cast<double>(irregular), static_cast<double>(degree.size()) / 6);
     EXPECT_GE(mean_quality(mesh), 0.98);
   }
+}
+
+// Against the smooth surface, cut so fine that its triangles are it: places of a triangle are no farther from it than the bound.
+TEST(DiscreteMeshes, BoundsHoldAgainstTheSmoothSurface) {
+  const auto surface = std::make_shared<const DiscreteSurface>(surface_of(torus(24, 12), {}));
+  Monitor silent;
+  const RefinedMesh fine = refine(*surface, wish_of_angle(*surface, 0.7), {}, silent);
+  const TriangleSearch search(fine.vertices, fine.triangles);
+  const Made made = mesh_of(discrete_geometry(surface), 0.4, 0, true);
+  const Delivery &bound = made.delivered[EvaluationKind::deviation_bound], &angle = made.delivered[EvaluationKind::angle_bound];
+  double farthest = 0;
+  std::size_t t = 0;
+  for (const FaceMesh& face : made.mesh.faces)
+    for (const auto& c : face.triangles) {
+      std::array<Vec3, 3> p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = made.mesh.vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(c[i])])];
+      constexpr int n = 12;
+      for (int j = 0; j <= n; ++j)
+        for (int k = 0; j + k <= n; ++k) {
+          const double b = static_cast<double>(j) / n, d = static_cast<double>(k) / n;
+          const double distance = search.nearest((1 - b - d) * p[0] + b * p[1] + d * p[2]).distance;
+          ASSERT_GE(bound.values[t], distance - 1e-4) << t;
+          farthest = std::max(farthest, distance);
+        }
+      ASSERT_GE(angle.values[t], made.delivered[EvaluationKind::angle].values[t]);
+      ++t;
+    }
+  EXPECT_GT(farthest, 0.01);
+  EXPECT_LE(bound.spread.max, 1.3 * farthest);
+  EXPECT_EQ(bound.spread.count, static_cast<std::int64_t>(t));
 }
 
 TEST(DiscreteMeshes, TheSameForAnyNumberOfThreads) {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "independent/patchworks.h"
+#include "mesh/triangle_search.h"
 #include "session_of_size.h"
 
 namespace carreau {
@@ -144,6 +145,31 @@ TEST(Independent, WhatIsDeliveredIsMeasuredAcrossBorders) {
     EXPECT_GE(d[EvaluationKind::length].values[e], chord / 0.3 * (1 - 1e-9));
     EXPECT_LE(d[EvaluationKind::length].values[e], arc / 0.3 * (1 + 1e-2));
   }
+}
+
+// The surface is as far from a triangle as its plane is from the centre, where that is over it; normals differ most at the corners.
+TEST(Independent, BoundsHoldAcrossBorders) {
+  Monitor quiet;
+  const auto session = meshed(sphere_of_triangles(1), 0.3, "independent", quiet);
+  const FlatMesh mesh = session->exported();
+  const MeshEvaluation& d = session->delivered();
+  std::size_t spread = 0;
+  for (const FaceMesh& face : session->mesh().faces) spread += static_cast<std::size_t>(std::ranges::count(face.spread, 1));
+  ASSERT_GT(spread, mesh.triangles.size() / 4);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const Vec3 a = mesh.vertices[i], b = mesh.vertices[j], c = mesh.vertices[k], n = cross(b - a, c - a);
+    const double height = std::abs(dot(a, n)) / norm(n), angle = std::acos(height) * 180 / std::numbers::pi;
+    const double deviation = 1 - nearest_on_triangle({0, 0, 0}, {a, b, c}).distance;
+    EXPECT_GE(d[EvaluationKind::deviation_bound].values[t], deviation * (1 - 1e-6));
+    EXPECT_LE(d[EvaluationKind::deviation_bound].values[t], 1.3 * deviation);
+    EXPECT_GE(d[EvaluationKind::angle_bound].values[t], angle * (1 - 1e-6));
+    EXPECT_LE(d[EvaluationKind::angle_bound].values[t], 1.3 * angle + 0.52);
+    EXPECT_NEAR(d[EvaluationKind::bound_share].values[t],
+                std::max(d[EvaluationKind::deviation_bound].values[t] / (0.3 * 0.3), d[EvaluationKind::angle_bound].values[t] / 52), 1e-9);
+  }
+  EXPECT_EQ(d[EvaluationKind::bound_share].limit, 1);
+  EXPECT_EQ(d[EvaluationKind::bound_share].beyond, 0);
 }
 
 TEST(Independent, MeshDoesNotDependOnThreads) {

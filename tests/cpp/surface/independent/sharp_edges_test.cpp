@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 
 #include "independent/patchworks.h"
@@ -59,6 +62,14 @@ TEST(SharpEdges, ChamfersStayUntilTheAngleIsRaised) {
   EXPECT_EQ(gone->mesh().faces[1].triangles.size(), 0U);
   EXPECT_EQ(gone->mesh().faces[1].status, FaceStatus::collapsed);
   EXPECT_NE(gone->mesh().faces[1].why.find("face 2"), std::string::npos);
+  // What was delivered lists it.
+  const std::string file = ::testing::TempDir() + "carreau_chamfer.json";
+  gone->write_delivered(file);
+  std::ifstream in(file);
+  const std::string json(std::istreambuf_iterator<char>(in), {});
+  std::filesystem::remove(file);
+  EXPECT_NE(json.find(R"("reference": 2,)"), std::string::npos) << json;
+  EXPECT_NE(json.find(R"("status": "collapsed")"), std::string::npos) << json;
 }
 
 /// A square of side 4 with `count` by `count` square holes of the given side.
