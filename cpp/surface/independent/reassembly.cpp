@@ -152,8 +152,21 @@ class TrianglePlacer {
     return found;
   }
 
+  // Where all places of the corners are in one face.
+  [[nodiscard]] std::optional<std::int32_t> only_face() const {
+    const std::int32_t face = face_of(mesh_.places(vertex_[0]).front());
+    for (const std::int32_t v : vertex_)
+      for (const SurfacePlace& p : mesh_.places(v))
+        if (face_of(p) != face) return {};
+    return face;
+  }
+
   PlacedTriangle over_several() {
     std::array<std::int32_t, 3> k{};
+    if (const auto face = only_face()) {
+      for (int i = 0; i < 3; ++i) k[i] = nearest_place(vertex_[i], *face);
+      return turned(*face, k, true);
+    }
     for (int i = 0; i < 3; ++i) k[i] = nearest_place(vertex_[i], -1);
     const std::optional<SurfacePlace> foot = most_of(k);
     const SurfacePlace middle = foot ? *foot : mesh_.places(vertex_[0])[k[0]];
