@@ -10,59 +10,37 @@ namespace carreau::discrete {
 
 namespace {
 
-/// A number with its derivatives by u and v, of second order where wanted.
-template <bool second>
+/// A number with its derivatives by u and v.
 struct Jet {
   double f = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
 };
-template <>
-struct Jet<false> {
-  double f = 0, u = 0, v = 0;
-};
-template <bool second>
-Jet<second> operator*(const Jet<second>& p, const Jet<second>& q) noexcept {
-  Jet<second> r;
+Jet operator*(const Jet& p, const Jet& q) noexcept {
+  Jet r;
   r.f = p.f * q.f;
   r.u = p.u * q.f + p.f * q.u;
   r.v = p.v * q.f + p.f * q.v;
-  if constexpr (second) {
-    r.uu = p.uu * q.f + 2 * p.u * q.u + p.f * q.uu;
-    r.uv = p.uv * q.f + p.u * q.v + p.v * q.u + p.f * q.uv;
-    r.vv = p.vv * q.f + 2 * p.v * q.v + p.f * q.vv;
-  }
+  r.uu = p.uu * q.f + 2 * p.u * q.u + p.f * q.uu;
+  r.uv = p.uv * q.f + p.u * q.v + p.v * q.u + p.f * q.uv;
+  r.vv = p.vv * q.f + 2 * p.v * q.v + p.f * q.vv;
   return r;
 }
-template <bool second>
-Jet<second> operator*(double a, const Jet<second>& p) noexcept {
-  if constexpr (second)
-    return {a * p.f, a * p.u, a * p.v, a * p.uu, a * p.uv, a * p.vv};
-  else
-    return {a * p.f, a * p.u, a * p.v};
-}
+Jet operator*(double a, const Jet& p) noexcept { return {a * p.f, a * p.u, a * p.v, a * p.uu, a * p.uv, a * p.vv}; }
 /// 1 - p.
-template <bool second>
-Jet<second> rest_of(const Jet<second>& p) noexcept {
-  if constexpr (second)
-    return {1 - p.f, -p.u, -p.v, -p.uu, -p.uv, -p.vv};
-  else
-    return {1 - p.f, -p.u, -p.v};
-}
+Jet rest_of(const Jet& p) noexcept { return {1 - p.f, -p.u, -p.v, -p.uu, -p.uv, -p.vv}; }
 
 /// Adds a weight times a point.
-template <bool second>
-void add(SurfaceJet& jet, const Jet<second>& w, const Vec3& p) noexcept {
+void add(SurfaceJet& jet, const Jet& w, const Vec3& p) noexcept {
   jet.s += w.f * p;
   jet.su += w.u * p, jet.sv += w.v * p;
-  if constexpr (second) jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
+  jet.suu += w.uu * p, jet.suv += w.uv * p, jet.svv += w.vv * p;
 }
 
 /// x / (x + y), x and y not negative; their sum is the last one. Times x y it has two derivatives but in x = y = 0,
 /// where those along x = y are taken.
-template <bool second>
-Jet<second> share_of(const Jet<second>& x, const Jet<second>& y) noexcept {
+Jet share_of(const Jet& x, const Jet& y) noexcept {
   double a = std::max(x.f, 0.0), b = std::max(y.f, 0.0);
   const double s = a + b;
-  Jet<second> r;
+  Jet r;
   r.f = 0.5;
   if (!(s > thresholds::tiny)) return r;
   // g = a / s: g_a = b / s^2, g_b = -a / s^2, g_aa = -2 b / s^3, g_ab = (a - b) / s^3, g_bb = 2 a / s^3.
@@ -70,35 +48,77 @@ Jet<second> share_of(const Jet<second>& x, const Jet<second>& y) noexcept {
   r.f = a / s;
   r.u = ga * x.u + gb * y.u;
   r.v = ga * x.v + gb * y.v;
-  if constexpr (second) {
-    const double s3 = s2 * s, gaa = -2 * b / s3, gab = (a - b) / s3, gbb = 2 * a / s3;
-    r.uu = gaa * x.u * x.u + 2 * gab * x.u * y.u + gbb * y.u * y.u;
-    r.uv = gaa * x.u * x.v + gab * (x.u * y.v + x.v * y.u) + gbb * y.u * y.v;
-    r.vv = gaa * x.v * x.v + 2 * gab * x.v * y.v + gbb * y.v * y.v;
-  }
+  const double s3 = s2 * s, gaa = -2 * b / s3, gab = (a - b) / s3, gbb = 2 * a / s3;
+  r.uu = gaa * x.u * x.u + 2 * gab * x.u * y.u + gbb * y.u * y.u;
+  r.uv = gaa * x.u * x.v + gab * (x.u * y.v + x.v * y.u) + gbb * y.u * y.v;
+  r.vv = gaa * x.v * x.v + 2 * gab * x.v * y.v + gbb * y.v * y.v;
   return r;
 }
 
-template <bool second>
-SurfaceJet jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
-  std::array<Jet<second>, 3> b;
+SurfaceJet second_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
+  std::array<Jet, 3> b;
   b[0].f = 1 - uv.x() - uv.y(), b[0].u = b[0].v = -1;
   b[1].f = uv.x(), b[1].u = 1;
   b[2].f = uv.y(), b[2].v = 1;
-  const std::array<Jet<second>, 3> b2{b[0] * b[0], b[1] * b[1], b[2] * b[2]};
+  const std::array<Jet, 3> b2{b[0] * b[0], b[1] * b[1], b[2] * b[2]};
   SurfaceJet jet{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const Jet<second> ij = b[i] * b[j];
+    const Jet ij = b[i] * b[j];
     add(jet, b2[i] * b2[i], patch.border[4 * i]);
     add(jet, 4 * (b2[i] * ij), patch.border[4 * i + 1]);
     add(jet, 6 * (ij * ij), patch.border[4 * i + 2]);
     add(jet, 4 * (ij * b2[j]), patch.border[4 * i + 3]);
     // Beside corner i: of side i, which keeps its planes where b(k) is 0, and of side k, where b(j) is.
-    const Jet<second> weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
+    const Jet weight = 12 * (b2[i] * (b[j] * b[k])), share = share_of(b[j], b[k]);
     add(jet, weight * share, patch.inner[2 * i]);
     add(jet, weight * rest_of(share), patch.inner[2 * k + 1]);
   }
+  return jet;
+}
+
+/// Control points of a Bezier triangle of degree n, row by row: i falls from n, then j, of B(ijk).
+template <std::size_t n>
+using Net = std::array<Vec3, (n + 1) * (n + 2) / 2>;
+
+/// De Casteljau's step: the net of degree n - 1 at weights b.
+template <std::size_t n>
+Net<n - 1> step_of(const Net<n>& net, const std::array<double, 3>& b) noexcept {
+  Net<n - 1> next;
+  for (std::size_t row = 0, at = 0; row < n; ++row)
+    for (std::size_t k = 0; k <= row; ++k, ++at) {
+      const std::size_t below = at + row + 1;  // of the same rank in the next row
+      next[at] = b[0] * net[at] + b[1] * net[below] + b[2] * net[below + 1];
+    }
+  return next;
+}
+
+/// Place and first derivatives: those of the Bezier triangle whose points inside are those of the place, and what these
+/// points change by.
+SurfaceJet first_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
+  const std::array<double, 3> b{1 - uv.x() - uv.y(), uv.x(), uv.y()};
+  constexpr std::array<double, 3> b_u{-1, 1, 0}, b_v{-1, 0, 1};
+  std::array<Vec3, 3> inside;
+  SurfaceJet jet{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    const Vec3 apart = patch.inner[2 * i] - patch.inner[2 * k + 1];
+    const double x = std::max(b[j], 0.0), y = std::max(b[k], 0.0), sum = x + y;
+    if (!(sum > thresholds::tiny)) {
+      inside[i] = patch.inner[2 * k + 1] + 0.5 * apart;
+      continue;
+    }
+    inside[i] = patch.inner[2 * k + 1] + (x / sum) * apart;
+    const double weight = 12 * b[i] * b[i] * b[j] * b[k] / (sum * sum);
+    jet.su += (weight * (y * b_u[j] - x * b_u[k])) * apart;
+    jet.sv += (weight * (y * b_v[j] - x * b_v[k])) * apart;
+  }
+  const auto& p = patch.border;
+  const Net<4> net{p[0], p[1], p[11], p[2], inside[0], p[10], p[3], inside[1], inside[2], p[9], p[4], p[5], p[6], p[7], p[8]};
+  const Net<1> plane = step_of<2>(step_of<3>(step_of<4>(net, b), b), b);
+  jet.s = b[0] * plane[0] + b[1] * plane[1] + b[2] * plane[2];
+  jet.su += 4 * (plane[1] - plane[0]);
+  jet.sv += 4 * (plane[2] - plane[0]);
   return jet;
 }
 
@@ -154,7 +174,7 @@ GregoryTriangle gregory_triangle(const std::array<Cubic, 3>& sides, const std::a
 }
 
 SurfaceJet GregoryTriangle::at(Vec2 uv, unsigned want) const noexcept {
-  return (want & want_second) != 0 ? jet_of<true>(*this, uv) : jet_of<false>(*this, uv);
+  return (want & want_second) != 0 ? second_jet_of(*this, uv) : first_jet_of(*this, uv);
 }
 
 double GregoryTriangle::deviation() const noexcept {

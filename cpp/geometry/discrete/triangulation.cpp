@@ -9,6 +9,7 @@
 
 #include "geometry/discrete/thresholds.h"
 #include "model/union_find.h"
+#include "support/bucket_sort.h"
 #include "support/error.h"
 #include "support/format.h"
 
@@ -17,16 +18,16 @@ namespace carreau::discrete {
 namespace {
 
 struct SideOf {
-  Edge edge;
-  std::int32_t triangle;
-  int side;
+  Edge edge{};
+  std::int32_t triangle = -1;
+  int side = 0;
   friend auto operator<=>(const SideOf&, const SideOf&) = default;
 };
 
 /// A triangle by its vertices, whatever way it runs.
 struct Known {
-  std::array<std::int32_t, 3> sorted;
-  std::int32_t triangle;
+  std::array<std::int32_t, 3> sorted{};
+  std::int32_t triangle = -1;
   friend auto operator<=>(const Known&, const Known&) = default;
 };
 
@@ -98,7 +99,7 @@ void Triangulation::take_triangles(const FlatMesh& input, const std::vector<std:
     }
     known.push_back({c, static_cast<std::int32_t>(t)});
   }
-  std::ranges::sort(known);
+  bucket_sort(known, vertices.size(), [](const Known& k) { return k.sorted[0]; });
   for (std::size_t k = 1; k < known.size(); ++k)
     if (known[k].sorted == known[k - 1].sorted) {
       dropped[index(known[k].triangle)] = 1;
@@ -148,7 +149,7 @@ void Triangulation::link() {
       const auto triangle = static_cast<std::int32_t>(t);
       all.push_back({edge_of(corner(triangle, i), corner(triangle, i + 1)), triangle, i});
     }
-  std::ranges::sort(all);
+  bucket_sort(all, vertices.size(), [](const SideOf& s) { return s.edge[0]; });
   edge_.resize(all.size());
   for (const SideOf& s : all) {
     if (edges.empty() || edges.back() != s.edge) {

@@ -150,8 +150,21 @@ std::optional<SurfacePlace> CellPlacer::most_of(const Choice& k) const {
   return found;
 }
 
+// Where all places of the corners are in one face.
+std::optional<std::int32_t> CellPlacer::only_face() const {
+  const std::int32_t face = face_of(vertices_.places(vertex_[0]).front());
+  for (int i = 0; i < n_; ++i)
+    for (const SurfacePlace& p : vertices_.places(vertex_[i]))
+      if (face_of(p) != face) return {};
+  return face;
+}
+
 PlacedCell CellPlacer::over_several() const {
   Choice k{};
+  if (const auto face = only_face()) {
+    for (int i = 0; i < n_; ++i) k[i] = nearest_place(vertex_[i], *face);
+    return placed(*face, k, is_turned(place(0, k)), true);
+  }
   for (int i = 0; i < n_; ++i) k[i] = nearest_place(vertex_[i], -1);
   const std::optional<SurfacePlace> foot = most_of(k);
   const SurfacePlace middle = foot ? *foot : place(0, k);

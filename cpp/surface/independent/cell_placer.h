@@ -53,6 +53,7 @@ class CellPlacer {
   [[nodiscard]] std::int32_t nearest_place(std::int32_t v, std::int32_t face) const;
   [[nodiscard]] std::optional<SurfacePlace> below(const std::array<double, 4>& weight, const Choice& k) const;
   [[nodiscard]] std::optional<SurfacePlace> most_of(const Choice& k) const;
+  [[nodiscard]] std::optional<std::int32_t> only_face() const;
   [[nodiscard]] PlacedCell over_several() const;
   void place_nodes(const FreeCell& nodes, PlacedCell& cell) const;
   [[nodiscard]] std::int32_t place_of_node(std::int32_t node, const PlacedCell& cell, const Vec2& middle) const;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cad/fundamental_forms.h"
+#include "support/bucket_sort.h"
 #include "support/incidence.h"
 #include "support/infinity.h"
 #include "surface/independent/thresholds.h"
@@ -20,9 +21,9 @@ namespace {
 using namespace thresholds::independent;
 
 struct SideOf {
-  MeshEdge edge;
-  std::int32_t triangle;
-  int side;
+  MeshEdge edge{};
+  std::int32_t triangle = -1;
+  int side = 0;
   friend auto operator<=>(const SideOf&, const SideOf&) = default;
 };
 
@@ -59,7 +60,7 @@ void Charts::link(std::span<const MeshEdge> barriers) {
     for (int i = 0; i < 3; ++i)
       sides.push_back({mesh_edge(triangles_[t].vertex[i], triangles_[t].vertex[(i + 1) % 3]),
                        static_cast<std::int32_t>(t), i});
-  std::sort(sides.begin(), sides.end());
+  bucket_sort(sides, xyz_.size(), [](const SideOf& s) { return s.edge[0]; });
   for (std::size_t k = 0, n = 0; k < sides.size(); k += n) {
     for (n = 1; k + n < sides.size() && sides[k + n].edge == sides[k].edge;) ++n;
     if (n == 2 && !std::ranges::binary_search(barriers, sides[k].edge))
@@ -174,16 +175,16 @@ WantedSize Charts::wanted(std::span<const SurfacePlace> places) const {
 }
 
 // The shortest way over edges, in sizes.
-std::vector<double> Charts::factors_beside(const std::vector<char>& kept, double most, double growth) const {
-  std::vector<double> factor(xyz_.size(), most);
+std::vector<double> Charts::graded_factors(std::vector<double> factor, double growth) const {
   std::vector<std::array<std::int32_t, 3>> sets;
   sets.reserve(triangles_.size());
   for (const Triangle& t : triangles_) sets.push_back(t.vertex);
   const Incidence around(xyz_.size(), sets);
   using Entry = std::pair<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::size_t v = 0; v < kept.size(); ++v)
-    if (kept[v] != 0) queue.emplace(factor[v] = 1, static_cast<std::int32_t>(v));
+  const double most = factor.empty() ? 0 : *std::ranges::max_element(factor);
+  for (std::size_t v = 0; v < factor.size(); ++v)
+    if (factor[v] < most) queue.emplace(factor[v], static_cast<std::int32_t>(v));
   while (!queue.empty()) {
     const auto [known, v] = queue.top();
     queue.pop();
@@ -249,10 +250,45 @@ Charts::Walk Charts::walk(const Foot& from, const Vec2& to, bool slides) const {
   return {};
 }
 
+// Through the triangles as they are in space, without an evaluation; none where a barrier is in the way.
+std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) const {
+  std::int32_t t = from, before = -1;
+  for (int step = 0; step < most_steps; ++step) {
+    const Triangle& here = triangles_[t];
+    const Vec3& a = xyz_[here.vertex[0]];
+    const Vec3 p = xyz_[here.vertex[1]] - a, q = xyz_[here.vertex[2]] - a, d = target - a;
+    const double pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), dp = dot(d, p), dq = dot(d, q);
+    const double det = pp * qq - pq * pq;
+    if (!(det > 0)) return {};
+    std::array<double, 3> w{0, (qq * dp - pq * dq) / det, (pp * dq - pq * dp) / det};
+    w[0] = 1 - w[1] - w[2];
+    const int least = w[0] <= w[1] && w[0] <= w[2] ? 0 : w[1] <= w[2] ? 1 : 2;
+    const std::int32_t next = here.beyond[(least + 1) % 3];
+    if (w[least] >= -on_side || (next == before && next >= 0)) {  // a fold whose two sides both end before it: on the edge
+      double sum = 0;
+      for (double& each : w) sum += each = std::max(each, 0.0);
+      const auto& uv = uv_[here.face];
+      return Foot{t, (w[0] / sum) * uv[here.local[0]] + (w[1] / sum) * uv[here.local[1]] + (w[2] / sum) * uv[here.local[2]]};
+    }
+    if (next < 0) return {};
+    before = t, t = next;
+  }
+  return {};
+}
+
 std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
                                             bool slides) const {
   SurfacePlace at = from;
   const double first = norm(target - from.xyz);
+  const auto is_near = [&] {
+    const Vec3 left = target - at.xyz, along = left - dot(left, at.normal) * at.normal;
+    return norm(along) <= near_enough * first;
+  };
+  if (const auto foot = flat_foot(from.foot.triangle, target)) {
+    at = evaluate(cad, *foot);
+    if (at.regular && is_near()) return at;
+    if (!at.regular) at = from;
+  }
   for (int step = 0; step < most_newton_steps; ++step) {
     if (!at.regular) return {};
     const Vec3 d = target - at.xyz;
@@ -264,8 +300,7 @@ std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, 
     if (walked.end == Walk::End::blocked) return {};
     at = evaluate(cad, walked.foot);
     if (walked.end == Walk::End::border) continue;
-    const Vec3 left = target - at.xyz, along = left - dot(left, at.normal) * at.normal;
-    if (norm(along) <= near_enough * first) break;
+    if (is_near()) break;
   }
   return at.regular ? std::optional(at) : std::nullopt;
 }

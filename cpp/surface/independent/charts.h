@@ -61,8 +61,9 @@ class Charts {
   [[nodiscard]] double size(const Foot& f) const;
   /// Makes sizes so many times as large, by vertex of the mesh of before: in all directions; empty: as they were wanted.
   void enlarge(std::vector<double> factor) { factor_ = std::move(factor); }
-  /// How far the size may grow from the sharp lines and corners, by vertex of the mesh of before: from 1 to `most`, over edges, by `growth` sizes a size.
-  [[nodiscard]] std::vector<double> factors_beside(const std::vector<char>& kept, double most, double growth) const;
+  /// The largest factors of sizes, by vertex of the mesh of before, that are no larger than those given and grow over edges by
+  /// `growth` sizes a size.
+  [[nodiscard]] std::vector<double> graded_factors(std::vector<double> factor, double growth) const;
   /// Whether sizes differ by direction.
   [[nodiscard]] bool by_direction() const noexcept { return !metric_.empty(); }
   /// The metric in the tangent plane there, if they do; `normal`: of the surface, unit, or zero where there is none.
@@ -75,7 +76,8 @@ class Charts {
   [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
   /// What is known of it is enough: derivatives from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
-  /// A place of the surface near `target`, by Gauss-Newton steps from `from`, which is regular. Empty where a barrier
+  /// A place of the surface near `target`: below its foot on the flat triangles, and by Gauss-Newton steps from there, or from
+  /// `from`, which is regular. Empty where a barrier
   /// or a singular place is in the way; `slides`: on the barrier then, beside the target.
   [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
                                                     bool slides = false) const;
@@ -94,6 +96,7 @@ class Charts {
   void link(std::span<const MeshEdge> barriers);
   void link(std::int32_t t, int i, std::int32_t u, int j);
   void turn();
+  [[nodiscard]] std::optional<Foot> flat_foot(std::int32_t from, const Vec3& target) const;
   [[nodiscard]] Walk walk(const Foot& from, const Vec2& to, bool slides) const;
   [[nodiscard]] Foot over(std::int32_t t, int side, const Vec2& at) const;
 

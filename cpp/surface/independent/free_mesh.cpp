@@ -33,6 +33,8 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
   kept_places_.resize(kept);
   place_vertices(mesh, jets);
   if (by_direction()) place_metrics();
+  for (std::size_t t = 0; t < charts.triangles().size(); ++t)
+    guards_ = guards_ || charts.is_guarded({static_cast<std::int32_t>(t), {}});
   for (const Charts::Triangle& t : charts.triangles()) {
     const auto& [a, b, c] = t.vertex;
     triangles_.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
@@ -110,8 +112,7 @@ double FreeMesh::length(std::int32_t v, std::int32_t w) const {
     const Vec3 way = position(w) - position(v);
     return length_between(carreau::length(metric_[v], way), carreau::length(metric_[w], way));
   }
-  const double p = size_[v], q = size_[w], d = norm(position(w) - position(v));
-  return std::abs(q - p) > 1e-6 * p ? d * std::log(q / p) / (q - p) : d / p;
+  return length_between_sizes(norm(position(w) - position(v)), size_[v], size_[w]);
 }
 
 Metric2 FreeMesh::gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const {
@@ -126,13 +127,14 @@ double FreeMesh::double_area(const EditableMesh::Triangle& t) const {
 }
 
 // The nearest to that of a triangle.
-Vec3 FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
+const Vec3& FreeMesh::normal_at(std::int32_t v, const Vec3& of_triangle) const {
+  static const Vec3 none{0, 0, 0};
   if (several_[v] < 0) return place_[v].normal;
-  Vec3 best{0, 0, 0};
+  const Vec3* best = &none;
   double most = -infinity;
   for (const SurfacePlace& p : kept_places_[several_[v]])
-    if (const double here = dot(p.normal, of_triangle); p.regular && here > most) most = here, best = p.normal;
-  return best;
+    if (const double here = dot(p.normal, of_triangle); p.regular && here > most) most = here, best = &p.normal;
+  return *best;
 }
 
 void FreeMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
@@ -145,30 +147,29 @@ void FreeMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, Trian
 
 void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
   const std::array<std::int32_t, 3> v{a, b, c};
-  const std::array<Vec3, 3> p{position(a), position(b), position(c)};
-  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
-  const double area = norm(n);
-  std::array<Vec3, 3> normal;
-  bool guarded = false;
-  double share = 0;
+  const std::array<const Vec3*, 3> p{&place_[a].xyz, &place_[b].xyz, &place_[c].xyz};
+  const Vec3 n = cross(*p[1] - *p[0], *p[2] - *p[0]);
+  std::array<const Vec3*, 3> normal;
+  bool regular = false;
+  double least = infinity;  // cosine, times the area
   for (int i = 0; i < 3; ++i) {
-    normal[i] = normal_at(v[i], n);
-    guarded = guarded || charts_.is_guarded(place_[v[i]].foot);
-    if (dot(normal[i], normal[i]) == 0) continue;  // singular
-    const double cosine = area > 0 ? dot(normal[i], n) / area : -1;
-    share = std::max(share, (1 - cosine) / (1 - cosine_));
+    normal[i] = &normal_at(v[i], n);
+    if (dot(*normal[i], *normal[i]) == 0) continue;  // singular
+    regular = true;
+    least = std::min(least, dot(*normal[i], n));
   }
-  const double h = (size_[a] + size_[b] + size_[c]) / 3;
-  const double allowed = tolerances_.deviation > 0 ? tolerances_.deviation : tolerances_.share_of_size * h;
+  const double area = norm(n);
+  double share = regular ? std::max(0.0, (1 - (area > 0 ? least / area : -1)) / (1 - cosine_)) : 0;
+  const bool by_length = by_direction() && !(tolerances_.deviation > 0);
+  double most = tolerances_.deviation > 0 ? tolerances_.deviation : tolerances_.share_of_size * ((size_[a] + size_[b] + size_[c]) / 3);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
-    const Vec3 d = p[j] - p[i];
-    const double offset = (std::abs(dot(d, normal[i])) + std::abs(dot(d, normal[j]))) / 8;
-    const double most = by_direction() && !(tolerances_.deviation > 0)
-                            ? tolerances_.share_of_size * norm(d) / length(v[i], v[j])
-                            : allowed;
+    const Vec3 d = *p[j] - *p[i];
+    const double offset = (std::abs(dot(d, *normal[i])) + std::abs(dot(d, *normal[j]))) / 8;
+    if (by_length) most = tolerances_.share_of_size * norm(d) / length(v[i], v[j]);
     share = std::max(share, offset * offset / (most * most));
   }
+  const bool guarded = guards_ && std::ranges::any_of(v, [&](std::int32_t w) { return charts_.is_guarded(place_[w].foot); });
   shapes.share = std::max(shapes.share, guarded ? guarded_factor * share : share);
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -29,6 +30,11 @@ struct TriangleShapes {
   double short_of = 0;   ///< sum of good_shape - Q2
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
 };
+
+/// HDR eq. 4.83: of a distance between two places with these sizes.
+inline double length_between_sizes(double distance, double p, double q) noexcept {
+  return std::abs(q - p) > 1e-6 * p ? distance * std::log(q / p) / (q - p) : distance / p;
+}
 
 /// Vertices of the mesh keep their numbers until the end; new ones follow. Keeps references to `charts`
 /// and `cad`.
@@ -118,7 +124,7 @@ class FreeMesh final : public PlacedVertices {
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
   void place_metrics();
   [[nodiscard]] Metric2 gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const;
-  [[nodiscard]] Vec3 normal_at(std::int32_t v, const Vec3& of_triangle) const;
+  [[nodiscard]] const Vec3& normal_at(std::int32_t v, const Vec3& of_triangle) const;
 
   std::vector<Vec3> xyz_;
   std::vector<Vec2> uv_;
@@ -131,7 +137,8 @@ class FreeMesh final : public PlacedVertices {
   std::vector<std::vector<SurfacePlace>> kept_places_;
   const SurfaceTolerances asked_;
   SurfaceTolerances tolerances_;
-  double cosine_;  // of the angle that is tolerated
+  double cosine_;        // of the angle that is tolerated
+  bool guards_ = false;  // some triangles of the charts are guarded
   const Charts& charts_;
   Cad& cad_;
   std::optional<EditableMesh> mesh_;

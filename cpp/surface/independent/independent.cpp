@@ -10,6 +10,7 @@
 
 #include "mesh/flat_mesh.h"
 #include "mesh/intersections.h"
+#include "support/bucket_sort.h"
 #include "support/infinity.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/reassembly.h"
@@ -38,7 +39,7 @@ std::int64_t euler(const SurfaceMesh& mesh) {
         edges.push_back(mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]));
         used[face.vertex[t[i]]] = 1;
       }
-  std::ranges::sort(edges);
+  bucket_sort(edges, mesh.vertices.size(), [](const MeshEdge& e) { return e[0]; });
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return std::ranges::count(used, 1) - static_cast<std::int64_t>(edges.size()) +
          static_cast<std::int64_t>(mesh.triangle_count());
@@ -85,13 +86,13 @@ RemeshingFrame frame_of(const CurveModel& model, const CompositeOptions& options
 // Of few triangles, with sizes that grow from the lines, which are then halved: vertices that halve an edge have six neighbours,
 // and irregular ones are as few as there are of the coarse mesh.
 RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, RemeshingFrame& frame, Monitor& monitor) {
-  std::vector<char> kept(mesh.vertices.size(), 0);
-  for (const MeshEdge& e : frame.sharp) kept[e[0]] = kept[e[1]] = 1;
-  for (const std::int32_t v : frame.corners) kept[v] = 1;
   RemeshingReport report;
   for (int level = halvings; level > 0; --level) {
     const double times = std::exp2(level);
-    frame.charts->enlarge(frame.charts->factors_beside(kept, times, growth_of_coarse));
+    std::vector<double> factor(mesh.vertices.size(), times);
+    for (const MeshEdge& e : frame.sharp) factor[e[0]] = factor[e[1]] = 1;
+    for (const std::int32_t v : frame.corners) factor[v] = 1;
+    frame.charts->enlarge(frame.charts->graded_factors(std::move(factor), growth_of_coarse));
     free.update_sizes();
     free.tighten(times);
     report += level == halvings ? RemeshingReport{} : halve(free, monitor);

@@ -40,7 +40,7 @@ struct RemeshingFrame {
 SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_direction, double angle_slack);
 
 /// Makes the mesh of `result` again by CompositeResult::vertex_size: lengths, shapes, references, curves and (u, v) of its corners. Returns why it
-/// stays as it is, which has then been done four times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.
+/// stays as it is, which has then been done several times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 

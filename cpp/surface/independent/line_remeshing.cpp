@@ -8,7 +8,7 @@
 #include "curve/unit_discretisation.h"
 #include "support/infinity.h"
 #include "support/segment.h"
-#include "surface/independent/collapse_price.h"
+#include "surface/independent/edits/collapse_price.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {

@@ -53,6 +53,9 @@ inline constexpr int most_last_passes = 8, most_last_passes_thorough = 20;
 inline constexpr double least_shape = 0.15;
 /// Shape. Triangles below are worked at, with two rings around.
 inline constexpr double good_enough = 0.7;
+/// Shape of the triangles of a square, whose diagonals are alike: where both triangles of an edge are better, those of the other
+/// diagonal are worse.
+inline constexpr double shape_of_squares = 0.87;
 /// Shape that a swap for the sake of degrees may leave, and rounds that have such swaps.
 inline constexpr double least_shape_of_degrees = 0.55;
 inline constexpr int most_rounds_of_degrees = 4;

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "surface/independent/edits/edge_edits.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {
@@ -59,21 +60,7 @@ class WorstFirst {
 
   void swap(std::int32_t v, std::int32_t w) {
     const auto q = mesh_.mesh().quad_between({0, v}, w);
-    if (!q || mesh_.length(q->c, q->d) > std::max(longest, mesh_.length(v, w))) return;
-    TriangleShapes before, after;
-    mesh_.judge(q->a, q->b, q->c, before), mesh_.judge(q->b, q->a, q->d, before);
-    mesh_.judge(q->a, q->d, q->c, after), mesh_.judge(q->d, q->b, q->c, after);
-    if (after.worst < before.worst + least_gain || !FreeMesh::agrees(before, after) || !mesh_.swap(*q)) return;
-    ++edits_;
-  }
-
-  [[nodiscard]] int out_of_range(std::int32_t v) const {
-    int out = 0;
-    for (const std::int32_t w : mesh_.mesh().ring(v)) {
-      const double l = mesh_.length(v, w);
-      out += l < shortest || l > longest ? 1 : 0;
-    }
-    return out;
+    if (q && swap_edge(mesh_, *q)) ++edits_;
   }
 
   // Uphill in the tangent plane, by steps that become shorter.
@@ -88,7 +75,7 @@ class WorstFirst {
     const WantedSize size = mesh_.wanted(v);
     const TriangleShapes before = mesh_.judge_around(v);
     if (before.worst >= floor_) return false;
-    const int out = out_of_range(v);
+    const int out = out_of_range(mesh_, v);
     const Vec3 least = std::abs(from.normal[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 across = cross(from.normal, least);
     const Vec3 p = (1 / norm(across)) * across, q = cross(from.normal, p);
@@ -101,7 +88,7 @@ class WorstFirst {
       if (!to) continue;
       mesh_.put(v, *to, mesh_.wanted_at(*to));
       const TriangleShapes after = mesh_.judge_around(v);
-      if (after.worst > worst && FreeMesh::agrees(before, after) && out_of_range(v) <= out)
+      if (after.worst > worst && FreeMesh::agrees(before, after) && out_of_range(mesh_, v) <= out)
         worst = after.worst, best = *to;
       mesh_.put(v, from, size);
     }

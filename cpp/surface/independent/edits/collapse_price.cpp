@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/independent/collapse_price.h"
+#include "surface/independent/edits/collapse_price.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Edits of single edges: what they would leave, and those that are worth it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "surface/independent/free_mesh.h"
+
+namespace carreau {
+
+/// Edges at v whose lengths are out of range.
+[[nodiscard]] int out_of_range(const FreeMesh& mesh, std::int32_t v);
+
+/// Towards six edges at each vertex: whether the edge from a to b had better lead from c to d.
+[[nodiscard]] bool evens_degrees(const FreeMesh& mesh, std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d);
+/// A swap must not make what is too long.
+[[nodiscard]] bool is_too_long(const FreeMesh& mesh, std::int32_t v, std::int32_t w, std::int32_t c, std::int32_t d);
+/// Swaps where the worst shape gains, or, where degrees do, shapes stay good enough, and the surface agrees; else false, and
+/// nothing is changed.
+bool swap_edge(FreeMesh& mesh, const FreeMesh::Quad& q, bool for_degrees = false);
+
+/// Puts a vertex on the surface over the middle of an edge, where lengths gain, shapes stay fair and the surface agrees.
+std::optional<std::int32_t> split_edge(FreeMesh& mesh, const FreeMesh::Quad& q);
+
+/// The worst shape that a collapse of a short edge leaves; negative where it may not be.
+[[nodiscard]] double worst_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
+/// The same where triangles are small, though the edge is not short.
+[[nodiscard]] double worst_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
+/// Whether triangles around an edge stay no larger than wanted, in the mean, without two of them.
+[[nodiscard]] bool is_dense(const FreeMesh& mesh, std::int32_t v, std::int32_t w);
+/// Collapses where the surface agrees; else false, and nothing is changed.
+bool collapse_edge(FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
+
+}  // namespace carreau

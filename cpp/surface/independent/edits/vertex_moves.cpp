@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/independent/edits/vertex_moves.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/quality.h"
+#include "metric/metric2.h"
+#include "surface/independent/edits/edge_edits.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+using Place = FreeMesh::Place;
+
+bool gains(const TriangleShapes& before, const TriangleShapes& after) noexcept {
+  return after.inverses < before.inverses - least_gain && after.worst >= std::min(before.worst, good_enough);
+}
+
+}  // namespace
+
+void VertexMover::look_around(std::int32_t v) {
+  sides_.clear();
+  for (const Place p : mesh_.mesh().fan(v)) {
+    const auto& t = mesh_.mesh().at(p);
+    const int i = mesh_.mesh().rank_in(p, v);
+    const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+    const Vec3 a = mesh_.position(j), b = mesh_.position(k), side = b - a;
+    sides_.push_back({a, b, dot(side, side), mesh_.size(j), mesh_.size(k)});
+  }
+}
+
+// The mean of the places where each triangle around would be equilateral, its sides the mean of the one that stays
+// and of the wanted one.
+Vec3 VertexMover::ideal_place(const Vec3& from) const {
+  Vec3 sum{0, 0, 0};
+  double count = 0;
+  for (const Side& s : sides_) {
+    const Vec3 side = s.b - s.a, up = from - s.a;
+    const double along = dot(up, side) / s.squared;
+    const Vec3 across = up - along * side;
+    const double height = norm(across);
+    if (!(s.squared > 0) || !(height > 0)) continue;
+    const double wanted = 0.5 * (std::sqrt(s.squared) + 0.5 * (s.h_a + s.h_b));
+    sum += 0.5 * (s.a + s.b) + (half_root3 * wanted / height) * across;
+    count += 1;
+  }
+  return count > 0 ? Vec3(sum / count) : from;
+}
+
+// The same in the mean metric of each triangle.
+Vec3 VertexMover::ideal_place_by_direction(std::int32_t v) const {
+  Vec3 sum{0, 0, 0};
+  double count = 0;
+  for (const Place p : mesh_.mesh().fan(v)) {
+    const auto& t = mesh_.mesh().at(p);
+    const int i = mesh_.mesh().rank_in(p, v);
+    const std::int32_t j = t[(i + 1) % 3], k = t[(i + 2) % 3];
+    const Vec3 a = mesh_.position(j), b = mesh_.position(k), side = b - a, up = mesh_.position(v) - a;
+    const Metric2 g = (1. / 3) * (gram(mesh_.metric(v), side, up) + gram(mesh_.metric(j), side, up) +
+                                  gram(mesh_.metric(k), side, up));
+    const double height2 = g.c - g.b * g.b / g.a;
+    if (!(g.a > 0) || !(height2 > 0)) continue;
+    const Vec3 across = up - (g.b / g.a) * side;
+    const double wanted = 0.5 * (std::sqrt(g.a) + 1);
+    sum += 0.5 * (a + b) + (half_root3 * wanted / std::sqrt(height2)) * across;
+    count += 1;
+  }
+  return count > 0 ? Vec3(sum / count) : mesh_.position(v);
+}
+
+// As FreeMesh::judge_shape has them, with v there; HDR eq. 1.6.
+TriangleShapes VertexMover::shapes(const Vec3& at) const {
+  TriangleShapes shapes;
+  for (const Side& s : sides_) {
+    const Vec3 p = s.a - at, q = s.b - at;
+    const double squares = dot(p, p) + dot(q, q) + s.squared;
+    const double quality = squares > 0 ? 4 * half_root3 * norm(cross(p, q)) / squares : 0;
+    shapes.worst = std::min(shapes.worst, quality);
+    shapes.inverses += 1 / std::max(quality, flat_quality);
+  }
+  return shapes;
+}
+
+// Each neighbour begins one side.
+int VertexMover::out_of_range(const Vec3& at, double h) const {
+  int out = 0;
+  for (const Side& s : sides_) {
+    const double l = length_between_sizes(norm(s.a - at), h, s.h_a);
+    out += l < shortest || l > longest ? 1 : 0;
+  }
+  return out;
+}
+
+bool VertexMover::put_if_agrees(std::int32_t v, const SurfacePlace& to, const WantedSize& there) {
+  const SurfacePlace from = mesh_.place(v);
+  const WantedSize size = mesh_.wanted(v);
+  mesh_.put(v, to, there);
+  const TriangleShapes after = mesh_.judge_agreement_around(v);
+  if (after.share <= 1) return true;
+  mesh_.put(v, from, size);
+  if (!FreeMesh::agrees(mesh_.judge_agreement_around(v), after)) return false;
+  mesh_.put(v, to, there);
+  return true;
+}
+
+bool VertexMover::try_place(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before, int out) {
+  if (!gains(before, shapes(to.xyz))) return false;
+  const WantedSize there = mesh_.wanted_at(to);
+  return out_of_range(to.xyz, there.h) <= out && put_if_agrees(v, to, there);
+}
+
+bool VertexMover::try_place_by_direction(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before,
+                                         int out) {
+  const SurfacePlace from = mesh_.place(v);
+  const WantedSize size = mesh_.wanted(v), there = mesh_.wanted_at(to);
+  mesh_.put(v, to, there);
+  const bool better = gains(before, mesh_.judge_shapes_around(v)) && carreau::out_of_range(mesh_, v) <= out;
+  mesh_.put(v, from, size);
+  return better && put_if_agrees(v, to, there);
+}
+
+bool VertexMover::move(std::int32_t v) {
+  const bool by_direction = mesh_.by_direction();
+  const Vec3 from = mesh_.position(v), normal = mesh_.place(v).normal;
+  if (!by_direction) look_around(v);
+  const Vec3 ideal = by_direction ? ideal_place_by_direction(v) : ideal_place(from), way = ideal - from;
+  if (by_direction ? length(mesh_.metric(v), way) < least_ : norm(way) < least_ * mesh_.size(v)) return false;
+  const TriangleShapes before = by_direction ? mesh_.judge_shapes_around(v) : shapes(from);
+  const int out = by_direction ? carreau::out_of_range(mesh_, v) : out_of_range(from, mesh_.size(v));
+  for (const double share : {1.0, 0.4}) {
+    const Vec3 target = lerp(from, ideal, share);
+    // What does not gain beside the surface is not worth an evaluation.
+    if (!by_direction && !gains(before, shapes(target))) continue;
+    const auto to = mesh_.near(v, normal, target);
+    if (!to) continue;
+    if (by_direction ? try_place_by_direction(v, *to, before, out) : try_place(v, *to, before, out)) return true;
+  }
+  return false;
+}
+
+}  // namespace carreau
