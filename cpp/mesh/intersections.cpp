@@ -175,8 +175,11 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
   };
   run_each(parts, false, threads, look, monitor);
   sound.numbers.reserve(std::accumulate(count.begin(), count.end(), std::size_t{0}));
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-    if (sound.axis[i] != no_axis) sound.numbers.push_back(static_cast<std::int32_t>(i));
+  for (std::size_t part = 0; part < parts; ++part) {
+    monitor.checkpoint();
+    for (std::size_t i = part * at_once; i < std::min((part + 1) * at_once, triangles.size()); ++i)
+      if (sound.axis[i] != no_axis) sound.numbers.push_back(static_cast<std::int32_t>(i));
+  }
   return sound;
 }
 
