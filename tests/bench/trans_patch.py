@@ -9,6 +9,7 @@ One line a file, a size and a mesh:
   range    share of edges with lengths in [1/sqrt 2, sqrt 2] in the prescribed metric, per cent
   Q2       mean, first percentile, worst (HDR eq. 1.6)
   A0, A1   largest distance over the size, largest angle in degrees, both measured on the surface
+  bound    largest upper bound of A0 and A1 over their tolerances, of meshes with --independent
   x        time of meshing over that without --independent, one thread, best of N runs
   tri/s    triangles of the mesh a second of what --independent adds
   evals    evaluations of surfaces a vertex
@@ -22,8 +23,8 @@ import subprocess
 import sys
 import tempfile
 
-ROW = "{:30.30}{:>5} {:5}{:>8}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>6}{:>9}{:>7}"
-HEAD = ("file", "size", "mesh", "tri", "ideal", "range", "mean", "p1", "worst", "A0/h", "A1", "x", "tri/s", "evals")
+ROW = "{:30.30}{:>5} {:5}{:>8}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>7}{:>6}{:>9}{:>7}"
+HEAD = ("file", "size", "mesh", "tri", "ideal", "range", "mean", "p1", "worst", "A0/h", "A1", "bound", "x", "tri/s", "evals")
 
 
 def run(program, path, share, options, out):
@@ -57,7 +58,7 @@ def figures(program, path, share, options, repeat, folder):
     mesh, kinds = plain["mesh"], measured["delivered"]["measures"]
     return {"triangles": mesh["triangles"], "ideal": mesh["triangles"] * math.sqrt(3) / 4 * size * size / mesh["area"],
             "range": in_range(kinds["metric_length"]), "mean": mesh["q2_mean"], "p1": mesh["q2_p1"], "worst": mesh["q2_min"],
-            "a0": kinds["A0"]["max"] / size, "a1": kinds["A1"]["max"], "seconds": seconds,
+            "a0": kinds["A0"]["max"] / size, "a1": kinds["A1"]["max"], "bound": kinds["bound_share"]["max"], "seconds": seconds,
             "evaluations": sum(plain["calls"][k] for k in ("surf0", "surf1", "surf2")) / mesh["vertices"],
             "closed": plain["closed"], "crossings": plain["intersections"]["pairs"], "defects": defects(program, out)}
 
@@ -67,6 +68,7 @@ def print_row(name, share, mesh, f, before):
     speed = f"{f['triangles'] / added:.0f}" if f is not before and added > 0 else ""
     print(ROW.format(name, share, mesh, f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", f"{f['mean']:.4f}",
                      f"{f['p1']:.3f}", f"{f['worst']:.3f}", f"{f['a0']:.3f}", f"{f['a1']:.1f}",
+                     "" if f["bound"] is None else f"{f['bound']:.2f}",
                      f"{f['seconds'] / before['seconds']:.2f}", speed, f"{f['evaluations']:.1f}"), flush=True)
 
 
