@@ -71,7 +71,7 @@ class Mender {
   }
   [[nodiscard]] std::int32_t corners() const noexcept { return corners_; }
 
-  /// The other corners of the cells' sides that end at corner `v`, and the nodes on them.
+  /// The other corners of the cells' sides that end at corner `v`, and the nodes on them; -1: of first order.
   template <typename Use>
   void for_sides(std::int32_t v, const Use& use) const {
     for (const std::int32_t c : around(v)) {
@@ -138,7 +138,7 @@ class Mender {
     if (node < corners_)
       for_sides(node, [&](std::int32_t, std::int32_t mid) {
         const bool known = std::any_of(moves.begin(), moves.end(), [&](const auto& m) { return m.first == mid; });
-        if (!known && fixed_[mid] == 0) moves.push_back({mid, 0.5 * by});
+        if (mid >= 0 && !known && fixed_[mid] == 0) moves.push_back({mid, 0.5 * by});
       });
     return moves;
   }

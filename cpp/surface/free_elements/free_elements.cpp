@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "mesh/elements/jacobian.h"
+#include "mesh/flat_mesh.h"
+#include "mesh/intersections.h"
 #include "support/error.h"
 #include "surface/elements/thresholds.h"
 #include "surface/free_elements/free_cells.h"
@@ -38,7 +40,10 @@ class FreeElements {
         lines_(surface_, vertices_, lines_left(frame, *made.free), made.worked, monitor),
         cells_(free_cells(surface_, vertices_, lines_, triangles_of(*made.free), monitor)) {}
 
-  void run() {
+  /// `gently`: triangles are joined, and nothing else is changed.
+  void run(bool gently) {
+    gently_ = gently;
+    turn_ears(cells_.quads, [&](std::int32_t a, std::int32_t b) { return is_imposed(cells_, lines_, a, b); });
     if (has_quads(options_.element)) {
       pair();
       if (has_quads_only(options_.element))
@@ -77,8 +82,8 @@ class FreeElements {
     const double turn = turns_per_edge * options_.size.angle_mesh * std::numbers::pi / 180;
     const PairRules rules{imposed, [&](std::int32_t v) { return quads.place(v).xyz; },
                           turn * enlargement_for(options_.element), least_in_space()};
-    turn_ears(quads, imposed);
     pair_triangles(quads, rules, monitor_);
+    if (gently_) return;
     clean_up(quads, imposed, monitor_);
     join_triangles(quads, imposed, monitor_);
     clean_up(quads, imposed, monitor_);
@@ -92,7 +97,8 @@ class FreeElements {
 
   void cut() {
     halve(surface_, vertices_, lines_, cells_, monitor_);
-    smooth();
+    if (!gently_) smooth();
+    mend_straight(surface_, vertices_, lines_, cells_, monitor_);
   }
 
   [[nodiscard]] double jacobian_of(const MixedCell& q) const {
@@ -194,13 +200,32 @@ class FreeElements {
   ElementVertices vertices_;
   LineMiddles lines_;
   FreeCells cells_;
+  bool gently_ = false;
 };
+
+std::int64_t crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
+  const FlatMesh flat = flatten(mesh, false);
+  return find_intersections(flat.vertices, flat.triangles, {.threads = threads}, monitor).count;
+}
 
 }  // namespace
 
 void make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
                         Cad& cad, FreedMesh& made, Monitor& monitor) {
-  FreeElements(before, frame, options, cad, made, monitor).run();
+  const bool moves = has_quads(options.element);
+  const std::int64_t before_them = moves ? crossings(made.mesh, options.threads, monitor) : 0;
+  std::vector<std::vector<LineNode>> left;
+  for (const WorkedLine& line : made.worked) left.push_back(line.left);
+  FreeElements(before, frame, options, cad, made, monitor).run(false);
+  if (!moves) return;
+  std::int64_t now = crossings(made.mesh, options.threads, monitor);
+  if (now > before_them) {
+    for (std::size_t k = 0; k < left.size(); ++k) made.worked[k].left = left[k];
+    FreeElements(before, frame, options, cad, made, monitor).run(true);
+    now = crossings(made.mesh, options.threads, monitor);
+  }
+  if (now > before_them)
+    monitor.message(Level::warning, std::to_string(now) + " pairs of triangles cross, of straight halves of elements: sizes are too large there");
 }
 
 }  // namespace carreau

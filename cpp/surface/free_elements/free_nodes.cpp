@@ -153,12 +153,19 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
   static std::vector<Cell> elements(const FreeCells& cells, const NodeMaker& made) {
     std::vector<Cell> all;
     const auto first = static_cast<std::int32_t>(cells.quads.vertices());
-    for (std::size_t c = 0; c < made.of_cell.size(); ++c) {
+    const bool curved = !made.of_cell.empty();
+    for (std::size_t c = 0; c < cells.quads.cells().size(); ++c) {
       const MixedCell& corners = cells.quads.cells()[c];
       const int n = corners_of(corners);
       Cell& cell = all.emplace_back();
-      cell.kind = n == 4 ? CellKind::quad8 : CellKind::triangle6;
-      for (int k = 0; k < n; ++k) cell.nodes[k] = corners[k], cell.nodes[n + k] = first + made.of_cell[c][k];
+      if (curved)
+        cell.kind = n == 4 ? CellKind::quad8 : CellKind::triangle6;
+      else
+        cell.kind = n == 4 ? CellKind::quad4 : CellKind::triangle3;
+      for (int k = 0; k < n; ++k) {
+        cell.nodes[k] = corners[k];
+        if (curved) cell.nodes[n + k] = first + made.of_cell[c][k];
+      }
     }
     return all;
   }
@@ -184,6 +191,14 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
 };
 
 }  // namespace
+
+void mend_straight(const FreeSurface& surface, const ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
+                   Monitor& monitor) {
+  NodeMaker none(surface, vertices, lines, cells, monitor);
+  SpaceMender mender(surface, cells, none, monitor);
+  (void)mender.find_below(thresholds::elements::good_jacobian);
+  mender.mend();
+}
 
 FreeNodes make_nodes(const FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
                      Monitor& monitor) {

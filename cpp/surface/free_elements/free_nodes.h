@@ -22,4 +22,8 @@ struct FreeNodes {
 FreeNodes make_nodes(const FreeSurface& surface, ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
                      Monitor& monitor);
 
+/// Straight elements whose Jacobian is not good are mended alike: vertices move.
+void mend_straight(const FreeSurface& surface, const ElementVertices& vertices, LineMiddles& lines, FreeCells& cells,
+                   Monitor& monitor);
+
 }  // namespace carreau
