@@ -142,10 +142,33 @@ bool intersect(const Corners& s, const Corners& t, int axis, Vec3& place) noexce
   return true;
 }
 
+using Indices = std::array<std::int32_t, 3>;
+
+/// Whether a plane of parted_by_edges_of() along an edge of s that ends at a vertex of both does part them: nearly all
+/// neighbours lie so. `inside`: how s is turned, seen along the axis.
+bool parted_at_neighbour(std::span<const Vec3> vertices, const Indices& s, const Indices& t, int axis,
+                         int inside) noexcept {
+  int in_t = 0, in_s = 0;  // bits of corners of t that s has, of s that t has
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (s[i] == t[j]) in_s |= 1 << i, in_t |= 1 << j;
+  if (in_s == 0) return false;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t from = s[(k + 1) % 3], to = s[(k + 2) % 3];
+    if ((in_s & ~(1 << k)) == 0 || (in_s >> k & 1) != 0) continue;  // an end is common, and the corner before it is not
+    const auto beyond = [&](int j) {
+      return (in_t >> j & 1) != 0 || turn(axis, vertices[from], vertices[to], vertices[t[j]]) == -inside;
+    };
+    if (beyond(0) && beyond(1) && beyond(2)) return true;
+  }
+  return false;
+}
+
 /// What is left of a mesh that can be asked.
 struct SoundTriangles {
-  std::vector<std::array<std::int32_t, 3>> corners;
-  std::vector<std::int32_t> number, axis;  // in the whole mesh; of axis_of
+  std::vector<Indices> corners;
+  std::vector<std::int32_t> number;        // in the whole mesh
+  std::vector<std::int8_t> axis, inside;  // of axis_of; how it is turned, seen along the axis
 };
 
 Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t) noexcept {
@@ -171,16 +194,19 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
           if (axis == no_axis) continue;
           some.corners.push_back(t);
           some.number.push_back(static_cast<std::int32_t>(i));
-          some.axis.push_back(axis);
+          some.axis.push_back(static_cast<std::int8_t>(axis));
+          some.inside.push_back(static_cast<std::int8_t>(turn(axis, vertices[t[0]], vertices[t[1]], vertices[t[2]])));
         }
       },
       monitor);
   SoundTriangles sound;
   sound.corners.reserve(triangles.size()), sound.number.reserve(triangles.size()), sound.axis.reserve(triangles.size());
+  sound.inside.reserve(triangles.size());
   for (const SoundTriangles& some : parts) {
     sound.corners.insert(sound.corners.end(), some.corners.begin(), some.corners.end());
     sound.number.insert(sound.number.end(), some.number.begin(), some.number.end());
     sound.axis.insert(sound.axis.end(), some.axis.begin(), some.axis.end());
+    sound.inside.insert(sound.inside.end(), some.inside.begin(), some.inside.end());
   }
   return sound;
 }
@@ -228,6 +254,7 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
   const auto ask = [&](std::size_t part, Monitor&) {
     FirstPairs first(options.limit, of_part[part]);
     near.each(part, [&](std::size_t i, std::size_t j) {
+      if (parted_at_neighbour(vertices, sound.corners[i], sound.corners[j], sound.axis[i], sound.inside[i])) return;
       Vec3 place;
       if (intersect(corners_of(vertices, sound.corners[i]), corners_of(vertices, sound.corners[j]), sound.axis[i],
                     place))

@@ -23,12 +23,14 @@ constexpr MixedCell none{-1, -1, -1, -1};
 /// One pass: changes whose vertices no other change of the pass has met.
 class Pass {
  public:
+  /// `active`: by vertex: only cells with such a one are looked at; empty: all.
   Pass(QuadPatch& patch, const FaceCharts& charts, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
-       const std::vector<std::int8_t>& ideal, Monitor& monitor)
+       const std::vector<std::int8_t>& ideal, const std::vector<char>& active, Monitor& monitor)
       : patch_(patch),
         charts_(charts),
         is_imposed_(is_imposed),
         ideal_(ideal),
+        active_(active),
         monitor_(monitor),
         around_(patch.uv.size(), closed(patch.cells)),
         degree_(patch.uv.size(), 0),
@@ -69,9 +71,12 @@ class Pass {
   [[nodiscard]] bool is_irregular(std::int32_t c) const {
     const MixedCell& cell = patch_.cells[c];
     if (cell == none) return false;
-    for (int k = 0; k < corners_of(cell); ++k)
-      if (degree_[cell[k]] != ideal_[cell[k]]) return true;
-    return false;
+    bool irregular = false, active = active_.empty();
+    for (int k = 0; k < corners_of(cell); ++k) {
+      irregular = irregular || degree_[cell[k]] != ideal_[cell[k]];
+      active = active || active_[cell[k]] != 0;
+    }
+    return irregular && active;
   }
   /// What is wrong with so many cells more or less at a vertex.
   [[nodiscard]] int excess(std::int32_t v, int more = 0) const {
@@ -230,6 +235,7 @@ class Pass {
   const FaceCharts& charts_;
   const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
   const std::vector<std::int8_t>& ideal_;
+  const std::vector<char>& active_;
   Monitor& monitor_;
   Incidence around_;
   std::vector<int> degree_;
@@ -274,12 +280,16 @@ std::vector<char> with_neighbours(const QuadPatch& patch, const std::vector<char
 void clean_up(QuadPatch& patch, const FaceCharts& charts,
               const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
   const std::vector<std::int8_t> ideal = ideal_degrees(patch, charts);
+  // What a pass makes of a cell depends on the cells at its corners: where nothing there has changed or moved since the
+  // pass before, it would be tried in vain again.
+  std::vector<char> active;
   for (int round = 0; round < cleanup_passes; ++round) {
-    Pass pass(patch, charts, is_imposed, ideal, monitor);
+    Pass pass(patch, charts, is_imposed, ideal, active, monitor);
     if (pass.run() == 0) break;
     std::vector<char> moving;  // all, the first time
     if (round > 0) moving = with_neighbours(patch, pass.take_touched());
-    smooth_quads(patch, charts, {.passes = passes_after_changes, .moving = moving}, monitor);
+    smooth_quads(patch, charts, {.passes = passes_after_changes, .momentum = 0, .moving = moving}, monitor);
+    if (round > 0) active = with_neighbours(patch, moving);
   }
 }
 

@@ -12,6 +12,7 @@ namespace {
 
 // The corner whose sides go on smoothly into each other; -1: none.
 int flat_corner(const QuadPatch& patch, const MixedCell& t) {
+  if (patch.fixed[t[0]] == 0 || patch.fixed[t[1]] == 0 || patch.fixed[t[2]] == 0) return -1;  // those on curves are
   for (int k = 0; k < 3; ++k)
     if (std::binary_search(patch.flat.begin(), patch.flat.end(), std::array{t[k], t[(k + 1) % 3], t[(k + 2) % 3]}))
       return k;
