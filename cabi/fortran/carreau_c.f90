@@ -684,7 +684,8 @@ module carreau_c
       integer(c_int32_t) :: status
     end function c_set_background
 
-    !> Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh.
+    !> Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh; of elements of second order at
+    !! all nodes, or at their corners, which come first.
     function c_set_vertex_sizes(session, n, sizes) result(status) bind(c, name="carreau_set_vertex_sizes")
       import :: c_double, c_int32_t, c_int64_t, c_ptr
       implicit none

@@ -598,8 +598,8 @@ typedef struct carreau_background {
 /* Takes arrays in place of files. */
 CARREAU_API carreau_status carreau_set_background(carreau_session* session, const carreau_background* background);
 
-/* Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh. Each face is looked up in its own
- * parameter plane. */
+/* Set n sizes, or n metrics (n x 6), at the n vertices of the session's own mesh; of elements of second order at all nodes,
+ * or at their corners, which come first. Each face is looked up in its own parameter plane. */
 CARREAU_API carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double sizes[]);
 CARREAU_API carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double metrics[]);
 
@@ -649,7 +649,8 @@ typedef struct carreau_estimator {
  * carreau_set_vertex_sizes or carreau_set_vertex_metrics. With ISOTROPIC, out_sizes (n) or out_metrics (n x 6) may be
  * NULL. Otherwise out_metrics is needed, and out_sizes is the smallest size of each. On fronts much steeper than long,
  * set the parameter gradation (to 2, say): sizes that jump between neighbours hide the bends of a front from the fit of
- * its values. Errors: ARGUMENT, SEQUENCE. */
+ * its values. On elements of second order n is the number of all nodes, or that of corners alone: sizes are those of straight
+ * elements in either case, so that quadratic ones carry the field with a smaller error. Errors: ARGUMENT, SEQUENCE. */
 CARREAU_API carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
                                             const double values[], double out_sizes[], double out_metrics[]);
 
@@ -691,7 +692,8 @@ typedef struct carreau_adaptation {
   double convergence;  /* ends when the number of triangles changes by a smaller share; 0: makes all iterations */
 } carreau_adaptation;
 
-/* What a loop did. An error of the field is its distance from its linear interpolation on the mesh. */
+/* What a loop did. An error of the field is its distance from its interpolation on the mesh: linear, or, on elements of second
+ * order, by their shape functions; vertices are all nodes then. */
 typedef struct carreau_adaptation_report {
   size_t struct_size;
   int32_t iterations; /* meshes made, without the one that it started with */

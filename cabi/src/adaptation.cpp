@@ -50,18 +50,7 @@ const SurfaceMesh& mesh_of(const carreau_session& handle) {
   return handle.session.mesh();
 }
 
-/// Throws unless `n` is the number of vertices of the mesh.
-std::size_t checked_rows(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
-  if (n >= 0 && std::uint64_t(n) == mesh.vertices.size()) return mesh.vertices.size();
-  throw InvalidArgument("there are " + std::to_string(n) + " rows, but the " + which + " has " +
-                        std::to_string(mesh.vertices.size()) +
-                        (mesh.mid_vertices.empty() ? " vertices"
-                                                   : " corners of elements of second order, its first vertices: what "
-                                                     "is not carried from mesh to mesh belongs to corners, not to "
-                                                     "nodes on edges"));
-}
-
-/// The same of a field that may be given at all nodes, too.
+/// Throws unless `n` is the number of nodes of the mesh, or that of its corners.
 std::size_t checked_nodes(std::int64_t n, const SurfaceMesh& mesh, const char* which) {
   const std::size_t nodes = carreau::node_count(mesh), corners = mesh.vertices.size();
   if (n >= 0 && (std::uint64_t(n) == nodes || std::uint64_t(n) == corners)) return static_cast<std::size_t>(n);
@@ -188,7 +177,7 @@ carreau_status carreau_set_background(carreau_session* session, const carreau_ba
 
 carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, const double* sizes) {
   return guarded(session, [&] {
-    const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
+    const std::size_t rows = checked_nodes(n, mesh_of(*session), "mesh");
     required(sizes, "sizes");
     use_background(*session, carreau::background_of(session->session,
                                                     {.sizes = {sizes, sizes + rows}, .space = {}, .parameter = {}}));
@@ -197,7 +186,7 @@ carreau_status carreau_set_vertex_sizes(carreau_session* session, int64_t n, con
 
 carreau_status carreau_set_vertex_metrics(carreau_session* session, int64_t n, const double* metrics) {
   return guarded(session, [&] {
-    const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
+    const std::size_t rows = checked_nodes(n, mesh_of(*session), "mesh");
     use_background(
         *session,
         carreau::background_of(
@@ -224,7 +213,7 @@ carreau_status carreau_session_background(carreau_session* session, carreau_back
 carreau_status carreau_estimate(carreau_session* session, const carreau_estimator* estimator, int64_t n,
                                 const double* values, double* out_sizes, double* out_metrics) {
   return guarded(session, [&] {
-    const std::size_t rows = checked_rows(n, mesh_of(*session), "mesh");
+    const std::size_t rows = checked_nodes(n, mesh_of(*session), "mesh");
     const EstimatorOptions options = options_of(estimator);
     if (out_sizes == nullptr && out_metrics == nullptr)
       throw InvalidArgument("neither out_sizes nor out_metrics is given: there is no place for the result");

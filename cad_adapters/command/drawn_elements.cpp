@@ -8,8 +8,6 @@
 namespace command {
 namespace {
 
-constexpr int pieces = 6;  // of a curved side
-
 /// Sum of nodes times weights.
 Point sum(const std::array<Point, 8>& x, const std::array<double, 8>& weights) {
   Point p{};
@@ -50,12 +48,13 @@ double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0],
 
 }  // namespace
 
-std::vector<DrawnTriangle> drawn(const Element& element, const std::array<Point, 8>& x) {
+std::vector<DrawnTriangle> drawn(const Element& element, const std::array<Point, 8>& x, int pieces) {
   const int n = element.is_curved() ? pieces : 1;
   const bool quad = element.corners() == 4;
   std::vector<DrawnTriangle> triangles;
   const auto add = [&](Place a, Place b, Place c) {
     DrawnTriangle triangle{};
+    triangle.half = quad && a[0] + b[0] + c[0] < a[1] + b[1] + c[1] ? 1 : 0;
     const std::array<Place, 3> places{a, b, c};
     for (std::size_t k = 0; k < 3; ++k) {
       triangle.corners[k] = at(element.kind, x, double(places[k][0]) / n, double(places[k][1]) / n);

@@ -7,6 +7,7 @@
 
 #include "adapt/thresholds.h"
 #include "mesh/elements/jacobian.h"
+#include "support/infinity.h"
 
 namespace carreau {
 
@@ -80,17 +81,21 @@ CurvedElements::Place CurvedElements::place_in(std::int32_t c, const Vec3& p, bo
   const std::span<const Vec3> x = nodes_of(cell, in_space || uv_.empty() ? xyz_[c] : uv_[c]);
   const double third = 1.0 / 3, start = corner_count(cell.kind) == 3 ? third : 0.5;
   Place place{c, start, start, 0};
+  double step = infinity;
   for (int k = 0; k < most_newton_steps; ++k) {
     const double s = place.s, t = place.t;
     const auto at = [&](double ds, double dt) { return point_of_cell(cell.kind, x, s + ds, t + dt); };
     const Vec3 by_s = at(0.5, 0) - at(-0.5, 0), by_t = at(0, 0.5) - at(0, -0.5), d = p - at(0, 0);
     const double a = dot(by_s, by_s), b = dot(by_s, by_t), e = dot(by_t, by_t), det = a * e - b * b;
+    step = infinity;
     if (!(det > 0)) break;
     const double f = dot(by_s, d), g = dot(by_t, d), ds = (e * f - b * g) / det, dt = (a * g - b * f) / det;
     place.s = std::clamp(s + ds, -1.0, 2.0), place.t = std::clamp(t + dt, -1.0, 2.0);
-    if (std::max(std::abs(place.s - s), std::abs(place.t - t)) < newton_rounding) break;
+    step = std::max(std::abs(place.s - s), std::abs(place.t - t));
+    if (step < newton_rounding) break;
   }
-  place.inside = least_coordinate(cell.kind, place.s, place.t);
+  // Far from p the element may fold on the way, and where it stops then p is not.
+  place.inside = step < newton_arrived ? least_coordinate(cell.kind, place.s, place.t) : -infinity;
   return place;
 }
 

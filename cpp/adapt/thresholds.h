@@ -31,6 +31,9 @@ inline constexpr double place_rounding = 1e-14;
 /// [CurvedTransfer.IsExactForQuadraticsInAPlane]
 inline constexpr int most_newton_steps = 20;
 inline constexpr double newton_rounding = 1e-14;
+/// The same: a last step of more has not arrived. On surfaces steps shrink by a factor each, not quadratically.
+/// [CurvedTransfer.ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFields]
+inline constexpr double newton_arrived = 1e-3;
 /// Coordinates of the reference. So far beside its element the polynomial of a field is taken: the sagitta of a curved
 /// border, of which an edge of 90 degrees has a fifth. [CurvedTransfer.IsOfThirdOrderOnSurfaces]
 inline constexpr double most_beside = 0.2;

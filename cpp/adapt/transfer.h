@@ -41,5 +41,9 @@ struct InterpolationError {
 };
 /// Throws what check_field throws; InvalidArgument when the function returns a number that is not finite.
 InterpolationError interpolation_error(const ScalarField& field, const FieldFunction& exact);
+/// The same of a field on all nodes (node_count) of elements of second order, interpolated by their shape functions: at the
+/// centres and the middles of edges of a quarter of each, for the root mean square of the middles, over the straight triangles.
+/// Throws InvalidArgument unless the mesh has elements, all of second order, and values fit, are finite and not too large.
+InterpolationError interpolation_error(const SurfaceMesh& mesh, std::span<const double> values, const FieldFunction& exact);
 
 }  // namespace carreau

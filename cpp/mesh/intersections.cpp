@@ -144,10 +144,33 @@ bool intersect(const Corners& s, const Corners& t, int axis, Vec3& place) noexce
   return true;
 }
 
+using Indices = std::array<std::int32_t, 3>;
+
+/// Whether a plane of parted_by_edges_of() along an edge of s that ends at a vertex of both does part them: nearly all
+/// neighbours lie so. `inside`: how s is turned, seen along the axis.
+bool parted_at_neighbour(std::span<const Vec3> vertices, const Indices& s, const Indices& t, int axis,
+                         int inside) noexcept {
+  int in_t = 0, in_s = 0;  // bits of corners of t that s has, of s that t has
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (s[i] == t[j]) in_s |= 1 << i, in_t |= 1 << j;
+  if (in_s == 0) return false;
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t from = s[(k + 1) % 3], to = s[(k + 2) % 3];
+    if ((in_s & ~(1 << k)) == 0 || (in_s >> k & 1) != 0) continue;  // an end is common, and the corner before it is not
+    const auto beyond = [&](int j) {
+      return (in_t >> j & 1) != 0 || turn(axis, vertices[from], vertices[to], vertices[t[j]]) == -inside;
+    };
+    if (beyond(0) && beyond(1) && beyond(2)) return true;
+  }
+  return false;
+}
+
 /// What of a mesh can be asked.
 struct SoundTriangles {
   std::vector<std::int32_t> numbers;
-  std::vector<std::int8_t> axis;  // of axis_of, by triangle of the whole mesh
+  // By triangle of the whole mesh: of axis_of(); how it is turned, seen along that axis.
+  std::vector<std::int8_t> axis, inside;
 };
 
 Corners corners_of(std::span<const Vec3> vertices, const std::array<std::int32_t, 3>& t) noexcept {
@@ -162,7 +185,7 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
   };
   constexpr std::size_t at_once = 16384;
   SoundTriangles sound;
-  sound.axis.assign(triangles.size(), no_axis);
+  sound.axis.assign(triangles.size(), no_axis), sound.inside.assign(triangles.size(), 0);
   const std::size_t parts = (triangles.size() + at_once - 1) / at_once;
   std::vector<std::size_t> count(parts, 0);
   const auto look = [&](std::size_t part, Monitor&) {
@@ -170,7 +193,9 @@ SoundTriangles sound_triangles(std::span<const Vec3> vertices, std::span<const s
       const auto& t = triangles[i];
       if (!usable(t[0]) || !usable(t[1]) || !usable(t[2])) continue;
       sound.axis[i] = static_cast<std::int8_t>(axis_of(corners_of(vertices, t)));
-      if (sound.axis[i] != no_axis) ++count[part];
+      if (sound.axis[i] == no_axis) continue;
+      sound.inside[i] = static_cast<std::int8_t>(turn(sound.axis[i], vertices[t[0]], vertices[t[1]], vertices[t[2]]));
+      ++count[part];
     }
   };
   run_each(parts, false, threads, look, monitor);
@@ -226,6 +251,7 @@ Intersections find_intersections(std::span<const Vec3> vertices, std::span<const
   const auto ask = [&](std::size_t part, Monitor&) {
     FirstPairs first(options.limit, of_part[part]);
     near.each(part, [&](std::size_t i, std::size_t j) {
+      if (parted_at_neighbour(vertices, triangles[i], triangles[j], sound.axis[i], sound.inside[i])) return;
       Vec3 place;
       if (intersect(corners_of(vertices, triangles[i]), corners_of(vertices, triangles[j]), sound.axis[i], place))
         first.add({{static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)}, place});

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/places.h"
+#include "support/box_tree.h"
 #include "support/infinity.h"
 #include "support/segment.h"
 
@@ -12,6 +13,36 @@ namespace carreau {
 namespace {
 // Segments on either side of the nearest one of a point, among which that of the next point is looked for first.
 constexpr std::size_t beside = 2;
+
+/// Boxes around runs of segments of a trace: what cannot be near is passed over, and no distance found differs by that.
+class Runs {
+ public:
+  explicit Runs(std::span<const Vec3> trace) {
+    for (std::size_t first = 1; first < trace.size(); first += length) {
+      BoxTree::Box& box = boxes_.emplace_back();
+      for (std::size_t i = first - 1; i < std::min(first + length, trace.size()); ++i) box.add(trace[i]);
+    }
+    double largest = 0;
+    for (const BoxTree::Box& box : boxes_)
+      largest = std::max({largest, box.low.cwiseAbs().maxCoeff(), box.high.cwiseAbs().maxCoeff()});
+    rounding2_ = rounding * largest * (rounding * largest);
+  }
+
+  /// Calls look(first, last) for the ends of segments that may be nearer to p than the root of best.
+  template <typename Look>
+  void each_near(const Vec3& p, std::size_t points, const double& best, const Look& look) const {
+    for (std::size_t k = 0; k < boxes_.size(); ++k)
+      if (boxes_[k].squared_distance(p) <= (1 + wider) * best + rounding2_)
+        look(1 + k * length, std::min(1 + (k + 1) * length, points));
+  }
+
+ private:
+  static constexpr std::size_t length = 16;
+  // Far above the rounding of squared distances, and of coordinates.
+  static constexpr double wider = 1e-5, rounding = 1e-11;
+  std::vector<BoxTree::Box> boxes_;
+  double rounding2_ = 0;
+};
 }  // namespace
 
 void check_traces(const Model& model, const CurveTraces& traces) {
@@ -62,6 +93,7 @@ TracePlace nearest_on_trace(std::span<const Vec3> trace, const Vec3& p) {
 double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, double enough, double negligible) {
   double worst = negligible;
   std::size_t nearest = 1;  // segment that ends there: near the next point too, as a rule
+  const Runs runs(to);
   for (const Vec3& p : from) {
     double best = infinity;
     // A point that is no farther than another one was does not matter.
@@ -72,7 +104,7 @@ double one_sided_distance(std::span<const Vec3> from, std::span<const Vec3> to, 
       }
     };
     look(std::max(nearest, beside + 1) - beside, std::min(nearest + beside, to.size()));
-    look(1, to.size());
+    runs.each_near(p, to.size(), best, look);
     worst = std::max(worst, std::sqrt(best));
     if (worst > enough) return worst;
   }

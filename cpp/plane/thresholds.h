@@ -323,6 +323,10 @@ inline constexpr double square_height = 0.6;
 inline constexpr double large_square_radius = 1;
 /// Length of the mean of the crosses of two imposed edges that meet. Below, the corner does not tell a direction.
 inline constexpr double least_cross = 0.7;
+/// Units. Edges of the mesh that carries crosses, away from the boundary: they are smooth there.
+inline constexpr double background_size = 1.6;
+/// Triangles expected. In smaller domains crosses turn too much within such an edge.
+inline constexpr double many_for_background = 4000;
 /// Nodes of the coarsest level, and sweeps on the others.
 inline constexpr std::size_t coarsest_crosses = 50;
 inline constexpr int cross_sweeps = 6;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/elements/over_nodes.h"
 #include "session/bounds_of_sizes.h"
 #include "support/format.h"
 
@@ -11,12 +12,18 @@ namespace carreau {
 
 namespace {
 
-/// Fields belong to corners: without nodes on edges.
+/// Of corners alone: without nodes on edges.
 FlatMesh straight_mesh(const SurfaceMesh& mesh) {
   FlatMesh flat = flatten(mesh, false);
   flat.vertices.resize(mesh.vertices.size());
   flat.cells.clear();
   return flat;
+}
+
+/// What has `rows` values: all nodes, or corners alone.
+FlatMesh straight_mesh(const SurfaceMesh& mesh, std::size_t rows) {
+  if (mesh.mid_vertices.empty() || rows != node_count(mesh)) return straight_mesh(mesh);
+  return flatten(straight_over_nodes(mesh), false);
 }
 
 EstimatorOptions with_bounds(Session& session, EstimatorOptions options) {
@@ -65,14 +72,16 @@ class Loop {
  private:
   /// Evaluates the field on the session's mesh and measures.
   void look(SizeRange range) {
-    const FlatMesh mesh = straight_mesh(session_.mesh());
+    const SurfaceMesh& own = session_.mesh();
+    const FlatMesh mesh = straight_mesh(own, node_count(own));
     values_.resize(mesh.vertices.size());
     field_(mesh.vertices, values_);
     monitor_.checkpoint();
     AdaptationStep step;
     step.vertices = static_cast<std::int64_t>(mesh.vertices.size());
-    step.triangles = static_cast<std::int64_t>(mesh.triangles.size());
-    step.error = interpolation_error({mesh.vertices, mesh.triangles, values_}, field_);
+    step.triangles = static_cast<std::int64_t>(own.triangle_count());
+    step.error = own.mid_vertices.empty() ? interpolation_error({mesh.vertices, mesh.triangles, values_}, field_)
+                                          : interpolation_error(own, values_, field_);
     if (!report_.steps.empty()) {
       step.smallest_size = range.low;
       step.largest_stretch = range.stretch;
@@ -97,16 +106,19 @@ class Loop {
 }  // namespace
 
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values) {
-  return std::make_shared<BackgroundField>(session.mesh(), std::move(values));
+  const SurfaceMesh& mesh = session.mesh();
+  if (!mesh.mid_vertices.empty() && values.size() == node_count(mesh))
+    return std::make_shared<BackgroundField>(straight_over_nodes(mesh), std::move(values));
+  return std::make_shared<BackgroundField>(mesh, std::move(values));
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options) {
-  const FlatMesh mesh = straight_mesh(session.mesh());
+  const FlatMesh mesh = straight_mesh(session.mesh(), values.size());
   return estimate({mesh.vertices, mesh.triangles, values}, with_bounds(session, options));
 }
 
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options) {
-  const FlatMesh mesh = straight_mesh(session.mesh());
+  const FlatMesh mesh = straight_mesh(session.mesh(), node_count(session.mesh()));
   return estimate_function(mesh.vertices, mesh.triangles, field, with_bounds(session, options));
 }
 

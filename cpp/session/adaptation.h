@@ -14,12 +14,14 @@
 
 namespace carreau {
 
-/// The session's mesh with sizes or metrics at its vertices, to be used for the next one.
+/// The session's mesh with sizes or metrics at its vertices, to be used for the next one: of elements of second order at all
+/// nodes (node_count), or at their corners alone.
 std::shared_ptr<BackgroundField> background_of(const Session& session, VertexValues values);
 
-/// Sizes or metrics from values at the vertices of the session's mesh. Bounds of 0 are replaced by hphymin and hphymax.
+/// Sizes or metrics from values at the vertices of the session's mesh; of elements of second order at all nodes, or at their
+/// corners alone: sizes of straight elements in either case. Bounds of 0 are replaced by hphymin and hphymax.
 VertexPrescriptions estimate_on_mesh(Session& session, std::span<const double> values, EstimatorOptions options);
-/// The same from the field itself: see estimate_function().
+/// The same from the field itself, at all nodes: see estimate_function().
 VertexPrescriptions estimate_on_mesh(Session& session, const FieldFunction& field, EstimatorOptions options);
 
 struct AdaptationOptions {

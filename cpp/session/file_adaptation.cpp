@@ -13,6 +13,7 @@
 #include "io/medit/sol_files.h"
 #include "io/mesh_files.h"
 #include "io/plane/plane_files.h"
+#include "mesh/elements/over_nodes.h"
 #include "mesh/simplices/simplices.h"
 #include "metric/metric2_algebra.h"
 #include "metric/metric3_algebra.h"
@@ -297,7 +298,7 @@ std::vector<Metric3> read_metrics(const std::string& sol_path, std::size_t verti
 
 std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, const std::string& sol_path,
                                                  bool one_plane) {
-  const FlatMesh flat = read_mesh(mesh_path);
+  const FlatMesh flat = straight_over_nodes(read_mesh(mesh_path));
   const Solution solution = read_prescription(sol_path);
   check_elements(flat, mesh_path);
   if (solution.dimension != flat.dimension)
@@ -309,7 +310,7 @@ std::shared_ptr<BackgroundField> read_background(const std::string& mesh_path, c
 
 std::shared_ptr<BackgroundField> background_of_fields(Session& session, const std::string& mesh_path,
                                                       const std::string& sol_path) {
-  FlatMesh mesh = read_carrier(mesh_path);
+  FlatMesh mesh = straight_over_nodes(read_carrier(mesh_path));
   const bool one_plane = session.model().plane;
   const Solution fields = read_fields(sol_path, mesh, mesh_path);
   if (is_metric(fields)) return field_of(mesh, one_plane, metrics_of(sol_path, mesh.dimension, mesh_path));
@@ -331,7 +332,9 @@ namespace {
 /// What `call adapt` starts from.
 struct Start {
   bool own = false;  ///< the session's mesh
-  FlatMesh mesh;
+  FlatMesh mesh;     ///< straight, over all nodes
+  SurfaceMesh from;  ///< with its elements
+  std::vector<double> values;  ///< at the nodes of `from`
   Solution fields;
   std::string sol_path;
 };
@@ -347,12 +350,11 @@ Start start_of(Session& session) {
   if (mesh_path.empty() && !session.has_mesh())
     throw InvalidArgument("call adapt needs a mesh: none was made yet, and the parameter adapt_mesh names no file");
   start.own = mesh_path.empty();
-  start.mesh = start.own ? flatten(session.mesh(), false) : read_carrier(mesh_path);
-  if (start.mesh.is_quadratic())
-    throw InvalidArgument(
-        "call adapt: the mesh of the field has elements of second order; a field belongs to the vertices of straight "
-        "ones (element p1, q1.0 or q1.1)");
-  start.fields = read_fields(start.sol_path, start.mesh, start.own ? "the mesh made last" : mesh_path);
+  const FlatMesh mesh = start.own ? flatten(session.mesh(), false) : read_carrier(mesh_path);
+  start.fields = read_fields(start.sol_path, mesh, start.own ? "the mesh made last" : mesh_path);
+  start.from = start.own ? session.mesh() : surface_of(mesh, session.model());
+  start.values = start.own ? start.fields.values : with_nodes_on_edges(mesh, start.fields.values, start.fields.components());
+  start.mesh = straight_over_nodes(mesh);
   if (!is_metric(start.fields)) keep_triangles(start.mesh);
   return start;
 }
@@ -372,7 +374,6 @@ void adapt_by_files(Session& session, Monitor& monitor) {
   const std::string out_path = parameters.text("adapt_out");
   const bool plane = session.model().plane;
   const bool in_space = start.own || start.mesh.dimension == 3;
-  const SurfaceMesh from = start.own ? session.mesh() : surface_of(start.mesh, session.model());
   const NoBackgroundAfterwards afterwards(session);
   if (is_metric(start.fields) && !in_space) {
     session.set_background(field_of(start.mesh, plane, metrics_of(start.sol_path, 2, "its mesh")));
@@ -388,7 +389,7 @@ void adapt_by_files(Session& session, Monitor& monitor) {
   }
   if (out_path.empty()) return;
   if (const std::int64_t outside =
-          write_transferred(session, from, start.fields.values, start.fields, start.sol_path, out_path);
+          write_transferred(session, start.from, start.values, start.fields, start.sol_path, out_path);
       outside > 0)
     monitor.message(Level::warning, std::to_string(outside) + " vertices lie outside of the mesh of the field " +
                                         "and have the nearest value");

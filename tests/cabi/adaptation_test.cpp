@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Background meshes, estimators, transfer and the loop of adaptation through the interface.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <random>
 
 #include "abi_fixture.h"
@@ -386,6 +388,82 @@ TEST_F(Adaptation, EstimatesOfAQuadraticAreExact) {
   EXPECT_EQ(carreau_estimate(session, &estimator, n, values.data(), sizes.data(), metrics.data()),
             CARREAU_ERR_ARGUMENT);
   EXPECT_EQ(error(), "estimator->source is 3; it must be 0, 1 or 2");
+}
+
+// A file of values at all nodes of the mesh that was made last.
+TEST_F(Adaptation, ElementsOfSecondOrderAreAdaptedByValuesAtAllTheirNodes) {
+  for (const char* element : {"p2", "q2.0", "q2.1"}) {
+    set("hphydef", 0.2);
+    ASSERT_EQ(carreau_set_text(session, "element", element), CARREAU_OK);
+    const auto before = run();
+    const auto n = before.vertex_count();
+    std::vector<double> values, sizes(n);
+    std::string text = "MeshVersionFormatted 2\nDimension 3\nSolAtVertices " + std::to_string(n) + "\n1 1\n";
+    for (std::size_t v = 0; v < n; ++v) {
+      values.push_back(std::pow(before.xyz[3 * v], 2));
+      text += std::to_string(values.back()) + "\n";
+    }
+    file("p.sol", text + "End\n");
+    auto estimator = abi_tests::sized<carreau_estimator>();
+    estimator.tolerance = 0.01, estimator.hmin = 1e-3, estimator.hmax = 10;
+    ASSERT_EQ(carreau_estimate(session, &estimator, int64_t(n), values.data(), sizes.data(), nullptr), CARREAU_OK) << error();
+    for (const double h : sizes) EXPECT_NEAR(h, std::sqrt(4.5 * 0.01 / 2), 1e-7) << element;
+    const std::string env =
+        std::string("element ") + element +
+        " adapt_sol p.sol adapt_out moved.sol adapt_tolerance 0.005 adapt_hmin 0.01 adapt_hmax 1\ncall adapt\n";
+    ASSERT_EQ(carreau_run_env(session, file("blsurf.env", env).c_str()), CARREAU_OK) << element << error();
+    const auto now = abi_tests::data_of(mesh());
+    // All edges are as long as is wanted between straight nodes, 0.106, and values at all nodes are those of the field.
+    EXPECT_NEAR(double(now.triangle_count()) / wanted([](double) { return 4.5 * 0.005 / 2; }), 1, 0.25) << element;
+    std::ifstream moved(folder / "moved.sol");
+    std::string word;
+    while (moved >> word && word != "SolAtVertices") {
+    }
+    std::size_t count = 0;
+    int one = 0, type = 0;
+    moved >> count >> one >> type;
+    ASSERT_EQ(count, now.vertex_count()) << element;
+    EXPECT_GT(count, now.triangle_count());  // there are nodes on edges
+    for (std::size_t v = 0; v < count; ++v) {
+      double value = 0;
+      moved >> value;
+      EXPECT_NEAR(value, std::pow(now.xyz[3 * v], 2), 2e-3) << element;  // Q2 on cells that are no parallelograms
+    }
+  }
+}
+
+TEST_F(Adaptation, SizesAtAllNodesAreFollowed) {
+  ASSERT_EQ(carreau_set_text(session, "element", "p2"), CARREAU_OK);
+  const auto before = run();
+  std::vector<double> sizes;
+  for (std::size_t v = 0; v < before.vertex_count(); ++v) sizes.push_back(0.15 + 0.05 * before.xyz[3 * v]);
+  ASSERT_EQ(carreau_set_vertex_sizes(session, int64_t(sizes.size()), sizes.data()), CARREAU_OK) << error();
+  const auto now = run();
+  EXPECT_NEAR(double(now.triangle_count()) / wanted([](double x) { return std::pow(0.15 + 0.05 * x, 2); }), 1, 0.1);
+  EXPECT_EQ(background_report().outside, 0);
+  EXPECT_EQ(carreau_set_vertex_sizes(session, int64_t(now.vertex_count()) - 1, sizes.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_NE(error().find("nodes with those on edges"), std::string::npos) << error();
+}
+
+// Of a cubic the error falls by eight a halving of elements of second order, by four of straight ones.
+TEST_F(Adaptation, TheLoopMeasuresCurvedElementsByTheirShapeFunctions) {
+  Field field{[](double x, double) { return x * x * x; }};
+  std::map<std::string, std::array<double, 2>> errors;
+  for (const char* element : {"p1", "p2"})
+    for (const int k : {0, 1}) {
+      ASSERT_EQ(carreau_set_text(session, "element", element), CARREAU_OK);
+      const double h = k == 0 ? 0.2 : 0.1;
+      auto estimator = abi_tests::sized<carreau_estimator>();
+      estimator.hmin = h, estimator.hmax = h * (1 + 1e-9);  // the estimate says nothing more
+      carreau_adaptation a = adaptation(estimator, field);
+      a.iterations = 1;
+      auto report = abi_tests::sized<carreau_adaptation_report>();
+      ASSERT_EQ(carreau_adapt(session, &a, &report), CARREAU_OK) << error();
+      EXPECT_EQ(report.vertices, int64_t(abi_tests::data_of(mesh()).vertex_count()));
+      errors[element][k] = report.error_rms;
+    }
+  EXPECT_NEAR(std::log2(errors["p1"][0] / errors["p1"][1]), 2, 0.35);
+  EXPECT_NEAR(std::log2(errors["p2"][0] / errors["p2"][1]), 3, 0.35);
 }
 
 TEST_F(Adaptation, TheLoopHalvesTheErrorWithTheTolerance) {

@@ -187,8 +187,9 @@ TEST_F(SessionTest, WhatElementsCannotDoIsTold) {
   std::int64_t vertices = 0;
   ASSERT_EQ(carreau_mesh_count(mesh(), &vertices, nullptr, nullptr, nullptr), CARREAU_OK);
   const std::vector<double> sizes(std::size_t(vertices), 0.5);
-  EXPECT_EQ(carreau_set_vertex_sizes(session, vertices, sizes.data()), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_set_vertex_sizes(session, vertices - 1, sizes.data()), CARREAU_ERR_ARGUMENT);
   EXPECT_NE(error().find("corners"), std::string::npos) << error();
+  EXPECT_EQ(carreau_set_vertex_sizes(session, vertices, sizes.data()), CARREAU_OK) << error();  // at all nodes
 }
 
 }  // namespace

@@ -211,6 +211,24 @@ class Pages(unittest.TestCase):
         self.click(0.5 * self.browser.driver.find_element(By.ID, "canvas").rect["width"], 10)
         self.assertEqual(self.browser.run("return viewer.renderer.drawCalls"), 1)
 
+    def test_a_curved_element_is_picked_whole(self):
+        h = math.sqrt(0.5)
+        points = [(1, 0), (0, 1), (0, 0), (-1, 0), (h, h), (0, 0.5), (0.5, 0), (-h, h), (-0.5, 0)]
+        with open(self.path("disc.mesh"), "w") as file:
+            file.write("MeshVersionFormatted 2\nDimension 3\nVertices 9\n" + "".join(f"{x!r} {y!r} 0 0\n" for x, y in points) +
+                       "TrianglesP2 2\n1 2 3 5 6 7 1\n2 4 3 8 9 6 1\nEnd\n")
+        subprocess.run([PROGRAM, "report", "disc.mesh", "-o", "disc.html"], cwd=self.home, check=True, timeout=300)
+        self.open("disc.html")
+        self.look_from("top")
+        # Between the chord and the arc, where no straight triangle is.
+        place = ("const [right, up] = viewer.camera.project([arguments[0], 0.6, 0]), half = viewer.canvas.clientHeight / 2;"
+                 "return [viewer.canvas.clientWidth / 2 + right * half, half - up * half];")
+        for x, triangle in ((0.6, "1"), (-0.6, "2")):
+            self.click(*self.browser.run(place, x))
+            self.browser.frames()
+            self.assertEqual(self.picked()["Triangle"], triangle)
+        self.picture("curved")
+
     def test_slow_pictures_lead_to_less_and_fast_ones_back(self):
         self.open("plates.html")
         levels = self.browser.run("""

@@ -14,7 +14,7 @@ import tempfile
 import unittest
 
 import mesh_files
-from report_files import Page
+from report_files import Page, triples
 
 PROGRAM, TEAPOT = sys.argv[1:3]
 STYLE = os.path.join(os.path.dirname(__file__), "../../cad_adapters/command/report/viewer/style.css")
@@ -37,6 +37,18 @@ def solids(*names):
         text += f"solid {name}\n" + "".join("facet normal 0 0 1\nouter loop\n" + "".join("vertex %d %d %d\n" % p for p in facet) +
                                             "endloop\nendfacet\n" for facet in facets) + f"endsolid {name}\n"
     return text
+
+
+def area_in_plane(a, b, c):
+    return ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2
+
+
+def curved_half_disc():
+    """Medit: two triangles of six nodes over a quarter of a circle each."""
+    h = math.sqrt(0.5)
+    points = [(1, 0), (0, 1), (0, 0), (-1, 0), (h, h), (0, 0.5), (0.5, 0), (-h, h), (-0.5, 0)]
+    return ("MeshVersionFormatted 2\nDimension 3\nVertices 9\n" + "".join(f"{x!r} {y!r} 0 0\n" for x, y in points) +
+            "TrianglesP2 2\n1 2 3 5 6 7 1\n2 4 3 8 9 6 1\nEnd\n")
 
 
 class Folder(unittest.TestCase):
@@ -232,9 +244,35 @@ class Reports(Folder):
                 self.assertEqual((hidden[i + 1], qualities[i]), (1, qualities[i + 1]))
         self.assertIn("drawn as two triangles", page.text)
 
-    def test_curved_elements_are_told(self):
-        self.run_carreau("mesh", TEAPOT, "-o", "p.html", "--size", "0.5", "--element", "p2")
-        self.assertIn("Elements of order 2 are drawn straight", Page(self.path("p.html")).text)
+    def test_curved_elements_are_drawn_curved(self):
+        self.write("disc.mesh", curved_half_disc())
+        page = self.report("disc.mesh")
+        self.assertIn("Elements of order 2 are drawn curved", page.text)
+        self.assertEqual(len(page.triangles()), 2)
+        points, owners = page.positions(), page.array("piece-triangle")
+        pieces = triples(page.array("piece-corners"))
+        self.assertEqual((owners, len(pieces)), ([0] * 16 + [1] * 16, 32))
+        self.assertTrue(all(area_in_plane(*(points[v] for v in piece)) > 0 for piece in pieces))
+        straight = sum(area_in_plane(*(points[v] for v in t)) for t in page.triangles())
+        curved = sum(area_in_plane(*(points[v] for v in piece)) for piece in pieces)
+        exact = 1 + 2 * 2 / 3 * (math.sqrt(2) * (1 - math.sqrt(0.5)))  # two parabolas over chords of length sqrt 2
+        self.assertAlmostEqual(straight, 1, delta=1e-3)
+        self.assertAlmostEqual(exact - curved, (exact - 1) / 16, delta=1e-3)  # of a parabola exactly
+        sides = page.array("piece-sides")
+        self.assertEqual(sum((bits >> 3).bit_count() for bits in sides), 3 * 32 - 6 * 4)  # all but those of six sides of elements
+
+    def test_curved_quadrilaterals_have_pieces_of_both_halves(self):
+        self.run_carreau("mesh", TEAPOT, "-o", "q.html", "--size", "0.5", "--element", "q2.1")
+        page = Page(self.path("q.html"))
+        owners, hidden = page.array("piece-triangle"), [bits >> 3 for bits in page.array("sides")]
+        self.assertEqual(owners, sorted(owners))
+        self.assertEqual([owners.count(t) for t in range(0, len(hidden), 97)], [16] * len(range(0, len(hidden), 97)))
+        self.assertEqual((hidden.count(4), hidden.count(1)), (len(hidden) / 2, len(hidden) / 2))
+        pieces, triangles = triples(page.array("piece-corners")), page.triangles()
+        for t in range(0, len(hidden), 97):  # of their own half
+            mine = {v for piece, owner in zip(pieces, owners) if owner == t for v in piece}
+            self.assertEqual(len(mine), 15)
+            self.assertLessEqual(set(triangles[t]), mine)
 
     def test_a_square_is_worth_one(self):
         self.write("q.mesh", "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\nQuadrilaterals 1\n1 2 3 4 7\nEnd\n")

@@ -8,6 +8,7 @@
 
 #include "colour_scale.h"
 #include "face_colours.h"
+#include "report/curved_pieces.h"
 #include "report/packing.h"
 #include "view.h"
 
@@ -53,14 +54,16 @@ double shortest_side(const MeshArrays& mesh) {
 }
 
 /// 16 bits; 24 where the shortest side would be less than 16 quanta.
-Box box_of(const MeshArrays& mesh) {
+Box box_of(const MeshArrays& mesh, const std::vector<Point>& more) {
   Point high{};
   Box box;
   box.low.fill(HUGE_VAL), high.fill(-HUGE_VAL);
+  const auto hold = [&](const Point& p) {
+    for (std::size_t x = 0; x < 3; ++x) box.low[x] = std::min(box.low[x], p[x]), high[x] = std::max(high[x], p[x]);
+  };
   for (const auto& t : mesh.triangles)
-    for (const std::int32_t v : t)
-      for (std::size_t x = 0; x < 3; ++x)
-        box.low[x] = std::min(box.low[x], mesh.vertices[v][x]), high[x] = std::max(high[x], mesh.vertices[v][x]);
+    for (const std::int32_t v : t) hold(mesh.vertices[v]);
+  for (const Point& p : more) hold(p);
   double widest = 0;
   for (std::size_t x = 0; x < 3; ++x) widest = std::max(widest, high[x] - box.low[x]);
   constexpr double quanta_of_a_side = 16;
@@ -70,20 +73,21 @@ Box box_of(const MeshArrays& mesh) {
 }
 
 /// Vertices that no triangle has may lie outside of the box: they are moved onto it.
-std::vector<std::uint32_t> positions(const MeshArrays& mesh, const Box& box) {
+std::vector<std::uint32_t> positions(const MeshArrays& mesh, const std::vector<Point>& more, const Box& box) {
   const double most = box.bytes == 2 ? 0xffff : 0xffffff;
   std::vector<std::uint32_t> numbers;
-  for (const Point& p : mesh.vertices)
-    for (std::size_t x = 0; x < 3; ++x) {
-      const double q = box.quantum[x] > 0 ? (p[x] - box.low[x]) / box.quantum[x] : 0;
-      numbers.push_back(static_cast<std::uint32_t>(std::lround(std::clamp(q, 0.0, most))));
-    }
+  for (const std::vector<Point>* points : {&mesh.vertices, &more})
+    for (const Point& p : *points)
+      for (std::size_t x = 0; x < 3; ++x) {
+        const double q = box.quantum[x] > 0 ? (p[x] - box.low[x]) / box.quantum[x] : 0;
+        numbers.push_back(static_cast<std::uint32_t>(std::lround(std::clamp(q, 0.0, most))));
+      }
   return numbers;
 }
 
-std::vector<std::uint32_t> corners(const MeshArrays& mesh) {
+std::vector<std::uint32_t> corners(const std::vector<std::array<std::int32_t, 3>>& triangles) {
   std::vector<std::uint32_t> numbers;
-  for (const auto& t : mesh.triangles)
+  for (const auto& t : triangles)
     for (const std::int32_t v : t) numbers.push_back(static_cast<std::uint32_t>(v));
   return numbers;
 }
@@ -183,13 +187,19 @@ std::string json_in_html(const Json& value) {
 
 std::string viewer_data(const ViewerMesh& viewer) {
   const MeshArrays& mesh = viewer.mesh;
-  const Box box = box_of(mesh);
+  const CurvedPieces pieces = curved_pieces(mesh, viewer.halves);
+  const Box box = box_of(mesh, pieces.points);
   const auto faces = all_faces(mesh);
   Blocks blocks;
-  blocks.add("positions", packed(positions(mesh, box), box.bytes, Coding::delta, 3));
-  blocks.add("corners", packed(corners(mesh), 4, Coding::delta, 3));
+  blocks.add("positions", packed(positions(mesh, pieces.points, box), box.bytes, Coding::delta, 3));
+  blocks.add("corners", packed(corners(mesh.triangles), 4, Coding::delta, 3));
   blocks.add("faces", packed(face_indices(mesh, faces), 4, Coding::delta));
   blocks.add("sides", packed(sides(viewer), 1, Coding::plain));
+  if (!pieces.corners.empty()) {
+    blocks.add("piece-corners", packed(corners(pieces.corners), 4, Coding::delta, 3));
+    blocks.add("piece-triangle", packed(pieces.triangle, 4, Coding::delta));
+    blocks.add("piece-sides", packed(pieces.sides, 1, Coding::plain));
+  }
   Json colours = Json::array();
   for (const int stop : scale_stops) colours.push_back(hex_text(stop));
   Json head = {{"vertices", mesh.vertices.size()},

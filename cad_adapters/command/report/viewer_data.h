@@ -26,6 +26,10 @@ struct ViewerMesh {
 ///              diagonal of a quadrilateral
 ///   KEY        of each triangle, values.key: 0: none, else 1 to 65535 from the lowest to the highest value, by the
 ///              logarithm on a logarithmic scale
+/// Where elements are curved, what is drawn in the place of their triangles; positions of further points follow those of vertices:
+///   piece-corners   3 a piece: points
+///   piece-triangle  of each piece: its triangle, ascending
+///   piece-sides     of each piece: as sides, bit 3 + k: the side lies inside an element
 std::string viewer_data(const ViewerMesh& viewer);
 
 }  // namespace command

@@ -35,6 +35,13 @@ class Field {
         ab_(unscale_.x() * unscale_.y()),
         bb_(unscale_.y() * unscale_.y()),
         known_(known) {}
+  /// The same with sizes so many times as large.
+  [[nodiscard]] Field coarser(double times) const noexcept {
+    Field coarse = *this;
+    const double share = 1 / (times * times);
+    coarse.aa_ *= share, coarse.ab_ *= share, coarse.bb_ *= share, coarse.known_.triangles *= share;
+    return coarse;
+  }
   /// Whether charts serve anywhere in the domain of the space. Looks at all of it.
   [[nodiscard]] static bool may_bend(const ControlSpace& space) noexcept {
     return space.measure() >= fewest_for_charts && space.largest_bend() > least_bend;

@@ -14,10 +14,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// A mesh of the same domain whose vertices know the field.
+/// A mesh of the same domain whose vertices know the field, with larger triangles inside where there are many.
 Triangulation background_of(const Placement& placement) {
   Triangulation background = placement.mesh;
-  PlaneWork work{background, placement.field, placement.monitor};
+  const bool many = placement.field.measure() >= many_for_background;
+  const Field coarse = placement.field.coarser(many ? background_size : 1);
+  PlaneWork work{background, coarse, placement.monitor};
   Placement filling(work, placement.max_triangles);
   advance_front(filling);
   return background;

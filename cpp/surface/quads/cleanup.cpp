@@ -25,12 +25,14 @@ constexpr MixedCell none{-1, -1, -1, -1};
 template <typename Quads>
 class Pass {
  public:
+  /// `active`: by vertex: only cells with such a one are looked at; empty: all.
   Pass(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed,
-       const std::vector<std::int8_t>& ideal, Monitor& monitor)
+       const std::vector<std::int8_t>& ideal, const std::vector<char>& active, Monitor& monitor)
       : quads_(quads),
         cells_(quads.cells()),
         is_imposed_(is_imposed),
         ideal_(ideal),
+        active_(active),
         monitor_(monitor),
         around_(quads.vertices(), closed(quads.cells())),
         degree_(quads.vertices(), 0),
@@ -71,9 +73,12 @@ class Pass {
   [[nodiscard]] bool is_irregular(std::int32_t c) const {
     const MixedCell& cell = cells_[c];
     if (cell == none) return false;
-    for (int k = 0; k < corners_of(cell); ++k)
-      if (degree_[cell[k]] != ideal_[cell[k]]) return true;
-    return false;
+    bool irregular = false, active = active_.empty();
+    for (int k = 0; k < corners_of(cell); ++k) {
+      irregular = irregular || degree_[cell[k]] != ideal_[cell[k]];
+      active = active || active_[cell[k]] != 0;
+    }
+    return irregular && active;
   }
   /// What is wrong with so many cells more or less at a vertex.
   [[nodiscard]] int excess(std::int32_t v, int more = 0) const {
@@ -232,6 +237,7 @@ class Pass {
   Cells& cells_;
   const std::function<bool(std::int32_t, std::int32_t)>& is_imposed_;
   const std::vector<std::int8_t>& ideal_;
+  const std::vector<char>& active_;
   Monitor& monitor_;
   Incidence around_;
   std::vector<int> degree_;
@@ -276,12 +282,16 @@ template <typename Quads, typename Smooth>
 void clean(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor,
            const Smooth& smooth) {
   const std::vector<std::int8_t> ideal = ideal_degrees(quads);
+  // What a pass makes of a cell depends on the cells at its corners: where nothing there has changed or moved since the
+  // pass before, it would be tried in vain again.
+  std::vector<char> active;
   for (int round = 0; round < cleanup_passes; ++round) {
-    Pass<Quads> pass(quads, is_imposed, ideal, monitor);
+    Pass<Quads> pass(quads, is_imposed, ideal, active, monitor);
     if (pass.run() == 0) break;
     std::vector<char> moving;  // all, the first time
     if (round > 0) moving = with_neighbours(quads.cells(), pass.take_touched());
-    smooth({.passes = passes_after_changes, .moving = moving});
+    smooth({.passes = passes_after_changes, .momentum = 0, .moving = moving});
+    if (round > 0) active = with_neighbours(quads.cells(), moving);
   }
 }
 

@@ -15,6 +15,7 @@ namespace carreau {
 using namespace thresholds::quads;
 
 const CurveSide* FaceQuads::side_between(std::int32_t a, std::int32_t b) const noexcept {
+  if (patch.fixed[a] == 0 || patch.fixed[b] == 0) return nullptr;  // ends of sides are fixed
   const std::int32_t low = std::min(a, b), high = std::max(a, b);
   const auto found = std::lower_bound(sides.begin(), sides.end(), CurveSide{low, high, 0, 0, 0});
   return found != sides.end() && found->a == low && found->b == high ? &*found : nullptr;
@@ -178,6 +179,7 @@ std::vector<std::int32_t> drop(const std::vector<char>& gone, CompositeResult& r
 
 // Where no metric is known: as long as the edges there.
 void find_missing_sizes(FaceQuads& quads) {
+  if (std::find(quads.size.begin(), quads.size.end(), 0.) == quads.size.end()) return;
   std::vector<double> sum(quads.size.size(), 0), count(quads.size.size(), 0);
   for (const MixedCell& cell : quads.patch.cells)
     for (int k = 0, n = corners_of(cell); k < n; ++k)

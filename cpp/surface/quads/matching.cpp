@@ -2,6 +2,7 @@
 #include "surface/quads/matching.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "surface/quads/thresholds.h"
@@ -15,11 +16,12 @@ using namespace thresholds::quads;
 class Matching {
  public:
   Matching(std::size_t count, const std::vector<WeightedPair>& pairs, Monitor& monitor)
-      : pairs_(pairs), monitor_(monitor), pairs_at_(count, {-1, -1, -1}), chosen_(count, -1), on_path_(count, 0) {
+      : pairs_(pairs), monitor_(monitor), links_(count), chosen_(count, -1), on_path_(count, 0) {
     for (std::size_t e = 0; e < pairs.size(); ++e)
-      for (const std::int32_t t : pairs[e].triangles) {
-        auto& at = pairs_at_[t];
-        *std::find(at.begin(), at.end(), -1) = static_cast<std::int32_t>(e);
+      for (const std::size_t k : {std::size_t{0}, std::size_t{1}}) {
+        auto link = links_[pairs[e].triangles[k]].begin();
+        while (link->pair >= 0) ++link;
+        *link = {static_cast<std::int32_t>(e), pairs[e].triangles[1 - k], pairs[e].weight};
       }
   }
 
@@ -38,6 +40,19 @@ class Matching {
   }
 
  private:
+  /// What a pair is to one of its triangles: none where `pair` is -1. Those of a triangle come first.
+  struct Link {
+    std::int32_t pair = -1, other = -1;
+    double weight = 0;
+  };
+  /// Triangles in the order in which an alternating path or circle passes through them.
+  struct Path {
+    std::array<std::int32_t, longest_path + 2> triangle{};
+    std::size_t size = 0;
+    void push(std::int32_t t) noexcept { triangle[size++] = t; }
+    void pop() noexcept { --size; }
+  };
+
   [[nodiscard]] std::int32_t other(std::int32_t pair, std::int32_t t) const {
     const auto& both = pairs_[pair].triangles;
     return both[0] == t ? both[1] : both[0];
@@ -78,10 +93,10 @@ class Matching {
     for (const std::int32_t t : todo) {
       if (++n % searches_between_checks == 0) monitor_.checkpoint();
       if (is_content(t) || !search_from(t)) continue;
-      for (const std::int32_t x : best_path_) {
-        changed.push_back(x);
-        for (const std::int32_t e : pairs_at_[x])
-          if (e >= 0) changed.push_back(other(e, x));
+      for (std::size_t k = 0; k < best_path_.size; ++k) {
+        changed.push_back(best_path_.triangle[k]);
+        for (const Link& link : links_[best_path_.triangle[k]])
+          if (link.pair >= 0) changed.push_back(link.other);
       }
     }
     std::sort(changed.begin(), changed.end());
@@ -92,46 +107,46 @@ class Matching {
   // The best alternating path or circle from t, applied if it gains.
   bool search_from(std::int32_t t) {
     best_gain_ = least_gain;
-    best_path_.clear();
-    path_.assign(1, t);
+    best_path_.size = path_.size = 0;
+    path_.push(t);
     on_path_[t] = 1;
     if (chosen_[t] < 0) {
       add_pairs(t, 0);
     } else {
       const std::int32_t u = other(chosen_[t], t);
       step_along_chosen(u, -pairs_[chosen_[t]].weight);
-      if (best_path_.empty()) add_pairs_of_circle(t);
+      if (best_path_.size == 0) add_pairs_of_circle(t);
     }
     on_path_[t] = 0;
-    if (best_path_.empty()) return false;
+    if (best_path_.size == 0) return false;
     apply();
     return true;
   }
 
   // t is free, or has lost its pair: every pair that it is not in may be added.
   void add_pairs(std::int32_t t, double gain) {
-    if (path_.size() > longest_path) return;
-    for (const std::int32_t e : pairs_at_[t]) {
-      if (e < 0 || e == chosen_[t]) continue;
-      const std::int32_t u = other(e, t);
-      if (on_path_[u] != 0) continue;
-      const double now = gain + pairs_[e].weight;
-      path_.push_back(u);
+    if (path_.size > longest_path) return;
+    for (const Link& link : links_[t]) {
+      if (link.pair < 0) break;
+      const std::int32_t u = link.other;
+      if (link.pair == chosen_[t] || on_path_[u] != 0) continue;
+      const double now = gain + link.weight;
+      path_.push(u);
       on_path_[u] = 1;
       if (chosen_[u] < 0)
         keep_if_best(now, false);
       else
         lose_pair(u, now);
       on_path_[u] = 0;
-      path_.pop_back();
+      path_.pop();
     }
   }
 
   void lose_pair(std::int32_t u, double gain) {
     const std::int32_t w = other(chosen_[u], u);
     const double now = gain - pairs_[chosen_[u]].weight;
-    if (w == path_.front()) {
-      if (path_.size() % 2 == 0) keep_if_best(now, true);
+    if (w == path_.triangle[0]) {
+      if (path_.size % 2 == 0) keep_if_best(now, true);
       return;
     }
     if (on_path_[w] != 0) return;
@@ -140,48 +155,47 @@ class Matching {
 
   // The end of a pair that goes: the path may end there, or go on.
   void step_along_chosen(std::int32_t w, double gain) {
-    path_.push_back(w);
+    path_.push(w);
     on_path_[w] = 1;
     keep_if_best(gain, false);
     if (gain > -most_loss) add_pairs(w, gain);
     on_path_[w] = 0;
-    path_.pop_back();
+    path_.pop();
   }
 
   // Circles: t takes a new pair, and loses its own at the end.
   void add_pairs_of_circle(std::int32_t t) { add_pairs(t, 0); }
 
   void keep_if_best(double gain, bool circle) {
-    if (!circle && chosen_[path_.front()] >= 0 && starts_with_new_pair()) return;
     if (gain <= best_gain_) return;
+    if (!circle && chosen_[path_.triangle[0]] >= 0 && starts_with_new_pair()) return;
     best_gain_ = gain;
     best_path_ = path_;
     best_is_circle_ = circle;
   }
   // A path from a triangle that keeps its own pair is none, unless it closes.
   [[nodiscard]] bool starts_with_new_pair() const {
-    return path_.size() > 1 && other(chosen_[path_.front()], path_.front()) != path_[1];
+    const std::int32_t first = path_.triangle[0];
+    return path_.size > 1 && other(chosen_[first], first) != path_.triangle[1];
   }
 
   void apply() {
-    const auto n = static_cast<int>(best_path_.size());
-    const bool drops_first = chosen_[best_path_[0]] >= 0 && !best_is_circle_;
-    if (drops_first) chosen_[best_path_[0]] = -1;
-    if (chosen_[best_path_[n - 1]] >= 0 && !best_is_circle_ && (n % 2 == (drops_first ? 0 : 1)))
-      chosen_[best_path_[n - 1]] = -1;
-    for (int k = drops_first ? 1 : 0; k + 1 < n; k += 2) {
-      const std::int32_t a = best_path_[k], b = best_path_[k + 1];
-      for (const std::int32_t e : pairs_at_[a])
-        if (e >= 0 && other(e, a) == b) chosen_[a] = chosen_[b] = e;
-    }
+    const std::size_t n = best_path_.size;
+    const auto& path = best_path_.triangle;
+    const bool drops_first = chosen_[path[0]] >= 0 && !best_is_circle_;
+    if (drops_first) chosen_[path[0]] = -1;
+    if (chosen_[path[n - 1]] >= 0 && !best_is_circle_ && (n % 2 == (drops_first ? 0U : 1U))) chosen_[path[n - 1]] = -1;
+    for (std::size_t k = drops_first ? 1 : 0; k + 1 < n; k += 2)
+      for (const Link& link : links_[path[k]])
+        if (link.pair >= 0 && link.other == path[k + 1]) chosen_[path[k]] = chosen_[path[k + 1]] = link.pair;
   }
 
   const std::vector<WeightedPair>& pairs_;
   Monitor& monitor_;
-  std::vector<std::array<std::int32_t, 3>> pairs_at_;  // by triangle
-  std::vector<std::int32_t> chosen_;                   // by triangle: its pair, or -1
+  std::vector<std::array<Link, 3>> links_;  // by triangle
+  std::vector<std::int32_t> chosen_;        // by triangle: its pair, or -1
   std::vector<char> on_path_;
-  std::vector<std::int32_t> path_, best_path_;
+  Path path_, best_path_;
   double best_gain_ = 0, heaviest_ = 0;
   bool best_is_circle_ = false;
 };

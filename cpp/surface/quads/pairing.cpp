@@ -99,6 +99,7 @@ class Pairing {
 // The corner whose sides go on smoothly into each other; -1: none.
 template <typename Quads>
 int flat_corner(const Quads& quads, const MixedCell& t) {
+  if (!quads.is_fixed(t[0]) || !quads.is_fixed(t[1]) || !quads.is_fixed(t[2])) return -1;  // those on curves are
   for (int k = 0; k < 3; ++k)
     if (std::ranges::binary_search(quads.flat(), std::array{t[k], t[(k + 1) % 3], t[(k + 2) % 3]})) return k;
   return -1;
@@ -139,6 +140,7 @@ std::size_t turn_all_ears(Quads& quads, const ImposedEdges& is_imposed) {
 class FlatCells {
  public:
   explicit FlatCells(QuadPatch& patch) : patch_(patch) {}
+  [[nodiscard]] bool is_fixed(std::size_t v) const noexcept { return patch_.fixed[v] != 0; }
   [[nodiscard]] std::vector<MixedCell>& cells() noexcept { return patch_.cells; }
   [[nodiscard]] const std::vector<std::array<std::int32_t, 3>>& flat() const noexcept { return patch_.flat; }
   [[nodiscard]] bool is_convex(const MixedCell& cell) const noexcept { return carreau::is_convex(patch_, cell); }

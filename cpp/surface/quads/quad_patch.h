@@ -31,6 +31,8 @@ class FaceCharts {
  public:
   /// Keeps a reference to the space.
   explicit FaceCharts(const ControlSpace& space);
+  /// Else charts are tensors.
+  [[nodiscard]] bool bends() const noexcept { return bends_; }
   [[nodiscard]] Chart about(const Vec2& uv) const noexcept {
     if (bends_) return {uv, space_->slopes_at(uv)};
     constexpr Metric2 none{0, 0, 0};

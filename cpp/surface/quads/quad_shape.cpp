@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "predicates/predicates.h"
+#include "predicates/convex_quad.h"
 
 namespace carreau {
 
@@ -72,10 +72,9 @@ double scaled_jacobian(const std::array<Vec2, 4>& p) noexcept { return measure(p
 double scaled_jacobian(const std::array<Vec3, 4>& p) noexcept { return measure(p).jacobian(); }
 
 bool is_convex(const QuadPatch& patch, const MixedCell& cell) noexcept {
-  const int n = corners_of(cell);
-  for (int k = 0; k < (n == 3 ? 1 : 4); ++k)
-    if (orientation(patch.uv[cell[k]], patch.uv[cell[(k + 1) % n]], patch.uv[cell[(k + 2) % n]]) <= 0) return false;
-  return true;
+  const auto at = [&](int k) -> const Vec2& { return patch.uv[cell[k]]; };
+  if (corners_of(cell) == 3) return orientation(at(0), at(1), at(2)) > 0;
+  return is_convex_quad(at(0), at(1), at(2), at(3));
 }
 
 bool has_flat_corner(std::span<const char> fixed, std::span<const std::array<std::int32_t, 3>> flat,

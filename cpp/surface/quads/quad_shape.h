@@ -69,6 +69,45 @@ class PlaneQuads {
   static Way no_way() noexcept { return {0, 0}; }
   static Way way(const Frame& frame, const Vec2& y) noexcept { return frame.offset(y); }
 
+  /// Frames of some cells that stay while vertices move. Those of a metric that does not bend are linear.
+  class KeptFrames {
+   public:
+    explicit KeptFrames(const PlaneQuads& quads) : quads_(quads) {}
+    void reserve(std::size_t cells) {
+      linear_.reserve(cells);
+      if (quads_.charts_.bends()) charts_.reserve(cells);
+    }
+    void add(const MixedCell& cell) {
+      const Chart chart = quads_.about(cell);
+      linear_.emplace_back(chart);
+      if (quads_.charts_.bends()) charts_.push_back(chart);
+    }
+    /// Corner k of cell number c of those added.
+    [[nodiscard]] Vec2 at(std::size_t c, const MixedCell& cell, int k) const noexcept {
+      const std::vector<Vec2>& uv = quads_.patch_.uv;
+      return charts_.empty() ? linear_[c].at(uv[cell[k]] - uv[cell[0]]) : charts_[c].at(uv[cell[k]]);
+    }
+    [[nodiscard]] Way way(std::size_t c, const Vec2& y) const noexcept { return linear_[c].offset(y); }
+
+   private:
+    /// What a chart does near its origin, and back.
+    struct Linear {
+      double p, q, r, ip, iq, ir;
+
+      explicit Linear(const Chart& chart) noexcept {
+        const Vec2 x = chart.offset({1, 0}), y = chart.offset({0, 1});
+        ip = x.x(), iq = y.x(), ir = y.y();
+        p = 1 / ip, r = 1 / ir, q = -iq * p * r;
+      }
+      [[nodiscard]] Vec2 at(const Vec2& e) const noexcept { return {p * e.x() + q * e.y(), r * e.y()}; }
+      [[nodiscard]] Vec2 offset(const Vec2& d) const noexcept { return {ip * d.x() + iq * d.y(), ir * d.y()}; }
+    };
+
+    const PlaneQuads& quads_;
+    std::vector<Linear> linear_;
+    std::vector<Chart> charts_;  // where the metric bends
+  };
+
   [[nodiscard]] const Place& place(std::size_t v) const noexcept { return patch_.uv[v]; }
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return patch_.uv; }
   [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return patch_.uv[v] == place; }

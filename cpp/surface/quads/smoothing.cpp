@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "mesh/local_search.h"
 #include "support/incidence.h"
@@ -44,16 +45,21 @@ template <typename Quads>
 class Smoothing {
  public:
   Smoothing(Quads& quads, const QuadSmoothing& how, Monitor& monitor)
-      : quads_(quads), how_(how), monitor_(monitor), sum_(quads.vertices()), count_(quads.vertices()) {
+      : quads_(quads), how_(how), monitor_(monitor), frames_(quads), sum_(quads.vertices()) {
+    std::vector<double> count(quads.vertices(), 0);
+    cells_.reserve(quads.cells().size()), frames_.reserve(quads.cells().size());
     for (const MixedCell& cell : quads.cells()) {
       const int n = corners_of(cell);
       if (!how.moving.empty() &&
           std::none_of(cell.begin(), cell.begin() + n, [&](std::int32_t v) { return how.moving[v] != 0; }))
         continue;
       if (cells_.size() % cells_between_checks == 0) monitor.checkpoint();
-      cells_.push_back(cell);
-      frames_.push_back(quads.about(cell));
+      cells_.push_back(cell), frames_.add(cell);
+      for (int k = 0; k < n; ++k) count[cell[k]] += weight(n);
     }
+    for (std::size_t v = 0; v < count.size(); ++v)
+      if (!quads.is_fixed(v) && count[v] > 0 && (how.moving.empty() || how.moving[v] != 0))
+        movers_.push_back({static_cast<std::int32_t>(v), how.share / count[v], Quads::no_way()});
   }
 
   void run() {
@@ -61,68 +67,86 @@ class Smoothing {
       monitor_.checkpoint();
       propose();
       before_ = quads_.places();
-      for (std::size_t v = 0; v < sum_.size(); ++v) {
-        if (v % cells_between_checks == 0) monitor_.checkpoint();
-        if (may_move(v)) quads_.move(v, (how_.share / count_[v]) * sum_[v]);
+      const double kept = pass + plain_passes < how_.passes ? how_.momentum : 0;
+      for (std::size_t i = 0; i < movers_.size(); ++i) {
+        if (i % cells_between_checks == 0) monitor_.checkpoint();
+        Mover& m = movers_[i];
+        m.step = kept * m.step + m.share * sum_[m.vertex];
+        quads_.move(m.vertex, m.step);
       }
-      while (take_back()) {
-      }
+      take_back();
     }
   }
 
  private:
-  [[nodiscard]] bool may_move(std::size_t v) const {
-    return !quads_.is_fixed(v) && count_[v] > 0 && (how_.moving.empty() || how_.moving[v] != 0);
-  }
+  /// A vertex that may move.
+  struct Mover {
+    std::int32_t vertex;
+    double share;              ///< of the sum of proposals
+    typename Quads::Way step;  ///< its last one
+  };
+
+  static double weight(int corners) noexcept { return corners == 4 ? 1 : triangle_weight; }
 
   void propose() {
     std::fill(sum_.begin(), sum_.end(), Quads::no_way());
-    std::fill(count_.begin(), count_.end(), 0.);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (c % cells_between_checks == 0) monitor_.checkpoint();
       const MixedCell& cell = cells_[c];
-      const typename Quads::Frame& frame = frames_[c];
       const int n = corners_of(cell);
       std::array<Vec2, 4> y;
-      for (int k = 0; k < n; ++k) y[k] = quads_.at(frame, cell[k]);
+      for (int k = 0; k < n; ++k) y[k] = frames_.at(c, cell, k);
       const std::array<Vec2, 4> wanted =
           n == 4 ? fitted_square(y, how_.unit * std::numbers::sqrt2 / 2, how_.pull)
                  : fitted_triangle(y, how_.unit / std::numbers::sqrt3, how_.pull);
-      const double weight = n == 4 ? 1 : triangle_weight;
-      for (int k = 0; k < n; ++k) {
-        sum_[cell[k]] += weight * Quads::way(frame, wanted[k] - y[k]);
-        count_[cell[k]] += weight;
-      }
+      for (int k = 0; k < n; ++k) sum_[cell[k]] += weight(n) * frames_.way(c, wanted[k] - y[k]);
     }
   }
 
-  // Vertices of cells that have turned over go back, and then those of others that have because of that.
-  bool take_back() {
-    bool any = false;
-    for (const MixedCell& cell : cells_) {
-      if (quads_.is_convex(cell)) continue;
-      for (int k = 0; k < corners_of(cell); ++k)
-        if (!quads_.is_at(cell[k], before_[cell[k]])) quads_.put(cell[k], before_[cell[k]]), any = true;
+  // Vertices of cells that have turned over go back, and then those of others that have because of that: only cells whose
+  // vertices went back in the round before or in this one need a look. They have no momentum then.
+  void take_back() {
+    went_back_.assign(quads_.vertices(), 0);
+    int round = 1;
+    for (bool any = true; any; ++round) {
+      any = false;
+      for (const MixedCell& cell : cells_) {
+        const int n = corners_of(cell);
+        if (round > 1 && std::none_of(cell.begin(), cell.begin() + n,
+                                      [&](std::int32_t v) { return went_back_[v] + 1 >= round; }))
+          continue;
+        if (quads_.is_convex(cell)) continue;
+        for (int k = 0; k < n; ++k)
+          if (!quads_.is_at(cell[k], before_[cell[k]]))
+            quads_.put(cell[k], before_[cell[k]]), went_back_[cell[k]] = round, any = true;
+      }
     }
-    return any;
+    if (round == 2) return;  // none went back
+    for (Mover& m : movers_)
+      if (went_back_[m.vertex] != 0) m.step = Quads::no_way();
   }
 
   Quads& quads_;
   const QuadSmoothing& how_;
   Monitor& monitor_;
-  std::vector<MixedCell> cells_;  // with a vertex that may move
-  std::vector<typename Quads::Frame> frames_;  // of these; they stay while vertices move
+  std::vector<MixedCell> cells_;        // with a vertex that may move
+  typename Quads::KeptFrames frames_;   // of these; they stay while vertices move
+  std::vector<Mover> movers_;
   std::vector<typename Quads::Way> sum_;
   std::vector<typename Quads::Place> before_;
-  std::vector<double> count_;
+  std::vector<int> went_back_;  // by vertex: the round of take_back() in which it did
 };
 
-/// The cells around each vertex. Quads: PlaneQuads or SpaceQuads.
+/// Vertices around the worst cells. Quads: PlaneQuads or SpaceQuads.
 template <typename Quads>
 class Worst {
  public:
   Worst(Quads& quads, double good, Monitor& monitor)
-      : quads_(quads), good_(good), monitor_(monitor), around_(quads.vertices(), closed(quads.cells())) {}
+      : quads_(quads),
+        good_(good),
+        monitor_(monitor),
+        quality_(quads.cells().size(), 0),
+        stale_(quads.cells().size(), 1) {}
 
   void run() {
     improve_in_passes(
@@ -137,12 +161,14 @@ class Worst {
     return cells;
   }
 
-  std::vector<std::int32_t> corners_of_bad() const {
+  std::vector<std::int32_t> corners_of_bad() {
     std::vector<std::pair<double, std::int32_t>> bad;
     const std::vector<MixedCell>& cells = quads_.cells();
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      if (const double q = quads_.untangling_quality(quads_.about(cells[c]), cells[c]); q < good_)
-        bad.emplace_back(q, static_cast<std::int32_t>(c));
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      if (stale_[c] != 0) quality_[c] = quads_.untangling_quality(quads_.about(cells[c]), cells[c]);
+      stale_[c] = 0;
+      if (quality_[c] < good_) bad.emplace_back(quality_[c], static_cast<std::int32_t>(c));
+    }
     std::sort(bad.begin(), bad.end());
     std::vector<std::int32_t> corners;
     for (const auto& [q, c] : bad)
@@ -163,7 +189,8 @@ class Worst {
 
   bool improve(std::int32_t v) {
     star_.clear();
-    for (const std::int32_t c : around_.of(v)) star_.emplace_back(c, quads_.about(quads_.cells()[c]));
+    if (!around_) around_.emplace(quads_.vertices(), closed(quads_.cells()));
+    for (const std::int32_t c : around_->of(v)) star_.emplace_back(c, quads_.about(quads_.cells()[c]));
     const double start = worst_around(-2);
     if (start >= good_) return false;
     const typename Quads::Place home = quads_.place(v);
@@ -179,13 +206,17 @@ class Worst {
         return false;
       }
     }
-    return !(way == Vec2{0, 0});
+    if (way == Vec2{0, 0}) return false;
+    for (const std::int32_t c : around_->of(v)) stale_[c] = 1;
+    return true;
   }
 
   Quads& quads_;
   double good_;
   Monitor& monitor_;
-  Incidence around_;
+  std::optional<Incidence> around_;
+  std::vector<double> quality_;  // by cell, unless
+  std::vector<char> stale_;      // its vertices have moved since
   std::vector<std::pair<std::int32_t, typename Quads::Frame>> star_;  // cells around the vertex at hand, with frames that stay
 };
 

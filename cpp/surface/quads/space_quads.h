@@ -65,6 +65,22 @@ class SpaceQuads {
     return offset.x() * frame.e1 + offset.y() * frame.e2;
   }
 
+  /// As in PlaneQuads.
+  class KeptFrames {
+   public:
+    explicit KeptFrames(const SpaceQuads& quads) : quads_(quads) {}
+    void reserve(std::size_t cells) { frames_.reserve(cells); }
+    void add(const MixedCell& cell) { frames_.push_back(quads_.about(cell)); }
+    [[nodiscard]] Vec2 at(std::size_t c, const MixedCell& cell, int k) const noexcept {
+      return quads_.at(frames_[c], cell[k]);
+    }
+    [[nodiscard]] Way way(std::size_t c, const Vec2& y) const noexcept { return SpaceQuads::way(frames_[c], y); }
+
+   private:
+    const SpaceQuads& quads_;
+    std::vector<Frame> frames_;
+  };
+
   [[nodiscard]] const Place& place(std::size_t v) const noexcept { return place_[v]; }
   [[nodiscard]] const std::vector<Place>& places() const noexcept { return place_; }
   [[nodiscard]] bool is_at(std::size_t v, const Place& place) const noexcept { return place_[v].xyz == place.xyz; }

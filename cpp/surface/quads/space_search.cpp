@@ -2,6 +2,7 @@
 #include "surface/quads/space_search.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "mesh/local_search.h"
 #include "support/incidence.h"
@@ -25,7 +26,8 @@ class SpaceSearch {
         quads_(quads),
         poor_(work.rules.uses_metrics() ? poor_jacobian_in_metric : poor_jacobian),
         monitor_(monitor),
-        around_(quads.patch.uv.size(), closed(quads.patch.cells)) {}
+        jacobian_(quads.patch.cells.size(), 0),
+        stale_(quads.patch.cells.size(), 1) {}
 
   void run() {
     improve_in_passes(
@@ -48,11 +50,14 @@ class SpaceSearch {
     return longest > 0 ? norm(cross(a, b)) / longest : 0;
   }
 
-  [[nodiscard]] std::vector<std::int32_t> corners_of_poor() const {
+  [[nodiscard]] std::vector<std::int32_t> corners_of_poor() {
     std::vector<std::pair<double, std::int32_t>> poor;
-    for (std::size_t c = 0; c < quads_.patch.cells.size(); ++c)
-      if (const double j = is_convex(quads_.patch, quads_.patch.cells[c]) ? jacobian(quads_.patch.cells[c]) : -1; j < poor_)
-        poor.emplace_back(j, static_cast<std::int32_t>(c));
+    for (std::size_t c = 0; c < quads_.patch.cells.size(); ++c) {
+      const MixedCell& cell = quads_.patch.cells[c];
+      if (stale_[c] != 0) jacobian_[c] = is_convex(quads_.patch, cell) ? jacobian(cell) : -1;
+      stale_[c] = 0;
+      if (jacobian_[c] < poor_) poor.emplace_back(jacobian_[c], static_cast<std::int32_t>(c));
+    }
     std::sort(poor.begin(), poor.end());
     std::vector<std::int32_t> corners;
     for (const auto& [j, c] : poor)
@@ -63,7 +68,7 @@ class SpaceSearch {
 
   [[nodiscard]] double least_around(std::int32_t v, double enough) const {
     double least = poor_;
-    for (const std::int32_t c : around_.of(v)) {
+    for (const std::int32_t c : around_->of(v)) {
       const MixedCell& cell = quads_.patch.cells[c];
       least = std::min(least, jacobian(cell));
       if (!is_convex(quads_.patch, cell))
@@ -79,6 +84,7 @@ class SpaceSearch {
   }
 
   bool improve(std::int32_t v) {
+    if (!around_) around_.emplace(quads_.patch.uv.size(), closed(quads_.patch.cells));
     const double start = least_around(v, -2);
     if (start >= poor_) return false;
     const Vec2 home = quads_.patch.uv[v];
@@ -94,6 +100,7 @@ class SpaceSearch {
     const SurfaceJet jet = surface_at(cad_, ref_, want_position | want_first, uv);
     quads_.patch.uv[v] = quads_.lifted[v] = uv, quads_.xyz[v] = jet.s;
     quads_.size[v] = geometric_mean_size(jet, metric_.at(uv));
+    for (const std::int32_t c : around_->of(v)) stale_[c] = 1;
     return true;
   }
 
@@ -104,7 +111,9 @@ class SpaceSearch {
   FaceQuads& quads_;
   double poor_;
   Monitor& monitor_;
-  Incidence around_;
+  std::optional<Incidence> around_;
+  std::vector<double> jacobian_;  // by cell, unless
+  std::vector<char> stale_;       // its vertices have moved since
 };
 
 }  // namespace

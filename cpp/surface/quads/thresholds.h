@@ -41,6 +41,8 @@ inline constexpr int searches_between_checks = 4096;
 // Smoothing
 /// Of what a triangle proposes beside a quadrilateral.
 inline constexpr double triangle_weight = 0.5;
+/// Passes without momentum in the end: they take back what it has squeezed.
+inline constexpr int plain_passes = 2;
 inline constexpr std::size_t cells_between_checks = 4096;
 /// Quality. Vertices of worse cells are moved one by one.
 inline constexpr double poor = 0.6;

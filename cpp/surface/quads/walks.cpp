@@ -151,8 +151,9 @@ class Walks {
 
 template <typename Quads>
 void join(Quads& quads, const std::function<bool(std::int32_t, std::int32_t)>& is_imposed, Monitor& monitor) {
+  const auto is_triangle = [](const MixedCell& cell) { return corners_of(cell) == 3; };
   for (int pass = 0; pass < walk_passes; ++pass)
-    if (Walks<Quads>(quads, is_imposed, monitor).run() == 0) break;
+    if (std::count_if(quads.cells().begin(), quads.cells().end(), is_triangle) < 2 || Walks<Quads>(quads, is_imposed, monitor).run() == 0) break;
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "predicates/predicates.h"
 
+#include "predicates/convex_quad.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -136,6 +138,34 @@ TEST(Orientation, SurvivesTheEndsOfTheRange) {
   EXPECT_EQ(orientation({0, 0}, {tiny, tiny}, {2 * tiny, 2 * tiny}), 0);
   EXPECT_EQ(orientation({0, 0}, {1e-200, 1e-200}, {3e-200, 3e-200 * (1 + 1e-15)}), 1);
   EXPECT_EQ(orientation({0, 0}, {1, tiny}, {2, 0}), -1);
+}
+
+TEST(ConvexQuad, AgreesWithIntegersWhereCornersAreAllButFlat) {
+  std::mt19937_64 random(7);
+  constexpr std::int64_t size = std::int64_t{1} << 50;
+  std::uniform_int_distribution<std::int64_t> any(size / 2, size), little(-2, 2);
+  std::array<int, 2> seen{};
+  for (int i = 0; i < 3000; ++i) {
+    const std::int64_t x = any(random), y = any(random), part = any(random);
+    const auto on_way = [&](std::int64_t length) {
+      return static_cast<std::int64_t>(static_cast<Integer>(length) * part / (2 * size));
+    };
+    // The second corner lies on the diagonal from the first to the third, but for a unit or two.
+    const std::array<std::array<std::int64_t, 2>, 4> p{
+        {{0, 0}, {on_way(x) + little(random), on_way(y) + little(random)}, {x, y}, {-any(random), any(random)}}};
+    bool convex = true;
+    for (std::size_t k = 0; k < 4; ++k)
+      convex = convex && integer_orientation({p[k], p[(k + 1) % 4], p[(k + 2) % 4]}) > 0;
+    ++seen[convex ? 1 : 0];
+    for (const int exponent : {-400, 0, 300}) {
+      const auto q = scaled(p, exponent);
+      for (std::size_t k = 0; k < 4; ++k)
+        EXPECT_EQ(is_convex_quad(q[k], q[(k + 1) % 4], q[(k + 2) % 4], q[(k + 3) % 4]), convex) << i << " " << exponent;
+      EXPECT_FALSE(is_convex_quad(q[3], q[2], q[1], q[0]));
+    }
+  }
+  EXPECT_GT(seen[0], 300);
+  EXPECT_GT(seen[1], 300);
 }
 
 TEST(InCircle, AgreesWithIntegersNearCocircularAtEveryScale) {

@@ -44,16 +44,27 @@ function coloursOfFaces(mesh, face) {
  * Four bytes a triangle: red, green, blue, and the bits of its sides. `key`: of a scale, or "face". `face`: the one that
  * is shown alone, -1: all.
  */
-function coloursOf(mesh, key, face, length) {
+function coloursOf(mesh, key, face) {
   const scale = mesh.head.values.find((each) => each.key === key);
   const table = scale ? coloursOfCodes(mesh, scale) : coloursOfFaces(mesh, face);
   const codes = scale ? mesh.codes[key] : mesh.faces;
-  const colours = new Uint8Array(length);
+  const colours = new Uint8Array(4 * codes.length);
   const fading = scale && face >= 0;  // the table of faces has it
   for (let t = 0; t < codes.length; ++t) {
     const colour = table.subarray(3 * codes[t], 3 * codes[t] + 3);
     colours.set(fading && mesh.faces[t] !== face ? faded([...colour]) : colour, 4 * t);
     colours[4 * t + 3] = mesh.sides[t];
   }
+  return colours;
+}
+
+/** The same of what is drawn, `length` bytes: a piece has the colour of its triangle, and sides of its own. */
+function coloursOfPieces(mesh, ofTriangles, length) {
+  const colours = new Uint8Array(length), { sides, triangle } = mesh.pieces;
+  if (!triangle) colours.set(ofTriangles);
+  else sides.forEach((bits, i) => {
+    colours.set(ofTriangles.subarray(4 * triangle[i], 4 * triangle[i] + 3), 4 * i);
+    colours[4 * i + 3] = bits;
+  });
   return colours;
 }

@@ -49,6 +49,13 @@ function valueOf(scale, code) {
   return scale.logarithmic ? scale.low * (scale.high / scale.low) ** share : scale.low + share * (scale.high - scale.low);
 }
 
+/** What is drawn: the triangles, or, where elements are curved, pieces of them: corners, sides, the triangle of each. */
+async function readPieces(head, mesh) {
+  if (!head.blocks['piece-corners']) return { corners: mesh.corners, sides: mesh.sides, triangle: null };
+  const [corners, sides, triangle] = await Promise.all(['piece-corners', 'piece-sides', 'piece-triangle'].map((name) => unpack(head, name)));
+  return { corners, sides, triangle };
+}
+
 /** The mesh, with one array a name: positions (shares of the box, 0 to 1), corners, faces, sides, values by their keys. */
 async function readMesh() {
   const head = readHead();
@@ -59,9 +66,28 @@ async function readMesh() {
     if (i < 4) mesh[name] = arrays[i];
     else mesh.codes[name] = arrays[i];
   });
+  mesh.pieces = await readPieces(head, mesh);
   mesh.most = head.blocks.positions.bytes === 2 ? 0xffff : 0xffffff;
   mesh.extent = head.box.quantum.map((quantum) => quantum * mesh.most);
   return mesh;
+}
+
+/** The triangle that a piece is of. */
+function triangleOf(mesh, piece) { return mesh.pieces.triangle ? mesh.pieces.triangle[piece] : piece; }
+
+/** The first piece of a triangle, and how many it has. */
+function piecesOf(mesh, triangle) {
+  const owners = mesh.pieces.triangle;
+  if (!owners) return { first: triangle, count: 1 };
+  let low = 0, high = owners.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (owners[middle] < triangle) low = middle + 1;
+    else high = middle;
+  }
+  let end = low;
+  while (end < owners.length && owners[end] === triangle) ++end;
+  return { first: low, count: end - low };
 }
 
 /** Coordinates of a corner, k from 0 to 2, of a triangle. */

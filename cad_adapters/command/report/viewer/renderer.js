@@ -113,7 +113,7 @@ class Renderer {
     this.fine = this.coarse = null;
     this.drawing = compiled(gl, fragmentShader);
     this.picking = compiled(gl, pickShader);
-    this.whole = this.makeSet(this.mesh.corners);
+    this.whole = this.makeSet(this.mesh.pieces.corners);
     this.bytes = this.whole.bytes;
     gl.enable(gl.DEPTH_TEST);
   }
@@ -148,13 +148,13 @@ class Renderer {
 
   paint(key, face) {
     this.painted = [key, face];
-    this.setColours(this.whole, coloursOf(this.mesh, key, face, this.whole.bytes.colours));
+    this.setColours(this.whole, coloursOfPieces(this.mesh, coloursOf(this.mesh, key, face), this.whole.bytes.colours));
     if (this.coarse) this.paintCoarse();
   }
 
   /** Each coarse triangle has the colour of the one that it is made of, without lines. */
   paintCoarse() {
-    const all = coloursOf(this.mesh, ...this.painted, this.whole.bytes.colours);
+    const all = coloursOf(this.mesh, ...this.painted);
     const own = new Uint8Array(this.coarse.bytes.colours);
     this.coarse.from.forEach((t, i) => {
       own.set(all.subarray(4 * t, 4 * t + 3), 4 * i);
@@ -163,7 +163,7 @@ class Renderer {
     this.setColours(this.coarse, own);
   }
 
-  hasCoarse() { return this.mesh.head.triangles >= coarseFrom; }
+  hasCoarse() { return this.whole.triangles >= coarseFrom; }
 
   /** Made when it is first wanted: fast machines never do. */
   coarseSet() {
@@ -266,7 +266,8 @@ class Renderer {
     this.bind(this.whole);
     gl.uniform1i(this.drawing.chosen, true);
     gl.depthFunc(gl.ALWAYS);
-    gl.drawArrays(gl.TRIANGLES, 3 * this.chosen, 3);
+    const { first, count } = piecesOf(this.mesh, this.chosen);
+    gl.drawArrays(gl.TRIANGLES, 3 * first, 3 * count);
     gl.depthFunc(gl.LESS);
     this.drawCalls = 2;
   }
@@ -282,12 +283,13 @@ class Renderer {
     this.bind(this.whole);
     this.use(this.picking, camera);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.mesh.head.triangles);
+    gl.drawArrays(gl.TRIANGLES, 0, 3 * this.whole.triangles);
     const id = new Uint8Array(4);
     gl.readPixels(column, row, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, id);
     gl.disable(gl.SCISSOR_TEST);
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     this.remove(made);
-    return (id[0] | id[1] << 8 | id[2] << 16 | id[3] << 24) - 1;
+    const piece = (id[0] | id[1] << 8 | id[2] << 16 | id[3] << 24) - 1;
+    return piece < 0 ? -1 : triangleOf(this.mesh, piece);
   }
 }

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "adapt/transfer.h"
+#include "mesh/elements/over_nodes.h"
 #include "session_of_size.h"
 
 namespace carreau {
@@ -81,6 +84,44 @@ TEST(CurvedTransfer, ComponentsStayTogetherAndQuadrilateralsAreExactForLinearFie
     }
     EXPECT_LT(largest_difference(transfer_field(from, to, both, 2).values, expected), 1e-12) << element;
   }
+}
+
+// Over all nodes the straight mesh has the same area, each node as a vertex, and no defect.
+TEST(CurvedTransfer, StraightTrianglesOverAllNodesCoverTheMesh) {
+  for (const char* element : {"p2", "q2.0", "q2.1"}) {
+    const SurfaceMesh mesh = mesh_of(unit_square(), 0.2, element), straight = straight_over_nodes(mesh);
+    EXPECT_EQ(find_defects(straight), std::vector<std::string>{}) << element;
+    EXPECT_EQ(straight.vertices.size(), node_count(mesh));
+    EXPECT_TRUE(straight.mid_vertices.empty());
+    EXPECT_FALSE(straight.cells_are_not_triangles());
+    EXPECT_EQ(straight.edge_count(), 2 * mesh.edge_count());
+    const FlatMesh flat = straight_over_nodes(flatten(mesh, true)), same = flatten(straight, true);
+    EXPECT_EQ(flat.triangles, same.triangles);
+    EXPECT_EQ(flat.triangle_refs, same.triangle_refs);
+    EXPECT_EQ(flat.edges, same.edges);
+    EXPECT_FALSE(flat.is_quadratic());
+    double area = 0;
+    for (const auto& [a, b, c] : flat.triangles) {
+      const Vec3 d = flat.vertices[b] - flat.vertices[a], e = flat.vertices[c] - flat.vertices[a];
+      area += cross(d, e).z() / 2;
+    }
+    EXPECT_NEAR(area, 1, 1e-12) << element;
+  }
+}
+
+TEST(CurvedTransfer, TheErrorOfWhatShapeFunctionsHoldIsRounding) {
+  const Field f = [](const Vec3& p) { return 1 + p.x() * p.x() - 3 * p.x() * p.y(); };
+  const FieldFunction exact = [&](std::span<const Vec3> points, std::span<double> values) {
+    for (std::size_t i = 0; i < points.size(); ++i) values[i] = f(points[i]);
+  };
+  const SurfaceMesh mesh = mesh_of(unit_square(), 0.2, "p2");
+  EXPECT_LT(interpolation_error(mesh, at_nodes(mesh, f), exact).largest, 1e-14);
+  EXPECT_THROW(interpolation_error(mesh, at_vertices(mesh, f), exact), InvalidArgument);
+  std::vector<double> wrong = at_nodes(mesh, f);
+  wrong.back() += 1;  // a node on an edge: its shape function is 1 there, 3/4 halfway to a corner and 1/3 at a third
+  const InterpolationError error = interpolation_error(mesh, wrong, exact);
+  EXPECT_NEAR(error.largest, 0.75, 1e-12);
+  EXPECT_LT(error.rms, 0.2);
 }
 
 TEST(CurvedTransfer, ValuesAtVerticesAloneStayThere) {

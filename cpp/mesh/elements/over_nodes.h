@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Straight triangles over all nodes of elements of second order: what estimators and background meshes work on.
+#pragma once
+
+#include "mesh/flat_mesh.h"
+#include "mesh/surface_mesh.h"
+
+namespace carreau {
+
+/// Four triangles in the place of one of six nodes, six in that of a quadrilateral of eight: those at its corners and
+/// the halves of what is left. Nodes on edges become vertices and keep their numbers; edges of curves are halves. A mesh of first order
+/// stays as it is.
+SurfaceMesh straight_over_nodes(const SurfaceMesh& mesh);
+FlatMesh straight_over_nodes(FlatMesh mesh);
+
+}  // namespace carreau
