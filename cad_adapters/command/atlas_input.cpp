@@ -92,6 +92,7 @@ class AtlasInput final : public BuiltInput {
   }
   [[nodiscard]] bool closed() const override { return true; }
   [[nodiscard]] double ends_tolerance() const override { return 1e-9 * diagonal(); }
+  [[nodiscard]] bool has_arbitrary_borders() const override { return true; }
 
  private:
   [[nodiscard]] std::string kind(std::int32_t) const override { return "chart"; }

@@ -37,6 +37,9 @@ class CadInput {
   [[nodiscard]] virtual double open_tolerance() const { return 0; }
   /// Distance below which the ends of a short curve are worth a warning; 0: the library's own.
   [[nodiscard]] virtual double ends_tolerance() const { return 0; }
+  /// Faces are divided by curves that mean nothing, and may be crooked: edges on them are not cut for the sake of the
+  /// shapes beside them.
+  [[nodiscard]] virtual bool has_arbitrary_borders() const { return false; }
   /// "375 faces, 958 edges, 632 vertices, lengths in mm".
   [[nodiscard]] virtual std::string summary() const = 0;
   /// A size of its own for the face of this number, or for all faces of this name; before give_to. False: no such face.

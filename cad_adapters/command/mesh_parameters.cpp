@@ -234,7 +234,7 @@ void set_parameters(carreau_session* session, const MeshOptions& options, CadInp
   set(session, "CheckCloseEdges", 20);
   set(session, "CoefRectangle", 0.06);
   // A jump of the edges along a border leaves a fan of flat triangles beside it (HDR sec. 3.3.3).
-  set(session, "CheckAdjacentEdges", 20);
+  set(session, "CheckAdjacentEdges", input.has_arbitrary_borders() ? 0 : 20);
   // Whatever made edges of a border short, triangles grow from them to the size inside.
   set(session, "edge_gradation", 1.5);
   // Vertices that face each other leave triangles with right angles only.

@@ -143,6 +143,31 @@ void agree_at_joints(std::vector<Part>& parts) {
   }
 }
 
+/// Widths beside one another differ by no more than the steepest slope allows: less room where they do.
+bool level(Part& part) {
+  bool any = false;
+  const auto lower = [&](std::size_t k, std::size_t beside) {
+    const double most = std::abs(part.ratio[beside] - 1) +
+                        thresholds::steepest_ratio * std::abs(part.ratio_angle[k] - part.ratio_angle[beside]);
+    if (!(std::abs(part.ratio[k] - 1) > most)) return;
+    part.ratio[k] = 1 + part.side * most, any = true;
+  };
+  for (std::size_t k = 1; k < part.ratio.size(); ++k) lower(k, k - 1);
+  for (std::size_t k = part.ratio.size() - 1; k-- > 0;) lower(k, k + 1);
+  return any;
+}
+
+/// Lowering at joints goes round, at most once.
+void limit_slopes(std::vector<Part>& parts) {
+  agree_at_joints(parts);
+  for (std::size_t round = 0; round <= parts.size(); ++round) {
+    bool any = false;
+    for (Part& part : parts) any = level(part) || any;
+    if (!any) return;
+    agree_at_joints(parts);
+  }
+}
+
 }  // namespace
 
 void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, OuterBorder kind) {
@@ -172,7 +197,7 @@ void smooth_borders(std::vector<Part>& parts, std::vector<OuterPieces> pieces, O
     for (std::size_t k = 1; k < count; ++k) part.ratio.push_back(borders.nearer(bound[k - 1], bound[k]));
     part.ratio.push_back(bound.back());
   }
-  if (kind != OuterBorder::polygon) agree_at_joints(parts);
+  if (kind != OuterBorder::polygon) limit_slopes(parts);
 }
 
 }  // namespace carreau::atlas

@@ -54,4 +54,8 @@ inline constexpr double same_angle = 1e-9;
 inline constexpr double change_of_width = 0.2;
 inline constexpr int divisions = 8;
 
+/// Change of b by radian: above, it is a step in which charts of an atlas fold. Two thirds of the folds of joint.off
+/// are gone with 2; 1 covers no more than .63 of random annuli in place of .64, 0.09 of the worst in place of .13.
+inline constexpr double steepest_ratio = 2;
+
 }  // namespace carreau::atlas::thresholds

@@ -12,9 +12,10 @@ class AtlasCad final : public Cad {
  public:
   explicit AtlasCad(std::shared_ptr<const BlendedSurface> surface) : surface_(std::move(surface)) {}
 
-  void surface(int face, unsigned, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
+  void surface(int face, unsigned want, std::span<const Vec2> uv, std::span<SurfaceJet> out) override {
     const std::size_t chart = chart_of(face);
-    for (std::size_t k = 0; k < uv.size(); ++k) out[k] = surface_->at(chart, uv[k]);
+    const int order = (want & want_second) != 0 ? 2 : 1;
+    for (std::size_t k = 0; k < uv.size(); ++k) out[k] = surface_->at(chart, uv[k], order);
   }
   Interval curve_interval(int face, int ic) override {
     (void)side_of(face, ic);

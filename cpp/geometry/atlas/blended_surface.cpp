@@ -11,33 +11,37 @@ BlendedSurface::BlendedSurface(Covering covering) : covering_(std::move(covering
   folds_ = mend_folds(covering_, primitives_);
 }
 
-BlendedSurface::Point BlendedSurface::own(std::size_t chart, const Pair<Jet>& m) const {
-  return primitives_[chart].at(m);
-}
-
-BlendedSurface::Point BlendedSurface::blended(const Covering::OnT<Jet>& on, const Point& own_point) const {
-  const auto weights = Covering::weights(on.place);
-  const Triple& triple = covering_.triples()[static_cast<std::size_t>(on.corner.triple)];
-  Point sum;
+template <typename Number>
+std::array<Number, 3> BlendedSurface::blended(std::size_t chart, const Pair<Number>& place) const {
+  const std::array<Number, 3> own = primitives_[chart].at(place);
+  const auto on = covering_.on_t(chart, place);
+  if (!on) return own;
+  const std::array<Number, 3> weights = Covering::weights(on->place);
+  const Triple& triple = covering_.triples()[static_cast<std::size_t>(on->corner.triple)];
+  std::array<Number, 3> sum;
   for (int c = 0; c < 3; ++c) {
     const auto k = static_cast<std::size_t>(c);
     if (weights[k].f <= 0) continue;
-    const Point p = c == on.corner.corner ? own_point
-                                          : own(static_cast<std::size_t>(triple.chart[k]),
-                                                covering_.from_t(on.corner.triple, c, on.place));
+    const std::array<Number, 3> p = c == on->corner.corner ? own
+                                                           : primitives_[static_cast<std::size_t>(triple.chart[k])].at(
+                                                                 covering_.from_t(on->corner.triple, c, on->place));
     for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + weights[k] * p[i];
   }
   return sum;
 }
 
-SurfaceJet BlendedSurface::at(std::size_t chart, const Vec2& m) const {
-  const Pair<Jet> place = parameters_at(m);
-  Point p = own(chart, place);
-  if (const auto on = covering_.on_t(chart, place)) p = blended(*on, p);
+SurfaceJet BlendedSurface::at(std::size_t chart, const Vec2& m, int order) const {
   SurfaceJet jet;
+  const auto put = [&](int k, const auto& c) { jet.s[k] = c.f, jet.su[k] = c.u, jet.sv[k] = c.v; };
+  if (order < 2) {
+    const std::array<Slope, 3> p = blended(chart, parameters_at<Slope>(m));
+    for (int k = 0; k < 3; ++k) put(k, p[static_cast<std::size_t>(k)]);
+    return jet;
+  }
+  const std::array<Jet, 3> p = blended(chart, parameters_at<Jet>(m));
   for (int k = 0; k < 3; ++k) {
     const Jet& c = p[static_cast<std::size_t>(k)];
-    jet.s[k] = c.f, jet.su[k] = c.u, jet.sv[k] = c.v, jet.suu[k] = c.uu, jet.suv[k] = c.uv, jet.svv[k] = c.vv;
+    put(k, c), jet.suu[k] = c.uu, jet.suv[k] = c.uv, jet.svv[k] = c.vv;
   }
   return jet;
 }

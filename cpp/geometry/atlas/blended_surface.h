@@ -19,17 +19,17 @@ class BlendedSurface {
   [[nodiscard]] const Primitive& primitive(std::size_t chart) const { return primitives_[chart]; }
   /// What was found and mended where charts disagree.
   [[nodiscard]] const FoldReport& folds() const { return folds_; }
-  /// Point and derivatives to order two. Beyond the chart's region it is the chart's own primitive.
-  [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m) const;
+  /// Point and derivatives to order two, or one for less work. Beyond the chart's region it is the chart's own
+  /// primitive.
+  [[nodiscard]] SurfaceJet at(std::size_t chart, const Vec2& m, int order = 2) const;
 
   /// The part of a chart that is its own: of each T, what is nearer to its corner than to the others. Side k runs from
   /// the middle of T number k of the chart to the middle of the next, t from -1 to 1, and is C1.
   [[nodiscard]] CurveJet side(std::size_t chart, std::size_t k, double t) const;
 
  private:
-  using Point = std::array<Jet, 3>;
-  [[nodiscard]] Point own(std::size_t chart, const Pair<Jet>& m) const;
-  [[nodiscard]] Point blended(const Covering::OnT<Jet>& on, const Point& own) const;
+  template <typename Number>
+  [[nodiscard]] std::array<Number, 3> blended(std::size_t chart, const Pair<Number>& place) const;
 
   Covering covering_;
   std::vector<Primitive> primitives_;

@@ -1,66 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/atlas/mend_folds.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/atlas/fold_places.h"
+#include "geometry/atlas/mend_step.h"
 #include "geometry/atlas/thresholds.h"
 
 namespace carreau::atlas {
 namespace {
 
-constexpr int terms = Primitive::terms;
-using Normal = Eigen::Matrix<double, terms, terms>;
-using Right = Eigen::Matrix<double, terms, 3>;
+Block block_of(const Primitive& p) {
+  Block b;
+  for (int k = 0; k < Primitive::terms; ++k)
+    for (int d = 0; d < 3; ++d) b(k, d) = p.coefficient[static_cast<std::size_t>(k)][d];
+  return b;
+}
 
-/// A place of a T, as all charts that count there see it.
-struct Sample {
-  std::array<Jet, 3> weight;
-  std::array<Pair<Jet>, 3> place;
-};
-
-Vec3 by_u(const std::array<Jet, 3>& s) { return {s[0].u, s[1].u, s[2].u}; }
-Vec3 by_v(const std::array<Jet, 3>& s) { return {s[0].v, s[1].v, s[2].v}; }
-Vec3 value(const std::array<double, 3>& s) { return {s[0], s[1], s[2]}; }
-
-double steepness(const Jet& weight) { return std::hypot(weight.u, weight.v); }
-
-/// The same for all T.
-std::vector<Vec2> grid_of_t() {
-  constexpr int n = thresholds::grid_of_t;
-  std::vector<Vec2> grid;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; i + j <= n; ++j) {
-      const Vec2 p = (i * corner_of_t(1) + j * corner_of_t(2)) / n;
-      const auto weights = Covering::weights(pair_of(p));
-      if (*std::max_element(weights.begin(), weights.end()) < 1) grid.push_back(p);
+/// Mean of squares of a primitive's values at the vertices of its chart, by the size of the chart.
+Gram gram_of(const Covering& covering, const Chart& chart, const Primitive& p) {
+  Gram gram = Gram::Zero();
+  const double size2 = p.unit * p.unit;
+  const double each = 1 / (static_cast<double>(chart.members.size() + chart.around.size()) * size2);
+  for (const auto* list : {&chart.members, &chart.around})
+    for (const std::int32_t v : *list) {
+      const auto b = p.basis(pair_of(chart.frame.project(covering.surface().vertices[static_cast<std::size_t>(v)])));
+      for (int r = 0; r < Primitive::terms; ++r)
+        for (int c = 0; c < Primitive::terms; ++c)
+          gram(r, c) += each * b[static_cast<std::size_t>(r)] * b[static_cast<std::size_t>(c)];
     }
-  return grid;
+  // What the vertices do not determine moves little, too.
+  for (int k = 0; k < Primitive::terms; ++k) gram(k, k) += thresholds::undetermined / size2;
+  return gram;
+}
+
+std::vector<std::size_t> sorted(std::vector<std::size_t> list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
 }
 
 class FoldMender {
  public:
   FoldMender(const Covering& covering, std::vector<Primitive>& primitives)
-      : covering_(covering), primitives_(primitives), anchor_(primitives.size(), 0), grid_(grid_of_t()) {
-    for (std::size_t t = 0; t < covering.triples().size(); ++t)
-      for (const Vec2& p : grid_) samples_.push_back(sample(t, p));
-    emphasis_.assign(samples_.size(), 1);
-  }
+      : covering_(covering), primitives_(primitives), grid_(covering), rank_(primitives.size(), none) {}
 
   FoldReport mend() {
     FoldReport report;
-    std::vector<std::size_t> folded = folds();
-    report.folded_before = report.folded_after = folded.size();
+    std::vector<std::size_t> all(covering_.triples().size());
+    for (std::size_t t = 0; t < all.size(); ++t) all[t] = t;
+    Folds folds = look(all);
+    report.folded_before = report.folded_after = folds.triples.size();
     std::vector<Primitive> best = primitives_;
-    for (int round = 0; round < thresholds::mend_rounds && !folded.empty(); ++round) {
-      loosen(folded);
-      const std::vector<std::size_t> charts = active();
-      for (int sweep = 0; sweep < thresholds::mend_sweeps; ++sweep)
-        for (const std::size_t i : charts) refit(i);
-      folded = folds();
-      if (folded.size() >= report.folded_after) continue;
-      report.folded_after = folded.size(), report.mended_charts = charts.size();
+    for (int round = 0; round < thresholds::mend_rounds && !folds.charts.empty(); ++round) {
+      activate(folds.charts);
+      descend();
+      folds = look(triples_of_active());
+      if (folds.triples.size() >= report.folded_after && !folds.charts.empty()) continue;
+      report.folded_after = folds.triples.size(), report.mended_charts = active_.size();
       best = primitives_;
     }
     primitives_ = std::move(best);
@@ -68,154 +66,155 @@ class FoldMender {
   }
 
  private:
-  [[nodiscard]] Sample sample(std::size_t t, const Vec2& p) const {
-    const Pair<Jet> place = parameters_at(p);
-    Sample s{Covering::weights(place), {}};
-    for (std::size_t c = 0; c < 3; ++c)
-      if (s.weight[c].f > 0) s.place[c] = covering_.from_t(static_cast<std::int32_t>(t), static_cast<int>(c), place);
-    return s;
-  }
-  [[nodiscard]] std::size_t chart(std::size_t t, std::size_t c) const {
-    return static_cast<std::size_t>(covering_.triples()[t].chart[c]);
-  }
-  [[nodiscard]] const Sample& sample_of(std::size_t t, std::size_t k) const { return samples_[t * grid_.size() + k]; }
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// Is the surface turned over beside the planes of its charts, or much smaller than they are?
-  [[nodiscard]] bool is_folded(std::size_t t, const Sample& s) const {
-    std::array<Jet, 3> sum;
-    Vec3 normal(0, 0, 0);
-    double area = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (s.weight[c].f <= 0) continue;
-      const std::array<Jet, 3> p = primitives_[chart(t, c)].at(s.place[c]);
-      for (std::size_t i = 0; i < 3; ++i) sum[i] = sum[i] + s.weight[c] * p[i];
-      normal += s.weight[c].f * covering_.charts()[chart(t, c)].frame.normal;
-      const Jet &x = s.place[c][0], &y = s.place[c][1];
-      area += s.weight[c].f * (x.u * y.v - x.v * y.u);
-    }
-    return !(dot(cross(by_u(sum), by_v(sum)), normal) > thresholds::least_jacobian * area * norm(normal));
-  }
+  struct Folds {
+    std::vector<std::size_t> triples, charts;
+  };
 
-  /// Does a primitive turn over where it is alone?
-  [[nodiscard]] bool is_folded_inside(std::size_t i) const {
-    const Chart& own = covering_.charts()[i];
-    const auto is_bad = [&](const Vec2& m) {
-      const std::array<Jet, 3> s = primitives_[i].at(parameters_at(m));
-      return !(dot(cross(by_u(s), by_v(s)), own.frame.normal) > thresholds::least_jacobian);
-    };
-    for (const std::int32_t v : own.members)
-      if (is_bad(own.frame.project(covering_.surface().vertices[static_cast<std::size_t>(v)]))) return true;
-    for (std::size_t k = 0; k < 4 * own.corners.size(); ++k)
-      if (is_bad(value_of(own.annulus.at(0., static_cast<double>(k) * sixth_turn / 4)))) return true;
-    return false;
+  /// T that are folded, and their charts; watches places of theirs and of active charts that are not far from it.
+  Folds look(const std::vector<std::size_t>& triples) {
+    Folds folds;
+    watched_.clear();
+    for (const std::size_t t : triples)
+      grid_.visit_triple(t, [&](const FoldPlace& place) {
+        if (note(place, folds)) folds.triples.push_back(t);
+      });
+    for (const std::size_t i : active_)
+      for (const FoldPlace& place : grid_.of_pure_zone(i))
+        if (note(place, folds))
+          folds.triples.push_back(static_cast<std::size_t>(covering_.charts()[i].corners[0].triple));
+    folds.triples = sorted(std::move(folds.triples)), folds.charts = sorted(std::move(folds.charts));
+    return folds;
   }
-  [[nodiscard]] bool touches_active(std::size_t t) const {
-    return anchor_[chart(t, 0)] + anchor_[chart(t, 1)] + anchor_[chart(t, 2)] > 0;
+  bool note(const FoldPlace& place, Folds& folds) {
+    const double jacobian = place.jacobian(primitives_);
+    if (!(jacobian > thresholds::watched_jacobian)) watched_.push_back(place);
+    if (jacobian > thresholds::least_jacobian) return false;
+    for (std::size_t c = 0; c < place.shares; ++c) folds.charts.push_back(place.share[c].chart);
+    return true;
   }
-  [[nodiscard]] bool is_folded(std::size_t t) const {
-    for (std::size_t k = 0; k < grid_.size(); ++k)
-      if (is_folded(t, sample_of(t, k))) return true;
-    return false;
-  }
-
-  /// T with a place that is turned over, and one T of each chart that is so inside; of those that may have changed.
-  [[nodiscard]] std::vector<std::size_t> folds() const {
-    std::vector<char> is_bad(covering_.triples().size(), 0);
-    const bool all = active().empty();
-    for (std::size_t t = 0; t < is_bad.size(); ++t)
-      if (all || touches_active(t)) is_bad[t] = is_folded(t) ? 1 : 0;
-    for (std::size_t i = 0; i < primitives_.size(); ++i)
-      if (anchor_[i] > 0 && is_folded_inside(i))
-        is_bad[static_cast<std::size_t>(covering_.charts()[i].corners.front().triple)] = 1;
+  [[nodiscard]] std::vector<std::size_t> triples_of_active() const {
     std::vector<std::size_t> list;
-    for (std::size_t t = 0; t < is_bad.size(); ++t)
-      if (is_bad[t] != 0) list.push_back(t);
-    return list;
-  }
-
-  /// Charts that meet at folds count on their vertices less, their neighbours begin to give way.
-  void loosen(const std::vector<std::size_t>& folded) {
-    std::vector<double> old = anchor_;
-    std::vector<char> at_fold(primitives_.size(), 0);
-    for (const std::size_t t : folded) {
-      for (std::size_t c = 0; c < 3; ++c) at_fold[chart(t, c)] = 1;
-      for (std::size_t k = 0; k < grid_.size(); ++k)
-        if (is_folded(t, sample_of(t, k))) emphasis_[t * grid_.size() + k] *= thresholds::emphasis;
-    }
-    for (std::size_t i = 0; i < primitives_.size(); ++i) {
-      if (at_fold[i] == 0) continue;
-      anchor_[i] =
-          old[i] > 0 ? std::max(old[i] * thresholds::loosening, thresholds::least_anchor) : thresholds::first_anchor;
-      if (old[i] == 0 || old[i] > thresholds::giving_way) continue;
+    for (const std::size_t i : active_)
       for (const Corner& corner : covering_.charts()[i].corners)
-        for (std::size_t c = 0; c < 3; ++c) {
-          double& a = anchor_[chart(static_cast<std::size_t>(corner.triple), c)];
-          if (a == 0) a = thresholds::first_anchor;
-        }
-    }
-  }
-  [[nodiscard]] std::vector<std::size_t> active() const {
-    std::vector<std::size_t> list;
-    for (std::size_t i = 0; i < anchor_.size(); ++i)
-      if (anchor_[i] > 0) list.push_back(i);
-    return list;
+        list.push_back(static_cast<std::size_t>(corner.triple));
+    return sorted(std::move(list));
   }
 
-  static void add(Normal& normal, Right& right, const Primitive::Basis& b, const Vec3& target, double weight) {
-    for (int i = 0; i < terms; ++i) {
-      const double wi = weight * b[static_cast<std::size_t>(i)];
-      for (int j = 0; j < terms; ++j) normal(i, j) += wi * b[static_cast<std::size_t>(j)];
-      for (int k = 0; k < 3; ++k) right(i, k) += wi * target[k];
-    }
-  }
-
-  void refit(std::size_t i) {
-    const Chart& own = covering_.charts()[i];
-    Primitive& p = primitives_[i];
-    Normal normal = Normal::Zero();
-    Right right = Right::Zero();
-    double whole = 0;
-    for (const Corner& corner : own.corners) whole += add_neighbours(i, corner, normal, right);
-    normal /= whole, right /= whole;
-    const double each = anchor_[i] / static_cast<double>(own.members.size() + own.around.size());
-    for (const auto* list : {&own.members, &own.around})
-      for (const std::int32_t v : *list) {
-        const Vec3& at = covering_.surface().vertices[static_cast<std::size_t>(v)];
-        add(normal, right, p.basis(own.frame.project(at)), at, each);
+  /// Charts at folds get looser; where they are loose already, their neighbours move as well.
+  void activate(const std::vector<std::size_t>& folded) {
+    for (const std::size_t i : folded) {
+      if (rank_[i] == none) {
+        add(i);
+        continue;
       }
-    constexpr double ridge = 1e-9;
-    for (int k = 0; k < terms; ++k) {
-      normal(k, k) += ridge;
-      for (int d = 0; d < 3; ++d) right(k, d) += ridge * p.coefficient[static_cast<std::size_t>(k)][d];
+      double& anchor = anchor_[rank_[i]];
+      anchor = std::max(anchor * thresholds::loosening, thresholds::least_anchor);
+      if (anchor > thresholds::giving_way) continue;
+      for (const Corner& corner : covering_.charts()[i].corners)
+        for (const std::int32_t j : covering_.triples()[static_cast<std::size_t>(corner.triple)].chart)
+          if (rank_[static_cast<std::size_t>(j)] == none) add(static_cast<std::size_t>(j));
     }
-    const Right solution = normal.ldlt().solve(right);
-    for (int k = 0; k < terms; ++k)
-      p.coefficient[static_cast<std::size_t>(k)] = Vec3(solution(k, 0), solution(k, 1), solution(k, 2));
+  }
+  void add(std::size_t i) {
+    rank_[i] = active_.size();
+    active_.push_back(i), anchor_.push_back(thresholds::first_anchor);
+    gram_.push_back(gram_of(covering_, covering_.charts()[i], primitives_[i]));
+    start_.push_back(block_of(primitives_[i]));
   }
 
-  double add_neighbours(std::size_t i, const Corner& corner, Normal& normal, Right& right) const {
-    const auto t = static_cast<std::size_t>(corner.triple), mine = static_cast<std::size_t>(corner.corner);
-    double whole = 0;
-    for (std::size_t k = 0; k < grid_.size(); ++k) {
-      const Sample& s = sample_of(t, k);
-      if (s.weight[mine].f <= 0) continue;
-      const Primitive::Basis b = primitives_[i].basis(value_of(s.place[mine]));
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (c == mine || s.weight[c].f <= 0) continue;
-        const double w = emphasis_[t * grid_.size() + k] * steepness(s.weight[mine]) * steepness(s.weight[c]);
-        add(normal, right, b, value(primitives_[chart(t, c)].at(pair_of(value_of(s.place[c])))), w);
-        whole += w;
-      }
+  void move(const Blocks& step, double times) {
+    for (std::size_t r = 0; r < active_.size(); ++r)
+      for (int k = 0; k < Primitive::terms; ++k)
+        for (int d = 0; d < 3; ++d)
+          primitives_[active_[r]].coefficient[static_cast<std::size_t>(k)][d] += times * step[r](k, d);
+  }
+
+  [[nodiscard]] double missing_at(const FoldPlace& place) const {
+    return thresholds::wanted_jacobian - place.jacobian(primitives_);
+  }
+  [[nodiscard]] double energy() const {
+    double sum = 0;
+    for (const FoldPlace& place : watched_)
+      if (const double missing = missing_at(place); missing > 0) sum += missing * missing;
+    for (std::size_t r = 0; r < active_.size(); ++r) {
+      const Block off = block_of(primitives_[active_[r]]) - start_[r];
+      sum += anchor_[r] * product(off, gram_[r] * off);
     }
-    return whole;
+    return sum;
+  }
+
+  [[nodiscard]] MendRow row_of(const FoldPlace& place, double missing) const {
+    MendRow row;
+    row.missing = missing;
+    const FoldPlace::Tangents t = place.tangents(primitives_);
+    const Vec3 along_u = cross(t.by_v, place.normal), along_v = cross(place.normal, t.by_u);
+    for (std::size_t c = 0; c < place.shares; ++c) {
+      const FoldPlace::Share& share = place.share[c];
+      if (rank_[share.chart] == none) continue;
+      const auto basis = primitives_[share.chart].basis(share.at);
+      Block& g = row.gradient[row.count];
+      for (int k = 0; k < Primitive::terms; ++k) {
+        const Slope b = share.weight * basis[static_cast<std::size_t>(k)];
+        for (int d = 0; d < 3; ++d) g(k, d) = b.u * along_u[d] + b.v * along_v[d];
+      }
+      row.rank[row.count++] = rank_[share.chart];
+    }
+    return row;
+  }
+  [[nodiscard]] std::vector<MendRow> rows() const {
+    std::vector<MendRow> rows;
+    for (const FoldPlace& place : watched_)
+      if (const double missing = missing_at(place); missing > 0) rows.push_back(row_of(place, missing));
+    return rows;
+  }
+  [[nodiscard]] Blocks downhill(const std::vector<MendRow>& rows) const {
+    Blocks right;
+    for (std::size_t r = 0; r < active_.size(); ++r)
+      right.emplace_back(anchor_[r] * (gram_[r] * (start_[r] - block_of(primitives_[active_[r]]))));
+    for (const MendRow& row : rows)
+      for (std::size_t c = 0; c < row.count; ++c) right[row.rank[c]] += row.missing * row.gradient[c];
+    return right;
+  }
+
+  /// Steps of Levenberg and Marquardt, until they gain little.
+  void descend() {
+    double damping = thresholds::first_damping, now = energy();
+    for (int step = 0; step < thresholds::mend_steps; ++step) {
+      const std::vector<MendRow> pulling = rows();
+      if (pulling.empty()) return;
+      const double then = step_down(pulling, damping, now);
+      if (!(then < thresholds::notable_gain * now)) return;
+      now = then;
+    }
+  }
+  /// The energy after a step that is short enough, or the one before where none is.
+  double step_down(const std::vector<MendRow>& pulling, double& damping, double now) {
+    const Blocks right = downhill(pulling);
+    for (; damping < thresholds::most_damping; damping *= 4) {
+      std::vector<double> weight = anchor_;
+      for (double& w : weight) w += damping;
+      const Blocks step = solve_step(gram_, weight, pulling, right);
+      move(step, 1);
+      if (const double then = energy(); then < now) {
+        damping = std::max(damping / 4, thresholds::least_damping);
+        return then;
+      }
+      move(step, -1);
+    }
+    return now;
   }
 
   const Covering& covering_;
   std::vector<Primitive>& primitives_;
-  std::vector<double> anchor_;  ///< of each chart, what its vertices count beside its neighbours; 0: it is left alone
-  std::vector<Vec2> grid_;
-  std::vector<Sample> samples_;
-  std::vector<double> emphasis_;  ///< of each sample
+  FoldGrid grid_;
+  std::vector<std::size_t> rank_;    ///< of each chart among the active ones, or none
+  std::vector<std::size_t> active_;  ///< charts that move
+  std::vector<double> anchor_;       ///< of each of these: what distances from the start count
+  std::vector<Gram> gram_;
+  Blocks start_;
+  std::vector<FoldPlace> watched_;
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Primitives that agree with their neighbours where the blended surface would fold.
+// Primitives moved until the blended surface is nowhere turned over.
 #pragma once
 
 #include <vector>
@@ -15,9 +15,9 @@ struct FoldReport {
   std::size_t mended_charts = 0;
 };
 
-/// Where the blended surface is turned over at a place of a grid on a T (ours), primitives of the charts around are
-/// fitted to one another as well as to their vertices, the more the longer it stays so. Those elsewhere are left as
-/// they are. Deterministic.
+/// Where the blended surface is turned over at a place of a fine grid on a T (ours), primitives of the charts there are
+/// moved, by least squares of what is missing and of distances to where they were, which count less the longer it
+/// takes. Those elsewhere are left as they are. Deterministic.
 FoldReport mend_folds(const Covering& covering, std::vector<Primitive>& primitives);
 
 }  // namespace carreau::atlas

@@ -10,7 +10,9 @@ namespace carreau::atlas {
 /// disagree places move along the plane, too: the transitions between charts are no projections.
 struct Primitive {
   static constexpr int terms = 10;
-  using Basis = std::array<double, terms>;
+  template <typename Number>
+  using BasisOf = std::array<Number, terms>;
+  using Basis = BasisOf<double>;
   /// Of 1, x, y, x^2, x y, y^2, x^3, x^2 y, x y^2, y^3, with x and y in units of `unit`.
   std::array<Vec3, terms> coefficient = zeros();
   double unit = 1;
@@ -32,9 +34,10 @@ struct Primitive {
     }
     return s;
   }
-  [[nodiscard]] Basis basis(const Vec2& p) const {
-    const double x = p.x() / unit, y = p.y() / unit;
-    return {1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y};
+  template <typename Number>
+  [[nodiscard]] BasisOf<Number> basis(const Pair<Number>& p) const {
+    const Number x = p[0] / unit, y = p[1] / unit;
+    return {Number(1.0), x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y};
   }
 };
 

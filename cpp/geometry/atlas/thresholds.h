@@ -4,21 +4,28 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Parts a side of the grid on which each T is looked at: a hundred places where charts share it. With half as many
-/// parts a half of the folds of joint.off is not seen.
-inline constexpr int grid_of_t = 24;
+/// Parts of the grid on which each T is looked at: some 1500 places where charts share it. Folds of joint.off are as
+/// narrow as a two hundredth of T: with 24 parts two thirds are not seen, with 48 a half.
+inline constexpr int grid_of_t = 96;
 /// Area of the surface beside that of its charts' planes: below, a place counts as turned over. Above 0, as what is
-/// nearly turned over is meshed slowly.
-inline constexpr double least_jacobian = 0.03;
+/// nearly turned over is meshed poorly.
+inline constexpr double least_jacobian = 0.15;
+/// What charts are moved for; above the last one, as distances pull back.
+inline constexpr double wanted_jacobian = 0.4;
+/// Places above need no look while charts move. Should one fold even so, the next round has it.
+inline constexpr double watched_jacobian = 0.7;
 
-/// What the vertices of a chart count beside its neighbours: at first, by what factor less in each round, and at least.
-/// At first 1 took an uneven torus a twentieth of its radius off; 40 leaves more folds on joint.off than 10.
-inline constexpr double first_anchor = 10, loosening = 0.5, least_anchor = 1e-3;
-/// Below this, neighbours give way as well: before, charts at the fold alone, so that the mend stays local.
+/// What distances from where the charts were count: at first, by what factor less in each round, and at least.
+inline constexpr double first_anchor = 1, loosening = 0.3, least_anchor = 1e-4;
+/// Below this, neighbours move as well: before, charts at the fold alone, so that the mend stays local.
 inline constexpr double giving_way = 0.1;
-/// How much more a place that is turned over counts in each round. Ten leaves more folds than three.
-inline constexpr double emphasis = 3;
-/// Rounds, and sweeps over the charts in each.
-inline constexpr int mend_rounds = 24, mend_sweeps = 4;
+/// Mean square of values per coefficient that the vertices of a chart do not determine.
+inline constexpr double undetermined = 1e-3;
+/// Rounds, and steps in each. Joint.off and spot need one round, the bunny three.
+inline constexpr int mend_rounds = 24, mend_steps = 30;
+/// Damping of steps (Levenberg and Marquardt), in the unit of anchors.
+inline constexpr double first_damping = 1, least_damping = 1e-6, most_damping = 1e8;
+/// A step that leaves more than this share of the energy is the last.
+inline constexpr double notable_gain = 0.999;
 
 }  // namespace carreau::atlas::thresholds

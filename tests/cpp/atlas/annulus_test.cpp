@@ -132,6 +132,42 @@ TEST(Annulus, IsInsideThePolygonalOne) {
   }
 }
 
+/// Between any two places of a part: b has no steps, and its cubics are no steeper than half again.
+TEST(Annulus, OuterBordersHaveNoSteps) {
+  std::mt19937_64 random(12);
+  for (int made = 0; made < 200;) {
+    const auto b = test::random_borders(random);
+    if (!b) continue;
+    ++made;
+    const Annulus a(b->inner, b->outer);
+    for (const Part& part : a.parts())
+      for (int k = 0; k < 500; ++k) {
+        const Slope ratio = part.ratio_at(Slope(part.total() * (k + .5) / 500, 1, 0));
+        EXPECT_LT(std::abs(ratio.u), 3 + 1e-9);
+      }
+  }
+}
+
+/// One-sided slopes at a distance h of joints and vertices differ by O(h): first derivatives are continuous, and second
+/// ones jump.
+TEST(Annulus, SlopesOfBothSidesMeetWithOrderOne) {
+  for (const Borders& b : figures()) {
+    const Annulus a(b.inner, b.outer);
+    const auto jump = [&](double h) {
+      double largest = 0;
+      for (const Part& part : a.parts())
+        for (const double phi : part.phi) {
+          const auto near = a.at(Slope(.4), Slope(phi - h, 0, 1)), far = a.at(Slope(.4), Slope(phi + h, 0, 1));
+          largest = std::max(largest, std::hypot(near[0].v - far[0].v, near[1].v - far[1].v));
+        }
+      return largest;
+    };
+    const double order = std::log10(jump(1e-4) / jump(1e-5));
+    std::cout << "slopes meet with order " << order << "\n";
+    EXPECT_NEAR(order, 1, .05);
+  }
+}
+
 TEST(Annulus, IsC1AcrossJointsAndVerticesAndAnywhere) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0, 1);

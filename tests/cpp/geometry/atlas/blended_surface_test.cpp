@@ -116,6 +116,38 @@ TEST(BlendedSurface, DerivativesAreThoseOfDifferences) {
   }
 }
 
+TEST(BlendedSurface, LowerOrdersAreTheSameToTheLastBit) {
+  const BlendedSurface surface(Covering(test::icosphere(3)));
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> unit(-.2, 1);
+  for (std::size_t i = 0; i < surface.covering().charts().size(); ++i) {
+    const Annulus& a = surface.covering().charts()[i].annulus;
+    const Vec2 m = value_of(a.at(unit(random), a.period() * unit(random)));
+    const SurfaceJet all = surface.at(i, m), first = surface.at(i, m, 1);
+    EXPECT_EQ(all.s, first.s);
+    EXPECT_EQ(all.su, first.su);
+    EXPECT_EQ(all.sv, first.sv);
+  }
+}
+
+/// Triangles of a torus that are two to three times longer than wide: charts disagree by more than they are wide.
+TEST(BlendedSurface, FoldsOfUnevenTrianglesAreMended) {
+  const BlendedSurface surface(Covering(test::torus(2, .8, 40, 36)));
+  EXPECT_GT(surface.folds().folded_before, 0u);
+  EXPECT_EQ(surface.folds().folded_after, 0u);
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (std::size_t i = 0; i < surface.covering().charts().size(); ++i) {
+    const Annulus& a = surface.covering().charts()[i].annulus;
+    for (int k = 0; k < 200; ++k) {
+      const SurfaceJet jet = surface.at(i, value_of(a.at(unit(random), a.period() * unit(random))));
+      const double r = std::hypot(jet.s.x(), jet.s.y());
+      const Vec3 outwards(jet.s.x() * (1 - 2 / r), jet.s.y() * (1 - 2 / r), jet.s.z());
+      EXPECT_GT(dot(unit_normal(jet), outwards), 0) << i;
+    }
+  }
+}
+
 TEST(BlendedSurface, SidesAreOneCurveInBothFaces) {
   const BuiltGeometry built = build_atlas(std::make_shared<BlendedSurface>(Covering(test::icosphere(2))));
   std::map<int, std::vector<std::pair<int, int>>> uses;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Places at which the blended surface is looked at for folds.
+#pragma once
+
+#include <vector>
+
+#include "atlas/covering/covering.h"
+#include "geometry/atlas/primitive.h"
+
+namespace carreau::atlas {
+
+/// A place as all charts that count there see it.
+struct FoldPlace {
+  struct Share {
+    std::size_t chart = 0;
+    Slope weight;
+    Pair<Slope> at;
+  };
+  std::array<Share, 3> share;
+  std::size_t shares = 0;
+  Vec3 normal{0, 0, 0};  ///< of the charts' planes, by their area
+
+  /// Derivatives of the surface.
+  struct Tangents {
+    Vec3 by_u{0, 0, 0}, by_v{0, 0, 0};
+  };
+  [[nodiscard]] Tangents tangents(const std::vector<Primitive>& primitives) const;
+  /// Jacobian of the surface beside that of its charts' planes: 1 on the planes, below 0 where it is turned over.
+  [[nodiscard]] double jacobian(const std::vector<Primitive>& primitives) const;
+};
+
+/// Of all T, on a grid; what is the same for all of them is computed once.
+class FoldGrid {
+ public:
+  explicit FoldGrid(const Covering& covering);
+
+  /// Places of a T where charts share it.
+  template <typename Visit>
+  void visit_triple(std::size_t triple, Visit&& visit) const {
+    for (const Node& node : nodes_) visit(place(triple, node));
+  }
+  /// Places where a chart is alone: on its triangles and at the border of its pure zone.
+  [[nodiscard]] std::vector<FoldPlace> of_pure_zone(std::size_t chart) const;
+
+ private:
+  /// A place of T: weights, shares and phi for each of its corners.
+  struct Node {
+    std::array<Slope, 3> weight;
+    std::array<Polar<Slope>, 3> place;
+  };
+  [[nodiscard]] FoldPlace place(std::size_t triple, const Node& node) const;
+
+  const Covering& covering_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace carreau::atlas
