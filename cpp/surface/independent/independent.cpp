@@ -127,8 +127,29 @@ FreedMesh reassembled(const SurfaceMesh& before, Start&& start, const RemeshingF
   return made;
 }
 
-FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, const CompositeResult& result,
-                RemeshingFrame& frame, Monitor& monitor) {
+// Sizes beside edges of lines that could not be as long as wanted: theirs, growing from there.
+void grade_beside_short_edges(FreeMesh& free, std::span<const WorkedLine> lines, double growth, std::size_t vertices, Charts& charts) {
+  std::vector<double> factor(vertices, 1);
+  for (const WorkedLine& line : lines)
+    for (std::size_t k = 1; k < line.left.size(); ++k) {
+      const std::int32_t v = line.left[k - 1].vertex, w = line.left[k].vertex;
+      const double l = free.length(v, w);
+      for (const std::int32_t end : {v, w}) factor[end] = std::min(factor[end], l);
+    }
+  charts.enlarge(charts.graded_factors(std::move(factor), growth));
+  free.update_sizes();
+}
+
+/// How lengths and shapes are weighed where they are at odds.
+struct Compromise {
+  double price;                ///< SurfaceTolerances::price_of_length
+  double growth = infinity;    ///< of sizes beside what stays short, which are smaller there
+  [[nodiscard]] bool graded() const noexcept { return growth < infinity; }
+};
+
+FreedMesh freed(Cad& cad, SurfaceTolerances tolerances, const Compromise& compromise, bool coarsely,
+                const CompositeResult& result, RemeshingFrame& frame, Monitor& monitor) {
+  tolerances.price_of_length = compromise.price;
   auto [mesh, worked] = free_mesh_of(cad, tolerances, result, frame);
   FreeMesh& free = *mesh;
   const LineTolerance of_lines{tolerances.deviation, tolerances.share_of_size};
@@ -137,7 +158,9 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::vector<std::int32_t> changed = remesh_lines(free, worked, of_lines, monitor);
     if (round > 0 && changed.empty()) break;
-    if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
+    if (round == 0 && compromise.graded())
+      grade_beside_short_edges(free, worked, compromise.growth, result.mesh.vertices.size(), *frame.charts);
+    else if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
     // Elsewhere nothing is left to do after the first round.
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame.everywhere ? changed.size() : 0);
     report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely, around);
@@ -147,6 +170,10 @@ FreedMesh freed(Cad& cad, const SurfaceTolerances& tolerances, bool coarsely, co
                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
                                      " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
                                      std::to_string(report.rounds) + " rounds");
+  if (compromise.graded()) {
+    frame.charts->enlarge({});
+    free.update_sizes();
+  }
   const bool worse_shaped = summarise_shapes(free).mean < before.mean;
   FreedMesh made = reassembled(result.mesh, {std::move(mesh), std::move(worked)}, frame, monitor);
   made.worse_shaped = worse_shaped;
@@ -186,7 +213,7 @@ SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_di
   const GeometricLimits limits = geometric_limits(options.size);
   // What is folded by less than the sharp angle may be flattened.
   const double folded = std::min(usual_angle / 2 + options.sharp_angle, most_angle);
-  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation, .price_of_length = options.sharp_angle > most_angle_of_price ? infinity : high_price};
+  SurfaceTolerances tolerances{.angle_deg = std::max(usual_angle, folded), .deviation = 0, .share_of_size = usual_deviation};
   if (std::isfinite(limits.edge_angle_deg)) tolerances.angle_deg = limits.edge_angle_deg * angle_slack;
   if (std::isfinite(limits.deviation)) tolerances.deviation = limits.deviation;
   if (by_direction && !options.size.geo_guarantee) tolerances.angle_deg = std::max(tolerances.angle_deg, leaning_angle);
@@ -208,20 +235,38 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;
   };
+  std::vector<Compromise> compromises =
+      options.sharp_angle > most_angle_of_price
+          ? std::vector<Compromise>{{infinity}}
+          : std::vector<Compromise>{{high_price}, {low_price}, {low_price, fast_growth}, {low_price, slow_growth}};
+  std::size_t compromise = 0;
   FreedMesh made;
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     monitor.checkpoint();
     // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
     const bool ruled = geometric_limits(options.size).any();
-    made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
-    if (made.worse_shaped && tolerances.price_of_length == high_price) {
-      tolerances.price_of_length = low_price;
-      made = freed(cad, tolerances, attempt == 0 && !ruled, result, frame, monitor);
+    if (attempt + 1 == most_attempts && compromises.size() > 1)  // the mesh that changes least is the likeliest not to cross
+      compromises = {{low_price, slow_growth}}, compromise = 0;
+    for (;; ++compromise) {
+      FreedMesh tried = freed(cad, tolerances, compromises[compromise], attempt == 0 && !ruled, result, frame, monitor);
+      if (compromise > 0 && tried.worse_shaped && compromises[compromise].growth == slow_growth) {  // it costs lengths, and is of no use then
+        compromises.resize(compromise);
+        --compromise;
+        break;
+      }
+      made = std::move(tried);
+      if (!made.worse_shaped || compromise + 1 == compromises.size()) break;
     }
     const Intersections found = crossings(made.mesh, options.threads, monitor);
-    if (found.count == 0 || found.count <= known()) {
-      why = worse(made.mesh, result.mesh);
+    const bool crosses = found.count > 0 && found.count > known();
+    if (!crosses) why = worse(made.mesh, result.mesh);
+    if (compromise > 0 && compromises[compromise].graded() && (crosses || !why.empty())) {  // as if it had not been tried
+      compromises.resize(compromise);
+      --compromise, --attempt;
+      continue;
+    }
+    if (!crosses) {
       if (why.empty() && result.report.crossings >= 0)
         result.report.crossings = found.count, result.crossings = found.pairs;
       break;

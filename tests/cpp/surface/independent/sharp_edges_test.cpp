@@ -90,8 +90,8 @@ AnalyticCad perforated(int count, double side) {
 // Sides of holes are shorter than the size, so that lengths beside them cannot be as asked: shapes do not pay for it.
 TEST(SharpEdges, ShapesBesideSmallHolesAreNoWorse) {
   Monitor quiet;
-  for (const int count : {3, 4}) {
-    const AnalyticCad cad = perforated(count, 0.2);
+  for (const auto& [count, side] : {std::pair{3, 0.2}, {4, 0.2}, {5, 0.1}}) {
+    const AnalyticCad cad = perforated(count, side);
     const auto patches = session_of_size(cad, 0.5, quiet);
     patches->make_mesh();
     const auto mesh = freed(cad, 0.5, 1, quiet);
