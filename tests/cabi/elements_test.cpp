@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "abi_fixture.h"
+#include "carreau_geometry.h"
 
 namespace abi_tests {
 namespace {
