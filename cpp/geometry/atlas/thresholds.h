@@ -4,8 +4,8 @@
 
 namespace carreau::atlas::thresholds {
 
-/// Parts of the grid on which each T is looked at: some 1500 places where charts share it. Folds of joint.off are as
-/// narrow as a two hundredth of T: with 24 parts two thirds are not seen, with 48 a half.
+/// Parts of the grid on which each T is looked at: some 1500 places where charts share it. Folds are narrow: of the T
+/// of joint.off that are folded at places of this grid, 24 parts do not see two thirds, 48 parts three eighths.
 inline constexpr int grid_of_t = 96;
 /// Area of the surface beside that of its charts' planes: below, a place counts as turned over. Above 0, as what is
 /// nearly turned over is meshed poorly.
