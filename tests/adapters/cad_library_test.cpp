@@ -3,6 +3,7 @@
 #include <carreau_cad.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -165,6 +166,7 @@ TEST(CadLibrary, PutsPointsOnCurves) {
       EXPECT_EQ(carreau_cad_curve_point(file, f, ic, 0.5, uv.data()), CARREAU_OK);
       EXPECT_EQ(carreau_cad_point(file, f, uv[0], uv[1], p.data(), nullptr), CARREAU_OK);
       middles[edges[ic - 1]].push_back(p);
+      EXPECT_EQ(carreau_cad_whole_edge(file, edges[ic - 1]), edges[ic - 1]);
     }
     EXPECT_EQ(carreau_cad_whole_face(file, f), f);
     std::int64_t parts = 0;
@@ -173,12 +175,18 @@ TEST(CadLibrary, PutsPointsOnCurves) {
     EXPECT_EQ(parts, 1);  // a face that is not cut is its only part
     EXPECT_EQ(part, f);
   }
+  auto gaps = empty<carreau_cad_gaps>();
+  EXPECT_OK(file, carreau_cad_measure_gaps(file, &gaps));
+  EXPECT_EQ(gaps.beyond, 0);
   int shared = 0;
+  double apart = 0;
   for (const auto& places : middles)
     if (places.size() == 2) {
       ++shared;
       for (int x = 0; x < 3; ++x) EXPECT_NEAR(places[0][x], places[1][x], 1e-5);
+      apart = std::max(apart, std::hypot(places[0][0] - places[1][0], places[0][1] - places[1][1], places[0][2] - places[1][2]));
     }
+  EXPECT_LE(apart, gaps.largest + 1e-5);
   EXPECT_GT(shared, 8);
 }
 

@@ -55,6 +55,10 @@ TEST_F(SessionTest, NodesOfP2LieOnTheSurfaceAtTheirParameters) {
   std::vector<double> uv(2 * cells.nodes.size());
   ASSERT_EQ(carreau_mesh_cell_uv(mesh(), CARREAU_CELL_TRIANGLE6, std::int64_t(cells.refs.size()), uv.data()),
             CARREAU_OK);
+  std::vector<std::int32_t> faces(cells.nodes.size());
+  ASSERT_EQ(carreau_mesh_cell_faces(mesh(), CARREAU_CELL_TRIANGLE6, std::int64_t(cells.refs.size()), faces.data()),
+            CARREAU_OK);
+  for (std::size_t i = 0; i < faces.size(); ++i) ASSERT_EQ(faces[i], cells.refs[i / 6]);  // all are of one face
   for (std::size_t i = 0; i < cells.nodes.size(); ++i) {
     const double u = uv[2 * i], v = uv[2 * i + 1], *xyz = &data.xyz[3 * std::size_t(cells.nodes[i])];
     ASSERT_NEAR(xyz[0], u, 1e-14);
