@@ -10,6 +10,7 @@
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
+#include "measure/thresholds.h"
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
 
@@ -170,7 +171,7 @@ class ElementEvaluation {
   [[nodiscard]] std::optional<SurfacePlace> surface_below(std::vector<SurfacePlace> corner, const Vec3& point) const {
     std::ranges::stable_sort(corner, {}, [&](const SurfacePlace& c) { return norm(c.xyz - point); });
     for (const SurfacePlace& from : corner)
-      if (const auto found = atlas_.charts->towards(cad_, from, point, true)) return found;
+      if (const auto found = atlas_.charts->towards(cad_, from, point, true, thresholds::measure::near_foot)) return found;
     return {};
   }
 

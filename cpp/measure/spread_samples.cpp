@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "measure/thresholds.h"
+
 namespace carreau {
 
 SpreadTriangle::SpreadTriangle(const SurfaceMesh& mesh, const SpreadAtlas& atlas, Cad& cad, std::size_t f, std::size_t t)
@@ -29,7 +31,7 @@ std::optional<SurfacePlace> SpreadTriangle::over(const std::array<double, 3>& we
   std::ranges::stable_sort(order, std::greater<>(), [&](int i) { return weight[i]; });
   for (const int i : order)
     if (place_[i].regular)
-      if (const auto found = atlas_.charts->towards(cad_, place_[i], target, true)) return found;
+      if (const auto found = atlas_.charts->towards(cad_, place_[i], target, true, thresholds::measure::near_foot)) return found;
   return {};
 }
 

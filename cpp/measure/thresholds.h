@@ -21,6 +21,10 @@ inline constexpr double gradation_tolerance = 0.02;
 /// Unit edges. Lengths in range are between these (HDR eq. 2.14). [DeliveredPlane.UniformLengthsAreExact]
 inline constexpr double short_limit = std::numbers::sqrt2 / 2, long_limit = std::numbers::sqrt2;
 
+/// Share of the way from a corner to the place. Feet are as near to those of the place along the surface: a distance that is a hundredth of the way
+/// is right to a part in 20 000. [FreeElements.WhatIsDeliveredIsOfTheElements]
+inline constexpr double near_foot = 1e-4;
+
 // Bounds of A0 and A1 (triangle_bound, deviation_bounds)
 /// What bounds assume: over a part of a triangle second derivatives along its sides differ from a constant by at most so many times the largest second
 /// difference seen. Heights of parts count a sixteenth of those of the triangle, so once costs a tenth. [TriangleBound.SphereInClosedForm]

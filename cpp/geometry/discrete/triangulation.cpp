@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "geometry/discrete/thresholds.h"
+#include "model/bucket_sort.h"
 #include "model/union_find.h"
-#include "support/bucket_sort.h"
 #include "support/error.h"
 #include "support/format.h"
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "surface/free_elements/thresholds.h"
 #include "surface/independent/free_mesh.h"
 #include "surface/independent/line_places.h"
 
@@ -18,7 +19,7 @@ class FreeSurface final : public SurfaceAround {
   FreeSurface(const Charts& charts, Cad& cad) : charts_(charts), cad_(cad) {}
 
   [[nodiscard]] std::optional<SurfacePlace> towards(const SurfacePlace& from, const Vec3& target) const override {
-    return charts_.towards(cad_, from, target);
+    return charts_.towards(cad_, from, target, false, thresholds::free_elements::near_foot);
   }
   [[nodiscard]] WantedSize wanted(const SurfacePlace& place) const override { return wanted_at({&place, 1}); }
   /// At a vertex with several places.
@@ -27,7 +28,7 @@ class FreeSurface final : public SurfaceAround {
 
   /// The same as towards(), and on a barrier that is in the way beside the target.
   [[nodiscard]] std::optional<SurfacePlace> beside(const SurfacePlace& from, const Vec3& target) const {
-    return from.regular ? charts_.towards(cad_, from, target, true) : std::nullopt;
+    return from.regular ? charts_.towards(cad_, from, target, true, thresholds::free_elements::near_foot) : std::nullopt;
   }
   void scale_sizes(double factor) noexcept { factor_ *= factor; }
   [[nodiscard]] const Charts& charts() const noexcept { return charts_; }

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cad/fundamental_forms.h"
-#include "support/bucket_sort.h"
+#include "model/bucket_sort.h"
 #include "support/incidence.h"
 #include "support/infinity.h"
 #include "surface/independent/thresholds.h"
@@ -277,12 +277,12 @@ std::optional<Foot> Charts::flat_foot(std::int32_t from, const Vec3& target) con
 }
 
 std::optional<SurfacePlace> Charts::towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
-                                            bool slides) const {
+                                            bool slides, double near) const {
   SurfacePlace at = from;
   const double first = norm(target - from.xyz);
   const auto is_near = [&] {
     const Vec3 left = target - at.xyz, along = left - dot(left, at.normal) * at.normal;
-    return norm(along) <= near_enough * first;
+    return norm(along) <= near * first;
   };
   if (const auto foot = flat_foot(from.foot.triangle, target)) {
     at = evaluate(cad, *foot);

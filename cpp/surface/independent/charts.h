@@ -13,6 +13,7 @@
 #include "mesh/surface_mesh.h"
 #include "support/monitor.h"
 #include "surface/independent/tangent_metrics.h"
+#include "surface/independent/thresholds.h"
 #include "surface/surface_place.h"
 
 namespace carreau {
@@ -78,9 +79,10 @@ class Charts {
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
   /// A place of the surface near `target`: below its foot on the flat triangles, and by Gauss-Newton steps from there, or from
   /// `from`, which is regular. Empty where a barrier
-  /// or a singular place is in the way; `slides`: on the barrier then, beside the target.
+  /// or a singular place is in the way; `slides`: on the barrier then, beside the target. `near`: share of the way that may be
+  /// left along the surface.
   [[nodiscard]] std::optional<SurfacePlace> towards(Cad& cad, const SurfacePlace& from, const Vec3& target,
-                                                    bool slides = false) const;
+                                                    bool slides = false, double near = thresholds::independent::near_enough) const;
 
  private:
   struct Walk {

@@ -10,7 +10,7 @@
 
 #include "mesh/flat_mesh.h"
 #include "mesh/intersections.h"
-#include "support/bucket_sort.h"
+#include "model/bucket_sort.h"
 #include "support/infinity.h"
 #include "surface/independent/line_remeshing.h"
 #include "surface/independent/reassembly.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sorting by buckets: as std::sort, whatever the buckets hold.
-#include "support/bucket_sort.h"
+#include "model/bucket_sort.h"
 
 #include <gtest/gtest.h>
 
