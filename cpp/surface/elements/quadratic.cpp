@@ -39,7 +39,7 @@ std::vector<Side> sides_of(const FaceMesh& face) {
 /// Nodes of edges that lie on curves, by the vertices of the edge.
 class CurveNodes {
  public:
-  explicit CurveNodes(const ElementWork& work) : work_(work), mesh_(work.result.mesh) {
+  explicit CurveNodes(const ElementWork& work) : mesh_(work.result.mesh) {
     middles_.resize(mesh_.curves.size());
     for (std::size_t c = 0; c < mesh_.curves.size(); ++c) {
       CurveMesh& curve = mesh_.curves[c];
@@ -75,7 +75,6 @@ class CurveNodes {
   }
 
  private:
-  const ElementWork& work_;
   SurfaceMesh& mesh_;
   std::vector<std::vector<std::optional<CurveMiddle>>> middles_;  // [curve][edge]
   std::map<Key, std::int32_t> nodes_;

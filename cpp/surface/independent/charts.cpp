@@ -72,8 +72,9 @@ void Charts::link(std::span<const MeshEdge> barriers) {
 
 std::vector<Charts::OnEdge> Charts::triangles_on(const MeshEdge& barrier) const {
   std::vector<OnEdge> found;
-  for (const BarrierSide& side : std::ranges::equal_range(barrier_, barrier, {}, &BarrierSide::edge))
-    found.push_back(side.on);
+  const auto last = std::ranges::upper_bound(barrier_, barrier, {}, &BarrierSide::edge);  // Clang 14 takes no equal_range
+  for (auto side = std::ranges::lower_bound(barrier_, barrier, {}, &BarrierSide::edge); side != last; ++side)
+    found.push_back(side->on);
   return found;
 }
 

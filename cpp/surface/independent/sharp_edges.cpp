@@ -143,8 +143,7 @@ std::vector<LineEnd> incidences(const SurfaceMesh& mesh, const std::vector<MeshE
 }
 
 std::span<const LineEnd> at_vertex(const std::vector<LineEnd>& all, std::int32_t v) {
-  const auto [first, last] = std::ranges::equal_range(all, v, {}, &LineEnd::vertex);
-  return {first, last};
+  return {std::ranges::lower_bound(all, v, {}, &LineEnd::vertex), std::ranges::upper_bound(all, v, {}, &LineEnd::vertex)};
 }
 
 /// Directions in which curves leave their ends, as their supports have them.
