@@ -34,6 +34,14 @@ void for_each_cell(const carreau_mesh& mesh, carreau::CellKind kind, Body&& body
   });
 }
 
+/// body(index of a face, local node) for each node of each element of the kind.
+template <typename Body>
+void for_each_node(const SurfaceMesh& mesh, carreau::CellKind kind, Body&& body) {
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (const carreau::Cell& cell : carreau::local_cells(mesh.faces[f]))
+      for (int i = 0; cell.kind == kind && i < carreau::node_count(kind); ++i) body(f, cell.nodes[std::size_t(i)]);
+}
+
 carreau::CellKind kind_of(std::int32_t kind) {
   if (kind < CARREAU_CELL_TRIANGLE3 || kind > CARREAU_CELL_QUAD8)
     throw InvalidArgument("there is no kind of elements " + std::to_string(kind));
@@ -78,15 +86,13 @@ carreau_status carreau_mesh_cell_uv(carreau_mesh* mesh, int32_t kind, int64_t ca
     const carreau::CellKind wanted = kind_of(kind);
     check_capacity(capacity, count_cells(*mesh, wanted), "elements");
     double* out = out_uv;
-    for (const FaceMesh& face : session_only(*mesh, "(u, v)").faces) {
+    const SurfaceMesh& surface = session_only(*mesh, "(u, v)");
+    for_each_node(surface, wanted, [&](std::size_t f, std::int32_t node) {
+      const FaceMesh& face = surface.faces[f];
       const auto corners = std::int32_t(face.uv.size());
-      for (const carreau::Cell& cell : carreau::local_cells(face))
-        for (int i = 0; cell.kind == wanted && i < carreau::node_count(wanted); ++i) {
-          const std::int32_t node = cell.nodes[std::size_t(i)];
-          const carreau::Vec2& uv = node < corners ? face.uv[node] : face.mid_uv[node - corners];
-          *out++ = uv.x(), *out++ = uv.y();
-        }
-    }
+      const carreau::Vec2& uv = node < corners ? face.uv[node] : face.mid_uv[node - corners];
+      *out++ = uv.x(), *out++ = uv.y();
+    });
   });
 }
 
@@ -98,10 +104,9 @@ carreau_status carreau_mesh_cell_faces(carreau_mesh* mesh, int32_t kind, int64_t
     check_capacity(capacity, count_cells(*mesh, wanted), "elements");
     std::int32_t* out = out_refs;
     const SurfaceMesh& surface = session_only(*mesh, "(u, v)");
-    for (std::size_t f = 0; f < surface.faces.size(); ++f)
-      for (const carreau::Cell& cell : carreau::local_cells(surface.faces[f]))
-        for (int i = 0; cell.kind == wanted && i < carreau::node_count(wanted); ++i)
-          *out++ = surface.faces[mesh->session->session.uv_face(f, cell.nodes[std::size_t(i)])].shown_ref();
+    for_each_node(surface, wanted, [&](std::size_t f, std::int32_t node) {
+      *out++ = surface.faces[mesh->session->session.uv_face(f, node)].shown_ref();
+    });
   });
 }
 
