@@ -18,9 +18,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "box_sides.h"
+#include "elementary_box.h"
 #include "face_check.h"
 #include "faults.h"
 
@@ -39,12 +42,13 @@ Bnd_Box box_by(Add&& add, const TopoDS_Shape& face) {
   return box.IsVoid() || usable(std::sqrt(box.SquareExtent())) ? box : Bnd_Box();
 }
 
-/// Box of a free-form face: of its boundary and of a grid inside it, whose extremes climb to those of the face.
-/// OpenCASCADE's own search (particle swarms) takes a tenth of a second a face.
+/// Box of a free-form face: of its boundary and of a grid inside it, whose extremes climb to those of the face where
+/// they may reach out of what is known of the shape. OpenCASCADE's own search (particle swarms) takes a tenth of a
+/// second a face.
 class FaceBox {
  public:
-  FaceBox(const TopoDS_Face& face, Bnd_Box& box)
-      : face_(face), surface_(face, Standard_False), inside_(face, Precision::PConfusion()), box_(box) {}
+  FaceBox(const TopoDS_Face& face, const Bnd_Box& known, Bnd_Box& box)
+      : face_(face), surface_(face, Standard_False), known_(sides_of(known)), box_(box) {}
 
   void run() {
     for (TopExp_Explorer e(face_, TopAbs_EDGE); e.More(); e.Next()) add_edge(TopoDS::Edge(e.Current()));
@@ -53,14 +57,16 @@ class FaceBox {
     BRepTools::UVBounds(face_, u1, u2, v1, v2);
     const int m = cells_of(surface_.NbUIntervals(GeomAbs_C2)), n = cells_of(surface_.NbVIntervals(GeomAbs_C2));
     const double du = (u2 - u1) / m, dv = (v2 - v1) / n;
+    std::vector<Sample> samples;
     for (int i = 0; i <= m; ++i)
       for (int j = 0; j <= n; ++j) {
         const gp_Pnt2d uv(u1 + i * du, v1 + j * dv);
-        const gp_Pnt p = surface_.Value(uv.X(), uv.Y());
-        if (reaches_out(p) && is_inside(uv)) take(p, {.uv = uv});
+        samples.push_back({surface_.Value(uv.X(), uv.Y()), uv});
       }
+    const double step = longest_step(samples, static_cast<std::size_t>(n) + 1);
+    for (int side = 0; side < 6; ++side) take_highest(side, step, samples);
     for (int side = 0; side < 6; ++side)
-      if (highest_[side].curve.IsNull()) climb(side, du, dv);
+      if (highest_[side].from_grid) climb(side, du, dv);
   }
 
  private:
@@ -68,19 +74,29 @@ class FaceBox {
   struct Extreme {
     double value = -std::numeric_limits<double>::infinity();
     gp_Pnt2d uv = {};
-    Handle(Geom2d_Curve) curve = {};    // of the boundary, null: of the grid
+    bool from_grid = false;
+    Handle(Geom2d_Curve) curve = {};    // else, of the boundary
     double t = 0, first = 0, last = 0;  // place on it, and its ends
+  };
+  struct Sample {
+    gp_Pnt at;
+    gp_Pnt2d uv;
   };
 
   // A spline may have a hill in each of its intervals.
   static int cells_of(int intervals) { return std::clamp(4 * intervals, least_cells, most_cells); }
-  // Sides of the box: x, y, z upwards, then downwards.
-  static double along(const gp_Pnt& p, int side) { return side < 3 ? p.Coord(side + 1) : -p.Coord(side - 2); }
-  bool is_inside(gp_Pnt2d uv) { return inside_.Perform(uv) != TopAbs_OUT; }
-  [[nodiscard]] bool reaches_out(const gp_Pnt& p) const {
-    for (int side = 0; side < 6; ++side)
-      if (along(p, side) > highest_[side].value) return true;
-    return false;
+  // Who is outside costs more than where it is.
+  bool is_inside(gp_Pnt2d uv) {
+    if (!inside_) inside_.emplace(face_, Precision::PConfusion());
+    return inside_->Perform(uv) != TopAbs_OUT;
+  }
+  static double longest_step(const std::vector<Sample>& samples, std::size_t row) {
+    double longest = 0;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      if (k % row > 0) longest = std::max(longest, samples[k].at.SquareDistance(samples[k - 1].at));
+      if (k >= row) longest = std::max(longest, samples[k].at.SquareDistance(samples[k - row].at));
+    }
+    return std::sqrt(longest);
   }
   void take(const gp_Pnt& p, const Extreme& from) {
     box_.Add(p);
@@ -89,6 +105,17 @@ class FaceBox {
         highest_[side] = from;
         highest_[side].value = value;
       }
+  }
+  // The highest sample that is inside, if the face may rise above what is known within a step of it.
+  void take_highest(int side, double step, const std::vector<Sample>& samples) {
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      if (along(samples[k].at, side) > std::max(highest_[side].value, known_[side] - step)) order.push_back(k);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return along(samples[a].at, side) > along(samples[b].at, side);
+    });
+    for (const std::size_t k : order)
+      if (is_inside(samples[k].uv)) return take(samples[k].at, {.uv = samples[k].uv, .from_grid = true});
   }
   void add_edge(const TopoDS_Edge& edge) {
     double a = 0, b = 0;
@@ -122,7 +149,8 @@ class FaceBox {
       for (const auto& [i, j] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}) {
         const gp_Pnt2d uv(from.X() + i * du, from.Y() + j * dv);
         const gp_Pnt p = surface_.Value(uv.X(), uv.Y());
-        if (along(p, side) > highest_[side].value && is_inside(uv)) take(p, {.uv = uv}), higher = true;
+        if (along(p, side) > highest_[side].value && is_inside(uv))
+          take(p, {.uv = uv, .from_grid = true}), higher = true;
       }
       if (!higher) du /= 2, dv /= 2, ++halved;
     }
@@ -130,23 +158,11 @@ class FaceBox {
 
   TopoDS_Face face_;
   BRepAdaptor_Surface surface_;
-  BRepTopAdaptor_FClass2d inside_;
+  std::optional<BRepTopAdaptor_FClass2d> inside_;  // once asked
+  BoxSides known_;
   Bnd_Box& box_;
   std::array<Extreme, 6> highest_;
 };
-
-bool is_elementary(const TopoDS_Face& face) {
-  switch (BRepAdaptor_Surface(face, Standard_False).GetType()) {
-    case GeomAbs_Plane:
-    case GeomAbs_Cylinder:
-    case GeomAbs_Cone:
-    case GeomAbs_Sphere:
-    case GeomAbs_Torus:
-      return true;
-    default:
-      return false;
-  }
-}
 
 bool holds(const Bnd_Box& outer, const Bnd_Box& inner) {
   if (outer.IsVoid() || inner.IsVoid()) return false;
@@ -161,13 +177,6 @@ bool holds(const Bnd_Box& outer, const Bnd_Box& inner) {
 // first.
 double diagonal_of(const TopoDS_Shape& shape) {
   const auto wide = [](const TopoDS_Shape& face, Bnd_Box& box) { BRepBndLib::Add(face, box, Standard_False); };
-  const auto exact = [](const TopoDS_Shape& shape_of_face, Bnd_Box& box) {
-    const TopoDS_Face face = TopoDS::Face(shape_of_face);
-    if (is_elementary(face))
-      BRepBndLib::AddOptimal(face, box, Standard_False, Standard_False);
-    else
-      FaceBox(face, box).run();
-  };
   std::vector<std::pair<TopoDS_Shape, Bnd_Box>> faces;
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next())
     faces.emplace_back(f.Current(), box_by(wide, f.Current()));
@@ -175,8 +184,18 @@ double diagonal_of(const TopoDS_Shape& shape) {
   std::stable_sort(faces.begin(), faces.end(),
                    [&](const auto& a, const auto& b) { return extent(a.second) > extent(b.second); });
   Bnd_Box box;
-  for (const auto& [face, around] : faces)
-    if (!holds(box, around)) box.Add(box_by(exact, face));
+  for (const auto& face_and_box : faces) {
+    const Bnd_Box& around = face_and_box.second;
+    if (holds(box, around)) continue;
+    const auto exact = [&](const TopoDS_Shape& shape_of_face, Bnd_Box& of_face) {
+      const TopoDS_Face face = TopoDS::Face(shape_of_face);
+      if (is_elementary(face))
+        add_elementary(face, box, of_face);
+      else
+        FaceBox(face, box, of_face).run();
+    };
+    box.Add(box_by(exact, face_and_box.first));
+  }
   return box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
 }
 

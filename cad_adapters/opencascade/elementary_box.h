@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How far faces of planes, cylinders, cones, spheres and tori reach.
+#pragma once
+
+#include <Bnd_Box.hxx>
+#include <TopoDS_Face.hxx>
+
+namespace carreau_occ {
+
+bool is_elementary(const TopoDS_Face& face);
+
+/// Adds the extreme points of an elementary face to a box, exact to rounding, as far as they are outside of `known`:
+/// the box of all that is known of the shape. Throws what OpenCASCADE throws.
+void add_elementary(const TopoDS_Face& face, const Bnd_Box& known, Bnd_Box& box);
+
+}  // namespace carreau_occ
