@@ -70,13 +70,21 @@ EdgeGrid::EdgeGrid(std::span<const Vec2> vertices, Edges edges) {
   ys_ = quantile_lines(sorted_y, static_cast<std::size_t>(ny));
 
   first_.assign(static_cast<std::size_t>(columns()) * static_cast<std::size_t>(rows()) + 1, 0);
-  for (const auto& [a, b] : edges) visit_cells(vertices[a], vertices[b], [&](std::size_t cell) { ++first_[cell + 1]; });
+  std::vector<std::size_t> met;  // cells, edge by edge
+  std::vector<std::size_t> end;
+  met.reserve(4 * edges.size()), end.reserve(edges.size());
+  for (const auto& [a, b] : edges) {
+    visit_cells(vertices[a], vertices[b], [&](std::size_t cell) {
+      ++first_[cell + 1];
+      met.push_back(cell);
+    });
+    end.push_back(met.size());
+  }
   for (std::size_t cell = 1; cell < first_.size(); ++cell) first_[cell] += first_[cell - 1];
   edge_.resize(static_cast<std::size_t>(first_.back()));
   std::vector<int> next(first_.begin(), first_.end() - 1);
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    visit_cells(vertices[edges[e].first], vertices[edges[e].second],
-                [&](std::size_t cell) { edge_[static_cast<std::size_t>(next[cell]++)] = static_cast<int>(e); });
+  for (std::size_t e = 0, k = 0; e < edges.size(); ++e)
+    for (; k < end[e]; ++k) edge_[static_cast<std::size_t>(next[met[k]]++)] = static_cast<int>(e);
 }
 
 int EdgeGrid::interval_of(const std::vector<double>& lines, double value) noexcept {
