@@ -133,7 +133,7 @@ carreau_status carreau_mesh_cell_quality(carreau_mesh* mesh, carreau_cell_qualit
   return guarded(mesh, [&] {
     require_content(*mesh);
     const carreau::CellSummary summary =
-        carreau::summarise_cells(mesh->session != nullptr ? flat_of(*mesh) : mesh->flat);
+        mesh->session != nullptr ? carreau::summarise_cells(flat_of(*mesh)) : carreau::summarise_cells(mesh->flat);
     carreau_cell_quality result{};
     result.triangles3 = std::int64_t(summary.triangles3), result.triangles6 = std::int64_t(summary.triangles6);
     result.quads4 = std::int64_t(summary.quads4), result.quads8 = std::int64_t(summary.quads8);

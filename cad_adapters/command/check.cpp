@@ -99,7 +99,7 @@ void print_report(const MeshReport& r, bool faces) {
 
 int check(const CheckOptions& options) {
   const MeshHandle mesh = read_mesh(options.mesh);
-  const MeshCheck c = check_of(mesh.get(), arrays_of(mesh.get()), {options.closed, options.limit, options.worst});
+  const MeshCheck c = check_of(mesh.get(), {options.closed, options.limit, options.worst});
   if (options.json) {
     print_json("check", check_json(c, options.mesh, options.limit));
     return is_sound(c, options) ? 0 : 1;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "quality_json.h"
 
@@ -54,9 +56,27 @@ Json json_of(const MeshReport& r) {
           {"faces", faces}};
 }
 
-}  // namespace
+/// Other elements than straight triangles, of which all has been measured.
+bool holds_elements(carreau_mesh* mesh) {
+  for (const std::int32_t kind : {CARREAU_CELL_QUAD8, CARREAU_CELL_QUAD4, CARREAU_CELL_TRIANGLE6}) {
+    std::int64_t n = 0;
+    require(mesh, carreau_mesh_cell_count(mesh, kind, &n));
+    if (n > 0) return true;
+  }
+  return false;
+}
 
-MeshCheck check_of(carreau_mesh* mesh, const MeshArrays& arrays, const CheckLimits& limits, const Crossings* known) {
+/// What the mesh itself tells of its shapes.
+void ask_shapes(carreau_mesh* mesh, const std::vector<std::int32_t>& refs, const Crossings* known, MeshCheck& c) {
+  c.quality.struct_size = sizeof c.quality;
+  require(mesh, carreau_mesh_quality(mesh, &c.quality));
+  c.cells.struct_size = sizeof c.cells;
+  if (holds_elements(mesh)) require(mesh, carreau_mesh_cell_quality(mesh, &c.cells));
+  c.crossings = known != nullptr ? *known : crossings_of(mesh, refs, 0);
+}
+
+/// All but that.
+MeshCheck look_at(carreau_mesh* mesh, const MeshArrays& arrays, const CheckLimits& limits) {
   constexpr std::size_t places = 5;  // of each thing that is wrong
   MeshCheck c;
   require(mesh, carreau_mesh_count(mesh, &c.vertices, &c.triangles, &c.edges, &c.faces));
@@ -66,13 +86,27 @@ MeshCheck check_of(carreau_mesh* mesh, const MeshArrays& arrays, const CheckLimi
   for (const FaceResult& face : arrays.faces)
     if (face.triangles == 0) c.not_meshed.push_back(face);
   c.measured = can_be_measured(arrays);
-  if (!c.measured) return c;
-  c.report = report_of(arrays, static_cast<std::size_t>(limits.worst), places);
-  c.quality.struct_size = sizeof c.quality;
-  require(mesh, carreau_mesh_quality(mesh, &c.quality));
-  c.cells.struct_size = sizeof c.cells;
-  require(mesh, carreau_mesh_cell_quality(mesh, &c.cells));
-  c.crossings = known != nullptr ? *known : crossings_of(mesh, arrays.triangle_refs, 0);
+  if (c.measured) c.report = report_of(arrays, static_cast<std::size_t>(limits.worst), places);
+  return c;
+}
+
+}  // namespace
+
+MeshCheck check_of(carreau_mesh* mesh, const MeshArrays& arrays, const CheckLimits& limits, const Crossings* known) {
+  MeshCheck c = look_at(mesh, arrays, limits);
+  if (c.measured) ask_shapes(mesh, arrays.triangle_refs, known, c);
+  return c;
+}
+
+MeshCheck check_of(carreau_mesh* mesh, const CheckLimits& limits) {
+  MeshCheck c;
+  std::vector<std::int32_t> refs;
+  {
+    MeshArrays arrays = arrays_of(mesh);
+    c = look_at(mesh, arrays, limits);
+    refs = std::move(arrays.triangle_refs);
+  }
+  if (c.measured) ask_shapes(mesh, refs, nullptr, c);
   return c;
 }
 
@@ -85,13 +119,9 @@ Json check_json(const MeshCheck& c, const std::string& name, int limit) {
     defects.push_back(c.sentences.substr(from, to - from));
     from = to + 1;
   }
-  Json result = {{"mesh", name},
-                 {"vertices", c.vertices},
-                 {"triangles", c.triangles},
-                 {"faces", c.faces},
-                 {"curve_edges", c.edges},
-                 {"defects", defects},
-                 {"all_defects", c.defects < limit}};
+  Json result = {
+      {"mesh", name},           {"vertices", c.vertices}, {"triangles", c.triangles},        {"faces", c.faces},
+      {"curve_edges", c.edges}, {"defects", defects},     {"all_defects", c.defects < limit}};
   for (const FaceResult& face : c.not_meshed)
     result["not_meshed"].push_back(
         {{"reference", face.ref}, {"name", face.name}, {"status", status_word(face.status)}, {"why", face.why}});

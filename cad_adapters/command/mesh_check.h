@@ -35,6 +35,8 @@ struct CheckLimits {
 /// `arrays` are those of `mesh`. `known`: its crossings, when they were looked for before. Throws Failure.
 MeshCheck check_of(carreau_mesh* mesh, const MeshArrays& arrays, const CheckLimits& limits,
                    const Crossings* known = nullptr);
+/// The same; the mesh's arrays are in memory only while they are needed.
+MeshCheck check_of(carreau_mesh* mesh, const CheckLimits& limits);
 
 /// Whether the mesh has elements that are not straight triangles.
 bool has_elements(const carreau_cell_quality& quality);

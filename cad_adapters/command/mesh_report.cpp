@@ -7,7 +7,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
 #include "scene.h"
 
@@ -23,36 +23,51 @@ Point normal(const Point& a, const Point& b, const Point& c) {
   return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
 }
 
-/// A side of a triangle; sides of one edge stand together once they are sorted.
+/// A side of a triangle.
 struct Side {
   std::int32_t low = 0, high = 0;
   std::uint32_t triangle = 0;
   bool forward = false;  ///< the triangle runs from low to high
 
-  bool operator<(const Side& other) const {
-    return std::tie(low, high, triangle) < std::tie(other.low, other.high, other.triangle);
-  }
-  [[nodiscard]] bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
+  bool operator<(const Side& other) const { return std::tie(high, triangle) < std::tie(other.high, other.triangle); }
 };
 
-std::vector<Side> sides_of(const MeshArrays& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
+template <typename Put>
+void for_each_side(const MeshArrays& mesh, const Put& put) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       const std::int32_t a = mesh.triangles[i][k], b = mesh.triangles[i][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(i), a < b});
+      put(Side{std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(i), a < b});
     }
-  std::sort(sides.begin(), sides.end());
-  return sides;
 }
 
-/// Calls visit(first, last) for the sides of each edge.
+/// Calls visit(first, last) for the sides of each edge, by its vertices; those of one edge are sorted by triangle. Some
+/// vertices are looked at in each pass over the triangles: all sides together would take 48 bytes a triangle.
 template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit&& visit) {
-  for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
-    for (j = i + 1; j < sides.size() && sides[j].same_edge(sides[i]);) ++j;
-    visit(sides.data() + i, sides.data() + j);
+void for_each_edge(const MeshArrays& mesh, const Visit& visit) {
+  constexpr std::size_t least = std::size_t{1} << 22, passes = 8;  // sides in memory, and parts of more than that
+  const std::size_t vertices = mesh.vertices.size(), room = std::max(least, 3 * mesh.triangles.size() / passes);
+  std::vector<std::uint32_t> count(vertices, 0);
+  for_each_side(mesh, [&](const Side& side) { ++count[static_cast<std::size_t>(side.low)]; });
+  std::vector<Side> sides;
+  std::vector<std::size_t> next;  // of each vertex of a pass: the end of its sides so far
+  for (std::size_t begin = 0, end = 0; begin < vertices; begin = end) {
+    next.clear();
+    std::size_t n = 0;
+    for (end = begin; end < vertices && (end == begin || n + count[end] <= room); n += count[end++]) next.push_back(n);
+    sides.resize(n);
+    for_each_side(mesh, [&](const Side& side) {
+      const auto v = static_cast<std::size_t>(side.low);
+      if (v >= begin && v < end) sides[next[v - begin]++] = side;
+    });
+    for (std::size_t v = begin, i = 0; v < end; ++v) {
+      const std::size_t last = next[v - begin];
+      std::sort(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.begin() + static_cast<std::ptrdiff_t>(last));
+      for (std::size_t j = i; i < last; i = j) {
+        while (j < last && sides[j].high == sides[i].high) ++j;
+        visit(sides.data() + i, sides.data() + j);
+      }
+    }
   }
 }
 
@@ -110,9 +125,34 @@ double inscribed_quality(double area, const std::array<double, 3>& sides) {
   return longest > 0 ? 4 * std::sqrt(3.0) * area / (around * longest) : 0;
 }
 
+/// The lowest few of many.
+class Lowest {
+ public:
+  using Ranked = std::pair<double, std::uint32_t>;
+  explicit Lowest(std::size_t few) : few_(few) {}
+
+  void add(const Ranked& one) {
+    if (kept_.size() == few_ && (few_ == 0 || !(one < kept_.front()))) return;
+    kept_.push_back(one);
+    std::push_heap(kept_.begin(), kept_.end());
+    if (kept_.size() <= few_) return;
+    std::pop_heap(kept_.begin(), kept_.end());
+    kept_.pop_back();
+  }
+  /// Lowest first.
+  std::vector<Ranked> take() {
+    std::sort_heap(kept_.begin(), kept_.end());
+    return std::move(kept_);
+  }
+
+ private:
+  std::size_t few_;
+  std::vector<Ranked> kept_;  // a heap: the highest first
+};
+
 void measure_shapes(const MeshArrays& mesh, std::size_t worst, MeshReport& report) {
   std::map<std::int32_t, FaceFigures> faces;
-  std::vector<std::pair<double, std::uint32_t>> by_quality;
+  Lowest lowest(worst);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
     const Point &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
@@ -124,7 +164,7 @@ void measure_shapes(const MeshArrays& mesh, std::size_t worst, MeshReport& repor
     };
     count(report.q1, inscribed_quality(area, sides));
     count(report.q2, q2);
-    by_quality.emplace_back(q2, static_cast<std::uint32_t>(i));
+    lowest.add({q2, static_cast<std::uint32_t>(i)});
     FaceFigures& face = faces[mesh.triangle_refs[i]];
     if (face.triangles++ == 0) face.edge_min = sides[0];
     face.area += area, face.q2_mean += q2, face.q2_min = std::min(face.q2_min, q2);
@@ -141,12 +181,8 @@ void measure_shapes(const MeshArrays& mesh, std::size_t worst, MeshReport& repor
   std::map<std::int32_t, std::string> names;
   for (const FaceResult& face : mesh.faces) names.emplace(face.ref, face.name);
   for (FaceFigures& face : report.faces) face.name = names[face.ref];
-  worst = std::min(worst, by_quality.size());
-  std::partial_sort(by_quality.begin(), by_quality.begin() + static_cast<std::ptrdiff_t>(worst), by_quality.end());
-  for (std::size_t k = 0; k < worst; ++k) {
-    const auto [quality, i] = by_quality[k];
+  for (const auto& [quality, i] : lowest.take())
     report.worst.push_back({i, mesh.triangle_refs[i], quality, centre_of(mesh, i)});
-  }
 }
 
 /// Chains of edges with one triangle, by the vertices that they share.
@@ -209,10 +245,9 @@ bool folds(const MeshArrays& mesh, const Side& p, const Side& q) {
 }
 
 void look_at_edges(const MeshArrays& mesh, std::size_t listed, MeshReport& report) {
-  const std::vector<Side> sides = sides_of(mesh);
   Components components(mesh.triangles.size());
   std::vector<std::array<std::int32_t, 2>> open;
-  for_each_edge(sides, [&](const Side* first, const Side* last) {
+  for_each_edge(mesh, [&](const Side* first, const Side* last) {
     ++report.edges;
     const Point place = middle(mesh.vertices[first->low], mesh.vertices[first->high]);
     if (last - first == 1) open.push_back({first->low, first->high});
@@ -227,43 +262,42 @@ void look_at_edges(const MeshArrays& mesh, std::size_t listed, MeshReport& repor
   find_turned(mesh, components, listed, report);
 }
 
-/// Vertices of triangles, by cells that are so much wider than the tolerance that most have all their neighbours in
-/// their own, and so small that few share one.
-class Cells {
+/// Vertices at the place of an earlier one. They are sorted along one axis after the other, and parted where the next
+/// is farther than the tolerance, until they lie together along all three: most are alone after the first.
+class DoublePoints {
  public:
-  Cells(const Point& low, double tolerance) : low_(low), tolerance_(tolerance), width_(1000 * tolerance) {}
+  DoublePoints(const std::vector<Point>& points, double tolerance) : points_(points), tolerance_(tolerance) {}
 
-  /// Whether an earlier place is within the tolerance; keeps this one.
-  bool add(const Point& p) {
-    std::array<std::array<std::int64_t, 2>, 3> range;
-    for (int x = 0; x < 3; ++x) range[x] = {cell(p[x] - low_[x] - tolerance_), cell(p[x] - low_[x] + tolerance_)};
-    bool found = false;
-    for (std::int64_t i = range[0][0]; i <= range[0][1]; ++i)
-      for (std::int64_t j = range[1][0]; j <= range[1][1]; ++j)
-        for (std::int64_t k = range[2][0]; k <= range[2][1]; ++k)
-          if (const auto at = cells_.find({i, j, k}); at != cells_.end())
-            found = found || std::any_of(at->second.begin(), at->second.end(),
-                                         [&](const Point& q) { return distance(p, q) <= tolerance_; });
-    cells_[{cell(p[0] - low_[0]), cell(p[1] - low_[1]), cell(p[2] - low_[2])}].push_back(p);
-    return found;
+  /// Of the vertices in `of`, which loses their order. Ascending.
+  std::vector<std::uint32_t> find(std::vector<std::uint32_t>& of) {
+    part(of.data(), of.data() + of.size(), 0, 0);
+    std::sort(found_.begin(), found_.end());
+    return std::move(found_);
   }
 
  private:
-  using Key = std::array<std::int64_t, 3>;
-  struct Hash {
-    std::size_t operator()(const Key& key) const noexcept {
-      std::uint64_t hash = 0;
-      for (const std::int64_t x : key) hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
-      return hash ^ hash >> 32;
+  // `whole`: axes in a row along which nothing was parted.
+  void part(std::uint32_t* first, std::uint32_t* last, std::size_t axis, int whole) {
+    if (last - first < 2) return;
+    if (whole == 3) return compare(first, last);
+    std::sort(first, last, [&](std::uint32_t p, std::uint32_t q) { return points_[p][axis] < points_[q][axis]; });
+    for (std::uint32_t *from = first, *to = first; from != last; from = to) {
+      while (++to != last && points_[*to][axis] - points_[to[-1]][axis] <= tolerance_) {
+      }
+      part(from, to, (axis + 1) % 3, from == first && to == last ? whole + 1 : 1);
     }
-  };
-  [[nodiscard]] std::int64_t cell(double x) const {
-    return width_ > 0 ? static_cast<std::int64_t>(std::floor(x / width_)) : 0;
+  }
+  void compare(std::uint32_t* first, std::uint32_t* last) {
+    std::sort(first, last);
+    for (const std::uint32_t* v = first + 1; v < last; ++v)
+      if (std::any_of(static_cast<const std::uint32_t*>(first), v,
+                      [&](std::uint32_t u) { return distance(points_[u], points_[*v]) <= tolerance_; }))
+        found_.push_back(*v);
   }
 
-  Point low_;
-  double tolerance_, width_;
-  std::unordered_map<Key, std::vector<Point>, Hash> cells_;
+  const std::vector<Point>& points_;
+  double tolerance_;
+  std::vector<std::uint32_t> found_;
 };
 
 void look_at_vertices(const MeshArrays& mesh, std::size_t listed, MeshReport& report) {
@@ -280,10 +314,12 @@ void look_at_vertices(const MeshArrays& mesh, std::size_t listed, MeshReport& re
   }
   report.euler = count - report.edges + static_cast<std::int64_t>(mesh.triangles.size());
   if (count == 0) return;
-  Cells cells(low, 1e-9 * distance(low, high));
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    if (used[v] != 0 && cells.add(mesh.vertices[v]))
-      ++report.double_points, add_place(report.double_at, mesh.vertices[v], listed);
+  std::vector<std::uint32_t> vertices;
+  vertices.reserve(static_cast<std::size_t>(count));
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (used[v] != 0) vertices.push_back(static_cast<std::uint32_t>(v));
+  for (const std::uint32_t v : DoublePoints(mesh.vertices, 1e-9 * distance(low, high)).find(vertices))
+    ++report.double_points, add_place(report.double_at, mesh.vertices[v], listed);
 }
 
 }  // namespace

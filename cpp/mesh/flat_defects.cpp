@@ -2,7 +2,10 @@
 #include "mesh/flat_defects.h"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
+#include "mesh/simplices/by_smallest.h"
 #include "mesh/elements/cell_defects.h"
 #include "mesh/quality.h"
 
@@ -30,10 +33,15 @@ class FlatDefectFinder {
  private:
   using Key = std::array<std::int32_t, 2>;
   struct Side {
-    Key key;
     int ref;
     bool forward;  // the triangle runs from the smaller index to the larger
     friend auto operator<=>(const Side&, const Side&) = default;
+  };
+  struct Others {  // corners of a triangle but the smallest
+    std::int32_t middle, largest;
+    std::uint32_t triangle;
+    friend auto operator<=>(const Others&, const Others&) = default;
+    [[nodiscard]] bool same(const Others& o) const { return middle == o.middle && largest == o.largest; }
   };
 
   void add(const std::string& sentence) {
@@ -80,17 +88,21 @@ class FlatDefectFinder {
   }
 
   void check_duplicates() {
-    std::vector<std::pair<std::array<std::int32_t, 3>, std::size_t>> sorted;
-    sorted.reserve(mesh_.triangles.size());
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      auto corners = mesh_.triangles[t];
-      std::sort(corners.begin(), corners.end());
-      sorted.emplace_back(corners, t);
-    }
-    std::sort(sorted.begin(), sorted.end());
-    for (std::size_t i = 1; i < sorted.size(); ++i)
-      if (sorted[i].first == sorted[i - 1].first)
-        add(name(sorted[i].second) + "the same vertices as triangle " + std::to_string(sorted[i - 1].second));
+    const auto list = [this](const auto& put) {
+      for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+        auto [a, b, c] = mesh_.triangles[t];
+        if (a > b) std::swap(a, b);
+        if (b > c) std::swap(b, c);
+        if (a > b) std::swap(a, b);
+        put(a, Others{b, c, static_cast<std::uint32_t>(t)});
+      }
+    };
+    by_smallest_vertex<Others>(mesh_.vertices.size(), list, [this](std::int32_t, std::span<Others> sorted) {
+      std::sort(sorted.begin(), sorted.end());
+      for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].same(sorted[i - 1]))
+          add(name(sorted[i].triangle) + "the same vertices as triangle " + std::to_string(sorted[i - 1].triangle));
+    });
   }
 
   void check_unused() {
@@ -111,33 +123,30 @@ class FlatDefectFinder {
     std::vector<Key> curves;
     for (const Key& edge : mesh_.edges) curves.push_back(ordered(edge[0], edge[1]));
     std::sort(curves.begin(), curves.end());
+    auto curve = curves.begin();
     std::vector<Side> sides;
-    sides.reserve(3 * mesh_.triangles.size());
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (int i = 0; i < 3; ++i) {
-        const std::int32_t a = mesh_.triangles[t][i], b = mesh_.triangles[t][(i + 1) % 3];
-        if (a != b) sides.push_back({ordered(a, b), ref_of(t), a < b});
-      }
-    std::sort(sides.begin(), sides.end());
-    for (std::size_t from = 0, to = 0; from < sides.size(); from = to) {
-      while (to < sides.size() && sides[to].key == sides[from].key) ++to;
-      const bool on_curve = std::binary_search(curves.begin(), curves.end(), sides[from].key);
-      check_edge(sides.data() + from, to - from, on_curve);
-    }
+    for_each_edge(mesh_.triangles, mesh_.vertices.size(),
+                  [&](std::int32_t low, std::int32_t high, std::span<const SideFrom> all) {
+                    const Key key{low, high};
+                    while (curve != curves.end() && *curve < key) ++curve;
+                    sides.clear();
+                    for (const SideFrom& side : all) sides.push_back({ref_of(side.triangle), side.forward()});
+                    std::sort(sides.begin(), sides.end());
+                    check_edge(key, sides, curve != curves.end() && *curve == key);
+                  });
   }
 
   // `sides` of one edge are sorted by reference.
-  void check_edge(const Side* sides, std::size_t n, bool on_curve) {
-    if (n == 1 && options_.closed) add(name(sides[0].key) + "it has only one triangle");
+  void check_edge(const Key& key, const std::vector<Side>& sides, bool on_curve) {
+    const std::size_t n = sides.size();
+    if (n == 1 && options_.closed) add(name(key) + "it has only one triangle");
     if (on_curve) return;
     for (std::size_t from = 0, to = 0; from < n; from = to) {
       while (to < n && sides[to].ref == sides[from].ref) ++to;
-      const std::string what = name(sides[0].key) + std::to_string(to - from) + " triangles of reference " +
-                               std::to_string(sides[from].ref) + " share it";
-      if (to - from > 2)
-        add(what);
-      else if (to - from == 2 && n == 2 && sides[from].forward == sides[from + 1].forward)
-        add(what + " and are turned against each other");
+      const bool against = to - from == 2 && n == 2 && sides[from].forward == sides[from + 1].forward;
+      if (to - from <= 2 && !against) continue;
+      add(name(key) + std::to_string(to - from) + " triangles of reference " + std::to_string(sides[from].ref) +
+          " share it" + (against ? " and are turned against each other" : ""));
     }
   }
 

@@ -102,6 +102,8 @@ CellQuality cell_quality(CellKind kind, std::span<const Vec3> nodes) noexcept {
 CellSummary summarise_cells(const FlatMesh& mesh) {
   CellSummary summary;
   std::vector<double> shape, scaled, least;
+  for (std::vector<double>* list : {&shape, &scaled, &least})
+    list->reserve(mesh.cells.empty() ? mesh.triangles.size() : mesh.cells.size());
   summary.angle_min_deg = infinity;
   double triangles = 0;
   for_cells(mesh, [&](std::size_t, const Cell& cell, std::span<const Vec3> nodes, std::size_t) {
