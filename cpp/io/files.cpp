@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/files.h"
 
+#if !defined(_WIN32)
+#include <sys/types.h>
+#endif
+
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -49,6 +54,15 @@ fs::path behind_links(fs::path path) {
     path = target.is_absolute() ? target : path.parent_path() / target;
   }
   return path;
+}
+
+/// std::fseek has a long, of 32 bits on some machines.
+int seek(std::FILE* file, std::uint64_t position) {
+#if defined(_WIN32)
+  return _fseeki64(file, static_cast<long long>(position), SEEK_SET);
+#else
+  return fseeko(file, static_cast<off_t>(position), SEEK_SET);
+#endif
 }
 
 struct Temporary {
@@ -142,7 +156,7 @@ NewFile::~NewFile() {
 void NewFile::write_at(std::uint64_t position, std::string_view bytes) {
   State& s = *state_;
   errno = 0;
-  if (position != s.position && std::fseek(s.file.get(), static_cast<long>(position), SEEK_SET) != 0)
+  if (position != s.position && seek(s.file.get(), position) != 0)
     s.fail_writing(errno);
   if (std::fwrite(bytes.data(), 1, bytes.size(), s.file.get()) != bytes.size()) s.fail_writing(errno);
   s.position = position + bytes.size();

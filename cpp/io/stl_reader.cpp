@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -26,6 +27,8 @@ class JoinedPoints {
     if (2 * (vertices.size() + 1) > slots_.size()) grow(vertices);
     std::int32_t& slot = find(vertices, p);
     if (slot == free_slot) {
+      if (vertices.size() >= std::numeric_limits<std::int32_t>::max())
+        throw LimitError("an STL file has more than 2147483647 different vertices");
       slot = static_cast<std::int32_t>(vertices.size());
       vertices.push_back(p);
     }

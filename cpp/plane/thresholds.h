@@ -7,6 +7,12 @@
 
 namespace carreau::plane {
 
+// Numbers (kernel/triangulation)
+/// Triangles. In one piece: a side has four times its triangle's number and more, in 32 bits; what improves meshes adds a
+/// few. [Placement.IsBoundByNumbersOf32Bits]
+inline constexpr std::int64_t most_triangles_of_a_piece = 500'000'000;
+static_assert(4 * (most_triangles_of_a_piece + most_triangles_of_a_piece / 16) < INT32_MAX);
+
 // Bends of the field (kernel/frame, kernel/shapes)
 /// Bend a unit. From here on a chart takes the place of the tensor: a size that grows by a tenth, or directions
 /// that turn so that an edge's sagitta is a tenth of a unit, are still well served by means of tensors. [0.5: worst

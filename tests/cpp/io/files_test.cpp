@@ -29,6 +29,21 @@ TEST(Files, ReadBackWhatWasWritten) {
   EXPECT_EQ(folder.entries(), 1u);  // no temporary is left
 }
 
+TEST(Files, PositionsGoBeyond32Bits) {
+  const TemporaryFolder folder;
+  constexpr std::uint64_t far = (std::uint64_t{1} << 32) + 7;
+  NewFile file(folder.file("x.bin"));
+  file.write_at(far, "far");
+  file.write_at(0, "near");
+  file.commit();
+  EXPECT_EQ(fs::file_size(folder.file("x.bin")), far + 3);
+  std::ifstream in(folder.file("x.bin"), std::ios::binary);
+  std::string start(4, ' '), end(3, ' ');
+  in.read(start.data(), 4).seekg(static_cast<std::streamoff>(far)).read(end.data(), 3);
+  EXPECT_EQ(start, "near");
+  EXPECT_EQ(end, "far");
+}
+
 TEST(Files, ReadingSaysWhichFileAndWhy) {
   const TemporaryFolder folder;
   const auto sentence = [](const std::string& path) { return sentence_of<FileError>([&] { read_file(path); }); };

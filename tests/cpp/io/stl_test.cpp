@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "io/mesh_files.h"
@@ -36,6 +37,14 @@ TEST(Stl, BinaryHoldsEveryTriangleWithItsNormal) {
     }
     EXPECT_EQ(bytes.substr(84 + 50 * i + 48, 2), std::string(2, '\0'));
   }
+}
+
+TEST(Stl, AFileOfAllThatItCanCountIsTooShort) {
+  std::string bytes(84, ' ');
+  std::fill(bytes.begin() + 80, bytes.end(), '\xff');
+  EXPECT_EQ(sentence_of<FileError>([&] { read_mesh_stl(bytes, "x.stl"); }),
+            "x.stl: the file does not start with solid, as STL text does, and binary STL of 4294967295 triangles has "
+            "214748364834 bytes instead of 84");
 }
 
 TEST(Stl, TextHasOneSolidForEachReference) {

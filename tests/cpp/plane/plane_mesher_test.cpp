@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "plane/kernel/boundary.h"
+#include "plane/placement/insertion.h"
 #include "plane/plane_mesher.h"
 #include "plane_checks.h"
 
@@ -152,6 +154,19 @@ TEST(MeshPlane, StopsAtTheLimit) {
   EXPECT_THROW(mesh_plane(c.domain, space, options, monitor), LimitError);
   options.max_triangles = 50000;
   EXPECT_NO_THROW(mesh_plane(c.domain, space, options, monitor));
+}
+
+// Numbers of sides have 32 bits, whatever is allowed.
+TEST(Placement, IsBoundByNumbersOf32Bits) {
+  const PlaneCase c = flat_square(0.25);
+  const ControlSpace space = control_space(c);
+  Monitor monitor;
+  plane::BoundaryMesh boundary = plane::triangulate_boundary(c.domain, monitor);
+  const plane::Field field(space, boundary.frame, {.bends = false, .triangles = 16});
+  plane::PlaneWork work{boundary.mesh, field, monitor};
+  EXPECT_EQ(plane::Placement(work, INT32_MAX).max_triangles, 500'000'000);
+  EXPECT_EQ(plane::Placement(work, INT64_MAX).max_triangles, 500'000'000);
+  EXPECT_EQ(plane::Placement(work, 1000).max_triangles, 1000);
 }
 
 class CountingMonitor : public Monitor {

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <filesystem>
 
 #include "io/files.h"
 #include "io/medit/gmf.h"
@@ -95,6 +100,36 @@ TEST(Gmf, PositionsGoBeyond32Bits) {
   constexpr std::uint64_t most = (many - 300) / 60;
   EXPECT_FALSE(gmf_needs_64_bits(GmfCounts{.vertices = most, .triangles = 2 * most}));
   EXPECT_TRUE(gmf_needs_64_bits(GmfCounts{.vertices = most + 1, .triangles = 2 * most + 2}));
+}
+
+// A triangle behind a section of three gigabytes, which is a hole in the file and read by nobody.
+TEST(Gmf, ReadsWhatIsBeyond32Bits) {
+  constexpr std::int64_t far = std::int64_t{3} << 30, vertices_end = far + 16 + 3 * 28, triangles_end = vertices_end + 32;
+  const bool big_endian = std::endian::native == std::endian::big;
+  Bytes head(big_endian), tail(big_endian);
+  head.i32(1).i32(3).i32(3).i64(24).i32(3).i32(13).i64(far).i32(12345);
+  tail.i32(4).i64(vertices_end).i32(3);
+  for (int i = 0; i < 3; ++i) tail.f64(i == 1).f64(i == 2).f64(0.5).i32(i);
+  tail.i32(5 + 1).i64(triangles_end).i32(1).i32(1).i32(2).i32(3).i32(9).i32(54).i64(0);
+  const TemporaryFolder folder;
+  NewFile file(folder.file("far.meshb"));
+  file.write_at(0, head.text());
+  file.write_at(far, tail.text());
+  file.commit();
+  const std::size_t size = std::filesystem::file_size(folder.file("far.meshb"));
+  ASSERT_EQ(size, static_cast<std::size_t>(far) + tail.text().size());
+  const int opened = open(folder.file("far.meshb").c_str(), O_RDONLY);
+  void* const mapped = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, opened, 0);
+  close(opened);
+  ASSERT_NE(mapped, MAP_FAILED);
+  const std::string_view bytes(static_cast<const char*>(mapped), size);
+  const FlatMesh mesh = read_mesh_binary(bytes, "far.meshb");
+  EXPECT_EQ(mesh.vertices, (std::vector<Vec3>{{0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}}));
+  EXPECT_EQ(mesh.triangle_refs, std::vector<std::int32_t>{9});
+  const std::string cut = error_of(bytes.substr(0, static_cast<std::size_t>(vertices_end)));
+  EXPECT_EQ(cut, "x.meshb: byte 3221225572: the file ends before the section End");
+  munmap(mapped, size);
 }
 
 TEST(Gmf, ComesInBlocks) {
