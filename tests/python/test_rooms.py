@@ -170,7 +170,7 @@ def test_another_mesh_of_triangles():
     there, back = again.session.triangles_distances()
     bounds = again.session.triangles_bounds(share=1e-3)
     assert there <= bounds[1] <= 1.001 * bounds[0] + 1e-5 and back <= bounds[3] <= 1.001 * bounds[2] + 1e-5
-    delivered = again.session.delivered()
+    delivered = again.session.delivered
     assert bounds[0] <= delivered.input_bound <= 1.01 * bounds[1] + 1e-5
     assert len(carreau.mesh(first, size=0.3).triangles) == len(again.triangles)
 
