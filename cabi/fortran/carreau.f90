@@ -85,7 +85,8 @@ module carreau
     CARREAU_MEASURE_GRADATION = 3, CARREAU_MEASURE_LENGTH_RATIO = 4, CARREAU_MEASURE_Q1 = 5, CARREAU_MEASURE_Q2 = 6, &
     CARREAU_MEASURE_METRIC_QUALITY = 7, CARREAU_MEASURE_A0 = 8, CARREAU_MEASURE_A1 = 9, &
     CARREAU_MEASURE_CURVE_A0 = 10, CARREAU_MEASURE_CURVE_A1 = 11, CARREAU_MEASURE_VERTEX_ANGLE = 12, &
-    CARREAU_MEASURE_A0_BOUND = 13, CARREAU_MEASURE_A1_BOUND = 14, CARREAU_MEASURE_BOUND_SHARE = 15
+    CARREAU_MEASURE_A0_BOUND = 13, CARREAU_MEASURE_A1_BOUND = 14, CARREAU_MEASURE_BOUND_SHARE = 15, &
+    CARREAU_MEASURE_INPUT_BOUND = 16
   integer(c_int32_t), parameter, public :: CARREAU_INTERSECT_IN_TURN = 0, CARREAU_INTERSECT_LARGEST = 1
   integer(c_int32_t), parameter, public :: CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3
   integer(c_int32_t), parameter, public :: CARREAU_CELL_TRIANGLE3 = 1, CARREAU_CELL_TRIANGLE6 = 2, &
@@ -177,6 +178,7 @@ module carreau
     character(len=:), allocatable :: text
     integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, size_calls = 0
     real(c_double) :: seconds = 0
+    real(c_double) :: input_distance = 0, input_bound = 0, input_back_distance = 0, input_back_bound = 0
   end type carreau_delivered
 
   type :: carreau_measure
@@ -1062,6 +1064,10 @@ contains
     delivered%surf2_calls = c%surf2_calls
     delivered%size_calls = c%size_calls
     delivered%seconds = c%seconds
+    delivered%input_distance = c%input_distance
+    delivered%input_bound = c%input_bound
+    delivered%input_back_distance = c%input_back_distance
+    delivered%input_back_bound = c%input_back_bound
     delivered%text = carreau_string(c%text)
   end subroutine carreau_session_delivered
 

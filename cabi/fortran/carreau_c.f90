@@ -184,7 +184,7 @@ module carreau_c
     integer(c_int64_t) :: not_met = 0
     type(c_ptr) :: text = c_null_ptr
     integer(c_int64_t) :: surf0_calls = 0, surf1_calls = 0, surf2_calls = 0, size_calls = 0
-    real(c_double) :: seconds = 0
+    real(c_double) :: seconds = 0, input_distance = 0, input_bound = 0, input_back_distance = 0, input_back_bound = 0
   end type c_delivered
 
   !> The spread of one measure.

@@ -24,7 +24,8 @@ module carreau_geometry
   public :: carreau_molecule_atom_name
   public :: carreau_grid_options, carreau_add_grid, carreau_load_grid
   public :: carreau_triangles_options, carreau_triangles_report, carreau_add_triangles, carreau_load_triangles
-  public :: carreau_triangles_measure, carreau_triangles_refine, carreau_triangles_distances
+  public :: carreau_triangles_measure, carreau_triangles_refine, carreau_triangles_distances, &
+    carreau_triangles_bounds
   public :: carreau_geometry_points, carreau_geometry_curve
 
   integer(c_int32_t), parameter, public :: CARREAU_GEOMETRY_CALLBACKS = 1, CARREAU_GEOMETRY_BEZIER = 2, &
@@ -417,6 +418,16 @@ contains
     distances = 0
     status = c_triangles_distances(session%handle, distances)
   end subroutine carreau_triangles_distances
+
+  !> From the mesh to the triangles: between the first two; back: between the others. share: 0 stands for .01
+  subroutine carreau_triangles_bounds(session, share, bounds, status)
+    type(carreau_session), intent(in) :: session
+    real(c_double), intent(in) :: share
+    real(c_double), intent(out) :: bounds(4)
+    integer(c_int32_t), intent(out) :: status
+    bounds = 0
+    status = c_triangles_bounds(session%handle, share, bounds)
+  end subroutine carreau_triangles_bounds
 
   ! ---- Points of built-in geometries ----
 

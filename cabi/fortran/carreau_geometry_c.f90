@@ -267,7 +267,8 @@ module carreau_geometry_c
       integer(c_int32_t) :: status
     end function c_load_grid
 
-    !> Makes triangles the only geometry of a session that has no model: see carreau_model_clear.
+    !> Adds triangles to a session: they are a geometry like others (see carreau_geometry_begin), whose faces have no
+    !! curves of a parameter plane.
     function c_add_triangles(session, options, triangles) result(status) bind(c, name="carreau_add_triangles")
       import :: c_int32_t, c_ptr, c_triangles, c_triangles_options
       implicit none
@@ -317,6 +318,18 @@ module carreau_geometry_c
       real(c_double), intent(inout) :: distances(*)
       integer(c_int32_t) :: status
     end function c_triangles_distances
+
+    !> The same over all points of both: the largest distance from the mesh to the triangles lies between out_bounds[0]
+    !! and out_bounds[1], rounding included, that from the triangles to the mesh between out_bounds[2] and
+    !! out_bounds[3].
+    function c_triangles_bounds(session, share, bounds) result(status) bind(c, name="carreau_triangles_bounds")
+      import :: c_double, c_int32_t, c_ptr
+      implicit none
+      type(c_ptr), value :: session
+      real(c_double), value :: share
+      real(c_double), intent(inout) :: bounds(*)
+      integer(c_int32_t) :: status
+    end function c_triangles_bounds
 
     !> Evaluates a face at n places (u, v).
     function c_geometry_points(session, face_ref, n, uv, xyz) result(status) bind(c, name="carreau_geometry_points")

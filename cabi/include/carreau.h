@@ -1082,6 +1082,8 @@ CARREAU_API carreau_status carreau_metric_lengths(carreau_session* session, int3
  *   CARREAU_MEASURE_A1_BOUND        triangles  upper bound of A1 over the whole triangle, of first order; degrees
  *   CARREAU_MEASURE_BOUND_SHARE     triangles  the larger of both over its tolerance: eps_chord and angle_mesh where they govern,
  *                                              else 0.3 of the size and 52 degrees
+ *   CARREAU_MEASURE_INPUT_BOUND     triangles  of a surface given as triangles, of first order: upper bound of the distance from any
+ *                                              point of it to those; model length. NaN with the parameter measure_distances at 0
  *
  * Bounds suppose that over each part of a triangle second derivatives of the surface differ from a constant by at most the
  * largest second difference of the places seen; triangles are cut into parts until that decides. They take 16 evaluations a vertex and more.
@@ -1102,7 +1104,8 @@ enum {
   CARREAU_MEASURE_VERTEX_ANGLE = 12,
   CARREAU_MEASURE_A0_BOUND = 13,
   CARREAU_MEASURE_A1_BOUND = 14,
-  CARREAU_MEASURE_BOUND_SHARE = 15
+  CARREAU_MEASURE_BOUND_SHARE = 15,
+  CARREAU_MEASURE_INPUT_BOUND = 16
 };
 /* What a measure has one value for. */
 enum { CARREAU_OF_EDGES = 1, CARREAU_OF_VERTICES = 2, CARREAU_OF_TRIANGLES = 3 };
@@ -1119,6 +1122,11 @@ typedef struct carreau_delivered {
                                       met; lives until the next call on the session */
   int64_t surf0_calls, surf1_calls, surf2_calls, size_calls; /* of the measure, not of the run */
   double seconds;
+  /* Of a surface given as triangles, NaN otherwise and with the parameter measure_distances at 0: the largest distance from the
+     mesh to those lies between input_distance and input_bound, that from those to the mesh between the next two. Model
+     length. */
+  double input_distance, input_bound;
+  double input_back_distance, input_back_bound;
 } carreau_delivered;
 
 /* Measures the mesh as a whole. Errors of these functions: ARGUMENT, SEQUENCE (no mesh yet), CALLBACK, CANCELLED,

@@ -310,7 +310,7 @@ typedef struct carreau_triangles {
   const int32_t* edges;         /* edge_count x 2 vertices, from 0, that are of lines; NULL when edge_count is 0 */
 } carreau_triangles;
 
-/* Makes triangles the only geometry of a session that has no model: see carreau_model_clear. A smooth surface goes
+/* Adds triangles to a session: they are a geometry like others (see carreau_geometry_begin), whose faces have no curves of a parameter plane. A smooth surface goes
  * through their vertices, with tangent planes that agree but on lines: borders, edges with three triangles or more,
  * edges of triangles that differ by more than the sharp angle and those over which such a line goes on. Its faces are
  * the regions between lines, or the references of the triangles where they have several (moved up when one is not
@@ -318,7 +318,13 @@ typedef struct carreau_triangles {
  * those with two corners at one place, and turns triangles that run against their neighbours; messages tell it.
  * carreau_mesh_generate makes their mesh in space by all parameters of sizes; sizes that differ by direction count as
  * their least; parameter element works as on other surfaces. Errors: ARGUMENT (no triangle, an index out of range, a coordinate
- * that is not finite, a triangle without area between three places, an angle, a session with a model), SEQUENCE. */
+ * that is not finite, a triangle without area between three places, an angle, triangles that are all of surfaces before), SEQUENCE, LIMIT.
+ *
+ * Several surfaces of triangles are one in space: their vertices at one place become one, so that borders with the same vertices are
+ * one line, and the mesh conforms there; triangles of two surfaces stay those of the first one. Each has faces, lines and angles of its own, and
+ * nothing is smooth from one to the other. The functions below are about all of them. Curves and corners of the mesh are numbered from 1 over all of them,
+ * where other geometries are beside them behind the references of those; with these they have nothing in common. Such a session has no
+ * fields over parameter domains. */
 CARREAU_API carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
                                                  const carreau_triangles* triangles);
 
@@ -361,6 +367,13 @@ CARREAU_API carreau_status carreau_triangles_refine(carreau_session* session, do
  * middles of edges and of triangles: the largest from the mesh to the triangles, and back. Errors: SEQUENCE (no
  * triangles, no mesh), ARGUMENT. */
 CARREAU_API carreau_status carreau_triangles_distances(carreau_session* session, double out_distances[2]);
+
+/* The same over all points of both: the largest distance from the mesh to the triangles lies between out_bounds[0] and out_bounds[1], rounding included,
+ * that from the triangles to the mesh between out_bounds[2] and out_bounds[3]. The upper ones are larger than the lower ones by no more than the share and
+ * a millionth of the diagonal, unless that takes too long. `share`: 0 stands for .01. The mesh has straight triangles.
+ * carreau_session_delivered tells the same with those of each triangle. Errors: SEQUENCE (no triangles, no mesh), ARGUMENT (a share
+ * that is negative or not finite, other elements), CANCELLED. */
+CARREAU_API carreau_status carreau_triangles_bounds(carreau_session* session, double share, double out_bounds[4]);
 
 /* ---- Points of added geometries ---- */
 

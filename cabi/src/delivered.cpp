@@ -28,6 +28,7 @@ static_assert(int(EvaluationKind::vertex_angle) == CARREAU_MEASURE_VERTEX_ANGLE)
 static_assert(int(EvaluationKind::deviation_bound) == CARREAU_MEASURE_A0_BOUND);
 static_assert(int(EvaluationKind::angle_bound) == CARREAU_MEASURE_A1_BOUND);
 static_assert(int(EvaluationKind::bound_share) == CARREAU_MEASURE_BOUND_SHARE);
+static_assert(int(EvaluationKind::input_bound) == CARREAU_MEASURE_INPUT_BOUND);
 static_assert(int(EvaluationEntity::edge) == CARREAU_OF_EDGES);
 static_assert(int(EvaluationEntity::vertex) == CARREAU_OF_VERTICES);
 static_assert(int(EvaluationEntity::triangle) == CARREAU_OF_TRIANGLES);
@@ -78,6 +79,9 @@ carreau_status carreau_session_delivered(carreau_session* session, carreau_deliv
     result.surf2_calls = delivered.calls.surf2;
     result.size_calls = delivered.calls.sizes;
     result.seconds = delivered.seconds;
+    result.input_distance = delivered.input.distance, result.input_bound = delivered.input.bound;
+    result.input_back_distance = delivered.input.back_distance;
+    result.input_back_bound = delivered.input.back_bound;
     write_struct(result, out_delivered, "out_delivered");
   });
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "arguments.h"
 #include "carreau_geometry.h"
@@ -10,6 +12,8 @@
 #include "guard.h"
 #include "io/mesh_files.h"
 #include "mesh/surface_distance.h"
+#include "model/geometries.h"
+#include "session/options.h"
 
 using carreau::FlatMesh;
 using carreau::InvalidArgument;
@@ -66,8 +70,6 @@ FlatMesh mesh_of(const carreau_triangles& given) {
 
 void add(carreau_session& session, const FlatMesh& mesh, const Options& options) {
   session.refuse_begun();
-  if (!session.model().faces.empty())
-    throw InvalidArgument("the session has faces already: call carreau_model_clear first");
   session.monitor.begin_run();
   discrete::Triangulation triangulation(mesh, options.join);
   discrete::SharpLines lines = find_sharp_lines(triangulation, options.sharp);
@@ -80,16 +82,53 @@ void add(carreau_session& session, const FlatMesh& mesh, const Options& options)
     for (carreau::Face& face : built.model.faces)
       for (const carreau::FlatFace& known : mesh.faces)
         if (known.ref == face.ref) face.name = known.name, face.rgb = known.rgb;
-  session.add_geometry(CARREAU_GEOMETRY_TRIANGLES, std::move(built.cad), std::move(built.model));
+  session.add_triangles(std::move(surface), std::move(built));
 }
 
 const discrete::DiscreteSurface& surface_of(const carreau_session& session) {
-  if (session.added.empty() || session.added.front().kind != CARREAU_GEOMETRY_TRIANGLES)
+  if (!session.triangles)
     throw StatusError(CARREAU_ERR_SEQUENCE, "the session was given no triangles: call carreau_add_triangles first");
-  return dynamic_cast<const discrete::DiscreteCad&>(*session.added.front().cad).discrete();
+  return session.triangles->discrete();
+}
+
+/// The mesh of the session, without faces of other geometries.
+FlatMesh mesh_of_triangles(const carreau_session& session) {
+  if (!session.session.has_mesh()) throw StatusError(CARREAU_ERR_SEQUENCE, "there is no mesh yet");
+  FlatMesh flat = carreau::flatten(session.session.mesh(), false);
+  std::set<std::int32_t> others;
+  for (const carreau::Face& face : session.model().faces)
+    if (!face.discrete) others.insert(face.ref);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < flat.triangles.size(); ++t)
+    if (!others.contains(flat.triangle_refs[t])) flat.triangles[kept++] = flat.triangles[t];
+  flat.triangles.resize(kept);
+  return flat;
 }
 
 }  // namespace
+
+// The faces that are new have the references behind those that the session has.
+void carreau_session::add_triangles(std::shared_ptr<const discrete::DiscreteSurface> surface,
+                                    carreau::BuiltGeometry built) {
+  refuse_plane();
+  surfaces.reserve(surfaces.size() + 1);
+  std::vector<discrete::PlacedSurface> all = surfaces;
+  all.push_back({std::move(surface), largest_references(model()).face + 1});
+  std::vector<std::string> sentences;
+  const auto together = std::make_shared<discrete::DiscreteCad>(side_by_side(all, sentences));
+  const std::vector<std::int32_t> refs = face_refs(together->discrete());
+  const std::set<std::int32_t> left(refs.begin(), refs.end());
+  std::erase_if(built.model.faces,
+                [&](const carreau::Face& face) { return !left.contains(face.ref + all.back().first_face - 1); });
+  if (built.model.faces.empty()) throw InvalidArgument("all triangles are those of surfaces that the session has");
+  for (const std::string& sentence : sentences) monitor.message(Level::warning, sentence);
+  add_geometry(CARREAU_GEOMETRY_TRIANGLES, together, std::move(built.model));
+  surfaces.push_back(std::move(all.back()));
+  triangles = together;
+  for (AddedGeometry& geometry : added)
+    if (geometry.kind == CARREAU_GEOMETRY_TRIANGLES) geometry.cad = together;
+  update_cad();
+}
 
 carreau_status carreau_add_triangles(carreau_session* session, const carreau_triangles_options* options,
                                      const carreau_triangles* triangles) {
@@ -156,11 +195,31 @@ carreau_status carreau_triangles_distances(carreau_session* session, double out_
   return guarded(session, [&] {
     required(out_distances, "out_distances");
     const discrete::Triangulation& input = surface_of(*session).mesh();
-    const FlatMesh flat = carreau::flatten(session->session.mesh(), false);
+    const FlatMesh flat = mesh_of_triangles(*session);
     session->monitor.begin_run();
     out_distances[0] =
         largest_distance(flat.vertices, flat.triangles, input.vertices, input.triangles, session->monitor);
     out_distances[1] =
         largest_distance(input.vertices, input.triangles, flat.vertices, flat.triangles, session->monitor);
+  });
+}
+
+carreau_status carreau_triangles_bounds(carreau_session* session, double share, double out_bounds[4]) {
+  return guarded(session, [&] {
+    required(out_bounds, "out_bounds");
+    const discrete::Triangulation& input = surface_of(*session).mesh();
+    if (!(share >= 0) || !std::isfinite(share))
+      throw InvalidArgument("the share of the distance must be finite and not negative");
+    const FlatMesh flat = mesh_of_triangles(*session);
+    if (session->session.mesh().cells_are_not_triangles())
+      throw InvalidArgument("distances are bounded of meshes of straight triangles alone");
+    session->monitor.begin_run();
+    carreau::DistanceTolerance tolerance;
+    if (share > 0) tolerance.share = share;
+    const int threads = carreau::threads_of(*session->parameters);
+    const carreau::TrianglesOfSpace made{flat.vertices, flat.triangles}, given{input.vertices, input.triangles};
+    const carreau::DistanceBounds there = bound_distance(made, given, tolerance, threads, session->monitor),
+                                  back = bound_distance(given, made, tolerance, threads, session->monitor);
+    out_bounds[0] = there.lower, out_bounds[1] = there.upper, out_bounds[2] = back.lower, out_bounds[3] = back.upper;
   });
 }

@@ -49,12 +49,14 @@ void carreau_session::refuse_begun() const {
     throw StatusError(CARREAU_ERR_SEQUENCE, "a geometry has begun and has no end: call carreau_geometry_end first");
 }
 
-void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, Model part) {
-  refuse_begun();
+void carreau_session::refuse_plane() const {
   if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_PLANE)
     throw InvalidArgument("the session has a plane domain, which is the only geometry of a session");
-  if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_TRIANGLES)
-    throw InvalidArgument("the session has a surface of triangles, which is the only geometry of a session");
+}
+
+void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, Model part) {
+  refuse_begun();
+  refuse_plane();
   const bool only = model().faces.empty(), checked_now = only && kind != CARREAU_GEOMETRY_CALLBACKS;
   Model merged = only ? Model{} : model();
   const GeometryRange range = append_geometry(merged, std::move(part));
@@ -70,11 +72,13 @@ void carreau_session::add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, 
 void carreau_session::drop_geometries() {
   if (!added.empty() && added.front().kind == CARREAU_GEOMETRY_PLANE) session.set_prescription_source(nullptr);
   added.clear();
+  surfaces.clear(), triangles.reset();
   update_cad();
 }
 
 void carreau_session::update_cad() {
   has_cad = host != nullptr || !added.empty();
+  session.set_triangles(triangles);
   if (added.empty()) return session.set_cad(host);
   const GeometryRange& first = added.front().range;
   if (!host && added.size() == 1 && first.first_face == 1 && first.first_point == 1)

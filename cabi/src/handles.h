@@ -12,6 +12,8 @@
 
 #include "carreau.h"
 #include "cad/cad.h"
+#include "geometry/discrete/discrete_cad.h"
+#include "geometry/discrete/side_by_side.h"
 #include "geometry/molecule/molecule.h"
 #include "mesh/flat_mesh.h"
 #include "model/model.h"
@@ -148,6 +150,10 @@ struct carreau_session {
   void refuse_begun() const;
   /// Puts a geometry behind what the session has. Its model has references from 1.
   void add_geometry(int kind, std::shared_ptr<carreau::Cad> cad, carreau::Model part);
+  /// The same for a surface given as triangles, beside those that it has.
+  void add_triangles(std::shared_ptr<const carreau::discrete::DiscreteSurface> surface, carreau::BuiltGeometry built);
+  /// Throws when the session has a plane domain.
+  void refuse_plane() const;
   /// The faces are gone, and with them all geometries but the host's own.
   void drop_geometries();
   /// `host` and `added` have changed.
@@ -159,6 +165,8 @@ struct carreau_session {
   bool has_cad = false;
   std::shared_ptr<carreau::Cad> host;  // the callbacks of carreau_set_cad or carreau_set_cad_m
   std::vector<carreau::abi::AddedGeometry> added;
+  std::vector<carreau::discrete::PlacedSurface> surfaces;           // given as triangles, in the order of adding
+  std::shared_ptr<const carreau::discrete::DiscreteCad> triangles;  // all of them; null: there are none
   std::optional<carreau::abi::BegunGeometry> begun;
   bool plane_has_sizes = false;  // of the last plane domain
   std::optional<carreau::molecule::MoleculeSummary> molecule = {};  // the last one

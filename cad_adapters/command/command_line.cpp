@@ -18,6 +18,8 @@ namespace command {
 namespace {
 
 constexpr const char* mesh_files = "File .mesh, .meshb, .vtu, .stl, .msh, .msh2, .bl2d, .inp, .bdf, .unv, .su2, .off, .obj or .ply";
+constexpr const char* several_files =
+    "; several files of triangles, patches (.bpt), grids and molecules are meshed together";
 constexpr const char* geometry_files =
     "File .step, .stp, .iges, .igs, .brep, .brp, .bpt (Bezier patches), .pardom, or a molecule: "
     ".xyzr, .xyz, .pdb, .ent, .cif, .mmcif, or a grid: .fmt, .p3d, .x, .grd, .asc, .dem, .txt, .cyl, .ijk, or triangles: "
@@ -82,7 +84,7 @@ CLI::App* CommandLine::add(const char* name, const char* description) {
 
 void CommandLine::add_mesh() {
   CLI::App* mesh = add("mesh", "Mesh the faces of a CAD file, Bezier patches, a .pardom, a grid, or the surface of a molecule");
-  mesh->add_option("INPUT", mesh_.input, geometry_files)->required()->type_name(kind::file);
+  mesh->add_option("INPUT", inputs_, std::string(geometry_files) + several_files)->required()->type_name(kind::file);
   mesh->add_option("--host", mesh_.host, "Geometry of a .pardom: a shared library with the routines of cad_m")
       ->type_name(kind::file);
   repeated(mesh->add_option("-o,--output", mesh_.outputs,
@@ -387,7 +389,10 @@ int CommandLine::run(int argc, char** argv) {
 }
 
 int CommandLine::run_command() {
-  if (app_.got_subcommand("mesh")) return mesh(mesh_);
+  if (app_.got_subcommand("mesh")) {
+    mesh_.input = inputs_.front(), mesh_.more_inputs.assign(inputs_.begin() + 1, inputs_.end());
+    return mesh(mesh_);
+  }
   if (app_.got_subcommand("plane")) return mesh(plane_);
   if (app_.got_subcommand("adapt")) {
     adapt_.plane.is_plane = is_plane_file(adapt_.input);

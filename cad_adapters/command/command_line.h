@@ -42,6 +42,7 @@ class CommandLine {
 
   CLI::App app_;
   MeshOptions mesh_, plane_, adapt_;
+  std::vector<std::string> inputs_;  // of `mesh`
   RefineOptions refine_;
   InfoOptions info_;
   AreasOptions areas_;

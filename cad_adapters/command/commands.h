@@ -31,6 +31,7 @@ std::string shell_line(const std::string& program, const std::vector<std::string
 
 struct MeshOptions : InputChoice {
   std::string input;
+  std::vector<std::string> more_inputs;  ///< of `carreau mesh`: files beside it
   std::string repeat;       ///< shell_line() of all of this, for reports
   PlaneChoice plane;        ///< of a plane domain
   AdaptChoice adapt;        ///< of `carreau adapt`

@@ -2,6 +2,7 @@
 #include "delivered_json.h"
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -56,16 +57,22 @@ nlohmann::ordered_json delivered_json(carreau_session* session) {
   // The text lives until the next call.
   const std::vector<std::string> not_met = last_lines(delivered.text, static_cast<std::size_t>(delivered.not_met));
   nlohmann::ordered_json measures;
-  for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_BOUND_SHARE; ++kind) {
+  for (std::int32_t kind = CARREAU_MEASURE_LENGTH; kind <= CARREAU_MEASURE_INPUT_BOUND; ++kind) {
     carreau_measure measure{};
     measure.struct_size = sizeof measure;
     require(session, carreau_delivered_measure(session, kind, &measure));
     measures[measure.name] = measure_json(session, kind, measure);
   }
-  return {{"measures", measures},
-          {"lengths_in_range", delivered.in_range},
-          {"folded_triangles", delivered.folded_triangles},
-          {"not_met", not_met}};
+  nlohmann::ordered_json all = {{"measures", measures},
+                                {"lengths_in_range", delivered.in_range},
+                                {"folded_triangles", delivered.folded_triangles},
+                                {"not_met", not_met}};
+  if (std::isfinite(delivered.input_bound))
+    all["input"] = {{"distance", delivered.input_distance},
+                    {"bound", delivered.input_bound},
+                    {"back_distance", delivered.input_back_distance},
+                    {"back_bound", delivered.input_back_bound}};
+  return all;
 }
 
 }  // namespace command

@@ -15,6 +15,7 @@
 #include "ranks.h"
 #include "report/report_content.h"
 #include "session_handle.h"
+#include "several_input.h"
 #include "signals.h"
 #include "text_file.h"
 
@@ -188,6 +189,15 @@ MeshOptions options_of_rank(const MeshOptions& given, const Ranks* ranks) {
   return options;
 }
 
+std::unique_ptr<CadInput> opened(const MeshOptions& options, Progress& progress) {
+  if (options.plane.is_plane) return open_plane(options.input, options.plane);
+  if (options.more_inputs.empty())
+    return open_input(options.input, options, [&](double fraction) { progress.reading(fraction); });
+  std::vector<std::string> all{options.input};
+  all.insert(all.end(), options.more_inputs.begin(), options.more_inputs.end());
+  return open_several(all, options);
+}
+
 int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   Adaptation adaptation(given.adapt);
   MeshOptions options = options_of_rank(given, ranks);
@@ -201,18 +211,18 @@ int mesh_in(const MeshOptions& given, const Ranks* ranks) {
   std::vector<std::string> read = adaptation.inputs();
   if (options.adapt.is_adapt) suffixes.insert(suffixes.end(), {".sol", ".solb"});
   read.insert(read.end(), {options.input, map.mesh_file(), options.plane.sizes});
+  read.insert(read.end(), options.more_inputs.begin(), options.more_inputs.end());
   if (ranks != nullptr) suffixes.emplace_back(".pvtu");
   const std::vector<std::string> files = ranks != nullptr ? ranks->all_files(options.outputs) : options.outputs;
   OutputFiles outputs(files, suffixes, read);
   FailedFaces dumped(options.dump_failed);
   Progress progress(options.quiet);
-  progress.line("reading " + options.input);
+  std::string names = options.input;
+  for (const std::string& more : options.more_inputs) names += ", " + more;
+  progress.line("reading " + names);
   progress.part(0, read_at);
   const Stopwatch reading;
-  const std::unique_ptr<CadInput> input =
-      options.plane.is_plane
-          ? open_plane(options.input, options.plane)
-          : open_input(options.input, options, [&](double fraction) { progress.reading(fraction); });
+  const std::unique_ptr<CadInput> input = opened(options, progress);
   const SessionHandle session = make_session();
   if (ranks != nullptr) ranks->attach(session.get());
   MeshRun run{.options = options, .input = *input, .session = session.get(), .faces = {}, .dumped = {}};

@@ -243,6 +243,7 @@ nlohmann::ordered_json summary_json(const MeshRun& run, bool delivered) {
                      {"triangles", face.triangles},
                      {"why", face.why}});
   nlohmann::ordered_json summary = {{"input", run.options.input},
+                                    {"more_inputs", run.options.more_inputs},
                                     {"outputs", run.options.outputs},
                                     {"dumped", run.dumped},
                                     {"diagonal", run.input.diagonal()},

@@ -33,18 +33,11 @@ carreau_status load(carreau_session* session, const std::string& path, const Tri
   return carreau_load_triangles(session, &options, path.c_str());
 }
 
-carreau_triangles_report report_of(carreau_session* session) {
-  carreau_triangles_report report{};
-  report.struct_size = sizeof report;
-  require(session, carreau_triangles_measure(session, &report));
-  return report;
-}
-
 /// Faces are regions, which have no curves of the parameter plane.
 class TrianglesInput final : public CadInput {
  public:
   TrianglesInput(SessionHandle session, const std::string& path, const TrianglesChoice& choice)
-      : session_(std::move(session)), path_(path), choice_(choice), report_(report_of(session_.get())) {
+      : session_(std::move(session)), path_(path), choice_(choice), report_(triangles_report(session_.get())) {
     std::int64_t n = 0;
     require(session_.get(), carreau_model_count(session_.get(), &n, nullptr, nullptr));
     faces_.resize(static_cast<std::size_t>(n));
@@ -79,13 +72,7 @@ class TrianglesInput final : public CadInput {
   }
   [[nodiscard]] bool closed() const override { return report_.border_edges == 0; }
   [[nodiscard]] std::string of_mesh(carreau_session* session) const override {
-    double distances[2] = {};
-    require(session, carreau_triangles_distances(session, distances));
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "distance   %.4g from the mesh to the triangles, %.4g back; their smooth surface is within %.4g",
-                  distances[0], distances[1], report_.deviation);
-    return text;
+    return distances_line(session, report_.deviation);
   }
 
  private:
@@ -135,6 +122,29 @@ bool is_triangles(const std::string& path) {
   return std::any_of(std::begin(known), std::end(known), [&](const char* each) { return suffix == each; });
 }
 
+carreau_triangles_report triangles_report(carreau_session* session) {
+  carreau_triangles_report report{};
+  report.struct_size = sizeof report;
+  require(session, carreau_triangles_measure(session, &report));
+  return report;
+}
+
+std::string distances_line(carreau_session* session, double deviation) {
+  const char* element = nullptr;
+  require(session, carreau_get_text(session, "element", &element));
+  const bool straight = std::string(element) == "p1";
+  double pair[2] = {}, bounds[4] = {};
+  if (straight)
+    require(session, carreau_triangles_bounds(session, 0, bounds));
+  else
+    require(session, carreau_triangles_distances(session, pair));
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "distance   %.4g%s from the mesh to the triangles, %.4g back; their smooth surface is within %.4g",
+                straight ? bounds[1] : pair[0], straight ? " at most" : "", straight ? bounds[3] : pair[1], deviation);
+  return text;
+}
+
 std::unique_ptr<CadInput> open_triangles(const std::string& path, const TrianglesChoice& choice) {
   SessionHandle session = make_silent_session();
   require(session.get(), load(session.get(), path, choice));
@@ -151,7 +161,7 @@ MeshHandle refined_triangles(const std::string& path, const TrianglesChoice& cho
 void print_triangles_info(const std::string& path, const TrianglesChoice& choice, bool json) {
   SessionHandle session = json ? make_silent_session() : make_session();
   require(session.get(), load(session.get(), path, choice));
-  const carreau_triangles_report r = report_of(session.get());
+  const carreau_triangles_report r = triangles_report(session.get());
   const std::pair<const char*, std::int64_t> counts[] = {{"vertices", r.vertices},
                                                          {"triangles", r.triangles},
                                                          {"edges", r.edges},

@@ -2,7 +2,7 @@
 // Surfaces given as triangles as geometry.
 #pragma once
 
-#include <carreau.h>
+#include <carreau_geometry.h>
 
 #include <memory>
 #include <string>
@@ -23,6 +23,11 @@ struct TrianglesChoice {
 
 /// Whether the suffix is that of a file of triangles.
 bool is_triangles(const std::string& path);
+
+/// What was found in the triangles of a session. Throws Failure.
+carreau_triangles_report triangles_report(carreau_session* session);
+/// How far the mesh of a session and its triangles are apart, for a person; `deviation`: of the smooth surface. Throws Failure.
+std::string distances_line(carreau_session* session, double deviation);
 
 /// Throws Failure.
 std::unique_ptr<CadInput> open_triangles(const std::string& path, const TrianglesChoice& choice);

@@ -94,7 +94,7 @@ Json other_faces(const SurfaceMesh& mesh) {
 std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& report, const MeshEvaluation& delivered) {
   Json measures = Json::object();
   for (const EvaluatedMeasure& row : delivered_measures()) measures[row.name] = measure(row, delivered[row.kind]);
-  const Json json = {{"format", "carreau delivered 1"},
+  Json json = {{"format", "carreau delivered 1"},
                      {"mesh", mesh_counts(mesh, delivered)},
                      {"faces", other_faces(mesh)},
                      {"diag", number(report.diag)},
@@ -106,6 +106,11 @@ std::string delivered_json(const SurfaceMesh& mesh, const CompositeReport& repor
                      {"not_met", describe(delivered).not_met},
                      {"calls", {{"run", calls(report.calls)}, {"measure", calls(delivered.calls)}}},
                      {"seconds", {{"run", report.seconds_total}, {"measure", delivered.seconds}}}};
+  if (const InputDistances& input = delivered.input; std::isfinite(input.bound))
+    json["input"] = {{"distance", input.distance},
+                     {"bound", input.bound},
+                     {"back_distance", input.back_distance},
+                     {"back_bound", input.back_bound}};
   return json.dump(2) + "\n";
 }
 

@@ -5,6 +5,7 @@
 
 #include "cad/fundamental_forms.h"
 #include "measure/composite_evaluation.h"
+#include "mesh/surface_distance.h"
 #include "support/infinity.h"
 #include "surface/discrete/start_mesh.h"
 #include "surface/independent/charts.h"
@@ -71,6 +72,21 @@ MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad,
   EvaluationOptions measure = evaluation_options(options, result, angle_slack_of(options));
   measure.law = options.size.law;
   return evaluate_mesh(result.mesh, cad, metric, measure, monitor);
+}
+
+void bound_input_distances(const discrete::DiscreteSurface& surface, const SurfaceMesh& mesh, int threads,
+                           Monitor& monitor, MeshEvaluation& delivered) {
+  if (mesh.cells_are_not_triangles()) return;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const FaceMesh& face : mesh.faces)
+    for (const auto& t : face.triangles)
+      triangles.push_back({face.vertex[index(t[0])], face.vertex[index(t[1])], face.vertex[index(t[2])]});
+  const TrianglesOfSpace made{mesh.vertices, triangles}, given{surface.mesh().vertices, surface.mesh().triangles};
+  const DistanceBounds there = bound_distance(made, given, {}, threads, monitor,
+                                              &delivered[EvaluationKind::input_bound].values),
+                       back = bound_distance(given, made, {}, threads, monitor);
+  delivered.input = {there.lower, there.upper, back.lower, back.upper};
+  summarise(delivered);
 }
 
 }  // namespace carreau

@@ -13,4 +13,9 @@ namespace carreau {
 MeshEvaluation evaluate_discrete(const discrete::DiscreteCad& surface, Cad& cad, const CompositeOptions& options,
                                  const CompositeResult& result, Monitor& monitor);
 
+/// The distances between a mesh of straight triangles and those that the surface was given, both ways, are added; other
+/// elements have none. Throws Cancelled.
+void bound_input_distances(const discrete::DiscreteSurface& surface, const SurfaceMesh& mesh, int threads,
+                           Monitor& monitor, MeshEvaluation& delivered);
+
 }  // namespace carreau

@@ -77,7 +77,8 @@ class Measurement {
     for (const EvaluationKind kind : {EvaluationKind::q1, EvaluationKind::q2, EvaluationKind::metric_quality,
                                       EvaluationKind::deviation, EvaluationKind::angle, EvaluationKind::vertex_angle})
       of(kind).assign(m, 0);
-    for (const EvaluationKind kind : {EvaluationKind::deviation_bound, EvaluationKind::angle_bound, EvaluationKind::bound_share})
+    for (const EvaluationKind kind : {EvaluationKind::deviation_bound, EvaluationKind::angle_bound, EvaluationKind::bound_share,
+                                      EvaluationKind::input_bound})
       of(kind).assign(m, nan);
     find_neighbours();
     above_.resize(n * gauss_.node.size());

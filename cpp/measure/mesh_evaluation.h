@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -72,8 +73,11 @@ enum class EvaluationKind : int {
   deviation_bound = 13,
   angle_bound = 14,
   bound_share = 15,
+  /// Of a straight triangle of a surface given as triangles: no point of it is farther from those (mesh/surface_distance); model length. NaN when
+  /// it was not asked for, and of other geometries.
+  input_bound = 16,
 };
-inline constexpr std::size_t evaluation_kinds = 15;
+inline constexpr std::size_t evaluation_kinds = 16;
 
 /// Of what one value is measured. Values are part of the C ABI.
 enum class EvaluationEntity : int { edge = 1, vertex = 2, triangle = 3 };
@@ -151,13 +155,20 @@ struct Delivery {
   [[nodiscard]] bool exceeds(double value) const noexcept { return value > limit * (1 + tolerance); }
 };
 
+/// Largest distances between a mesh and the triangles that it stands for, model length: each lies between both figures. NaN: not measured.
+struct InputDistances {
+  double distance = std::numeric_limits<double>::quiet_NaN(), bound = distance;            ///< from the mesh to the triangles
+  double back_distance = std::numeric_limits<double>::quiet_NaN(), back_bound = back_distance;
+};
+
 /// All measures; prescriptions that are not met are counted.
 struct MeshEvaluation {
   MeshEdges edges;
   std::array<Delivery, evaluation_kinds> of_kind;
   std::int64_t short_edges = 0, long_edges = 0;  ///< length below 1 / sqrt(2), above sqrt(2)
   std::int64_t folded_triangles = 0;             ///< angle above 90 degrees
-  CallCounts calls;                              ///< that the measure took
+  InputDistances input;
+  CallCounts calls;  ///< that the measure took
   double seconds = 0;
 
   [[nodiscard]] const Delivery& operator[](EvaluationKind kind) const { return of_kind[static_cast<int>(kind) - 1]; }

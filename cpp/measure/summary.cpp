@@ -120,6 +120,7 @@ std::span<const EvaluatedMeasure> delivered_measures() {
       {Kind::deviation_bound, Entity::triangle, "A0_bound", "upper bound of A0, model length"},
       {Kind::angle_bound, Entity::triangle, "A1_bound", "upper bound of A1, degrees"},
       {Kind::bound_share, Entity::triangle, "bound_share", "upper bounds of A0 and A1 over their tolerances"},
+      {Kind::input_bound, Entity::triangle, "input_bound", "upper bound of the distance to the given triangles, model length"},
   }};
   return table;
 }
@@ -151,6 +152,7 @@ void summarise(MeshEvaluation& d) {
       case EvaluationKind::deviation:
       case EvaluationKind::curve_deviation:
       case EvaluationKind::deviation_bound:
+      case EvaluationKind::input_bound:
         powers = decades(one.values);
         bounds = powers;
         break;
@@ -180,6 +182,10 @@ DeliveredText describe(const MeshEvaluation& d) {
   for (const EvaluatedMeasure& measure : delivered_measures())
     if (measure.kind < EvaluationKind::deviation_bound || d[measure.kind].spread.count > 0)
       text.summary.push_back(line_of(measure.title, d[measure.kind].spread));
+  if (const InputDistances& input = d.input; input.bound == input.bound)
+    text.summary.push_back("distance to the given triangles: " + short_number(input.distance) + " to " +
+                           short_number(input.bound) + " at most, " + short_number(input.back_distance) + " to " +
+                           short_number(input.back_bound) + " back");
   const auto edges = static_cast<std::int64_t>(d.edges.vertices.size());
   if (const std::int64_t n = d.short_edges + d.long_edges; n > 0)
     text.not_met.push_back(part_of(n, edges, "edges") + " metric lengths outside [0.7071, 1.414]: " +

@@ -2,8 +2,13 @@
 #include "mesh/surface_distance.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "mesh/triangle_distance.h"
 #include "mesh/triangle_search.h"
+#include "support/infinity.h"
+#include "support/stepped_tasks.h"
 
 namespace carreau {
 
@@ -30,6 +35,235 @@ double largest_distance(std::span<const Vec3> vertices, std::span<const std::arr
     }
   }
   return most;
+}
+
+namespace {
+
+std::size_t index(std::int32_t i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Triangles of a task.
+constexpr std::size_t chunk = 1024;
+/// Pieces that a triangle is cut into at most, and more for each triangle of the other mesh near it: pieces that lie
+/// beside k triangles are some 5 k.
+constexpr std::size_t most_pieces = 4096, pieces_of_each = 64;
+/// A piece so many times as long as the triangle beside it is halved: cuts beside a small one would leave slivers.
+constexpr double halved_from = 3;
+/// Share of the length of a piece: a plane so near to its corners does not cut it.
+constexpr double clear_cut = 1e-9;
+
+/// A corner of a piece, and what is nearest to it.
+struct Corner {
+  Vec3 p;
+  std::int32_t nearest = 0;
+  double distance = 0;
+};
+/// A convex polygon in the plane of a triangle.
+using Piece = std::vector<Corner>;
+
+struct Diagonal {
+  std::size_t from = 0, to = 1;
+  double length = 0;
+};
+Diagonal longest(const Piece& piece) {
+  Diagonal best;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    for (std::size_t k = i + 1; k < piece.size(); ++k)
+      if (const double d = norm(piece[k].p - piece[i].p); d > best.length) best = {i, k, d};
+  return best;
+}
+
+struct Box {
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+  void add(std::span<const Vec3> points) {
+    for (const Vec3& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  }
+};
+
+/// The distance from triangles to a mesh.
+class DistanceBounder {
+ public:
+  DistanceBounder(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
+                  int threads, Monitor& monitor)
+      : from_(from), to_(to), search_(to.vertices, to.triangles, &monitor, threads), tolerance_(tolerance),
+        threads_(threads), monitor_(monitor) {}
+
+  DistanceBounds run(std::vector<double>* of_triangles) {
+    if (of_triangles != nullptr) of_triangles->assign(from_.triangles.size(), 0);
+    if (search_.empty() || from_.triangles.empty()) return {};
+    Box box, all;
+    box.add(to_.vertices), all.add(from_.vertices), all.add(to_.vertices);
+    length_ = tolerance_.length * norm(box.high - box.low);
+    const double rounding = 32 * std::numeric_limits<double>::epsilon() *
+                            std::max(all.low.cwiseAbs().maxCoeff(), all.high.cwiseAbs().maxCoeff());
+    look_around();
+    enough_ = goal(lower_);
+    std::vector<double> upper(from_.triangles.size(), 0), lower(from_.triangles.size(), 0);
+    each_chunk(from_.triangles.size(), [&](std::size_t t, Monitor& of_task) {
+      const auto [low, high] = bounds_of(t, of_task);
+      lower[t] = low, upper[t] = high + rounding;
+    });
+    const DistanceBounds found{std::max(0.0, std::ranges::max(lower) - rounding), std::ranges::max(upper)};
+    if (of_triangles != nullptr) *of_triangles = std::move(upper);
+    return found;
+  }
+
+ private:
+  template <typename Work>
+  void each_chunk(std::size_t n, Work&& work) {
+    run_each((n + chunk - 1) / chunk, false, threads_,
+             [&](std::size_t c, Monitor& of_task) {
+               constexpr std::size_t between = 64;
+               for (std::size_t k = c * chunk; k < std::min(n, (c + 1) * chunk); ++k) {
+                 if (k % between == 0) of_task.checkpoint();
+                 work(k, of_task);
+               }
+             },
+             monitor_);
+  }
+
+  [[nodiscard]] double goal(double lower) const noexcept { return (1 + tolerance_.share) * lower + length_; }
+
+  [[nodiscard]] Corner corner(const Vec3& p, std::int32_t guess) const {
+    const NearestOnMesh found = search_.nearest(p, guess);
+    return {p, found.triangle, found.distance};
+  }
+
+  // Vertices and middles: most of the largest distance.
+  void look_around() {
+    at_vertex_.resize(from_.vertices.size()), middle_.resize(from_.triangles.size());
+    std::vector<char> used(from_.vertices.size(), 0);
+    for (const auto& t : from_.triangles)
+      for (const std::int32_t v : t) used[index(v)] = 1;
+    each_chunk(at_vertex_.size(), [&](std::size_t v, Monitor&) {
+      if (used[v] != 0) at_vertex_[v] = corner(from_.vertices[v], v % chunk > 0 ? at_vertex_[v - 1].nearest : 0);
+    });
+    each_chunk(middle_.size(), [&](std::size_t t, Monitor&) {
+      const auto& [a, b, c] = from_.triangles[t];
+      const Vec3 p = (from_.vertices[index(a)] + from_.vertices[index(b)] + from_.vertices[index(c)]) / 3;
+      middle_[t] = corner(p, at_vertex_[index(a)].nearest);
+    });
+    for (const auto* corners : {&at_vertex_, &middle_})
+      for (const Corner& c : *corners) lower_ = std::max(lower_, c.distance);
+  }
+
+  [[nodiscard]] std::array<Vec3, 3> target(std::int32_t t) const {
+    const auto& [a, b, c] = to_.triangles[index(t)];
+    return {to_.vertices[index(a)], to_.vertices[index(b)], to_.vertices[index(c)]};
+  }
+
+  /// Upper bound over a piece whose middle is known: the least of those by the triangles that are nearest to its corners, and by that of the
+  /// middle: distances grow by no more than the way to a place.
+  [[nodiscard]] double upper_of(const Piece& piece, const Corner& middle) const {
+    double radius = 0;
+    for (const Corner& c : piece) radius = std::max(radius, norm(c.p - middle.p));
+    double best = middle.distance + radius;
+    const auto look = [&](std::int32_t t) {
+      const std::array<Vec3, 3> c = target(t);
+      double most = 0;
+      for (const Corner& each : piece) {
+        if (each.nearest != t) most = std::max(most, distance_to_triangle(each.p, c[0], c[1], c[2]));
+        if (each.nearest == t) most = std::max(most, each.distance);
+        if (most >= best) return;
+      }
+      best = most;
+    };
+    look(middle.nearest);
+    std::int32_t last = middle.nearest;
+    for (const Corner& c : piece)
+      if (c.nearest != last) look(last = c.nearest);
+    return best;
+  }
+
+  DistanceBounds bounds_of(std::size_t triangle, Monitor& of_task) const {
+    DistanceBounds found;
+    std::vector<Piece> todo(1);
+    for (const std::int32_t v : from_.triangles[triangle]) todo.back().push_back(at_vertex_[index(v)]);
+    std::size_t most = most_pieces, count = 0;
+    while (!todo.empty()) {
+      const Piece piece = std::move(todo.back());
+      todo.pop_back();
+      const Corner middle = count == 0 ? middle_[triangle] : middle_of(piece);
+      found.lower = std::max(found.lower, middle.distance);
+      for (const Corner& c : piece) found.lower = std::max(found.lower, c.distance);
+      const double upper = upper_of(piece, middle);
+      if (++count == most && most == most_pieces) most += pieces_of_each * beside(triangle);
+      if (count % 256 == 0) of_task.checkpoint();
+      if (upper <= std::max(enough_, goal(found.lower)) || count >= most)
+        found.upper = std::max(found.upper, upper);
+      else
+        cut(piece, middle, todo);
+    }
+    return found;
+  }
+
+  [[nodiscard]] std::size_t beside(std::size_t triangle) const {
+    Box box;
+    for (const std::int32_t v : from_.triangles[triangle]) box.add({&from_.vertices[index(v)], 1});
+    const Vec3 room = Vec3::Constant(enough_);
+    std::vector<std::int32_t> found;
+    search_.beside_box(box.low - room, box.high + room, found);
+    return found.size();
+  }
+
+  [[nodiscard]] Corner middle_of(const Piece& piece) const {
+    Vec3 sum = Vec3::Zero();
+    for (const Corner& c : piece) sum += c.p;
+    return corner(sum / static_cast<double>(piece.size()), piece.front().nearest);
+  }
+
+  /// The part behind the plane through `at` with this normal, of unit length, goes to `parts`, the rest stays. False: the plane does not cut.
+  bool split(Piece& piece, const Vec3& at, const Vec3& normal, double clear, std::vector<Piece>& parts) const {
+    std::vector<double> side;
+    for (const Corner& c : piece) side.push_back(dot(normal, c.p - at));
+    if (std::ranges::max(side) <= clear || std::ranges::min(side) >= -clear) return false;
+    Piece inside, outside;
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const std::size_t k = (i + 1) % piece.size();
+      (side[i] <= 0 ? inside : outside).push_back(piece[i]);
+      if ((side[i] <= 0) == (side[k] <= 0)) continue;
+      const Corner between =
+          corner(lerp(piece[i].p, piece[k].p, side[i] / (side[i] - side[k])), piece[i].nearest);
+      inside.push_back(between), outside.push_back(between);
+    }
+    parts.push_back(std::move(outside));
+    piece = std::move(inside);
+    return true;
+  }
+
+  // By the planes that stand on the sides of the nearest triangle, else in halves.
+  void cut(Piece piece, const Corner& middle, std::vector<Piece>& parts) const {
+    const Diagonal diagonal = longest(piece);
+    const std::array<Vec3, 3> c = target(middle.nearest);
+    const Vec3 normal = cross(c[1] - c[0], c[2] - c[0]);
+    const double side = std::max({norm(c[1] - c[0]), norm(c[2] - c[1]), norm(c[0] - c[2])});
+    bool any = false;
+    if (norm(normal) > 0 && diagonal.length < halved_from * side)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 across = cross(c[(i + 1) % 3] - c[i], normal);
+        if (!(norm(across) > 0)) continue;
+        any = split(piece, c[i], across / norm(across), clear_cut * diagonal.length, parts) || any;
+      }
+    if (!any) {
+      const Vec3 way = piece[diagonal.to].p - piece[diagonal.from].p;
+      split(piece, 0.5 * (piece[diagonal.to].p + piece[diagonal.from].p), way / diagonal.length, 0, parts);
+    }
+    parts.push_back(std::move(piece));
+  }
+
+  TrianglesOfSpace from_, to_;
+  TriangleSearch search_;
+  DistanceTolerance tolerance_;
+  int threads_;
+  Monitor& monitor_;
+  std::vector<Corner> at_vertex_, middle_;
+  double length_ = 0, lower_ = 0, enough_ = 0;
+};
+
+}  // namespace
+
+DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
+                              int threads, Monitor& monitor, std::vector<double>* of_triangles) {
+  return DistanceBounder(from, to, tolerance, threads, monitor).run(of_triangles);
 }
 
 }  // namespace carreau

@@ -5,16 +5,41 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "support/monitor.h"
 #include "support/vec.h"
 
 namespace carreau {
 
+/// Triangles of space: indices lie in range, coordinates are finite.
+struct TrianglesOfSpace {
+  std::span<const Vec3> vertices;
+  std::span<const std::array<std::int32_t, 3>> triangles;
+};
+
 /// The largest distance from the vertices, the middles of edges and those of triangles of one mesh to the triangles of
 /// another one. 0 where one of them has none.
 double largest_distance(std::span<const Vec3> vertices, std::span<const std::array<std::int32_t, 3>> triangles,
                         std::span<const Vec3> to_vertices, std::span<const std::array<std::int32_t, 3>> to_triangles,
                         Monitor& monitor);
+
+/// The largest distance from all points of one mesh to another one lies between both, rounding included.
+struct DistanceBounds {
+  double lower = 0, upper = 0;
+};
+
+/// How near bounds are to be.
+struct DistanceTolerance {
+  double share = 0.01;   ///< of the distance
+  double length = 1e-6;  ///< and this, as a share of the diagonal of the box of `to`
+};
+
+/// The distance to a single triangle is convex: over a convex polygon it is largest at a corner. Triangles are cut, beside
+/// the triangles that are nearest and then in halves, until one triangle of `to` shows of each piece that it is near
+/// enough. Where that takes too many pieces the upper bound is the one reached. `of_triangles`, unless it is null, gets
+/// an upper bound for each triangle. Both 0 where one of the meshes has none. The same for any number of threads. Throws Cancelled.
+DistanceBounds bound_distance(const TrianglesOfSpace& from, const TrianglesOfSpace& to, const DistanceTolerance& tolerance,
+                              int threads, Monitor& monitor, std::vector<double>* of_triangles = nullptr);
 
 }  // namespace carreau

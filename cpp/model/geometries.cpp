@@ -83,7 +83,6 @@ GeometryRange append_geometry(Model& model, Model part) {
   refuse_overflow(before.face, own.face), refuse_overflow(before.curve, own.curve);
   refuse_overflow(before.point, own.point);
   model.plane = part.plane && model.faces.empty();
-  model.discrete = part.discrete && model.faces.empty();
   model.geometries.push_back({.first_face = before.face + 1,
                               .last_face = before.face + own.face,
                               .first_curve = before.curve + 1,

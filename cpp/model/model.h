@@ -2,6 +2,7 @@
 // Faces, curves and points with their references: the content of x.pardom (RT-0232 sec. 3.2).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -70,6 +71,7 @@ struct Face {
   int part_of = 0;
   /// Of a model of several geometries, the one that the face belongs to, from 1, in Model::geometries; 0: the host's own.
   int geometry = 0;
+  bool discrete = false;  ///< given by triangles: it has no curves, and its mesh is made in space
   /// Why the face is not meshed: nothing is asked of its geometry, and its curves may break any rule; empty: it is.
   std::string left_out = {};
 
@@ -96,9 +98,16 @@ struct Model {
   /// References that results have in place of those of points, where they differ.
   std::map<int, int> shown_points = {};
   std::vector<GeometryRange> geometries = {};  ///< beside the host's own; see Face::geometry
-  /// The surface is given by triangles: faces have no curves, and their mesh is made in space.
-  bool discrete = false;
   bool plane = false;  ///< all of it lies in the plane z = 0, and files of its mesh have dimension 2
 };
+
+/// All faces are given by triangles, or some.
+[[nodiscard]] inline bool is_discrete(const Model& model) noexcept {
+  return !model.faces.empty() &&
+         std::all_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.discrete; });
+}
+[[nodiscard]] inline bool has_discrete(const Model& model) noexcept {
+  return std::any_of(model.faces.begin(), model.faces.end(), [](const Face& face) { return face.discrete; });
+}
 
 }  // namespace carreau

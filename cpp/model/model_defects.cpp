@@ -24,7 +24,7 @@ class ModelChecker {
     if (model_.faces.empty()) add({.file = model_.source}, "the model has no face");
     for (std::size_t f = 0; f < model_.faces.size(); ++f) {
       check_face(f);
-      if (!model_.faces[f].left_out.empty() || model_.discrete) continue;
+      if (!model_.faces[f].left_out.empty() || model_.faces[f].discrete) continue;
       if (model_.faces[f].is_wire())
         check_wire(f);
       else

@@ -33,7 +33,7 @@ constexpr ParameterInfo text_row(const char* name, const char* value, const char
 }
 
 // RT-0232 fig. 13, in its order (capitals first). `call` is an action of blsurf.env, not a variable; the "hphymmin" of
-// the figure is hphymin in the text, and both words are read. Ours: max_triangles, measure, measure_bounds, cracks, crossing_rounds, edge_gradation, shape_trials,
+// the figure is hphymin in the text, and both words are read. Ours: max_triangles, measure, measure_bounds, measure_distances, cracks, crossing_rounds, edge_gradation, shape_trials,
 // stagger_strips, patches, sharp_angle, and what governs metrics (anisotropy_max, eps_chord, geo_guarantee, geo_metric, geo_rule,
 // metric_combination).
 constexpr std::array kTable = {
@@ -113,6 +113,8 @@ constexpr std::array kTable = {
     integer_row("measure", 0, 1, 0, "1: what a mesh delivers is measured on the surface, said, and exported to vtu"),
     integer_row("measure_bounds", 0, 2, 1,
                 "measures tell upper bounds of A0 and A1: 0 never, 1 of meshes free of patches and of triangles, 2 always"),
+    integer_row("measure_distances", 0, 1, 1,
+                "measures of surfaces given as triangles tell bounds of the distances to those and back: 0 no, 1 yes"),
     integer_row("metric_combination", 0, 1, 1,
                 "prescribed and geometric metrics: 0 the prescribed one is scaled and keeps its shape, 1 intersection"),
     text_row("narrow_faces", "keep", "keep|one_layer|collapse",

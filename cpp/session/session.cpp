@@ -12,6 +12,7 @@
 #include "io/files.h"
 #include "io/mesh_files.h"
 #include "io/pardom.h"
+#include "measure/beside_patches.h"
 #include "measure/composite_evaluation.h"
 #include "measure/discrete_evaluation.h"
 #include "mesh/quality.h"
@@ -29,6 +30,7 @@
 #include "support/infinity.h"
 #include "support/part_monitor.h"
 #include "support/ranks/team.h"
+#include "surface/discrete/beside_patches.h"
 #include "surface/discrete/discrete_run.h"
 #include "surface/independent/charts.h"
 #include "surface/team/same_hosts.h"
@@ -40,12 +42,14 @@ namespace {
 /// What a mesh was made of: what measures it asks the same again.
 struct Meshed {
   std::shared_ptr<Cad> cad;
+  std::shared_ptr<const discrete::DiscreteCad> triangles;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;  // of `options`, as is the next
   std::shared_ptr<BackgroundField> background;
   Model model;
   ModelSupports supports;
   Topology topology;
   CompositeOptions options;
+  bool bounds_to_input = false;  // measures tell them
 };
 
 // x.pardom.new (RT-0232 sec. 3.2).
@@ -65,6 +69,7 @@ struct Session::State {
 
   Monitor& monitor;
   std::shared_ptr<Cad> cad;
+  std::shared_ptr<const discrete::DiscreteCad> triangles;
   std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
   std::shared_ptr<BackgroundField> background;
   std::shared_ptr<TeamLink> team_link;
@@ -78,6 +83,7 @@ struct Session::State {
   bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
   Parameters parameters;
   CompositeResult result;
+  std::shared_ptr<const PartResults> parts;  // of `result`; null: it is of one kind
   Meshed meshed;
   bool has_mesh = false;
   Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
@@ -171,18 +177,34 @@ std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters,
   return mesh.empty() ? set : read_background(mesh, sol, one_plane);
 }
 
-MeshEvaluation measure(const Meshed& meshed, const CompositeResult& result, Monitor& monitor) {
-  CheckedCad whole_cad(*meshed.cad);
-  if (meshed.model.discrete)
-    return evaluate_discrete(dynamic_cast<const discrete::DiscreteCad&>(*meshed.cad), whole_cad, meshed.options, result,
-                             monitor);
+MeshEvaluation measure_patches(const Meshed& meshed, const CompositeResult& result, Cad& whole_cad, Monitor& monitor) {
   PartCad cad(whole_cad, parts_of(meshed.model));
   set_parameter_boxes(meshed.model, meshed.supports, cad);
   return evaluate_composite(meshed.model, meshed.topology, cad, meshed.options, result, monitor);
 }
 
+MeshEvaluation measure_triangles(const Meshed& meshed, const CompositeOptions& options, const CompositeResult& result,
+                                 Cad& cad, Monitor& monitor) {
+  MeshEvaluation delivered = evaluate_discrete(*meshed.triangles, cad, options, result, monitor);
+  if (meshed.bounds_to_input)
+    bound_input_distances(meshed.triangles->discrete(), result.mesh, options.threads, monitor, delivered);
+  return delivered;
+}
+
+MeshEvaluation measure(const Meshed& meshed, const CompositeResult& result, const PartResults* parts,
+                       Monitor& monitor) {
+  CheckedCad cad(*meshed.cad);
+  if (is_discrete(meshed.model)) return measure_triangles(meshed, meshed.options, result, cad, monitor);
+  if (parts == nullptr) return measure_patches(meshed, result, cad, monitor);
+  PartMonitor first(monitor, 0, share_of_patches), second(monitor, share_of_patches, 1);
+  const MeshEvaluation patches = measure_patches(meshed, parts->patches, cad, first);
+  const MeshEvaluation triangles =
+      measure_triangles(meshed, parts->triangle_options, parts->triangles, cad, second);
+  return beside_each_other(result.mesh, patches, triangles, [&](std::size_t face) { return parts->is_of_triangles(face); });
+}
+
 void refuse_fields(const Model& model) {
-  if (model.discrete) throw InvalidArgument("a surface given as triangles has no fields over parameter domains");
+  if (has_discrete(model)) throw InvalidArgument("a surface given as triangles has no fields over parameter domains");
 }
 
 }  // namespace
@@ -190,7 +212,14 @@ void refuse_fields(const Model& model) {
 Session::Session(Monitor& monitor) : state_(std::make_unique<State>(monitor)) {}
 Session::~Session() = default;
 
-void Session::set_cad(std::shared_ptr<Cad> cad) { state_->cad = std::move(cad); }
+void Session::set_cad(std::shared_ptr<Cad> cad) {
+  if (auto alone = std::dynamic_pointer_cast<const discrete::DiscreteCad>(cad)) state_->triangles = std::move(alone);
+  state_->cad = std::move(cad);
+}
+
+void Session::set_triangles(std::shared_ptr<const discrete::DiscreteCad> triangles) {
+  state_->triangles = std::move(triangles);
+}
 
 void Session::set_metric_callbacks(std::shared_ptr<PrescriptionSource> source) {
   state_->metric_callbacks = std::move(source);
@@ -253,7 +282,7 @@ std::size_t Session::uv_face(std::size_t face, std::int32_t node) const {
   const FaceMesh& of = mesh().faces[face];
   const auto k = static_cast<std::size_t>(node);
   if (k < of.uv.size()) return of.uv_face.empty() ? face : static_cast<std::size_t>(of.uv_face[k]);
-  const CompositeResult& result = state_->result;
+  const CompositeResult& result = state_->parts ? state_->parts->of(face) : state_->result;
   if (!result.atlas || face >= result.mid_feet.size() || result.mid_feet[face].empty()) return face;
   return static_cast<std::size_t>(result.atlas->face({result.mid_feet[face][k - of.uv.size()], {}}));
 }
@@ -325,11 +354,14 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   const bool measured = s.parameters.integer("measure") != 0;
   constexpr double share_of_mesh = 0.75;  // measuring asks the geometry about as often as meshing
   PartMonitor making(run, 0, measured ? share_of_mesh : 1), measuring(run, share_of_mesh, 1);
-  if (known.discrete) return make_discrete_mesh(known, whole_cad, making, measuring, run);
+  if (has_discrete(known) && !s.triangles) throw InvalidModel("the model has faces given by triangles, and no triangles");
+  if (is_discrete(known)) return make_discrete_mesh(known, whole_cad, making, measuring, run);
+  leave_out_triangles(known);
   const double angle_smo = std::min(s.parameters.real("angle_smo"), s.parameters.real("angle_mesh"));
   auto [model, supports] = supports_of(known, whole_cad, angle_smo, s.parameters, s.monitor);
   if (!(supports.diag > 0))
     throw InvalidModel("the curves of the model have no extent in space: diag is " + format_number(supports.diag));
+  if (has_discrete(known)) supports.diag = diagonal_with(supports, *s.triangles);
   set_parameter_boxes(model, supports, whole_cad);
   std::vector<std::string> remarks;
   s.glue_model(model, supports, whole_cad, remarks);
@@ -348,7 +380,15 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
   Topology topology =
       build_topology(model, traces, std::max(supports.diag / 100, s.parameters.real("eps_glue", supports.diag)));
 
-  CompositeResult result = mesh_composite(model, topology, supports, cad, options, making);
+  PartMonitor patches(making, 0, has_discrete(known) ? share_of_patches : 1), triangles(making, share_of_patches, 1);
+  CompositeResult result = mesh_composite(model, topology, supports, cad, options, patches);
+  std::shared_ptr<const PartResults> parts;
+  if (has_discrete(known)) {
+    CompositeOptions options_here = options;
+    options_here.measure_bounds = s.parameters.integer("measure_bounds") > 0;
+    parts = mesh_beside(std::move(result), known, *s.triangles, whole_cad, std::move(options_here), triangles);
+    result = beside_each_other(parts->patches, parts->triangles, largest_references(model));
+  }
   if (result.mesh.triangle_count() == 0 && result.mesh.loose_edge_count() == 0) {
     const auto failed = std::find_if(result.mesh.faces.begin(), result.mesh.faces.end(),
                                      [](const FaceMesh& face) { return !face.why.empty(); });
@@ -356,14 +396,14 @@ void Session::make_mesh_of(Model& known, Monitor& run) {
                       (failed != result.mesh.faces.end() ? failed->why : std::string("no reason is known")));
   }
   keep_result(std::move(model), std::move(supports), std::move(topology), std::move(options), std::move(result),
-              background, measuring);
+              std::move(parts), background, measuring);
   run.progress(Phase::idle, 0, 1);
 }
 
 // A surface given as triangles has no curves to be found, glued or cut first.
 void Session::make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run) {
   State& s = *state_;
-  const auto& surface = dynamic_cast<const discrete::DiscreteCad&>(*s.cad);
+  const discrete::DiscreteCad& surface = *s.triangles;
   CompositeOptions options = composite_options(s.parameters, surface.discrete().mesh().diagonal());
   options.measure_bounds = s.parameters.integer("measure_bounds") > 0;
   const std::shared_ptr<BackgroundField> background = background_of_run(s.parameters, model.plane, s.background);
@@ -376,14 +416,14 @@ void Session::make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, 
   ModelSupports supports;
   supports.of_face.resize(model.faces.size());
   supports.diag = result.report.diag;
-  keep_result(model, std::move(supports), std::move(topology), std::move(options), std::move(result), background,
-              measuring);
+  keep_result(model, std::move(supports), std::move(topology), std::move(options), std::move(result), nullptr,
+              background, measuring);
   run.progress(Phase::idle, 0, 1);
 }
 
 void Session::keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
-                          CompositeResult result, const std::shared_ptr<BackgroundField>& background,
-                          Monitor& measuring) {
+                          CompositeResult result, std::shared_ptr<const PartResults> parts,
+                          const std::shared_ptr<BackgroundField>& background, Monitor& measuring) {
   State& s = *state_;
   const bool measured = s.parameters.integer("measure") != 0;
   if (s.team) require_same_mesh(*s.team, result.mesh);
@@ -393,19 +433,22 @@ void Session::keep_result(Model model, ModelSupports supports, Topology topology
     for (const std::string& remark : source->remarks()) s.monitor.message(Level::warning, remark);
   const BackgroundReport background_report = background ? background->report() : BackgroundReport{};
   Meshed meshed{s.cad,
+                s.triangles,
                 s.metric_callbacks,
                 s.prescription_source,
                 background,
                 std::move(model),
                 std::move(supports),
                 std::move(topology),
-                std::move(options)};
+                std::move(options),
+                s.parameters.integer("measure_distances") != 0};
   std::optional<MeshEvaluation> delivered;
-  if (measured) delivered = measure(meshed, result, measuring);
+  if (measured) delivered = measure(meshed, result, parts.get(), measuring);
   s.background_report = background_report;
   s.has_previous = s.has_mesh;
   s.previous = std::move(s.result.mesh);
   s.result = std::move(result);
+  s.parts = std::move(parts);
   s.meshed = std::move(meshed);
   s.interfaces = std::move(interfaces);
   s.whole_faces = carreau::whole_faces(s.result.mesh);
@@ -436,7 +479,7 @@ std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, 
   std::optional<MeshEvaluation> measured;
   const auto evaluation_here = [&]() -> const MeshEvaluation& {
     if (s.delivered) return *s.delivered;
-    if (!measured) measured = measure(meshed, s.result, s.monitor);
+    if (!measured) measured = measure(meshed, s.result, nullptr, s.monitor);
     return *measured;
   };
   const FieldRun run{.model = meshed.model,
@@ -491,7 +534,7 @@ const MeshEvaluation& Session::delivered() {
   State& s = *state_;
   (void)mesh();
   if (!s.delivered) {
-    s.delivered = measure(s.meshed, s.result, s.monitor);
+    s.delivered = measure(s.meshed, s.result, s.parts.get(), s.monitor);
     describe_evaluation(*s.delivered, s.monitor);
     s.monitor.progress(Phase::idle, 0, 1);
   }

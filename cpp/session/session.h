@@ -26,6 +26,11 @@
 
 namespace carreau {
 
+namespace discrete {
+class DiscreteCad;
+}
+struct PartResults;
+
 /// Independent of any other session; used by one thread at a time.
 class Session {
  public:
@@ -36,6 +41,9 @@ class Session {
   Session& operator=(const Session&) = delete;
 
   void set_cad(std::shared_ptr<Cad> cad);
+  /// What evaluates all faces that are given by triangles (Face::discrete), as set_cad's does; nullptr: there are none. A
+  /// DiscreteCad that set_cad() gets is that itself.
+  void set_triangles(std::shared_ptr<const discrete::DiscreteCad> triangles);
   /// Wanted sizes and metrics, unless hphy_flag = 0: the host's own callbacks, and another source that is asked after
   /// them (a background mesh). What both answer at a place is intersected. nullptr: none, as at the start.
   void set_metric_callbacks(std::shared_ptr<PrescriptionSource> source);
@@ -137,7 +145,8 @@ class Session {
   void make_mesh_of(Model& known, Monitor& run);
   void make_discrete_mesh(const Model& model, Cad& cad, Monitor& making, Monitor& measuring, Monitor& run);
   void keep_result(Model model, ModelSupports supports, Topology topology, CompositeOptions options,
-                   CompositeResult result, const std::shared_ptr<BackgroundField>& background, Monitor& measuring);
+                   CompositeResult result, std::shared_ptr<const PartResults> parts,
+                   const std::shared_ptr<BackgroundField>& background, Monitor& measuring);
   FlatMesh exported_as(MeshFormat format);
   [[nodiscard]] MeshFileOptions file_options() const;
   std::vector<std::string> write_fields_of_mesh(const std::string& path, FieldOptions options);

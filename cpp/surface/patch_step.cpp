@@ -228,7 +228,7 @@ void mesh_patches(CompositeRun& run) {
   run.patches.assign(run.model.faces.size(), std::nullopt);
   place_narrow_patches(run);
   for (std::size_t f = 0; f < run.model.faces.size(); ++f)
-    if (!run.domains.domain[f] && !run.domains.failure[f].empty()) run.fail(f, run.domains.failure[f]);
+    if (!run.domains.domain[f] && !run.domains.failure[f].empty() && !run.model.faces[f].discrete) run.fail(f, run.domains.failure[f]);
   PatchJobs work{.run = run};
   work.left = run.options.max_triangles;
   // Narrow faces may be meshed twice in a round, and spaces are those of the second time.

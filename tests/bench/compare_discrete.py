@@ -43,7 +43,8 @@ def row(name, seconds, build, target, path, size, sharp):
         print(f"{os.path.basename(path):14} {name:8} no mesh that can be read")
         return
     print(f"{os.path.basename(path):14} {name:8} {quality['triangles']:8} {seconds:8.3f} {q['q2_mean']:7.4f} {q['q2_min']:7.4f} " +
-          " ".join(f"{float(x) / size:8.4f}" if float(x) < 1e100 else "    none" for x in far[:3]) + f" {far[3]:>6}/{far[4]}")
+          " ".join(f"{float(x) / size:8.4f}" if float(x) < 1e100 else "    none" for x in far[:3]) +
+          f" {float(far[6]) / size:8.4f} {float(far[8]) / size:8.4f} {far[3]:>6}/{far[4]}")
     sys.stdout.flush()
 
 
@@ -58,7 +59,7 @@ def main():
     for program in (command, *(os.path.join(given.build, "tests/bench", name) for name in ("bench_distance", "bench_cgal_remeshing"))):
         if not os.access(program, os.X_OK):
             sys.exit(f"{program} is not there. Type: cmake --build {given.build} --target carreau_command bench_distance bench_cgal_remeshing")
-    print("file           by      triangles  seconds  Q2 mean   worst  to file    back    lines  sharp edges of mesh/file")
+    print("file           by      triangles  seconds  Q2 mean   worst  to file    back    lines  bounds of both    sharp edges of mesh/file")
     for path in given.files:
         diagonal = json.loads(subprocess.run([command, "info", path, "--json"], capture_output=True, text=True).stdout)["diagonal"]
         size = given.size * diagonal

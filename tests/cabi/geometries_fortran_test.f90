@@ -115,7 +115,8 @@ contains
     type(carreau_mesh) :: made
     type(carreau_triangles_report) :: report
     type(carreau_quality) :: of_made
-    real(c_double) :: distances(2)
+    real(c_double) :: distances(2), bounds(4)
+    type(carreau_delivered) :: delivered
     integer(c_int64_t) :: n
     call carreau_session_create(other, status)
     call carreau_add_triangles(other, carreau_triangles_options(corner_angle=30._c_double), &
@@ -137,8 +138,24 @@ contains
     call check(of_made%open_edges == 0, 'closed')
     call carreau_triangles_distances(other, distances, status)
     call check(all(distances < 1e-12_c_double), 'distances')
+    call carreau_triangles_bounds(other, 0._c_double, bounds, status)
+    call check(status == CARREAU_OK .and. all(bounds < 1e-5_c_double), 'bounds of the distances')
+    call check(bounds(1) <= bounds(2) .and. bounds(3) <= bounds(4), 'lower and upper bounds')
+    call carreau_session_delivered(other, delivered, status)
+    call check(delivered%input_bound >= bounds(1) .and. delivered%input_back_bound < 1e-5_c_double, 'delivered bounds')
     call carreau_geometry_count(other, n, status)
     call check(n == 1, 'one geometry')
+    ! Another tetrahedron beside it, three units off
+    call carreau_add_triangles(other, carreau_triangles_options(corner_angle=30._c_double), &
+      reshape(real([3, 0, 0, 4, 0, 0, 3, 1, 0, 3, 0, 1], c_double), [3, 4]), &
+      reshape([1, 3, 2, 1, 2, 4, 1, 4, 3, 2, 3, 4], [3, 4]), status)
+    call check(status == CARREAU_OK, carreau_last_error(other))
+    call carreau_triangles_measure(other, report, status)
+    call check(report%shells == 2 .and. report%lines == 12 .and. report%euler_number == 4, 'two surfaces of triangles')
+    call carreau_mesh_generate(other, status)
+    call carreau_session_mesh(other, made, status)
+    call carreau_mesh_quality(made, of_made, status)
+    call check(abs(of_made%area - 3 - sqrt(3._c_double)) < 1e-12_c_double, 'area of two')
     call carreau_session_free(other)
   end subroutine triangles_of_a_tetrahedron
   !> A ring of radii 1 and 2 by arcs of circles: the area is that between polygons of equal edges.

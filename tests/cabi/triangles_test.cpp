@@ -2,9 +2,10 @@
 // Surfaces given as triangles through the interface: arrays, files, mistakes.
 #include <carreau_geometry.h>
 
+#include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <map>
+#include <set>
 
 #include "abi_fixture.h"
 
@@ -106,6 +107,144 @@ TEST_F(Triangles, MistakesAreTold) {
   EXPECT_EQ(carreau_add_grid(session, nullptr, 1, edges, octahedron.vertices.data()), CARREAU_ERR_ARGUMENT);
   double distances[2] = {};
   EXPECT_NE(carreau_triangles_distances(session, distances), CARREAU_OK);
+}
+
+TEST_F(Triangles, DistancesAreBounded) {
+  const Octahedron octahedron;
+  auto options = sized<carreau_triangles_options>();
+  options.sharp_angle = 80;
+  ASSERT_EQ(carreau_add_triangles(session, &options, &octahedron.given), CARREAU_OK);
+  double bounds[4] = {}, distances[2] = {};
+  EXPECT_EQ(carreau_triangles_bounds(session, 0, bounds), CARREAU_ERR_SEQUENCE);
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.2), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << carreau_last_error(session);
+  ASSERT_EQ(carreau_triangles_distances(session, distances), CARREAU_OK);
+  for (const double share : {0.0, 1e-3}) {
+    ASSERT_EQ(carreau_triangles_bounds(session, share, bounds), CARREAU_OK) << carreau_last_error(session);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_LE(distances[k], bounds[2 * k + 1]);
+      EXPECT_LE(bounds[2 * k], bounds[2 * k + 1]);
+      EXPECT_LE(bounds[2 * k + 1], bounds[2 * k] * (1 + (share > 0 ? share : 0.01)) + 4e-6);
+    }
+  }
+  auto delivered = sized<carreau_delivered>();
+  ASSERT_EQ(carreau_session_delivered(session, &delivered), CARREAU_OK);
+  EXPECT_LE(delivered.input_distance, bounds[1]);
+  EXPECT_GE(delivered.input_bound, bounds[0]);
+  EXPECT_LE(delivered.input_back_distance, bounds[3]);
+  EXPECT_GE(delivered.input_back_bound, bounds[2]);
+  auto measure = sized<carreau_measure>();
+  ASSERT_EQ(carreau_delivered_measure(session, CARREAU_MEASURE_INPUT_BOUND, &measure), CARREAU_OK);
+  EXPECT_STREQ(measure.name, "input_bound");
+  EXPECT_EQ(measure.count, delivered.triangles);
+  EXPECT_EQ(measure.max, delivered.input_bound);
+  for (const double wrong : {-1.0, std::nan("")}) EXPECT_EQ(carreau_triangles_bounds(session, wrong, bounds), CARREAU_ERR_ARGUMENT);
+  EXPECT_EQ(carreau_triangles_bounds(session, 0, nullptr), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_set_integer(session, "measure_distances", 0), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK);
+  ASSERT_EQ(carreau_session_delivered(session, &delivered), CARREAU_OK);
+  EXPECT_TRUE(std::isnan(delivered.input_bound) && std::isnan(delivered.input_back_bound));
+  ASSERT_EQ(carreau_set_text(session, "element", "p2"), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK);
+  EXPECT_EQ(carreau_triangles_bounds(session, 0, bounds), CARREAU_ERR_ARGUMENT);
+}
+
+// The faces of a mesh of a session, ascending.
+std::vector<std::int32_t> faces_of(carreau_session* session) {
+  carreau_mesh* mesh = nullptr;
+  EXPECT_EQ(carreau_session_mesh(session, &mesh), CARREAU_OK);
+  std::vector<std::int32_t> refs = data_of(mesh).triangle_refs;
+  std::sort(refs.begin(), refs.end());
+  refs.erase(std::unique(refs.begin(), refs.end()), refs.end());
+  return refs;
+}
+
+TEST_F(Triangles, HalvesOfACubeAreOneMesh) {
+  for (const char* name : {"lower.off", "upper.off"})
+    ASSERT_EQ(carreau_load_triangles(session, nullptr, (std::string(CARREAU_TEST_DATA "/triangles/") + name).c_str()), CARREAU_OK)
+        << carreau_last_error(session);
+  std::int64_t count = 0;
+  ASSERT_EQ(carreau_geometry_count(session, &count), CARREAU_OK);
+  EXPECT_EQ(count, 2);
+  auto second = sized<carreau_geometry>();
+  ASSERT_EQ(carreau_geometry_info(session, 1, &second), CARREAU_OK);
+  EXPECT_EQ(second.kind, CARREAU_GEOMETRY_TRIANGLES);
+  EXPECT_EQ((std::array{second.first_face, second.last_face, second.faces}), (std::array{6, 10, 5}));
+  EXPECT_EQ(report().border_edges, 0);
+  EXPECT_EQ(report().euler_number, 2);
+  EXPECT_EQ(report().lines, 20);
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.25), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << carreau_last_error(session);
+  carreau_mesh* mesh = nullptr;
+  ASSERT_EQ(carreau_session_mesh(session, &mesh), CARREAU_OK);
+  EXPECT_EQ(defects_of(mesh, true), "");
+  EXPECT_EQ(faces_of(session).size(), 10u);
+  const double uv[] = {0.25, 0.25};  // of the first triangle of all
+  double p[3] = {};
+  ASSERT_EQ(carreau_geometry_points(session, 1, 1, uv, p), CARREAU_OK);
+  EXPECT_LE(p[2], 0);
+}
+
+/// Two rows and columns of control points over [3, 4] x [0, 1].
+struct Patch {
+  std::vector<double> controls{3, 0, 0, 3, 1, 0, 4, 0, 0, 4, 1, 1};
+  std::int32_t degrees[2] = {1, 1};
+  carreau_bezier given = sized<carreau_bezier>();
+  Patch() { given.patch_count = 1, given.degrees = degrees, given.controls = controls.data(); }
+};
+
+TEST_F(Triangles, LieBesidePatchesAndFacesOfAHost) {
+  const Octahedron octahedron;
+  const Patch patch;
+  test_host host{};
+  host.session = session;
+  const carreau_cad cad = paraboloid_cad(&host);
+  ASSERT_EQ(carreau_set_cad(session, &cad), CARREAU_OK);
+  ASSERT_EQ(paraboloid_model(session), CARREAU_OK);
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_OK) << carreau_last_error(session);
+  ASSERT_EQ(carreau_add_bezier(session, &patch.given), CARREAU_OK) << carreau_last_error(session);
+  std::vector<double> far = octahedron.vertices;
+  for (std::size_t k = 0; k < far.size(); k += 3) far[k] += 10;
+  Octahedron again;
+  again.given.vertices = far.data();
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &again.given), CARREAU_OK) << carreau_last_error(session);
+  EXPECT_EQ(report().shells, 2);
+  ASSERT_EQ(carreau_set_real(session, "hphydef", 0.3), CARREAU_OK);
+  ASSERT_EQ(carreau_set_integer(session, "measure", 1), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << carreau_last_error(session);
+  carreau_mesh* mesh = nullptr;
+  ASSERT_EQ(carreau_session_mesh(session, &mesh), CARREAU_OK);
+  EXPECT_EQ(defects_of(mesh), "");
+  const std::vector<std::int32_t> faces = faces_of(session);
+  EXPECT_EQ(faces.size(), 1u + 8 + 1 + 8);
+  EXPECT_EQ(faces.back() - faces.front(), 17);
+  const MeshData data = data_of(mesh);
+  std::map<std::int32_t, std::set<std::int32_t>> curves;  // by reference: vertices
+  for (std::size_t e = 0; e < data.edge_count(); ++e)
+    for (std::size_t k = 0; k < 2; ++k) curves[data.edge_refs[e]].insert(data.edges[2 * e + k]);
+  EXPECT_EQ(curves.size(), 4u + 12 + 4 + 12);
+  double bounds[4] = {};
+  ASSERT_EQ(carreau_triangles_bounds(session, 0, bounds), CARREAU_OK) << carreau_last_error(session);
+  EXPECT_LT(bounds[1], 0.3);  // of the octahedra alone
+  auto fields = sized<carreau_exr_options>();
+  EXPECT_EQ(carreau_write_exr(session, "nowhere.exr", &fields), CARREAU_ERR_ARGUMENT);
+  ASSERT_EQ(carreau_model_clear(session), CARREAU_OK);
+  auto none = sized<carreau_triangles_report>();
+  EXPECT_EQ(carreau_triangles_measure(session, &none), CARREAU_ERR_SEQUENCE);
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_OK);
+  ASSERT_EQ(carreau_mesh_generate(session), CARREAU_OK) << carreau_last_error(session);
+  EXPECT_EQ(faces_of(session).size(), 8u);
+}
+
+TEST_F(Triangles, ASurfaceThatIsThereAlreadyIsRefused) {
+  const Octahedron octahedron;
+  ASSERT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_OK);
+  EXPECT_EQ(carreau_add_triangles(session, nullptr, &octahedron.given), CARREAU_ERR_ARGUMENT);
+  EXPECT_STREQ(carreau_last_error(session), "all triangles are those of surfaces that the session has");
+  EXPECT_EQ(report().triangles, 8);
+  std::int64_t count = 0;
+  ASSERT_EQ(carreau_geometry_count(session, &count), CARREAU_OK);
+  EXPECT_EQ(count, 1);
 }
 
 }  // namespace

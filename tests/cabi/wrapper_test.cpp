@@ -397,6 +397,7 @@ TEST(Wrapper, TakesTrianglesAndPlaneDomains) {
   session.set("hphydef", 0.2);
   session.generate();
   EXPECT_LT(carreau::triangles_distances(session)[0], 1e-12);
+  for (const double bound : carreau::triangles_bounds(session)) EXPECT_LT(bound, 1e-5);
   EXPECT_TRUE(session.mesh().defects(/*closed=*/true).empty());
   EXPECT_NEAR(session.mesh().quality().area, 1.5 + std::sqrt(3.0) / 2, 1e-12);
 

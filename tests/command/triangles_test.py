@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.path.abspath(sys.argv[1])
+DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data", "triangles")
 
 
 def cylinder(n=36, height=2.0):
@@ -118,6 +119,80 @@ class Triangles(unittest.TestCase):
         self.run_command("adapt", source, "--formula", "tanh(10 * (z - 1))", "--tolerance", "0.05", "--iterations", "2", "--max", "0.3",
                          "-o", self.path("c.mesh"))
         self.run_command("check", self.path("c.mesh"), "--closed")
+
+    def test_each_defect_is_told_mended_or_refused(self):
+        # What is mended or only told: figures of `carreau info`, and words of the warning with its place.
+        for name, figures, words in (
+                ("turned.off", {"turned_triangles": 1, "border_edges": 0, "euler_number": 2, "triangles": 8},
+                 "triangle 1 (from 0) at (-1, 0, 0) ran against its neighbours: turned"),
+                ("hole.off", {"border_edges": 3, "triangles": 7, "euler_number": 1},
+                 "3 edges have one triangle: borders, the first from (-1, 0, 0) to (0, 1, 0)"),
+                ("repeated.off", {"repeated_triangles": 1, "triangles": 8, "border_edges": 0},
+                 "triangle 8 (from 0) at (1, 0, 0) has the vertices of triangle 0: dropped"),
+                ("two_corners.off", {"flat_triangles": 1, "triangles": 8, "vertices": 6},
+                 "triangle 8 (from 0) at (1, 0, 0) has two corners at one place: dropped"),
+                ("shells.off", {"shells": 2, "euler_number": 4, "border_edges": 0}, ""),
+                ("fin.off", {"manifold_breaks": 1, "border_edges": 2, "triangles": 9},
+                 "1 edges have three triangles or more, the first from (1, 0, 0) to (0, 1, 0)"),
+                ("pinched.off", {"pinched_vertices": 1, "shells": 2, "euler_number": 3},
+                 "1 vertices join triangles that share no edge, the first at (1, 0, 0)"),
+                ("one_sided.off", {"one_sided_edges": 1, "euler_number": 0, "border_edges": 40},
+                 "1 edges have no orientation on which both triangles agree, the first from (-0.9956899215000512, "),
+                ("fading_line.off", {"faded_ends": 1}, "a sharp line fades out at (")):
+            path = os.path.join(DATA, name)
+            found = self.info(path)
+            self.assertEqual({key: found[key] for key in figures}, figures, name)
+            told = self.run_command("info", path).stderr
+            self.assertIn(words, told, name)
+            self.assertEqual(told == "", words == "", told)
+            # All of them have meshes.
+            made = self.path(name + ".mesh")
+            self.run_command("mesh", path, "-o", made, "--size", "10%", "-q")
+            self.run_command("check", made)
+        # What is refused.
+        for name, words in (("flat.off", "triangle 8 (from 0) with corners at (0, 0, 1), (0, 0, 2) and (0, 0, 3) has no area"),
+                            ("out_of_range.off", "line 12: "), ("not_a_number.stl", "line 34: ")):
+            told = self.run_command("info", os.path.join(DATA, name), code=2).stderr
+            self.assertIn(words, told, name)
+
+    def test_several_files_are_one_mesh(self):
+        lower, upper = (os.path.join(DATA, name) for name in ("lower.off", "upper.off"))
+        made = self.path("cube.mesh")
+        done = self.run_command("mesh", lower, upper, "-o", made, "--size", "10%")
+        self.assertIn("16 vertices are those of other surfaces of triangles", done.stderr)
+        found = json.loads(self.run_command("check", made, "--json", "--closed").stdout)
+        self.assertEqual((found["quality"]["open_edges"], found["defects"]), (0, []))
+        self.assertLess(abs(found["quality"]["area"] - 24), 1e-9)
+        lines = self.info(made, "--given-edges")
+        self.assertEqual((lines["regions"], lines["lines"], lines["euler_number"]), (10, 20, 2))
+        # A cylinder of triangles, five units off, and a patch: three geometries, a face number each after the last one.
+        x, t = cylinder()
+        far = self.path("far.stl", stl([(p[0] + 5, p[1], p[2]) for p in x], t))
+        patch = self.path("a.bpt", "1\n1 1\n10 0 0\n10 1 0\n11 0 0\n11 1 0\n")
+        done = self.run_command("mesh", self.path("a.off", off(x, t)), patch, far, "-o", made, "--size", "0.2", "--json")
+        summary = json.loads(done.stdout)
+        self.assertEqual([face["reference"] for face in summary["faces"]], [1, 2, 3, 4, 5, 6, 7])
+        self.assertEqual({face["status"] for face in summary["faces"]}, {"meshed"})
+        self.assertEqual(summary["more_inputs"], [patch, far])
+        self.assertNotIn("given by triangles", done.stderr)  # a face that is meshed another way has not failed
+        missing = 2 * 6 * math.pi + 1 - summary["mesh"]["area"]  # 31 chords around: .064 of each cylinder
+        self.assertGreater(missing, 0)
+        self.assertLess(missing, 0.14)
+        self.run_command("check", made)
+        done = self.run_command("mesh", lower, "z = x", "-o", made, code=2)
+        self.assertIn("cannot be meshed beside other files", done.stderr)
+        done = self.run_command("mesh", lower, lower, "-o", made, code=2)
+        self.assertIn("all triangles are those of surfaces that the session has", done.stderr)
+        self.run_command("mesh", lower, upper, "-o", upper, code=2)  # an input is not written over
+
+    def test_distances_are_bounded(self):
+        path, made = self.path("a.off", off(*cylinder())), self.path("b.mesh")
+        done = self.run_command("mesh", path, "-o", made, "--size", "0.1")
+        self.assertRegex(done.stderr, r"distance +\S+ at most from the mesh to the triangles, \S+ back")
+        # A circle is off its polygon of 36 sides by 1 - cos 5 degrees at most.
+        far = float(done.stderr.split("distance")[1].split()[0])
+        self.assertGreater(far, 0.8 * (1 - math.cos(math.radians(5))))
+        self.assertLess(far, 1.1 * (1 - math.cos(math.radians(5))))
 
 
 if __name__ == "__main__":

@@ -167,7 +167,24 @@ def test_another_mesh_of_triangles():
     report = again.session.triangles
     assert report.euler_number == 0 and report.triangles == len(first.triangles)
     assert max(again.session.triangles_distances()) < 0.05
+    there, back = again.session.triangles_distances()
+    bounds = again.session.triangles_bounds(share=1e-3)
+    assert there <= bounds[1] <= 1.001 * bounds[0] + 1e-5 and back <= bounds[3] <= 1.001 * bounds[2] + 1e-5
+    delivered = again.session.delivered
+    assert bounds[0] <= delivered.input_bound <= 1.01 * bounds[1] + 1e-5
     assert len(carreau.mesh(first, size=0.3).triangles) == len(again.triangles)
+
+
+def test_two_surfaces_of_triangles_and_a_patch():
+    first = carreau.mesh(torus, domain=TORUS_BOX, size=0.3)
+    session = carreau.Session()
+    session.add_triangles(first.vertices, first.triangles)
+    session.add_triangles(first.vertices + [0, 0, 10], first.triangles)
+    session.add_bezier([np.array([[[10, 0, 0], [10, 1, 0]], [[11, 0, 0], [11, 1, 0]]], dtype=float)])
+    session["hphydef"] = 0.3
+    mesh = session.generate()
+    assert session.triangles.shells == 2 and mesh.quality.area == pytest.approx(2 * TORUS_AREA + 1, rel=0.03)
+    assert len(mesh.faces) == 3
 
 
 def test_an_atlas_of_a_sphere():

@@ -208,6 +208,12 @@ inline std::array<double, 2> triangles_distances(Session& session) {
   session.done(carreau_triangles_distances(session.get(), out.data()));
   return out;
 }
+/// The distance from the mesh to the triangles lies between the first two, that back between the others.
+inline std::array<double, 4> triangles_bounds(Session& session, double share = 0) {
+  std::array<double, 4> out{};
+  session.done(carreau_triangles_bounds(session.get(), share, out.data()));
+  return out;
+}
 
 } // namespace carreau
 

@@ -97,6 +97,7 @@ MEASURE_VERTEX_ANGLE = 12
 MEASURE_A0_BOUND = 13
 MEASURE_A1_BOUND = 14
 MEASURE_BOUND_SHARE = 15
+MEASURE_INPUT_BOUND = 16
 OF_EDGES = 1
 OF_VERTICES = 2
 OF_TRIANGLES = 3
@@ -500,6 +501,10 @@ class carreau_delivered(Structure):
         ("surf2_calls", c_int64),
         ("size_calls", c_int64),
         ("seconds", c_double),
+        ("input_distance", c_double),
+        ("input_bound", c_double),
+        ("input_back_distance", c_double),
+        ("input_back_bound", c_double),
     ]
 
 
@@ -1025,6 +1030,7 @@ CARREAU = {
     "carreau_triangles_measure": (c_int32, [c_void_p, POINTER(carreau_triangles_report)]),
     "carreau_triangles_refine": (c_int32, [c_void_p, c_double, c_int32, c_void_p]),
     "carreau_triangles_distances": (c_int32, [c_void_p, Doubles]),
+    "carreau_triangles_bounds": (c_int32, [c_void_p, c_double, Doubles]),
     "carreau_geometry_points": (c_int32, [c_void_p, c_int32, c_int64, Doubles, Doubles]),
     "carreau_geometry_curve": (c_int32, [c_void_p, c_int32, c_int32, c_double, Doubles]),
     "carreau_remesh": (c_int32, [c_void_p, POINTER(carreau_remesh_input), POINTER(carreau_remesh_summary)]),

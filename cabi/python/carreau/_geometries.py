@@ -138,7 +138,7 @@ class Geometries:
 
     def add_triangles(self, vertices: ArrayLike, triangles: ArrayLike, *, references: Optional[ArrayLike] = None,
                       edges: Optional[ArrayLike] = None, **options: Any) -> None:
-        """Makes triangles, whose mesh is to be another one, the only geometry: vertices (n, 3), triangles (m, 3) from 0,
+        """Adds triangles, whose mesh is to be another one; borders that they share with others are one line. vertices (n, 3), triangles (m, 3) from 0,
         references (m) of faces, edges (k, 2) that are sharp. options: sharp and corner (degrees), given_edges,
         ignore_references, keep_double_vertices."""
         xyz, corners = doubles(vertices, "vertices", None, 3), int32s(triangles, "triangles", None, 3)
@@ -163,6 +163,13 @@ class Geometries:
         pair = np.empty(2)
         self._call(lib().triangles_distances, pair)
         return float(pair[0]), float(pair[1])
+
+    def triangles_bounds(self, share: float = 0) -> tuple[float, float, float, float]:
+        """The largest distance from the mesh to the triangles lies between the first two, that back between the others;
+        they differ by a share of it (0: .01) and a millionth of the diagonal at most."""
+        bounds = np.empty(4)
+        self._call(lib().triangles_bounds, float(share), bounds)
+        return float(bounds[0]), float(bounds[1]), float(bounds[2]), float(bounds[3])
 
     def refine_triangles(self, angle: float, depth: int = 6) -> Mesh:
         """The triangles, mended, cut into four on the smooth surface while normals differ from it by more than an angle

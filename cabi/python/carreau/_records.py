@@ -167,6 +167,10 @@ class Delivered(NamedTuple):
     surf2_calls: int
     size_calls: int
     seconds: float
+    input_distance: float
+    input_bound: float
+    input_back_distance: float
+    input_back_bound: float
 
 
 class Measure(NamedTuple):

@@ -26,7 +26,8 @@ MEASURES = {"length": c.MEASURE_LENGTH, "edge_angle": c.MEASURE_EDGE_ANGLE, "gra
             "length_ratio": c.MEASURE_LENGTH_RATIO, "q1": c.MEASURE_Q1, "q2": c.MEASURE_Q2,
             "metric_quality": c.MEASURE_METRIC_QUALITY, "a0": c.MEASURE_A0, "a1": c.MEASURE_A1, "curve_a0": c.MEASURE_CURVE_A0,
             "curve_a1": c.MEASURE_CURVE_A1, "vertex_angle": c.MEASURE_VERTEX_ANGLE,
-            "a0_bound": c.MEASURE_A0_BOUND, "a1_bound": c.MEASURE_A1_BOUND, "bound_share": c.MEASURE_BOUND_SHARE}
+            "a0_bound": c.MEASURE_A0_BOUND, "a1_bound": c.MEASURE_A1_BOUND, "bound_share": c.MEASURE_BOUND_SHARE,
+            "input_bound": c.MEASURE_INPUT_BOUND}
 CHANNELS = {"size": c.EXR_SIZE, "induced": c.EXR_INDUCED, "target": c.EXR_TARGET, "curvature": c.EXR_CURVATURE,
             "position": c.EXR_POSITION, "normal": c.EXR_NORMAL, "deviation": c.EXR_DEVIATION, "triangle": c.EXR_TRIANGLE,
             "mask": c.EXR_MASK, "preview": c.EXR_PREVIEW}
@@ -173,7 +174,7 @@ class Studies:
 
     def measure(self, kind: str) -> tuple[Measure, Reals]:
         """Spread and values of a measure: "length", "edge_angle", "gradation" of edges, "length_ratio" of vertices, "q1",
-        "q2", "metric_quality", "a0", "a1", "vertex_angle", "a0_bound", "a1_bound", "bound_share" of triangles, "curve_a0", "curve_a1" of edges of curves."""
+        "q2", "metric_quality", "a0", "a1", "vertex_angle", "a0_bound", "a1_bound", "bound_share", "input_bound" of triangles, "curve_a0", "curve_a1" of edges of curves."""
         number, filled = _one_of(MEASURES, kind, "kind"), struct(c.carreau_measure)
         self._run(lib().delivered_measure, number, byref(filled))
         spread = record(filled)

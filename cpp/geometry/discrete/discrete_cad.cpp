@@ -46,8 +46,10 @@ CurveJet DiscreteCad::curve(int face, int ic, unsigned, double) {
 BuiltGeometry discrete_geometry(std::shared_ptr<const DiscreteSurface> surface) {
   BuiltGeometry built;
   const std::vector<std::int32_t> refs = face_refs(*surface);
-  for (const int ref : std::set<int>(refs.begin(), refs.end())) built.model.faces.emplace_back().ref = ref;
-  built.model.discrete = true;
+  for (const int ref : std::set<int>(refs.begin(), refs.end())) {
+    Face& face = built.model.faces.emplace_back();
+    face.ref = ref, face.discrete = true;
+  }
   built.cad = std::make_shared<DiscreteCad>(std::move(surface));
   return built;
 }

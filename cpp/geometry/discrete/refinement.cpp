@@ -185,6 +185,7 @@ RefinementWish wish_of_angle(const DiscreteSurface& surface, double angle) {
 }
 
 std::vector<std::int32_t> face_refs(const DiscreteSurface& surface) {
+  if (!surface.faces().empty()) return surface.faces();
   const std::vector<std::int32_t>& given = surface.mesh().refs;
   const bool several = std::ranges::any_of(given, [&](std::int32_t ref) { return ref != given.front(); });
   const std::int32_t shift = several ? std::max(0, 1 - *std::ranges::min_element(given)) : 0;

@@ -48,8 +48,8 @@ FlatMesh flat_mesh(const DiscreteSurface& surface, const RefinedMesh& mesh);
 /// The triangles themselves, the same way.
 RefinedMesh unrefined(const DiscreteSurface& surface);
 
-/// References of faces that results have, by triangle of the surface, positive: those of the input when it has several,
-/// else of regions, from 1.
+/// References of faces that results have, by triangle of the surface, positive: those that the surface was told, else
+/// those of the input when it has several, else of regions, from 1.
 std::vector<std::int32_t> face_refs(const DiscreteSurface& surface);
 
 }  // namespace carreau::discrete

@@ -185,6 +185,7 @@ class LineFinder {
       if (here.empty()) corner = discs[index(v)] > 1;
       if (here.size() == 2) {
         corner = -dot(direction(here[0], v), direction(here[1], v)) < cosine;
+        corner = corner || std::ranges::binary_search(options_.corners, v);
         for (const std::int32_t e : here) corner = corner || static_cast<int>(mesh_.sides(e).size()) != discs[index(v)];
       }
       if (corner) found_.corners.push_back(v);

@@ -16,6 +16,7 @@ struct SharpOptions {
   /// Edges that the input marks are those of lines, and no other is sought but borders and edges with three triangles.
   bool marked_only = false;
   bool references = true;  ///< edges between triangles of different references are sharp
+  std::vector<std::int32_t> corners = {};  ///< ascending: vertices on lines that are corners however these turn
 };
 
 /// Edges from corner to corner, or all around.

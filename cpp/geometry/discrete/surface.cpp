@@ -8,8 +8,8 @@
 
 namespace carreau::discrete {
 
-DiscreteSurface::DiscreteSurface(Triangulation triangulation, SharpLines found)
-    : mesh_(std::move(triangulation)), lines_(std::move(found)) {
+DiscreteSurface::DiscreteSurface(Triangulation triangulation, SharpLines found, std::vector<std::int32_t> faces)
+    : mesh_(std::move(triangulation)), lines_(std::move(found)), faces_(std::move(faces)) {
   Frames frames = find_frames(mesh_, lines_);
   curves_ = find_curves(mesh_, lines_, frames);
   const Unfolding done = unfold(mesh_, lines_, frames, curves_);

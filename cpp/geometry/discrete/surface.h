@@ -15,10 +15,12 @@ namespace carreau::discrete {
 /// are, and vertices are interpolated. Safe from several threads.
 class DiscreteSurface {
  public:
-  DiscreteSurface(Triangulation triangulation, SharpLines found);
+  /// `faces`: references of faces by triangle; empty: see face_refs().
+  DiscreteSurface(Triangulation triangulation, SharpLines found, std::vector<std::int32_t> faces = {});
 
   [[nodiscard]] const Triangulation& mesh() const noexcept { return mesh_; }
   [[nodiscard]] const SharpLines& lines() const noexcept { return lines_; }
+  [[nodiscard]] const std::vector<std::int32_t>& faces() const noexcept { return faces_; }
   [[nodiscard]] std::size_t triangles() const noexcept { return mesh_.triangles.size(); }
 
   /// (u, v): weights of the second and third corner of the triangle.
@@ -44,6 +46,7 @@ class DiscreteSurface {
  private:
   Triangulation mesh_;
   SharpLines lines_;
+  std::vector<std::int32_t> faces_;
   std::vector<Vec3> normals_;
   std::vector<Cubic> curves_;
   std::vector<GregoryTriangle> patches_;

@@ -166,7 +166,7 @@ SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface,
     rank[face.ref] = mesh.faces.size();
     FaceMesh& made = mesh.faces.emplace_back();
     made.ref = face.ref, made.name = face.name, made.rgb = face.rgb;
-    made.status = FaceStatus::meshed;
+    made.status = face.discrete ? FaceStatus::meshed : FaceStatus::not_meshed;
   }
   const std::vector<std::int32_t> refs = discrete::face_refs(surface.discrete());
   // Of a vertex: the patch that met it last, and its local number there.

@@ -142,7 +142,8 @@ TEST_F(SessionDelivered, JsonIsValidAndAlwaysTheSame) {
     EXPECT_TRUE(value["limit"].is_null()) << key;  // nothing but sizes was asked
   }
   EXPECT_EQ(keys, (std::vector<std::string>{"metric_length", "edge_angle", "gradation", "length_ratio", "Q1", "Q2",
-                                            "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle", "A0_bound", "A1_bound", "bound_share"}));
+                                            "metric_quality", "A0", "A1", "curve_A0", "curve_A1", "vertex_angle", "A0_bound", "A1_bound", "bound_share",
+                                            "input_bound"}));
   const MeshEvaluation& d = session.delivered();
   EXPECT_EQ(json["measures"]["metric_length"]["mean"].get<double>(), d[Kind::length].spread.mean);
   EXPECT_EQ(json["measures"]["A0"]["max"].get<double>(), d[Kind::deviation].spread.max);

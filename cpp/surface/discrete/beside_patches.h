@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of patches and of triangles in one session.
+#pragma once
+
+#include <memory>
+
+#include "geometry/discrete/discrete_cad.h"
+#include "model/geometries.h"
+#include "surface/options.h"
+#include "surface/result.h"
+#include "surface/supports.h"
+
+namespace carreau {
+
+/// Of the progress of a run over patches and triangles.
+inline constexpr double share_of_patches = 0.5;
+
+/// Of a mesh of patches and of triangles: what each part of it is by itself. Both have all faces, of which those of the other kind have no triangles.
+struct PartResults {
+  CompositeResult patches, triangles;
+  CompositeOptions triangle_options;
+  [[nodiscard]] bool is_of_triangles(std::size_t face) const {
+    return triangles.mesh.faces[face].status != FaceStatus::not_meshed;
+  }
+  [[nodiscard]] const CompositeResult& of(std::size_t face) const { return is_of_triangles(face) ? triangles : patches; }
+};
+
+/// Faces that are given by triangles are left out: patches are meshed first.
+void leave_out_triangles(Model& model);
+
+/// Diagonal of the box of both.
+double diagonal_with(const ModelSupports& supports, const discrete::DiscreteCad& triangles);
+
+/// The faces of the model that are given by triangles are meshed: see mesh_discrete().
+std::shared_ptr<const PartResults> mesh_beside(CompositeResult patches, const Model& model,
+                                               const discrete::DiscreteCad& triangles, Cad& cad,
+                                               CompositeOptions options, Monitor& monitor);
+
+/// One mesh of two that share nothing: that of `patches`, behind it that of `triangles`, whose curves and corners are
+/// numbered behind the references `largest`. Faces are in the order of `patches`. What only the parts have stays there:
+/// atlas, spaces, graded field.
+CompositeResult beside_each_other(const CompositeResult& patches, const CompositeResult& triangles,
+                                  const LargestReferences& largest);
+
+}  // namespace carreau

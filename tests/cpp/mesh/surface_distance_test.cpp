@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mesh/surface_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "mesh/triangle_search.h"
+#include "support/error.h"
+
+namespace carreau {
+namespace {
+
+struct Soup {
+  std::vector<Vec3> vertices;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  [[nodiscard]] TrianglesOfSpace view() const { return {vertices, triangles}; }
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto n = static_cast<std::int32_t>(vertices.size());
+    for (const Vec3* p : {&a, &b, &c}) vertices.push_back(*p);
+    triangles.push_back({n, n + 1, n + 2});
+  }
+};
+
+/// [0, a] x [0, b] at a height, cut into n x m rectangles of two triangles.
+Soup sheet(double a, double b, double z, int n, int m) {
+  Soup soup;
+  const auto at = [&](int i, int j) { return Vec3{a * i / n, b * j / m, z}; };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < m; ++j) {
+      soup.add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      soup.add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  return soup;
+}
+
+/// An octahedron of radius 1, each side cut into n^2 triangles whose vertices go `onto` somewhere.
+Soup octahedron(int n, const std::function<Vec3(const Vec3&)>& onto) {
+  Soup soup;
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) {
+        const auto at = [&](int i, int j) -> Vec3 {
+          return onto(Vec3{x * i / n, y * j / n, z * (n - i - j) / n});
+        };
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; i + j < n; ++j) {
+            soup.add(at(i, j), at(i + 1, j), at(i, j + 1));
+            if (i + j + 1 < n) soup.add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+          }
+      }
+  return soup;
+}
+Vec3 same(const Vec3& p) { return p; }
+Vec3 onto_sphere(const Vec3& p) { return p / norm(p); }
+
+/// [-a, a]^3.
+Soup box(double a) {
+  Soup soup;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-a, a}) {
+      const auto at = [&](double s, double t) {
+        Vec3 p;
+        p[axis] = side, p[(axis + 1) % 3] = s, p[(axis + 2) % 3] = t;
+        return p;
+      };
+      soup.add(at(-a, -a), at(a, -a), at(a, a));
+      soup.add(at(-a, -a), at(a, a), at(-a, a));
+    }
+  return soup;
+}
+
+DistanceBounds bounds(const Soup& from, const Soup& to, double share = 0.01, int threads = 1) {
+  Monitor silent;
+  return bound_distance(from.view(), to.view(), {.share = share}, threads, silent);
+}
+
+/// The distance lies between, and the bounds are as near as asked.
+void expect_distance(const Soup& from, const Soup& to, double distance, double diagonal) {
+  for (const double share : {0.01, 1e-4}) {
+    const DistanceBounds found = bounds(from, to, share);
+    EXPECT_LE(found.lower, distance * (1 + 1e-12));
+    EXPECT_GE(found.upper, distance * (1 - 1e-15));
+    EXPECT_LE(found.upper, (1 + share) * found.lower + 1.001e-6 * diagonal);
+  }
+}
+
+TEST(SurfaceDistance, OfParallelPlanesIsTheirOffset) {
+  const Soup low = sheet(1, 1, 0, 3, 5), high = sheet(1, 1, 0.25, 7, 2);
+  expect_distance(low, high, 0.25, std::sqrt(2));
+  expect_distance(high, low, 0.25, std::sqrt(2));
+  const Soup wide = sheet(1.5, 1, 0.25, 4, 3);  // overhangs by .5
+  expect_distance(wide, low, std::hypot(0.5, 0.25), std::sqrt(2));
+  expect_distance(low, wide, 0.25, std::hypot(1.5, 1));
+}
+
+TEST(SurfaceDistance, OfTheSameSurfaceIsNothingWhateverItsTriangles) {
+  const DistanceBounds found = bounds(sheet(1, 1, 0.3, 7, 11), sheet(1, 1, 0.3, 64, 49));
+  EXPECT_LT(found.lower, 1e-15);
+  EXPECT_LE(found.upper, 1e-6 * std::sqrt(2) + 1e-14);
+  expect_distance(octahedron(1, same), octahedron(20, same), 0, std::sqrt(12));
+  expect_distance(octahedron(20, same), octahedron(3, same), 0, std::sqrt(12));
+}
+
+TEST(SurfaceDistance, OfCubesIsThatOfCornersAndOfSides) {
+  expect_distance(box(2), box(1), std::sqrt(3), std::sqrt(12));  // a corner from a corner
+  expect_distance(box(1), box(2), 1, 2 * std::sqrt(12));
+}
+
+// Farthest from three walls over its sides is the centre of the circle that a triangle holds: no vertex, no middle and no centre of gravity.
+TEST(SurfaceDistance, IsLargestWhereNoSampleIs) {
+  Soup floor, walls;
+  const Vec3 a{0, 0, 0}, b{4, 0, 0}, c{0, 3, 0}, up{0, 0, 5};
+  floor.add(a, b, c);
+  for (const auto& [p, q] : {std::pair{a, b}, {b, c}, {c, a}}) {
+    walls.add(p, q, q + up);
+    walls.add(p, q + up, p + up);
+  }
+  expect_distance(floor, walls, 1, norm(Vec3{4, 3, 5}));
+  Monitor silent;
+  EXPECT_LT(largest_distance(floor.vertices, floor.triangles, walls.vertices, walls.triangles, silent), 0.9);
+}
+
+// The octahedron in the unit sphere: from the middles of its sides to the sphere, 1 - 1 / sqrt(3). A sphere of triangles is nearer by its own sagitta.
+TEST(SurfaceDistance, OfASphereAndPolyhedra) {
+  const double exact = 1 - 1 / std::sqrt(3.0);
+  double before = 1;
+  for (const int n : {3, 6, 12, 24}) {  // a vertex over the middle of each side
+    const Soup sphere = octahedron(n, onto_sphere);
+    const DistanceBounds there = bounds(sphere, octahedron(1, same), 1e-6);
+    EXPECT_LE(there.lower, exact * (1 + 1e-12));
+    EXPECT_GE(there.upper, exact * (1 - 1e-12));
+    EXPECT_LE(there.upper, exact + 5e-6);
+    const DistanceBounds back = bounds(octahedron(1, same), sphere, 1e-3);
+    const double off = exact - back.lower;  // of second order
+    EXPECT_GE(off, -1e-12);
+    EXPECT_LT(off, before / 2.5);
+    before = std::max(off, 1e-3);
+  }
+}
+
+double sampled(const Soup& from, std::size_t t, const TriangleSearch& search, int n) {
+  double most = 0;
+  const auto& c = from.triangles[t];
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; i + j <= n; ++j) {
+      const Vec3 p = (from.vertices[static_cast<std::size_t>(c[0])] * (n - i - j) +
+                      from.vertices[static_cast<std::size_t>(c[1])] * i + from.vertices[static_cast<std::size_t>(c[2])] * j) / n;
+      most = std::max(most, search.nearest(p).distance);
+    }
+  return most;
+}
+
+TEST(SurfaceDistance, BoundsHoldForTrianglesAnywhere) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(0, 1), small(-0.3, 0.3);
+  const auto soup_of = [&](int n) {
+    Soup soup;
+    for (int i = 0; i < n; ++i) {
+      const Vec3 p{any(random), any(random), any(random)};
+      soup.add(p, p + Vec3{small(random), small(random), small(random)}, p + Vec3{small(random), small(random), small(random)});
+    }
+    return soup;
+  };
+  for (int run = 0; run < 5; ++run) {
+    const Soup from = soup_of(40), to = soup_of(60);
+    const TriangleSearch search(to.vertices, to.triangles);
+    Monitor silent;
+    std::vector<double> upper;
+    const DistanceBounds found = bound_distance(from.view(), to.view(), {}, 1, silent, &upper);
+    ASSERT_EQ(upper.size(), from.triangles.size());
+    double most = 0;
+    for (std::size_t t = 0; t < upper.size(); ++t) {
+      const double seen = sampled(from, t, search, 60);
+      EXPECT_GE(upper[t], seen);
+      EXPECT_LE(upper[t], found.upper);
+      most = std::max(most, seen);
+    }
+    EXPECT_GE(found.upper, most);
+    EXPECT_LE(found.lower, found.upper);
+    EXPECT_LE(found.upper, 1.01 * found.lower + 3e-6);
+    EXPECT_NEAR(found.lower, most, 0.02 * most);
+  }
+}
+
+TEST(SurfaceDistance, TheSameForAnyNumberOfThreads) {
+  const Soup sphere = octahedron(30, onto_sphere), box_around = box(1);
+  Monitor silent;
+  std::vector<double> one, four;
+  const DistanceBounds a = bound_distance(sphere.view(), box_around.view(), {}, 1, silent, &one),
+                       b = bound_distance(sphere.view(), box_around.view(), {}, 4, silent, &four);
+  EXPECT_EQ(a.lower, b.lower);
+  EXPECT_EQ(a.upper, b.upper);
+  EXPECT_EQ(one, four);
+  EXPECT_NEAR(a.lower, 1 - 1 / std::sqrt(3.0), 0.01);  // of the corner directions to the nearest side
+}
+
+TEST(SurfaceDistance, OfNothingIsNothingAndAStopIsObeyed) {
+  const Soup sphere = octahedron(40, onto_sphere);
+  EXPECT_EQ(bounds({}, sphere).upper, 0);
+  EXPECT_EQ(bounds(sphere, {}).upper, 0);
+  Soup point;  // flat triangles are segments and points
+  point.add({3, 0, 0}, {3, 0, 0}, {3, 0, 0});
+  expect_distance(point, sphere, 2, std::sqrt(12));
+  Monitor stopped;
+  stopped.request_stop();
+  EXPECT_THROW((void)bound_distance(sphere.view(), sphere.view(), {}, 1, stopped), Cancelled);
+}
+
+}  // namespace
+}  // namespace carreau
