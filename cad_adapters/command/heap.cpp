@@ -9,6 +9,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -17,9 +18,12 @@
 namespace command {
 
 #if defined(__GLIBC__)
+namespace {
+constexpr int ahead = 128 << 20;  // addresses only, until they are used
+}
+
 void prepare_heap() {
   constexpr int large = 64 << 20;   // bytes: arrays from here on are mapped one by one, and given back at once
-  constexpr int ahead = 128 << 20;  // addresses only, until they are used
   constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
   mallopt(M_MMAP_THRESHOLD, large);
   mallopt(M_TRIM_THRESHOLD, 8 * ahead - 1);
@@ -35,7 +39,9 @@ void prepare_heap() {
 void give_back_heap() {
 #if __GLIBC_PREREQ(2, 33)
   constexpr std::size_t much = std::size_t{128} << 20;  // bytes: less is soon in use again
-  if (mallinfo2().fordblks >= much) malloc_trim(0);
+  const struct mallinfo2 now = mallinfo2();
+  // What lies ahead is free, but has not been used. Giving it back costs as much as a mesh of some hundred triangles.
+  if (now.fordblks - std::min<std::size_t>(now.keepcost, ahead) >= much) malloc_trim(0);
 #endif
 }
 #else

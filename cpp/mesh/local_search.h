@@ -93,10 +93,14 @@ void for_placements(const UnitCircle& circle, const Use& use) {
     for (const Vec2& direction : six_directions) use(circle.vector(distance * direction));
 }
 
+/// Steps of one search, those that are halved included. A place that is so far off is no neighbour.
+inline constexpr int most_steps_of_compass = 100;
+
 /// The place of the plane with the largest `value(place, best so far)` that is found from the origin, of value `start`,
 /// by steps in eight directions: to the best of them, or half as far when none is better, down to `last`. Places that
 /// are no better than the best so far may have any value that is not larger. For functions without a derivative, such
-/// as the worst of some shapes.
+/// as the worst of some shapes. Ends after `most_steps_of_compass`, too: what is turned over gets better for ever on the
+/// way to infinity.
 template <typename Value>
 Vec2 search_along_compass(double start, double first, double last, const Value& value) {
   static constexpr double d = 0.70710678118654752;
@@ -104,7 +108,8 @@ Vec2 search_along_compass(double start, double first, double last, const Value& 
       {{1, 0}, {d, d}, {0, 1}, {-d, d}, {-1, 0}, {-d, -d}, {0, -1}, {d, -d}}};
   Vec2 place{0, 0};
   double best = start;
-  for (double step = first; step > last;) {
+  int steps = 0;
+  for (double step = first; step > last && steps < most_steps_of_compass; ++steps) {
     Vec2 next = place;
     for (const auto& [x, y] : directions) {
       const Vec2 there = place + step * Vec2{x, y};

@@ -11,6 +11,7 @@
 #include "mesh/intersections.h"
 #include "surface/attempts.h"
 #include "surface/crossings/common_points.h"
+#include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
 #include "surface/thresholds.h"
 
@@ -167,8 +168,10 @@ FinerPlaces places_to_refine(const CompositeRun& run, const Crossings& crossings
   places.sources.resize(run.model.faces.size());
   const std::vector<Gap> gap_of = gaps_of(run, crossings);
   std::vector<double> gaps;
+  // Edges that are cut in two later need no more where that is enough.
+  const double kept = 1 / enlargement_for(run.options.element);
   for (std::size_t k = 0; k < gap_of.size(); ++k) {
-    if (gap_of[k].width == 0) continue;
+    if (gap_of[k].width == 0 || gap_of[k].share >= kept) continue;
     gaps.push_back(gap_of[k].width);
     for (const std::int32_t t : crossings.found.pairs[k].triangles)
       add(run.result.mesh, all, t, gap_of[k].share, places);

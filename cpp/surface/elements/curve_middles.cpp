@@ -74,13 +74,13 @@ double metric_middle(double left, double middle, double right) noexcept {
   return 0.5 + k / (1 + std::sqrt(1 + 4 * k * k));
 }
 
-std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k) {
+std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k, double shift) {
   if (!is_known(work, curve)) return std::nullopt;
   const DiscreteCurve& d = work.curves[curve];
   const SizeSamples& sizes = d.sizes;
   const double left = d.r[k], right = d.r[k + 1];
   const double share =
-      metric_middle(1 / sizes.size_at(left), 1 / sizes.size_at((left + right) / 2), 1 / sizes.size_at(right));
+      metric_middle(1 / sizes.size_at(left), 1 / sizes.size_at((left + right) / 2), 1 / sizes.size_at(right)) + shift;
   DiscreteCurve piece;
   piece.curve = d.curve;
   piece.owner = d.owner;  // a node between vertices that are prescribed is none of them

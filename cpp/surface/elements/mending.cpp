@@ -152,6 +152,7 @@ class FaceMender : public Mender<FaceMender, Vec2> {
       if (invalid.count++ == 0) sides = curve_sides(work_, f_);
       if (found < least) least = found, invalid.uv = middle(cells()[c]);
       add_coarse(cells()[c], sides, report.coarse);
+      add_cusps(cells()[c], sides, report.cusps);
       add_finer(cells()[c], report.finer[f_]);
       if (c < face_.quads) report.quads[f_].push_back(c);
     }
@@ -175,6 +176,29 @@ class FaceMender : public Mender<FaceMender, Vec2> {
     // Sizes are asked of the mesh that is cut, if one is.
     const double wanted = std::min(longest, least) * (has_quads_only(work_.options.element) ? 1 : 0.5);
     for (int i = 0; i < n; ++i) finer.push_back({xyz(cell.nodes[i]), xyz(cell.nodes[(i + 1) % n]), wanted});
+  }
+  // Of which the nodes of two edges of curves alone decide.
+  void add_cusps(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CuspEnd>& cusps) const {
+    const int n = corner_count(cell.kind);
+    const auto side_at = [&](int i) -> const CurveSide* {
+      const auto [a, b] = std::minmax(cell.nodes[i % n], cell.nodes[(i + 1) % n]);
+      const auto at = std::lower_bound(sides.begin(), sides.end(), CurveSide{a, b, 0, 0, -1});
+      return at != sides.end() && at->a == a && at->b == b ? &*at : nullptr;
+    };
+    for (int i = 0; i < n; ++i) {
+      const CurveSide *from = side_at(i + n - 1), *to = side_at(i);
+      if (from == nullptr || to == nullptr) continue;
+      const std::int32_t corner = cell.nodes[i];
+      const auto tangent = [&](int side, int end) -> Vec3 {
+        return 4 * xyz(cell.nodes[n + side % n]) - 3 * xyz(corner) - xyz(cell.nodes[end % n]);
+      };
+      const Vec3 d = tangent(i + n - 1, i + n - 1), e = tangent(i, i + 1);
+      if (!(dot(d, e) > 0) || norm(cross(d, e)) > sine_of_cusp * dot(d, e)) continue;
+      for (const CurveSide* side : {from, to}) {
+        const auto& chain = work_.result.mesh.curves[side->curve].vertices;
+        cusps.push_back({side->curve, side->segment, chain[side->segment] == face_.vertex[corner]});
+      }
+    }
   }
   static void add_coarse(const Cell& cell, const std::vector<CurveSide>& sides, std::vector<CurveEdge>& coarse) {
     const int n = corner_count(cell.kind);

@@ -7,6 +7,7 @@
 
 #include "cad/batches.h"
 #include "surface/elements/curve_middles.h"
+#include "surface/elements/thresholds.h"
 
 namespace carreau {
 
@@ -39,13 +40,18 @@ std::vector<Side> sides_of(const FaceMesh& face) {
 /// Nodes of edges that lie on curves, by the vertices of the edge.
 class CurveNodes {
  public:
-  explicit CurveNodes(const ElementWork& work) : mesh_(work.result.mesh) {
+  CurveNodes(const ElementWork& work, const std::vector<CuspEnd>& cusps) : mesh_(work.result.mesh) {
+    const auto is_cusp = [&](std::size_t c, std::size_t k, bool first) {
+      const CuspEnd end{static_cast<std::int32_t>(c), static_cast<std::int32_t>(k), first};
+      return std::binary_search(cusps.begin(), cusps.end(), end);
+    };
     middles_.resize(mesh_.curves.size());
     for (std::size_t c = 0; c < mesh_.curves.size(); ++c) {
       CurveMesh& curve = mesh_.curves[c];
       curve.mid.clear();
       for (std::size_t k = 0; k + 1 < curve.vertices.size(); ++k) {
-        middles_[c].push_back(middle_of_edge(work, c, k));
+        const int shifts = (is_cusp(c, k, true) ? 1 : 0) - (is_cusp(c, k, false) ? 1 : 0);
+        middles_[c].push_back(middle_of_edge(work, c, k, shifts * thresholds::elements::shift_at_cusp));
         std::int32_t& node = node_of(ordered(curve.vertices[k], curve.vertices[k + 1]));
         if (node < 0 && middles_[c].back()) node = add(middles_[c].back()->xyz);
       }
@@ -225,6 +231,12 @@ class FaceNodes {
   std::vector<std::pair<std::size_t, std::size_t>> joined_;
 };
 
+template <typename Element>
+void sort_uniquely(std::vector<Element>& all) {
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
 }  // namespace
 
 void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads) {
@@ -239,12 +251,12 @@ void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads) {
   face.mid.clear(), face.mid_uv.clear(), face.mid_vertex.clear();
 }
 
-QuadraticReport make_quadratic(const ElementWork& work) {
+QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEnd>& cusps) {
   QuadraticReport report;
   SurfaceMesh& mesh = work.result.mesh;
   mesh.mid_vertices.clear();
   report.finer.resize(mesh.faces.size()), report.quads.resize(mesh.faces.size());
-  CurveNodes of_curves(work);
+  CurveNodes of_curves(work, cusps);
   std::vector<std::int32_t> uses(mesh.vertices.size(), 0);
   for (const FaceMesh& face : mesh.faces)
     for (const std::int32_t v : face.vertex) ++uses[v];
@@ -257,8 +269,7 @@ QuadraticReport make_quadratic(const ElementWork& work) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     if (!mesh.faces[f].triangles.empty()) find_invalid(work, f, report);
   of_curves.tell_curves();
-  std::sort(report.coarse.begin(), report.coarse.end());
-  report.coarse.erase(std::unique(report.coarse.begin(), report.coarse.end()), report.coarse.end());
+  sort_uniquely(report.coarse), sort_uniquely(report.cusps);
   return report;
 }
 

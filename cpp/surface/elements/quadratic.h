@@ -16,6 +16,13 @@ struct CurveEdge {
   friend auto operator<=>(const CurveEdge&, const CurveEdge&) = default;
 };
 
+/// The end of an edge of a curve where another one leaves in the same direction.
+struct CuspEnd {
+  std::int32_t curve = 0, segment = 0;
+  bool first = false;  ///< of the ends of the edge
+  friend auto operator<=>(const CuspEnd&, const CuspEnd&) = default;
+};
+
 /// What stays invalid in a face.
 struct InvalidElements {
   std::size_t face = 0, count = 0;
@@ -28,6 +35,7 @@ struct QuadraticReport {
   std::vector<InvalidElements> invalid;
   std::vector<std::vector<std::int32_t>> quads;  ///< by face: quadrilaterals among them, ascending
   std::vector<CurveEdge> coarse;  ///< edges of curves of elements that stay invalid, ascending, each once
+  std::vector<CuspEnd> cusps;     ///< of elements that stay invalid with a corner there, ascending, each once
   /// By face: sides of elements that stay invalid, with half of the longest one, or of what was wanted there,
   /// as the size (the whole of it where all elements are cut).
   std::vector<std::vector<EdgeSizes::Source>> finer;
@@ -36,8 +44,9 @@ struct QuadraticReport {
 /// Gives each edge of result.mesh a node: on a curve the point at half the metric length of the edge, once for all
 /// faces; inside a face S at the metric middle of the segment of (u, v). Then mends elements whose Jacobian is not
 /// positive in (u, v) and in space (Bernstein coefficients of degree 2, or (3, 3)): nodes inside the face move, then
-/// vertices. Meshes that have nodes on edges get new ones.
-QuadraticReport make_quadratic(const ElementWork& work);
+/// vertices. Meshes that have nodes on edges get new ones. Nodes of edges that end at `cusps`, ascending, are drawn away from
+/// these: parabolas through middles meet there at no angle, or at any that rounding gives them.
+QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEnd>& cusps = {});
 
 /// Makes two triangles of each of these quadrilaterals of a face again, without nodes on edges.
 void part_quads(FaceMesh& face, const std::vector<std::int32_t>& quads);

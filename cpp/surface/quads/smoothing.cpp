@@ -146,7 +146,8 @@ class Worst {
         good_(good),
         monitor_(monitor),
         quality_(quads.cells().size(), 0),
-        stale_(quads.cells().size(), 1) {}
+        stale_(quads.cells().size(), 1),
+        in_vain_(quads.vertices(), 0) {}
 
   void run() {
     improve_in_passes(
@@ -188,6 +189,8 @@ class Worst {
   }
 
   bool improve(std::int32_t v) {
+    if (in_vain_[v] != 0) return false;
+    in_vain_[v] = 1;
     star_.clear();
     if (!around_) around_.emplace(quads_.vertices(), closed(quads_.cells()));
     for (const std::int32_t c : around_->of(v)) star_.emplace_back(c, quads_.about(quads_.cells()[c]));
@@ -207,7 +210,10 @@ class Worst {
       }
     }
     if (way == Vec2{0, 0}) return false;
-    for (const std::int32_t c : around_->of(v)) stale_[c] = 1;
+    for (const std::int32_t c : around_->of(v)) {
+      stale_[c] = 1;
+      for (int k = 0; k < corners_of(quads_.cells()[c]); ++k) in_vain_[quads_.cells()[c][k]] = 0;
+    }
     return true;
   }
 
@@ -217,6 +223,7 @@ class Worst {
   std::optional<Incidence> around_;
   std::vector<double> quality_;  // by cell, unless
   std::vector<char> stale_;      // its vertices have moved since
+  std::vector<char> in_vain_;    // by vertex: nothing around has moved since a search
   std::vector<std::pair<std::int32_t, typename Quads::Frame>> star_;  // cells around the vertex at hand, with frames that stay
 };
 

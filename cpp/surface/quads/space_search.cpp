@@ -24,10 +24,12 @@ class SpaceSearch {
         metric_(metric),
         charts_(metric),
         quads_(quads),
-        poor_(work.rules.uses_metrics() ? poor_jacobian_in_metric : poor_jacobian),
+        by_angles_(work.rules.uses_metrics()),
+        poor_(by_angles_ ? poor_jacobian_in_metric : poor_in_space),
         monitor_(monitor),
-        jacobian_(quads.patch.cells.size(), 0),
-        stale_(quads.patch.cells.size(), 1) {}
+        shape_(quads.patch.cells.size(), 0),
+        stale_(quads.patch.cells.size(), 1),
+        in_vain_(quads.patch.uv.size(), 0) {}
 
   void run() {
     improve_in_passes(
@@ -41,10 +43,15 @@ class SpaceSearch {
     return cells;
   }
 
-  // That of a triangle is of its parallelograms.
-  [[nodiscard]] double jacobian(const MixedCell& c) const {
+  // The scaled Jacobian, that of a triangle of its parallelograms; quality if it is less: good angles must not be bought
+  // by long rectangles beside them, unless sizes ask for these.
+  [[nodiscard]] double shape(const MixedCell& c) const {
     const auto at = [&](int k) -> const Vec3& { return quads_.xyz[c[k]]; };
-    if (corners_of(c) == 4) return scaled_jacobian(std::array<Vec3, 4>{at(0), at(1), at(2), at(3)});
+    if (corners_of(c) == 4) {
+      const std::array<Vec3, 4> p{at(0), at(1), at(2), at(3)};
+      const double jacobian = scaled_jacobian(p);
+      return by_angles_ || !(jacobian > 0) ? jacobian : std::min(jacobian, quad_quality(p));
+    }
     const Vec3 a = at(1) - at(0), b = at(2) - at(0), d = at(2) - at(1);
     const double longest = std::max({norm(a) * norm(b), norm(a) * norm(d), norm(b) * norm(d)});
     return longest > 0 ? norm(cross(a, b)) / longest : 0;
@@ -54,9 +61,9 @@ class SpaceSearch {
     std::vector<std::pair<double, std::int32_t>> poor;
     for (std::size_t c = 0; c < quads_.patch.cells.size(); ++c) {
       const MixedCell& cell = quads_.patch.cells[c];
-      if (stale_[c] != 0) jacobian_[c] = is_convex(quads_.patch, cell) ? jacobian(cell) : -1;
+      if (stale_[c] != 0) shape_[c] = is_convex(quads_.patch, cell) ? shape(cell) : -1;
       stale_[c] = 0;
-      if (jacobian_[c] < poor_) poor.emplace_back(jacobian_[c], static_cast<std::int32_t>(c));
+      if (shape_[c] < poor_) poor.emplace_back(shape_[c], static_cast<std::int32_t>(c));
     }
     std::sort(poor.begin(), poor.end());
     std::vector<std::int32_t> corners;
@@ -70,7 +77,7 @@ class SpaceSearch {
     double least = poor_;
     for (const std::int32_t c : around_->of(v)) {
       const MixedCell& cell = quads_.patch.cells[c];
-      least = std::min(least, jacobian(cell));
+      least = std::min(least, shape(cell));
       if (!is_convex(quads_.patch, cell))
         least = std::min(least, untangling_quality(quads_.patch, charts_.about(quads_.patch, cell), cell));
       if (least < enough) break;
@@ -84,6 +91,7 @@ class SpaceSearch {
   }
 
   bool improve(std::int32_t v) {
+    if (in_vain_[v] != 0) return false;
     if (!around_) around_.emplace(quads_.patch.uv.size(), closed(quads_.patch.cells));
     const double start = least_around(v, -2);
     if (start >= poor_) return false;
@@ -95,12 +103,16 @@ class SpaceSearch {
       return least_around(v, best);
     });
     quads_.patch.uv[v] = home, quads_.xyz[v] = at_home;
+    in_vain_[v] = 1;
     if (way == Vec2{0, 0}) return false;
     const Vec2 uv = home + chart.offset(way);
     const SurfaceJet jet = surface_at(cad_, ref_, want_position | want_first, uv);
     quads_.patch.uv[v] = quads_.lifted[v] = uv, quads_.xyz[v] = jet.s;
     quads_.size[v] = geometric_mean_size(jet, metric_.at(uv));
-    for (const std::int32_t c : around_->of(v)) stale_[c] = 1;
+    for (const std::int32_t c : around_->of(v)) {
+      stale_[c] = 1;
+      for (int k = 0; k < corners_of(quads_.patch.cells[c]); ++k) in_vain_[quads_.patch.cells[c][k]] = 0;
+    }
     return true;
   }
 
@@ -109,11 +121,13 @@ class SpaceSearch {
   const ControlSpace& metric_;
   FaceCharts charts_;
   FaceQuads& quads_;
+  bool by_angles_;
   double poor_;
   Monitor& monitor_;
   std::optional<Incidence> around_;
-  std::vector<double> jacobian_;  // by cell, unless
-  std::vector<char> stale_;       // its vertices have moved since
+  std::vector<double> shape_;  // by cell, unless
+  std::vector<char> stale_;    // its vertices have moved since
+  std::vector<char> in_vain_;  // by vertex: nothing around has moved since a search
 };
 
 }  // namespace

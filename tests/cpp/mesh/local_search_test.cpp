@@ -112,5 +112,17 @@ TEST(AlongCompass, StaysWhereNothingIsBetter) {
   EXPECT_EQ(top, (Vec2{0, 0}));
 }
 
+// The sine of an angle that is turned over rises to 0 as its corner goes to infinity.
+TEST(AlongCompass, EndsWhereItGetsBetterForEver) {
+  int asked = 0;
+  const Vec2 top = search_along_compass(-1, 0.2, 0.01, [&asked](const Vec2& p, double) {
+    ++asked;
+    return p.x() > -1 ? -1 / (2 + p.x()) : -2;
+  });
+  EXPECT_GT(top.x(), 1);
+  EXPECT_LE(norm(top), 0.2 * most_steps_of_compass);
+  EXPECT_LE(asked, 8 * most_steps_of_compass);
+}
+
 }  // namespace
 }  // namespace carreau

@@ -225,6 +225,23 @@ TEST(CurvedElements, InnerEdgesBendBeforeACurvedBorder) {
     }
 }
 
+// Below y = (x^2 + x^3) / 2: the parabola through the middle of the first edge leaves the corner below the axis.
+TEST(CurvedElements, AreValidAtACusp) {
+  AnalyticCad horn;
+  const testing::AnalyticCurve upper{{0, 1}, [](double t) {
+                                       const double x = 1 - t;
+                                       return CurveJet{{x, x * x * (1 + x) / 2}, {-1, -x - 1.5 * x * x}, {0, 1 + 3 * x}};
+                                     }};
+  horn.faces[1] = {plane_jet, {testing::segment({0, 0}, {1, 0}), testing::segment({1, 0}, {1, 1}), upper}};
+  for (const char* element : {"p2", "q2.0", "q2.1"})
+    for (const double size : {0.2, 0.1, 0.05}) {
+      const Curved run(horn, size, element);
+      EXPECT_EQ(find_defects(run.mesh()), std::vector<std::string>{}) << element << " of size " << size;
+      EXPECT_NEAR(run.area(), 7. / 24, 1e-4) << element << " of size " << size;
+      EXPECT_LT(run.mesh().triangle_count(), 4 * 7. / 24 / (size * size) + 100) << "divided for it";
+    }
+}
+
 TEST(CurvedElements, PolesAndSeamsHaveOneNodeAnEdge) {
   // A sphere by latitude and longitude: two poles, one seam.
   AnalyticCad cad;

@@ -140,6 +140,12 @@ TEST(Quadrilaterals, LieOnCurvedSurfaces) {
     }
 }
 
+// Right angles must not be bought by long rectangles beside them: where angles alone decide, .004 to .17.
+TEST(Quadrilaterals, OfTheTeapotAreNotLong) {
+  for (const double h : {0.3, 0.2, 0.15, 0.1, 0.08})
+    EXPECT_GE(figures_of(mesh_of(testing::teapot(), h, "q1.1")).worst, 0.2) << h;
+}
+
 TEST(Quadrilaterals, OfTheTeapotKeepItsTopology) {
   const long expected = euler(mesh_of(testing::teapot(), 0.2, "p1"));
   for (const std::string element : {"q1.0", "q1.1"}) {
