@@ -198,34 +198,48 @@ SharedError mesh_own_share(const DealtFaces& faces, Sent& sent, Monitor& monitor
   return {};
 }
 
-/// What all processes have sent.
-struct Received {
-  std::vector<std::string> faces;   ///< by job; empty where nobody has meshed it
-  std::vector<std::size_t> aside;   ///< jobs that all are to make together, ascending
+/// A face that one process has made.
+struct ReceivedFace {
+  std::vector<Message> messages;
+  SharedError error;
+  std::optional<FaceOutcome> outcome;  ///< none with an error
 };
 
-/// Throws the error of a process itself.
-Received read(std::vector<std::string> packets, std::size_t n) {
-  Received received{std::vector<std::string>(n), {}};
-  for (std::size_t r = 0; r < packets.size(); ++r) {
-    PacketReader reader(packets[r]);
-    const std::string teller = "rank " + std::to_string(r);
-    const auto known = [&](std::uint64_t i) {
-      if (i >= n) throw Error(teller + " has sent a face that nobody knows");
-      return static_cast<std::size_t>(i);
-    };
-    if (reader.integer() != packet_version) throw Error(teller + " runs another version of the library");
-    if (const SharedError error{reader.text()}; error.any()) error.raise(teller + ": ");
-    for (const std::int32_t i : reader.integers()) received.aside.push_back(known(static_cast<std::uint64_t>(i)));
-    for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
-      std::string face = reader.text();
-      const std::size_t i = known(static_cast<std::uint64_t>(PacketReader(face).integer()));
-      received.faces[i] = std::move(face);
-    }
-    packets[r] = {};  // there may be little memory left
+/// What all processes have sent.
+struct Received {
+  std::vector<std::optional<ReceivedFace>> faces;  ///< by job; none where nobody has meshed it
+  std::vector<std::size_t> aside;                  ///< jobs that all are to make together
+};
+
+ReceivedFace face_of(PacketReader& packet) {
+  ReceivedFace face;
+  for (std::size_t k = packet.count(2 * sizeof(std::int64_t)); k > 0; --k) {
+    const auto level = static_cast<Level>(packet.integer());
+    face.messages.emplace_back(level, packet.text());
   }
-  std::sort(received.aside.begin(), received.aside.end());
-  return received;
+  if (packet.flag())
+    face.error.bytes = packet.text();
+  else
+    face.outcome = FaceOutcome::from(packet);
+  return face;
+}
+
+/// Throws the error of a process itself.
+void read(const std::string& packet, const std::string& teller, Received& received) {
+  PacketReader reader(packet);
+  const auto known = [&](std::int64_t i) {
+    if (static_cast<std::uint64_t>(i) >= received.faces.size()) throw Error(teller + " has sent a face that nobody knows");
+    return static_cast<std::size_t>(i);
+  };
+  if (reader.integer() != packet_version) throw Error(teller + " runs another version of the library");
+  if (const SharedError error{reader.text()}; error.any()) error.raise(teller + ": ");
+  for (const std::int32_t i : reader.integers()) received.aside.push_back(known(i));
+  for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
+    const std::string face = reader.text();
+    PacketReader of_face(face);
+    const std::size_t i = known(of_face.integer());
+    received.faces[i] = face_of(of_face);
+  }
 }
 
 /// A face that all have made.
@@ -256,15 +270,8 @@ void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, s
   }
 }
 
-void deliver(const DealtFaces& faces, std::size_t i, const std::string& bytes, Monitor& monitor) {
-  PacketReader packet(bytes);
-  packet.integer();
-  for (std::size_t k = packet.count(2 * sizeof(std::int64_t)); k > 0; --k) {
-    const auto level = static_cast<Level>(packet.integer());
-    monitor.message(level, packet.text());
-  }
-  if (packet.flag()) SharedError{packet.text()}.raise();
-  faces.on_finished(i, FaceOutcome::from(packet));
+void say(const std::vector<Message>& messages, Monitor& monitor) {
+  for (const auto& [level, text] : messages) monitor.message(level, text);
 }
 
 }  // namespace
@@ -274,17 +281,24 @@ void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
   make_together(faces, faces.shared, 0, [](std::size_t) { return std::vector<Message>{}; }, shared, monitor);
   Sent sent;
   const SharedError error = mesh_own_share(faces, sent, monitor);
-  Received all = read(faces.team.exchange("patches", sent.packed(error)), faces.jobs.size());
+  Received all{std::vector<std::optional<ReceivedFace>>(faces.jobs.size()), {}};
+  faces.team.exchange_in_turn("patches", sent.packed(error), [&](int rank, const std::string& packet) {
+    read(packet, "rank " + std::to_string(rank), all);
+    monitor.checkpoint();
+  });
+  std::sort(all.aside.begin(), all.aside.end());
   make_together(faces, all.aside, faces.jobs.size() - all.aside.size(), [&](std::size_t i) { return sent.said(i); }, shared, monitor);
   for (std::size_t i = 0; i < all.faces.size(); ++i) {
     if (const auto found = shared.find(i); found != shared.end()) {
-      for (const auto& [level, text] : found->second.messages) monitor.message(level, text);
+      say(found->second.messages, monitor);
       faces.on_finished(i, *std::exchange(found->second.outcome, std::nullopt));
       continue;
     }
-    const std::string bytes = std::exchange(all.faces[i], {});
-    if (bytes.empty()) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
-    deliver(faces, i, bytes, monitor);
+    if (!all.faces[i]) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
+    ReceivedFace face = *std::exchange(all.faces[i], std::nullopt);
+    say(face.messages, monitor);
+    if (!face.outcome) face.error.raise();
+    faces.on_finished(i, std::move(*face.outcome));
   }
 }
 
