@@ -91,6 +91,10 @@ class EditableMesh {
   [[nodiscard]] std::optional<Vertex> inside(std::int32_t v) const;
   /// Whether the edge is one of a curve, or imposed.
   [[nodiscard]] bool is_imposed(std::int32_t v, std::int32_t w) const;
+  /// Other ends of such edges.
+  [[nodiscard]] const std::vector<std::int32_t>& imposed_around(std::int32_t v) const { return star(v).imposed; }
+  /// Whether no edit takes it away or moves it.
+  [[nodiscard]] bool is_corner(std::int32_t v) const { return kept_[v] == Kept::always; }
   /// On side `side` of a triangle, if that is not imposed, has two triangles in the face, and the four vertices are
   /// known.
   [[nodiscard]] std::optional<Quad> quad(Place p, int side) const;

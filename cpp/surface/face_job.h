@@ -36,8 +36,12 @@ class FaceJob final : public SteppedTask {
   [[nodiscard]] bool bound() const override { return !reentrant_ && next_ != Step::mesh; }
   void step(Monitor& monitor) override;
 
-  /// All processes of the team make this face, step by step, and share the work on its plane mesh.
+  /// All processes of the team make this face, step by step, and share the work on its plane mesh. Before that is begun.
   void share() noexcept { team_ = options_.team; }
+  /// Triangles that its samples promise, when it has been sampled and not been meshed; else 0.
+  [[nodiscard]] double promised() const noexcept {
+    return next_ == Step::mesh && space_ && !mesh_ && !best_ && !squares_ ? space_->measure() : 0;
+  }
 
   /// What came of the face. After a finish, once.
   FaceOutcome take_outcome();

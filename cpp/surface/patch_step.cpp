@@ -123,13 +123,18 @@ std::vector<std::size_t> order_of_jobs(const PatchJobs& work) {
   return order;
 }
 
-/// Those that one process would be at while others have nothing left to do, and that are large enough to be cut.
-std::vector<std::size_t> faces_to_share(const PatchJobs& work, int processes) {
-  std::vector<double> triangles;  // by job
+/// By job, judged by boundaries.
+std::vector<double> expected_triangles(const PatchJobs& work) {
+  std::vector<double> triangles;
   for (const std::size_t f : work.face_of) {
     const auto edges = static_cast<double>(work.run.domains.domain[f]->plane.edges.size());
     triangles.push_back(triangles_of_squared_edges * edges * edges);
   }
+  return triangles;
+}
+
+/// Those that one process would be at while others have nothing left to do, and that are large enough to be cut.
+std::vector<std::size_t> faces_to_share(const std::vector<double>& triangles, int processes) {
   const double share = std::accumulate(triangles.begin(), triangles.end(), 0.0) / processes;
   std::vector<std::size_t> shared;
   for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -174,13 +179,16 @@ void mesh_here(PatchJobs& work) {
 void mesh_in_team(PatchJobs& work, Team& team) {
   CompositeRun& run = work.run;
   require_same_curves(team, run);
-  const std::vector<std::size_t> shared = faces_to_share(work, team.size());
+  std::vector<double> expected = expected_triangles(work);
+  const std::vector<std::size_t> shared = faces_to_share(expected, team.size());
   std::vector<std::size_t> order = order_of_jobs(work);
   std::erase_if(order, [&](std::size_t i) { return std::binary_search(shared.begin(), shared.end(), i); });
   mesh_dealt({.team = team,
               .jobs = work.jobs,
               .shared = shared,
               .order = std::move(order),
+              .expected = std::move(expected),
+              .least_shared = least_shared,
               .threads = run.options.threads,
               .on_begun =
                   [&](std::size_t i, std::size_t begun) {

@@ -6,6 +6,7 @@ that is killed leaves no file.
     command_test.py <mpirun> <ranks> <carreau> <teapot.bpt> <python with VTK, or NONE>
 """
 import glob
+import math
 import os
 import signal
 import subprocess
@@ -18,6 +19,7 @@ import mpirun
 MPIRUN, RANKS, CARREAU, TEAPOT, VTK = sys.argv[1], int(sys.argv[2]), *sys.argv[3:6]
 HERE = os.path.dirname(os.path.abspath(__file__))
 RUNS = [["--size", "0.2"], ["--angle", "8", "--gradation", "1.3"], ["--size", "0.25", "--independent"]]
+TRIANGLES_SIZE = "0.04"  # 80 000 triangles, which are remeshed in parts
 
 
 def content(path):
@@ -41,6 +43,39 @@ def same_files(folder):
     assert not glob.glob(f"{folder}/.carreau-*"), os.listdir(folder)
     if VTK != "NONE":
         subprocess.run([VTK, f"{HERE}/read_pvtu.py", f"{folder}/many0.pvtu", f"{folder}/one0.vtu", str(RANKS)], check=True)
+
+
+def write_torus(path, around=48, across=24):
+    nodes, triangles = [], []
+    for i in range(around):
+        for j in range(across):
+            u, v = 2 * math.pi * i / around, 2 * math.pi * j / across
+            radius = 2 + 0.7 * math.cos(v)
+            nodes.append((radius * math.cos(u), radius * math.sin(u), 0.7 * math.sin(v)))
+            a, d = i * across + j, i * across + (j + 1) % across
+            b, c = (i + 1) % around * across + j, (i + 1) % around * across + (j + 1) % across
+            triangles += [(a, b, c), (a, c, d)]
+    with open(path, "w", encoding="ascii") as file:
+        print("OFF", len(nodes), len(triangles), 0, sep="\n", file=file)
+        for node in nodes:
+            print(*map(repr, node), file=file)
+        for triangle in triangles:
+            print(3, *triangle, file=file)
+
+
+def same_triangles(folder):
+    torus, one, many = (f"{folder}/{name}" for name in ("torus.off", "one.meshb", "many.meshb"))
+    write_torus(torus)
+    first = alone("mesh", torus, "--size", TRIANGLES_SIZE, "-o", one)
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", torus, "--size", TRIANGLES_SIZE, "-o", many)
+    assert done.returncode == first.returncode == 0, first.stderr + done.stdout + done.stderr
+    assert content(one) == content(many)
+    # What takes no byte is told by one rank, and stays what it is. Full disks: full_disk of ranks_program.
+    full = f"{folder}/full.meshb"
+    os.symlink("/dev/full", full)
+    done = mpirun.run(MPIRUN, RANKS, CARREAU, "mesh", torus, "--size", "0.3", "-o", full, "-q")
+    assert done.returncode == 2 and done.stderr.count("carreau: ") == 1, (done.returncode, done.stderr)
+    assert os.path.islink(full) and sorted(os.listdir(folder)) == ["full.meshb", "many.meshb", "one.meshb", "torus.off"]
 
 
 def bad_input(folder):
@@ -87,6 +122,8 @@ def killed(folder, which):
 with tempfile.TemporaryDirectory() as temporary:
     same_files(temporary)
     bad_input(temporary)
+with tempfile.TemporaryDirectory() as temporary:
+    same_triangles(temporary)
 for rank in {0, RANKS - 1}:
     with tempfile.TemporaryDirectory() as temporary:
         killed(temporary, rank)

@@ -23,9 +23,10 @@ def content(path):
         return file.read()
 
 
-for case in ["same", "parts", "status", "stop", "no_memory", "large_same", "large_status_inside", "large_stop", "large_no_memory"]:
+for case in ["same", "parts", "status", "stop", "no_memory", "large_same", "large_status_inside", "large_stop", "large_no_memory",
+             "bulging_large_same", "bulging_large_status_inside", "bulging_large_stop", "bulging_large_no_memory"]:
     holds(case)
-for case in ["other_curves", "other_inside", "large_other_inside"] if RANKS > 1 else []:
+for case in ["other_curves", "other_inside", "large_other_inside", "bulging_large_other_inside"] if RANKS > 1 else []:
     holds(case)
 
 with tempfile.TemporaryDirectory() as folder:

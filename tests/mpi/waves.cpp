@@ -44,6 +44,11 @@ std::int32_t surface(std::int32_t face, double u, double v, std::int32_t order, 
   if (order >= 2)
     for (int i = 0; i < 2; ++i) Suu[i] = Suv[i] = Svv[i] = 0;
   if (order >= 2) Suu[2] = -S[2], Suv[2] = cx * cy / 2, Svv[2] = -S[2];
+  // bulge * p(u) p(v), p(u) = 4 u (1 - u).
+  const double pu = 4 * u * (1 - u), pv = 4 * v * (1 - v), du = 4 - 8 * u, dv = 4 - 8 * v, b = waves.bulge;
+  S[2] += b * pu * pv;
+  if (order >= 1) Su[2] += b * du * pv, Sv[2] += b * pu * dv;
+  if (order >= 2) Suu[2] -= 8 * b * pv, Suv[2] += b * du * dv, Svv[2] -= 8 * b * pu;
   return 0;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A host of many faces for the tests of many processes: z = sin(x) sin(y) / 2 over a square of cells, each a face, and able
+// A host of many faces for the tests of many processes: z = sin(x) sin(y) / 2 over a square of cells, each a face which may bulge inside, and able
 // to fail or to differ on purpose.
 #pragma once
 
@@ -24,6 +24,7 @@ enum class Fault {
 
 struct Waves {
   int cells = 4;  ///< in each direction; with 1 there is one face
+  double bulge = 0;  ///< height in the middle of each cell; nothing on its boundary
   Fault fault = Fault::none;
   std::int32_t face = 6;
   carreau_session* session = nullptr;

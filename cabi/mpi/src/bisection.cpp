@@ -21,14 +21,13 @@ Point centre(const WholeMesh& mesh, std::int32_t triangle) {
   return sum;
 }
 
-std::size_t longest_axis(const std::vector<Point>& centres, Iterator begin, Iterator end) {
+std::size_t longest_axis(const WholeMesh& mesh, Iterator begin, Iterator end) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Point low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  for (Iterator t = begin; t != end; ++t)
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], centres[static_cast<std::size_t>(*t)][i]);
-      high[i] = std::max(high[i], centres[static_cast<std::size_t>(*t)][i]);
-    }
+  for (Iterator t = begin; t != end; ++t) {
+    const Point p = centre(mesh, *t);
+    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+  }
   std::size_t axis = 0;
   for (std::size_t i = 1; i < 3; ++i)
     if (high[i] - low[i] > high[axis] - low[axis]) axis = i;
@@ -38,9 +37,10 @@ std::size_t longest_axis(const std::vector<Point>& centres, Iterator begin, Iter
 /// Triangles [begin, end) get the ranks [first, last). Where each rank's share begins depends on the whole mesh alone, so
 /// that shares differ by one at most.
 struct Bisection {
-  const std::vector<Point>& centres;
+  const WholeMesh& mesh;
   std::vector<std::int32_t>& rank_of;
   std::int64_t size;
+  std::vector<double> key;  // of the axis that is cut across, by triangle
 
   [[nodiscard]] std::ptrdiff_t start_of(std::int64_t rank) const {
     return static_cast<std::ptrdiff_t>(static_cast<std::int64_t>(rank_of.size()) * rank / size);
@@ -54,9 +54,10 @@ struct Bisection {
     const int middle = first + (last - first) / 2;
     const Iterator cut = begin + (start_of(middle) - start_of(first));
     if (begin != end) {
-      const std::size_t axis = longest_axis(centres, begin, end);
+      const std::size_t axis = longest_axis(mesh, begin, end);
+      for (Iterator t = begin; t != end; ++t) key[static_cast<std::size_t>(*t)] = centre(mesh, *t)[axis];
       const auto before = [&](std::int32_t a, std::int32_t b) {
-        const double x = centres[static_cast<std::size_t>(a)][axis], y = centres[static_cast<std::size_t>(b)][axis];
+        const double x = key[static_cast<std::size_t>(a)], y = key[static_cast<std::size_t>(b)];
         return x != y ? x < y : a < b;  // a total order: the sets on both sides are the same everywhere
       };
       std::nth_element(begin, cut, end, before);
@@ -70,11 +71,9 @@ struct Bisection {
 
 std::vector<std::int32_t> bisect(const WholeMesh& mesh, int size) {
   const std::size_t m = mesh.triangles.size();
-  std::vector<Point> centres(m);
-  for (std::size_t t = 0; t < m; ++t) centres[t] = centre(mesh, static_cast<std::int32_t>(t));
   std::vector<std::int32_t> order(m), rank_of(m, 0);
   std::iota(order.begin(), order.end(), 0);
-  Bisection{centres, rank_of, size}.divide(order.begin(), order.end(), 0, size);
+  Bisection{mesh, rank_of, size, std::vector<double>(size > 1 ? m : 0)}.divide(order.begin(), order.end(), 0, size);
   return rank_of;
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace carreau_mpi {
 
@@ -19,6 +20,9 @@ constexpr const char* file_attributes =
 /// The arrays of a file: what it says of them, and their bytes behind.
 class Arrays {
  public:
+  /// `bytes`: that there will be.
+  explicit Arrays(std::size_t bytes) { bytes_.reserve(bytes); }
+
   /// An element <DataArray> of `values`.
   template <typename T>
   void add(std::string_view type, std::string_view name, int components, const std::vector<T>& values) {
@@ -29,9 +33,9 @@ class Arrays {
   }
   void line(std::string_view text) { text_ << text << "\n"; }
 
-  /// The whole file.
-  [[nodiscard]] std::string file() const {
-    return text_.str() + "<AppendedData encoding=\"raw\">\n_" + bytes_ + "\n</AppendedData>\n</VTKFile>\n";
+  /// The whole file, one string behind the other.
+  [[nodiscard]] std::vector<std::string> file() && {
+    return {text_.str() + "<AppendedData encoding=\"raw\">\n_", std::move(bytes_), "\n</AppendedData>\n</VTKFile>\n"};
   }
 
  private:
@@ -96,8 +100,9 @@ std::string escaped(const std::string& name) {
 
 }  // namespace
 
-std::string vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& refs, const carreau_part& part, int rank) {
-  Arrays arrays;
+std::vector<std::string> vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& refs, const carreau_part& part, int rank) {
+  constexpr std::size_t of_vertex = 8 + 1 + 4 + 24, of_triangle = 8 + 1 + 4 + 4 + 24 + 8 + 1, of_lengths = 11 * 8;
+  Arrays arrays(of_vertex * part.vertex.size() + of_triangle * part.triangle.size() + of_lengths);
   arrays.line("<?xml version=\"1.0\"?>");
   arrays.line("<VTKFile type=\"UnstructuredGrid\" " + std::string(file_attributes) + ">");
   arrays.line("<UnstructuredGrid>");
@@ -122,7 +127,7 @@ std::string vtu_of_part(const WholeMesh& mesh, const std::vector<std::int32_t>& 
   add_cells(arrays, part);
   arrays.line("</Piece>");
   arrays.line("</UnstructuredGrid>");
-  return arrays.file();
+  return std::move(arrays).file();
 }
 
 std::string name_of_piece(const std::string& path, int rank) {

@@ -69,11 +69,13 @@ void together(const Communicator& comm, Body&& body) {
   throw Failure(CARREAU_ERR_FILE, "cannot write '" + path + "': " + why);
 }
 
-void write_alone(const std::string& temporary, const std::string& path, const std::string& bytes) {
+void write_alone(const std::string& temporary, const std::string& path, const std::vector<std::string>& strings) {
   errno = 0;
   std::FILE* const file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr) refuse(path, std::strerror(errno));
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  const bool written = std::all_of(strings.begin(), strings.end(), [&](const std::string& bytes) {
+    return std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  });
   const int why = errno;
   const bool closed = std::fclose(file) == 0;  // a full disk is often reported only here
   if (!written || !closed) refuse(path, std::strerror(written ? errno : why));
@@ -83,17 +85,22 @@ void give_name(const std::string& path) {
   if (std::rename(temporary_of(path).c_str(), path.c_str()) != 0) refuse(path, std::strerror(errno));
 }
 
+// Of its arrays nothing is left when it is written.
+std::vector<std::string> file_of_piece(const Communicator& comm, carreau_mesh* mesh) {
+  const WholeMesh whole = whole_mesh(mesh);
+  constexpr int layers = 1;
+  const carreau_part part = part_of(whole, comm.rank(), comm.size(), layers);
+  std::vector<std::int32_t> refs(whole.triangles.size());
+  require(mesh, carreau_mesh_triangle_refs(mesh, static_cast<std::int64_t>(refs.size()), refs.data()));
+  return vtu_of_part(whole, refs, part, comm.rank());
+}
+
 void write_pvtu(const Communicator& comm, carreau_mesh* mesh, const std::string& path) {
   const std::string piece = name_of_piece(path, comm.rank());
   try {
     together(comm, [&] {
-      const WholeMesh whole = whole_mesh(mesh);
-      std::vector<std::int32_t> refs(whole.triangles.size());
-      require(mesh, carreau_mesh_triangle_refs(mesh, static_cast<std::int64_t>(refs.size()), refs.data()));
-      constexpr int layers = 1;
-      const carreau_part part = part_of(whole, comm.rank(), comm.size(), layers);
-      write_alone(temporary_of(piece), piece, vtu_of_part(whole, refs, part, comm.rank()));
-      if (comm.rank() == 0) write_alone(temporary_of(path), path, pvtu_text(path, comm.size()));
+      write_alone(temporary_of(piece), piece, file_of_piece(comm, mesh));
+      if (comm.rank() == 0) write_alone(temporary_of(path), path, {pvtu_text(path, comm.size())});
     });
   } catch (...) {
     std::remove(temporary_of(piece).c_str());
@@ -153,7 +160,7 @@ void write_bytes(const Communicator& comm, carreau_mesh* mesh, const std::string
   MPI_File file = MPI_FILE_NULL;
   try {
     together(comm, [&] {
-      if (comm.rank() == 0) write_alone(temporary, path, "");  // an older one ends here, and why it cannot be written
+      if (comm.rank() == 0) write_alone(temporary, path, {});  // an older one ends here, and why it cannot be written
     });
     const int opened = MPI_File_open(comm, temporary.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file);
     together(comm, [&] {

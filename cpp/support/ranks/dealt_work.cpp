@@ -118,12 +118,10 @@ std::vector<std::string> deal_out(Team& team, std::string_view step, std::size_t
                                   Monitor& monitor) {
   Done done;
   const SharedError own = do_own_share(team, n, threads, work, done, monitor);
-  std::vector<std::string> packets = team.exchange(step, done.packed(own));
   std::vector<Result> results(n);
-  for (std::size_t r = 0; r < packets.size(); ++r) {
-    const std::string packet = std::exchange(packets[r], {});
-    read(packet, "rank " + std::to_string(r) + ": ", results);
-  }
+  team.exchange_in_turn(step, done.packed(own), [&](int rank, const std::string& packet) {
+    read(packet, "rank " + std::to_string(rank) + ": ", results);
+  });
   std::vector<std::string> bytes;
   bytes.reserve(n);
   for (Result& result : results) {

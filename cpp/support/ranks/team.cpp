@@ -124,6 +124,7 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
   std::vector<std::string> all;
   try {
     all = link_.exchange(packet.bytes());
+    packet = {};
   } catch (const Error&) {  // in all processes
     over_ = true;
     throw;
@@ -142,8 +143,17 @@ std::vector<std::string> Team::exchange(std::string_view step, std::string_view 
                   std::string(step) + "\" (step " + std::to_string(step_) + ")");
     }
     given.push_back(reader.text());
+    all[r] = {};
   }
   return given;
+}
+
+void Team::exchange_in_turn(std::string_view step, std::string mine, const std::function<void(int, const std::string&)>& use) {
+  for (int r = 0; r < size(); ++r) {
+    const std::vector<std::string> all = exchange(step, r == rank() ? std::string_view(mine) : std::string_view());
+    if (r == rank()) mine = {};
+    use(r, all[static_cast<std::size_t>(r)]);
+  }
 }
 
 void Team::refuse_leavers(const std::vector<std::string>& all) {

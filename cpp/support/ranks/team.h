@@ -62,6 +62,8 @@ class Team {
   /// What all processes give for `step`, by rank. Throws the error of a process that has left the run, and Error where
   /// processes are at different steps.
   std::vector<std::string> exchange(std::string_view step, std::string_view mine);
+  /// The same of much: use(rank, what it gives) for one process after another, so that none ever holds what all give.
+  void exchange_in_turn(std::string_view step, std::string mine, const std::function<void(int, const std::string&)>& use);
   /// Throws Error with `sentence(rank)` of the first process whose value is another one than that of rank 0.
   void require_same(std::string_view step, std::string_view mine, const std::function<std::string(int)>& sentence);
 

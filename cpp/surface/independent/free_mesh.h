@@ -15,6 +15,10 @@
 
 namespace carreau {
 
+struct Division;
+struct EditedPart;
+struct MeshPart;
+
 /// How far triangles may leave the surface.
 struct SurfaceTolerances {
   double angle_deg = 0;       ///< A1: of a triangle's normal with those of the surface at its corners
@@ -46,6 +50,8 @@ class FreeMesh final : public PlacedVertices {
   FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
            std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
            const Charts& charts, Cad& cad);
+  /// Some triangles of `whole` by themselves: edits join no two of the frozen vertices, since others may do so beyond.
+  FreeMesh(const FreeMesh& whole, const MeshPart& part);
   FreeMesh(const FreeMesh&) = delete;
   FreeMesh& operator=(const FreeMesh&) = delete;
 
@@ -107,13 +113,16 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] double price_of_length() const noexcept { return asked_.price_of_length; }
 
   // Edits. Those that are refused change nothing.
-  bool collapse(std::int32_t gone, std::int32_t kept) { return mesh_->collapse(gone, kept); }
-  bool swap(const Quad& q) { return mesh_->swap(q); }
+  bool collapse(std::int32_t gone, std::int32_t kept) { return !joins_frozen(gone, kept) && mesh_->collapse(gone, kept); }
+  bool swap(const Quad& q) { return !(is_frozen(q.c) && is_frozen(q.d)) && mesh_->swap(q); }
   std::int32_t split(const Quad& q, const SurfacePlace& at);
   /// Puts a free vertex there, and gives what it was; tests nothing.
   void put(std::int32_t v, const SurfacePlace& at, const WantedSize& wanted);
   /// The same of a vertex on a line; the first place has the position.
   void put_kept(std::int32_t v, std::span<const SurfacePlace> at, const WantedSize& wanted);
+
+  /// What has become of all parts of a division. Triangles get other numbers, old vertices keep theirs.
+  void take(const Division& division, std::vector<EditedPart>&& edited);
 
   [[nodiscard]] const Charts& charts() const noexcept { return charts_; }
   [[nodiscard]] Cad& cad() const noexcept { return cad_; }
@@ -123,6 +132,9 @@ class FreeMesh final : public PlacedVertices {
   [[nodiscard]] TriangleShapes judge_fan(std::int32_t v, Judge how) const;
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
   void place_metrics();
+  void take(const EditedPart& part, std::int32_t old);
+  [[nodiscard]] bool is_frozen(std::int32_t v) const { return static_cast<std::size_t>(v) < frozen_.size() && frozen_[v] != 0; }
+  [[nodiscard]] bool joins_frozen(std::int32_t gone, std::int32_t kept) const;
   [[nodiscard]] Metric2 gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const;
   [[nodiscard]] const Vec3& normal_at(std::int32_t v, const Vec3& of_triangle) const;
 
@@ -135,6 +147,7 @@ class FreeMesh final : public PlacedVertices {
   std::vector<Metric3> metric_;  // by vertex; empty: sizes do not differ by direction
   std::vector<std::int32_t> several_;  // by vertex: index in kept_places_, -1: free
   std::vector<std::vector<SurfacePlace>> kept_places_;
+  std::vector<char> frozen_;  // of a part, by vertex; empty: none
   const SurfaceTolerances asked_;
   SurfaceTolerances tolerances_;
   double cosine_;        // of the angle that is tolerated

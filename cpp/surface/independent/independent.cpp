@@ -96,7 +96,7 @@ RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, Remeshi
     free.update_sizes();
     free.tighten(times);
     report += level == halvings ? RemeshingReport{} : halve(free, monitor);
-    report += remesh(free, monitor, true, true);
+    report += remesh_divided(free, frame.workers, monitor, true, true);
   }
   frame.charts->enlarge({});
   free.update_sizes();
@@ -163,7 +163,7 @@ FreedMesh freed(Cad& cad, SurfaceTolerances tolerances, const Compromise& compro
     else if (round == 0 && frame.everywhere && coarsely) report += remesh_coarsely(free, result.mesh, frame, monitor);
     // Elsewhere nothing is left to do after the first round.
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame.everywhere ? changed.size() : 0);
-    report += remesh(free, monitor, frame.everywhere, frame.everywhere && coarsely, around);
+    report += remesh_divided(free, frame.workers, monitor, frame.everywhere, frame.everywhere && coarsely, around);
   }
   raise_worst(free, before.worst + above_worst, monitor);
   monitor.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
@@ -231,6 +231,7 @@ void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
   SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
+  frame.workers = {options, cad};
   // Those of the mesh before, when somebody has to know.
   auto known = [&, count = result.report.crossings]() mutable {
     return count >= 0 ? count : count = crossings(result.mesh, options.threads, monitor).count;

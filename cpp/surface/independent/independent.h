@@ -11,6 +11,7 @@
 #include "curve/curve_model.h"
 #include "curve/discrete_curve.h"
 #include "surface/independent/charts.h"
+#include "surface/independent/division/divided_remeshing.h"
 #include "surface/independent/free_mesh.h"
 #include "surface/independent/line_places.h"
 #include "surface/independent/sharp_edges.h"
@@ -33,6 +34,7 @@ struct RemeshingFrame {
   /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
+  RemeshingWorkers workers = {};
 };
 
 /// How far triangles of meshes that are made so may leave the surface: by the geometric rule, else by the size. `by_direction`: sizes differ by

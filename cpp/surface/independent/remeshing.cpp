@@ -113,14 +113,7 @@ class Remesher {
     if (everywhere_) return;
     for (const auto& t : mesh_.triangles()) {
       if (t[0] < 0) continue;
-      TriangleShapes shape;
-      mesh_.judge_shape(t[0], t[1], t[2], shape);
-      bool bad = shape.worst < good_enough;
-      for (int i = 0; i < 3; ++i) {
-        const double l = mesh_.length(t[i], t[(i + 1) % 3]);
-        bad = bad || l < shortest || l > longest;
-      }
-      if (bad)
+      if (is_bad(mesh_, t))
         for (const std::int32_t v : t) mark(v, active);
     }
     widen();
@@ -334,6 +327,17 @@ class Remesher {
 };
 
 }  // namespace
+
+bool is_bad(const FreeMesh& mesh, const EditableMesh::Triangle& t) {
+  TriangleShapes shape;
+  mesh.judge_shape(t[0], t[1], t[2], shape);
+  bool bad = shape.worst < good_enough;
+  for (int i = 0; i < 3; ++i) {
+    const double l = mesh.length(t[i], t[(i + 1) % 3]);
+    bad = bad || l < shortest || l > longest;
+  }
+  return bad;
+}
 
 RemeshingReport halve(FreeMesh& mesh, Monitor& monitor) { return Remesher(mesh, monitor, true, true).halve(); }
 

@@ -21,6 +21,9 @@ struct RemeshingReport {
   }
 };
 
+/// Whether a triangle is to be worked at where not all are: its shape, or the length of a side.
+[[nodiscard]] bool is_bad(const FreeMesh& mesh, const EditableMesh::Triangle& t);
+
 /// Halves the edges of a mesh that is well shaped and twice as coarse as wanted: each triangle with three long edges becomes four, whose
 /// new vertices have six edges. Lengths and shapes are then as the coarse ones were, and remesh() may follow.
 RemeshingReport halve(FreeMesh& mesh, Monitor& monitor);

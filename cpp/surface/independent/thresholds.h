@@ -64,6 +64,12 @@ inline constexpr double least_move = 0.02, least_move_thorough = 0.01;
 /// Shape. Gains below do not count.
 inline constexpr double least_gain = 1e-4;
 
+// Parts (division)
+/// Triangles, of those to be worked at.
+inline constexpr double least_divided = 65536, triangles_of_part = 16384;
+/// Edges: how far from where parts have met their neighbourhood is remeshed, and how far from a bad triangle work starts.
+inline constexpr int rings_of_zone = 8, rings_at_work = 2;
+
 // The worst triangles at the end (worst_first)
 /// Passes over those that are worse than the mesh of before had them.
 inline constexpr int most_worst_passes = 6;

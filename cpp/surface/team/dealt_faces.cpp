@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <mutex>
+#include <numeric>
 #include <thread>
 #include <utility>
 
@@ -15,7 +17,7 @@ namespace carreau {
 
 namespace {
 
-constexpr std::int64_t packet_version = 2;
+constexpr std::int64_t packet_version = 3;
 
 using Message = std::pair<Level, std::string>;
 
@@ -51,6 +53,17 @@ class Sent {
     while (job < first && !first_failed_.compare_exchange_weak(first, job)) {
     }
   }
+  /// It is too large for one process.
+  void put_aside(std::size_t job, const std::vector<Message>& messages) {
+    const std::scoped_lock lock(mutex_);
+    aside_.push_back(static_cast<std::int32_t>(job));
+    said_.emplace(job, messages);
+  }
+  /// Of a job that this process has put aside.
+  [[nodiscard]] std::vector<Message> said(std::size_t job) const {
+    const auto found = said_.find(job);
+    return found != said_.end() ? found->second : std::vector<Message>{};
+  }
   /// Jobs behind it need not be done.
   [[nodiscard]] std::size_t first_failed() const noexcept { return first_failed_.load(); }
 
@@ -59,6 +72,7 @@ class Sent {
     PacketWriter packet;
     packet.put(packet_version);
     packet.put(std::string_view(error.bytes));
+    packet.put(aside_);
     packet.put(static_cast<std::int64_t>(faces_.size()));
     for (std::string& face : faces_) packet.put(std::string_view(std::exchange(face, {})));
     return packet.take();
@@ -79,13 +93,34 @@ class Sent {
 
   std::mutex mutex_;
   std::vector<std::string> faces_;
+  std::vector<std::int32_t> aside_;
+  std::map<std::size_t, std::vector<Message>> said_;
   std::atomic<std::size_t> first_failed_{static_cast<std::size_t>(-1)};
+};
+
+/// What samples promise of the faces that this process has sampled, beside what their boundaries did. Used by several threads.
+class Promises {
+ public:
+  explicit Promises(const DealtFaces& faces)
+      : faces_(faces), all_(std::accumulate(faces.expected.begin(), faces.expected.end(), 0.0)) {}
+  /// Whether the job is more than a process's share of all, reckoned as those known so far are.
+  bool too_large(std::size_t job, double promised) {
+    const std::scoped_lock lock(mutex_);
+    promised_ += promised, expected_ += faces_.expected[job];
+    return promised > faces_.least_shared && promised * expected_ * faces_.team.size() > all_ * promised_;
+  }
+
+ private:
+  const DealtFaces& faces_;
+  const double all_;
+  std::mutex mutex_;
+  double promised_ = 0, expected_ = 0;
 };
 
 /// Takes faces and meshes them, one after another, until no process has any left: as many as there are threads.
 class Taker final : public SteppedTask {
  public:
-  Taker(const DealtFaces& faces, Sent& sent) : faces_(faces), sent_(sent) {}
+  Taker(const DealtFaces& faces, Sent& sent, Promises& promises) : faces_(faces), sent_(sent), promises_(promises) {}
 
   [[nodiscard]] bool finished() const override { return done_; }
   [[nodiscard]] bool bound() const override {
@@ -114,6 +149,7 @@ class Taker final : public SteppedTask {
     monitor_.listen(monitor);
     try {
       job_->step(monitor_);
+      if (put_aside()) return;
       if (!job_->finished()) return;
       FaceOutcome outcome = job_->take_outcome();
       sent_.add(i_, messages_, outcome);
@@ -128,8 +164,18 @@ class Taker final : public SteppedTask {
     faces_.jobs[i_].reset();
   }
 
+  // It has been sampled, and is the next step's of all.
+  bool put_aside() {
+    const double promised = job_->promised();
+    if (promised == 0 || !promises_.too_large(i_, promised)) return false;
+    sent_.put_aside(i_, messages_);
+    job_ = nullptr;
+    return true;
+  }
+
   const DealtFaces& faces_;
   Sent& sent_;
+  Promises& promises_;
   std::thread::id caller_ = std::this_thread::get_id();
   std::vector<Message> messages_;
   FaceMonitor monitor_{messages_};
@@ -141,8 +187,9 @@ class Taker final : public SteppedTask {
 // The error that is nobody's but this process's; none when all went on to the end.
 SharedError mesh_own_share(const DealtFaces& faces, Sent& sent, Monitor& monitor) {
   try {
+    Promises promises(faces);
     std::vector<std::unique_ptr<SteppedTask>> takers;
-    for (int i = 0; i < std::max(faces.threads, 1); ++i) takers.push_back(std::make_unique<Taker>(faces, sent));
+    for (int i = 0; i < std::max(faces.threads, 1); ++i) takers.push_back(std::make_unique<Taker>(faces, sent, promises));
     run_stepped(takers, {.threads = faces.threads}, monitor);
   } catch (...) {
     faces.team.stop_taking();
@@ -151,23 +198,48 @@ SharedError mesh_own_share(const DealtFaces& faces, Sent& sent, Monitor& monitor
   return {};
 }
 
-/// What all processes have sent, by job: empty where nobody has meshed it. Throws the error of a process itself.
-std::vector<std::string> by_job(std::vector<std::string> packets, std::size_t n) {
-  std::vector<std::string> faces(n);
-  for (std::size_t r = 0; r < packets.size(); ++r) {
-    PacketReader reader(packets[r]);
-    const std::string teller = "rank " + std::to_string(r);
-    if (reader.integer() != packet_version) throw Error(teller + " runs another version of the library");
-    if (const SharedError error{reader.text()}; error.any()) error.raise(teller + ": ");
-    for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
-      std::string face = reader.text();
-      const auto i = static_cast<std::uint64_t>(PacketReader(face).integer());
-      if (i >= n) throw Error(teller + " has sent a face that nobody knows");
-      faces[i] = std::move(face);
-    }
-    packets[r] = {};  // there may be little memory left
+/// A face that one process has made.
+struct ReceivedFace {
+  std::vector<Message> messages;
+  SharedError error;
+  std::optional<FaceOutcome> outcome;  ///< none with an error
+};
+
+/// What all processes have sent.
+struct Received {
+  std::vector<std::optional<ReceivedFace>> faces;  ///< by job; none where nobody has meshed it
+  std::vector<std::size_t> aside;                  ///< jobs that all are to make together
+};
+
+ReceivedFace face_of(PacketReader& packet) {
+  ReceivedFace face;
+  for (std::size_t k = packet.count(2 * sizeof(std::int64_t)); k > 0; --k) {
+    const auto level = static_cast<Level>(packet.integer());
+    face.messages.emplace_back(level, packet.text());
   }
-  return faces;
+  if (packet.flag())
+    face.error.bytes = packet.text();
+  else
+    face.outcome = FaceOutcome::from(packet);
+  return face;
+}
+
+/// Throws the error of a process itself.
+void read(const std::string& packet, const std::string& teller, Received& received) {
+  PacketReader reader(packet);
+  const auto known = [&](std::int64_t i) {
+    if (static_cast<std::uint64_t>(i) >= received.faces.size()) throw Error(teller + " has sent a face that nobody knows");
+    return static_cast<std::size_t>(i);
+  };
+  if (reader.integer() != packet_version) throw Error(teller + " runs another version of the library");
+  if (const SharedError error{reader.text()}; error.any()) error.raise(teller + ": ");
+  for (const std::int32_t i : reader.integers()) received.aside.push_back(known(i));
+  for (std::size_t k = reader.count(sizeof(std::int64_t)); k > 0; --k) {
+    const std::string face = reader.text();
+    PacketReader of_face(face);
+    const std::size_t i = known(of_face.integer());
+    received.faces[i] = face_of(of_face);
+  }
 }
 
 /// A face that all have made.
@@ -175,56 +247,58 @@ struct SharedFace {
   std::vector<Message> messages;
   std::optional<FaceOutcome> outcome;
 };
+using SharedFaces = std::map<std::size_t, SharedFace>;  // by job
 
-// One after the other, and each with all threads of all processes.
-std::vector<SharedFace> make_together(const DealtFaces& faces, Monitor& monitor) {
-  std::vector<SharedFace> made(faces.shared.size());
-  for (std::size_t k = 0; k < made.size(); ++k) {
-    const std::size_t i = faces.shared[k];
-    faces.on_begun(i, k);
+// One after the other, and each with all threads of all processes. `said`: what this process has heard of a job before.
+template <typename Said>
+void make_together(const DealtFaces& faces, std::span<const std::size_t> jobs, std::size_t begun, const Said& said, SharedFaces& made,
+                   Monitor& monitor) {
+  for (const std::size_t i : jobs) {
+    faces.on_begun(i, begun++);
     auto& job = static_cast<FaceJob&>(*faces.jobs[i]);
     job.share();
-    FaceMonitor of_face(made[k].messages);
+    SharedFace& face = made[i];
+    face.messages = said(i);
+    FaceMonitor of_face(face.messages);
     of_face.listen(monitor);
     while (!job.finished()) {
       monitor.checkpoint();
       job.step(of_face);
     }
-    made[k].outcome = job.take_outcome();
+    face.outcome = job.take_outcome();
     faces.jobs[i].reset();
   }
-  return made;
 }
 
-void deliver(const DealtFaces& faces, std::size_t i, const std::string& bytes, Monitor& monitor) {
-  PacketReader packet(bytes);
-  packet.integer();
-  for (std::size_t k = packet.count(2 * sizeof(std::int64_t)); k > 0; --k) {
-    const auto level = static_cast<Level>(packet.integer());
-    monitor.message(level, packet.text());
-  }
-  if (packet.flag()) SharedError{packet.text()}.raise();
-  faces.on_finished(i, FaceOutcome::from(packet));
+void say(const std::vector<Message>& messages, Monitor& monitor) {
+  for (const auto& [level, text] : messages) monitor.message(level, text);
 }
 
 }  // namespace
 
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor) {
-  std::vector<SharedFace> shared = make_together(faces, monitor);
+  SharedFaces shared;
+  make_together(faces, faces.shared, 0, [](std::size_t) { return std::vector<Message>{}; }, shared, monitor);
   Sent sent;
   const SharedError error = mesh_own_share(faces, sent, monitor);
-  std::vector<std::string> all = by_job(faces.team.exchange("patches", sent.packed(error)), faces.jobs.size());
-  auto next = shared.begin();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (next != shared.end() && faces.shared[static_cast<std::size_t>(next - shared.begin())] == i) {
-      for (const auto& [level, text] : next->messages) monitor.message(level, text);
-      faces.on_finished(i, *std::exchange(next->outcome, std::nullopt));
-      ++next;
+  Received all{std::vector<std::optional<ReceivedFace>>(faces.jobs.size()), {}};
+  faces.team.exchange_in_turn("patches", sent.packed(error), [&](int rank, const std::string& packet) {
+    read(packet, "rank " + std::to_string(rank), all);
+    monitor.checkpoint();
+  });
+  std::sort(all.aside.begin(), all.aside.end());
+  make_together(faces, all.aside, faces.jobs.size() - all.aside.size(), [&](std::size_t i) { return sent.said(i); }, shared, monitor);
+  for (std::size_t i = 0; i < all.faces.size(); ++i) {
+    if (const auto found = shared.find(i); found != shared.end()) {
+      say(found->second.messages, monitor);
+      faces.on_finished(i, *std::exchange(found->second.outcome, std::nullopt));
       continue;
     }
-    const std::string bytes = std::exchange(all[i], {});
-    if (bytes.empty()) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
-    deliver(faces, i, bytes, monitor);
+    if (!all.faces[i]) throw Error("no process has meshed a face that was dealt out");  // a process has stopped
+    ReceivedFace face = *std::exchange(all.faces[i], std::nullopt);
+    say(face.messages, monitor);
+    if (!face.outcome) face.error.raise();
+    faces.on_finished(i, std::move(*face.outcome));
   }
 }
 

@@ -19,6 +19,8 @@ struct DealtFaces {
   std::span<std::unique_ptr<SteppedTask>> jobs;  ///< FaceJob; one that this process has meshed is null afterwards
   std::vector<std::size_t> shared;               ///< indices of jobs that all processes make together, ascending
   std::vector<std::size_t> order;                ///< those of the others, longest first
+  std::vector<double> expected;                  ///< triangles, by job, judged by boundaries
+  double least_shared = 0;                       ///< triangles of a face that all make together
   int threads = 1;
   /// Called from the thread that runs when job `i` is begun, the `begun`-th of all processes.
   std::function<void(std::size_t i, std::size_t begun)> on_begun;
@@ -26,7 +28,8 @@ struct DealtFaces {
   std::function<void(std::size_t i, FaceOutcome)> on_finished;
 };
 
-/// First the faces that all make together. Then each process takes a face whenever a thread of it has none, then all tell each other what came of them. The error of
+/// First the faces that all make together. Then each process takes a face whenever a thread of it has none, then all tell each other what came of them. A face
+/// whose samples promise so many triangles more than its boundary that it is more than a process's share is put aside, and made by all at the end. The error of
 /// the first face in order comes out of all processes, after the outcomes before it; that of a process that has none
 /// of its faces to blame (a stop, no memory) comes first, as that of a face made together does. Messages of faces reach all hosts, in order of the faces.
 void mesh_dealt(const DealtFaces& faces, Monitor& monitor);

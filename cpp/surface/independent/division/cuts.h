@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How a free mesh is cut into parts: by its triangles and their sizes, whoever works at them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "surface/independent/free_mesh.h"
+
+namespace carreau {
+
+/// Cuts triangles into parts of equal weight, at most `most` but for rounding: where their centroids extend farthest, in halves and again. `weight`: by
+/// triangle of the mesh. Triangles of a part are ascending.
+std::vector<std::vector<std::int32_t>> cut_across(const FreeMesh& mesh, std::vector<std::int32_t> triangles,
+                                                  std::span<const float> weight, double most);
+
+/// Those that share vertices, directly or by others of them, in the order of their first triangles.
+std::vector<std::vector<std::int32_t>> connected(const FreeMesh& mesh, std::span<const std::int32_t> triangles);
+
+/// By vertex: whether it is no farther than so many edges from one of `vertices`.
+std::vector<char> near_vertices(const FreeMesh& mesh, std::span<const std::int32_t> vertices, int edges);
+
+/// Triangles with a corner that is near, ascending.
+std::vector<std::int32_t> triangles_at(const FreeMesh& mesh, const std::vector<char>& near);
+
+}  // namespace carreau

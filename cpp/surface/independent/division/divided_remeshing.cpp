@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/independent/division/divided_remeshing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "metric/metric2.h"
+#include "support/error.h"
+#include "support/ranks/dealt_work.h"
+#include "support/stepped_tasks.h"
+#include "surface/independent/division/cuts.h"
+#include "surface/independent/division/mesh_part.h"
+#include "surface/independent/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+using Vertices = std::vector<std::int32_t>;
+
+// What remesh() starts with where it does not work everywhere: corners of triangles that are not as wanted, by vertex.
+std::vector<char> bad_corners(const FreeMesh& mesh, const RemeshingWorkers& workers, Monitor& monitor) {
+  const auto& all = mesh.triangles();
+  std::vector<char> bad(all.size(), 0);
+  constexpr std::size_t at_once = 4096;
+  const auto look = [&](std::size_t k, Monitor&) {
+    for (std::size_t t = k * at_once; t < std::min(all.size(), (k + 1) * at_once); ++t)
+      if (all[t][0] >= 0 && is_bad(mesh, all[t])) bad[t] = 1;
+  };
+  run_each((all.size() + at_once - 1) / at_once, false, workers.threads, look, monitor);
+  std::vector<char> corner(mesh.vertices(), 0);
+  for (std::size_t t = 0; t < all.size(); ++t)
+    for (int i = 0; bad[t] != 0 && i < 3; ++i) corner[all[t][i]] = 1;
+  return corner;
+}
+
+Vertices numbers_of(const std::vector<char>& marked) {
+  Vertices numbers;
+  for (std::size_t v = 0; v < marked.size(); ++v)
+    if (marked[v] != 0) numbers.push_back(static_cast<std::int32_t>(v));
+  return numbers;
+}
+
+/// The work that triangles are, by triangle: 1 is one triangle as it is wanted.
+std::vector<float> work_everywhere(const FreeMesh& mesh) {
+  std::vector<float> work(mesh.triangles().size(), 0);
+  for (std::size_t t = 0; t < work.size(); ++t)
+    if (mesh.triangles()[t][0] >= 0) {
+      const double wanted = mesh.double_area(mesh.triangles()[t]) / half_root3;
+      work[t] = static_cast<float>(wanted > 1 && std::isfinite(wanted) ? wanted : 1);
+    }
+  return work;
+}
+
+std::vector<float> work_around(const FreeMesh& mesh, const Vertices& bad) {
+  std::vector<float> work(mesh.triangles().size(), 0);
+  for (const std::int32_t t : triangles_at(mesh, near_vertices(mesh, bad, rings_at_work))) work[t] = 1;
+  return work;
+}
+
+class DividedRemeshing {
+ public:
+  DividedRemeshing(FreeMesh& mesh, const RemeshingWorkers& workers, Monitor& monitor, bool everywhere, bool thorough)
+      : mesh_(mesh), workers_(workers), monitor_(monitor), everywhere_(everywhere), thorough_(thorough) {}
+
+  RemeshingReport run(const std::vector<float>& work) {
+    if (workers_.team != nullptr) require_same_mesh();
+    Vertices worked;
+    for (std::size_t t = 0; t < work.size(); ++t)
+      if (work[t] > 0) worked.push_back(static_cast<std::int32_t>(t));
+    Vertices cuts = remesh_parts(cut_across(mesh_, std::move(worked), work, triangles_of_part), {});
+    cuts = remesh_parts(cut_across(mesh_, zone(cuts), std::vector<float>(mesh_.triangles().size(), 1), triangles_of_part), cuts);
+    remesh_parts(connected(mesh_, zone(cuts)), cuts);
+    return report_;
+  }
+
+ private:
+  // Parts fit together only where all processes have the same mesh.
+  void require_same_mesh() const {
+    LongChecksum sum;
+    for (const auto& t : mesh_.triangles())
+      for (const std::int32_t v : t) sum.add(static_cast<std::uint64_t>(v));
+    std::vector<Vec3> places;
+    std::vector<double> sizes;
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh_.vertices()); ++v)
+      places.push_back(mesh_.position(v)), places.push_back(mesh_.place(v).normal), sizes.push_back(mesh_.size(v));
+    sum.add(places), sum.add(sizes);
+    workers_.team->require_same("free mesh", sum.text(), [](int rank) {
+      return "the mesh of rank " + std::to_string(rank) +
+             " is another one than that of rank 0 before it is made free of its patches: its callbacks or parameters differ";
+    });
+  }
+
+  Vertices zone(const Vertices& cuts) const { return triangles_at(mesh_, near_vertices(mesh_, cuts, rings_of_zone)); }
+
+  /// `around`: vertices that work starts from; empty: as remesh() says. Where parts have met, if there is anything to do there.
+  Vertices remesh_parts(std::vector<Vertices> parts, const Vertices& around) {
+    if (parts.empty()) return {};
+    const Division division(std::move(parts), mesh_.triangles().size());
+    Vertices cuts = division.meeting(mesh_);
+    std::vector<EditedPart> edited = edit(division, around);
+    for (const EditedPart& part : edited) report_ += part.report;
+    mesh_.take(division, std::move(edited));
+    monitor_.checkpoint();
+    if (!everywhere_) {
+      const std::vector<char> bad = bad_corners(mesh_, workers_, monitor_);
+      std::erase_if(cuts, [&](std::int32_t v) { return bad[v] == 0; });
+    }
+    return cuts;
+  }
+
+  EditedPart edit_part(const Division& division, std::size_t p, const Vertices& around, Monitor& monitor) const {
+    const MeshPart part(mesh_, division, static_cast<std::int32_t>(p));
+    FreeMesh own(mesh_, part);
+    const Vertices start = everywhere_ ? part.local(around) : Vertices{};
+    if (everywhere_ && start.empty() && !around.empty()) return {mesh_, part, own, {}};
+    return {mesh_, part, own, remesh(own, monitor, everywhere_, thorough_, start)};
+  }
+
+  std::vector<EditedPart> edit(const Division& division, const Vertices& around) {
+    const std::size_t n = division.parts.size();
+    std::vector<EditedPart> edited(n);
+    if (workers_.team == nullptr) {
+      run_each(
+          n, !workers_.hosts_threads, workers_.threads,
+          [&](std::size_t p, Monitor& of_part) { edited[p] = edit_part(division, p, around, of_part); }, monitor_);
+      return edited;
+    }
+    const auto packed = [&](std::size_t p, Monitor& of_part) {
+      PacketWriter packet;
+      edit_part(division, p, around, of_part).put(packet);
+      return packet.take();
+    };
+    std::vector<std::string> all =
+        deal_out(*workers_.team, "parts of a free mesh", n, workers_.hosts_threads ? workers_.threads : 1, packed, monitor_);
+    for (std::size_t p = 0; p < n; ++p) {
+      monitor_.checkpoint();
+      PacketReader packet(all[p]);
+      edited[p] = EditedPart::from(packet);
+      all[p] = {};
+    }
+    return edited;
+  }
+
+  FreeMesh& mesh_;
+  const RemeshingWorkers& workers_;
+  Monitor& monitor_;
+  bool everywhere_, thorough_;
+  RemeshingReport report_;
+};
+
+}  // namespace
+
+RemeshingReport remesh_divided(FreeMesh& mesh, const RemeshingWorkers& workers, Monitor& monitor, bool everywhere, bool thorough,
+                               std::span<const std::int32_t> around) {
+  if (!around.empty()) return remesh(mesh, monitor, everywhere, thorough, around);
+  Vertices bad;
+  if (!everywhere) {
+    bad = numbers_of(bad_corners(mesh, workers, monitor));
+    if (bad.empty()) return {};
+  }
+  const std::vector<float> work = everywhere ? work_everywhere(mesh) : work_around(mesh, bad);
+  if (std::accumulate(work.begin(), work.end(), 0.0) < least_divided) return remesh(mesh, monitor, everywhere, thorough, bad);
+  return DividedRemeshing(mesh, workers, monitor, everywhere, thorough).run(work);
+}
+
+}  // namespace carreau

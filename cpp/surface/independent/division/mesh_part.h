@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Some triangles of a free mesh, to be edited by themselves while others edit others.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/editable_mesh.h"
+#include "support/ranks/packet.h"
+#include "surface/independent/remeshing.h"
+#include "surface/surface_place.h"
+
+namespace carreau {
+
+class FreeMesh;
+
+/// To which part each triangle of a mesh belongs.
+struct Division {
+  static constexpr std::int32_t none = -1;
+  std::vector<std::vector<std::int32_t>> parts;  ///< triangles, ascending
+  std::vector<std::int32_t> part;                ///< by triangle
+
+  Division(std::vector<std::vector<std::int32_t>> of_parts, std::size_t triangles);
+  /// Vertices where parts of this division meet, ascending.
+  [[nodiscard]] std::vector<std::int32_t> meeting(const FreeMesh& mesh) const;
+};
+
+/// The triangles of a part, and those beyond that have a corner on its border: these stay, and so do all vertices that are not of the part alone.
+struct MeshPart {
+  std::vector<std::int32_t> vertex;  ///< numbers in the whole mesh, ascending
+  std::vector<char> frozen;          ///< by vertex
+  std::vector<EditableMesh::Triangle> triangles, beyond;
+
+  MeshPart(const FreeMesh& whole, const Division& division, std::int32_t part);
+  /// Those of the whole mesh, ascending, that are here.
+  [[nodiscard]] std::vector<std::int32_t> local(std::span<const std::int32_t> vertices) const;
+  /// Of a vertex of the whole mesh; -1: it is not here.
+  [[nodiscard]] std::int32_t local(std::int32_t v) const;
+};
+
+/// What has become of a part.
+struct EditedPart {
+  /// Corners are vertices of the whole mesh; numbers from that of its vertices on are new ones.
+  std::vector<EditableMesh::Triangle> triangles;
+  std::vector<std::int32_t> moved;   ///< vertices of the whole mesh that are elsewhere
+  std::vector<SurfacePlace> places;  ///< of these, and behind them those of the new ones
+  RemeshingReport report;
+
+  EditedPart() = default;
+  /// `edited`: made of `part`.
+  EditedPart(const FreeMesh& whole, const MeshPart& part, const FreeMesh& edited, const RemeshingReport& report);
+
+  /// As bytes for another process, and back. The second throws Error for bytes that are no part.
+  void put(PacketWriter& packet) const;
+  static EditedPart from(PacketReader& packet);
+};
+
+}  // namespace carreau

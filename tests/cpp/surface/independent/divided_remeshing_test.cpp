@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Large meshes made anew in parts: the same whoever makes them, and no measure tells where parts have met.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "../../geometry/discrete/surfaces.h"
+#include "common/thread_team.h"
+#include "geometry/discrete/discrete_cad.h"
+#include "mesh/quality.h"
+#include "session/session.h"
+#include "support/error.h"
+
+namespace carreau {
+namespace {
+
+using namespace testing;
+
+constexpr double usual_size = 0.04;  // 80 000 triangles
+
+const BuiltGeometry& torus() {
+  static const BuiltGeometry built =
+      discrete_geometry(std::make_shared<const discrete::DiscreteSurface>(discrete::surface_of(discrete::torus(48, 24))));
+  return built;
+}
+
+void prepare(Session& session, double size, int threads) {
+  session.set_cad(torus().cad);
+  session.set_model(torus().model);
+  session.parameters().set("threads", threads);
+  session.parameters().set("hphy_flag", 1);
+  session.parameters().set("hphydef", size);
+}
+
+SurfaceMesh made_by(int threads) {
+  const tbb::global_control more(tbb::global_control::max_allowed_parallelism, 8);
+  Monitor silent;
+  Session session(silent);
+  prepare(session, usual_size, threads);
+  session.make_mesh();
+  return session.mesh();
+}
+
+const SurfaceMesh& made_by_one() {
+  static const SurfaceMesh mesh = made_by(1);
+  return mesh;
+}
+
+void expect_same(const SurfaceMesh& one, const SurfaceMesh& other) {
+  EXPECT_EQ(one.vertices, other.vertices);
+  ASSERT_EQ(one.faces.size(), other.faces.size());
+  for (std::size_t f = 0; f < one.faces.size(); ++f) {
+    EXPECT_EQ(one.faces[f].vertex, other.faces[f].vertex);
+    EXPECT_EQ(one.faces[f].uv, other.faces[f].uv);
+    EXPECT_EQ(one.faces[f].triangles, other.faces[f].triangles);
+  }
+}
+
+/// Stops at the checkpoints from one on.
+class Stopping final : public Monitor {
+ public:
+  explicit Stopping(int after) : left_(after) {}
+  void checkpoint() override {
+    if (left_.fetch_sub(1) <= 0) throw Cancelled("the run was stopped");
+  }
+
+ private:
+  std::atomic<int> left_;
+};
+
+/// Each process meshes; `size` and `monitor` by rank. What each has thrown, or "".
+template <typename Size, typename MonitorOf>
+std::vector<std::string> mesh_in_processes(int n, const Size& size, const MonitorOf& monitor, std::vector<SurfaceMesh>& meshes) {
+  CommonOfThreads common(n);
+  std::vector<std::string> thrown(static_cast<std::size_t>(n));
+  meshes.resize(static_cast<std::size_t>(n));
+  std::vector<std::thread> processes;
+  for (int rank = 0; rank < n; ++rank)
+    processes.emplace_back([&, rank] {
+      const auto r = static_cast<std::size_t>(rank);
+      const std::unique_ptr<Monitor> own = monitor(rank);
+      Session session(*own);
+      try {
+        prepare(session, size(rank), 1);
+        session.set_team(std::make_shared<ThreadLink>(common, rank));
+        session.make_mesh();
+        meshes[r] = session.mesh();
+      } catch (const std::exception& error) {
+        thrown[r] = error.what();
+      }
+    });
+  for (std::thread& process : processes) process.join();
+  return thrown;
+}
+
+std::unique_ptr<Monitor> silent(int) { return std::make_unique<Monitor>(); }
+
+TEST(DividedRemeshing, ATorusIsWhatOneInOnePieceWouldBe) {
+  const SurfaceMesh& mesh = made_by_one();
+  EXPECT_EQ(find_defects(mesh, {.closed = true}), std::vector<std::string>{});
+  const auto n = static_cast<std::int64_t>(mesh.vertices.size()), m = static_cast<std::int64_t>(mesh.triangle_count());
+  ASSERT_GT(m, 65536);
+  EXPECT_EQ(2 * n, m);  // Euler number 0
+  for (const Vec3& p : mesh.vertices) EXPECT_LT(discrete::distance_to_torus(p), 2e-4);
+  std::vector<int> degree(mesh.vertices.size(), 0);
+  double quality = 0, worst = 1, shortest = 10, longest = 0;
+  for (const FaceMesh& face : mesh.faces)
+    for (const auto& t : face.triangles) {
+      const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(t[static_cast<std::size_t>(k % 3)])])]; };
+      const double q = quality_q2(at(0), at(1), at(2));
+      quality += q, worst = std::min(worst, q);
+      for (int k = 0; k < 3; ++k) {
+        const double l = norm(at(k + 1) - at(k)) / usual_size;
+        shortest = std::min(shortest, l), longest = std::max(longest, l);
+        ++degree[static_cast<std::size_t>(face.vertex[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])])];
+      }
+    }
+  EXPECT_GE(quality / static_cast<double>(m), 0.985);
+  EXPECT_GE(worst, 0.5);
+  EXPECT_GE(shortest, 0.5);
+  EXPECT_LE(longest, 1.6);
+  const auto irregular = std::count_if(degree.begin(), degree.end(), [](int d) { return d != 6; });
+  EXPECT_LE(irregular, n / 8);
+}
+
+TEST(DividedRemeshing, TheSameForAnyNumberOfThreads) { expect_same(made_by_one(), made_by(3)); }
+
+TEST(DividedRemeshing, TheSameForAnyNumberOfProcesses) {
+  std::vector<SurfaceMesh> meshes;
+  const auto thrown = mesh_in_processes(3, [](int) { return usual_size; }, silent, meshes);
+  for (const std::string& sentence : thrown) ASSERT_EQ(sentence, "");
+  for (const SurfaceMesh& mesh : meshes) expect_same(made_by_one(), mesh);
+}
+
+TEST(DividedRemeshing, ProcessesThatDifferAreNamed) {
+  std::vector<SurfaceMesh> meshes;
+  const auto thrown = mesh_in_processes(3, [](int rank) { return rank == 2 ? 1.001 * usual_size : usual_size; }, silent, meshes);
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("rank 2"), std::string::npos) << sentence;
+}
+
+TEST(DividedRemeshing, AStopOfOneProcessIsOneOfAll) {
+  const auto monitor = [](int rank) -> std::unique_ptr<Monitor> {
+    if (rank == 1) return std::make_unique<Stopping>(100'000);
+    return std::make_unique<Monitor>();
+  };
+  std::vector<SurfaceMesh> meshes;
+  const auto thrown = mesh_in_processes(2, [](int) { return usual_size; }, monitor, meshes);
+  for (const std::string& sentence : thrown) EXPECT_NE(sentence.find("stop"), std::string::npos) << sentence;
+  for (const SurfaceMesh& mesh : meshes) EXPECT_TRUE(mesh.vertices.empty());
+}
+
+}  // namespace
+}  // namespace carreau
