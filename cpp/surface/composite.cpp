@@ -8,9 +8,6 @@
 #include "surface/assembly/cracks.h"
 #include "surface/improve/adjacent_lengths.h"
 #include "surface/improve/adjacent_sizes.h"
-#include "surface/free_elements/free_elements.h"
-#include "surface/independent/independent.h"
-#include "surface/quads/quadrilaterals.h"
 #include "surface/run.h"
 #include "surface/team/same_hosts.h"
 #include "surface/thresholds.h"
@@ -58,9 +55,9 @@ void even_out(CompositeRun& run) {
 // Of curves whose vertices are where they were cut: not of sides of narrow faces that have become one.
 void place_on_curves(CompositeRun& run) {
   const SurfaceMesh& mesh = run.result.mesh;
-  if (mesh.independent) return;  // known already
-  run.result.curve_parameters.assign(mesh.curves.size(), {});
+  if (!mesh.independent) run.result.curve_parameters.assign(mesh.curves.size(), {});
   for (std::size_t c = 0; c < run.curves.size(); ++c) {
+    if (mesh.independent && !mesh.curves[c].loose) continue;  // known already
     const DiscreteCurve& curve = run.curves[c];
     const std::vector<std::int32_t>& chain = mesh.curves[c].vertices;
     if (chain.size() < 2 || chain.size() != curve.xyz.size()) continue;
@@ -93,21 +90,6 @@ bool any_prescribed(const CompositeRun& run) {
   return std::any_of(run.curves.begin(), run.curves.end(), [](const DiscreteCurve& c) { return c.prescribed; });
 }
 
-// With all its elements.
-bool make_free(CompositeRun& run) {
-  const CompositeOptions& options = run.options;
-  ElementMaker elements;
-  if (options.element != Element::p1)
-    elements = [&](const SurfaceMesh& before, const RemeshingFrame& frame, FreedMesh& made) {
-      make_free_elements(before, frame, options, run.cad, made, run.monitor);
-    };
-  if (!free_from_patches(run.curve_model, run.curves, options, run.rules.uses_metrics(), elements, run.result,
-                         run.monitor))
-    return false;
-  if (has_quads_only(options.element)) halve_sizes(run.result, run.curves);
-  return true;
-}
-
 }  // namespace
 
 CompositeResult mesh_composite(const Model& model, const Topology& topology, const ModelSupports& supports, Cad& cad,
@@ -134,7 +116,7 @@ CompositeResult mesh_composite(const Model& model, const Topology& topology, con
   if (options.independent && any_prescribed(run))
     run.say(Level::warning, "the mesh stays as its patches made it: edges of curves are prescribed");
   else
-    is_free = options.independent && make_free(run);
+    is_free = options.independent && make_free(run, mesh);
   if (!is_free) make_elements(run, mesh);
   place_on_curves(run);
   tell_prescribed(run);

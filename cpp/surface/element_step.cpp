@@ -57,19 +57,14 @@ void divide_faces(CompositeRun& run, const QuadraticReport& report) {
 
 // Quadrilaterals may have divided the edges of curves: those before are meant.
 void divide_curves(CompositeRun& run, const std::vector<CurveEdge>& coarse) {
-  std::vector<DiscreteCurve> curves = run.cut_curves;
-  for (auto edge = coarse.rbegin(); edge != coarse.rend(); ++edge) {
-    if (edge->curve >= std::ssize(curves)) continue;  // what a vanished face has left
-    DiscreteCurve& curve = curves[edge->curve];
-    const int before = run.cut_curves[edge->curve].segments(), now = run.curves[edge->curve].segments();
-    const int segment = static_cast<int>(std::int64_t{edge->segment} * before / now);
-    const auto next = std::next(edge);
-    const bool again = next != coarse.rend() && next->curve == edge->curve &&
-                       static_cast<int>(std::int64_t{next->segment} * before / now) == segment;
-    if (!again) (void)split_segment(curve, segment, run.curve_model);
+  std::vector<std::pair<std::int32_t, int>> segments;
+  for (const CurveEdge& edge : coarse) {
+    if (edge.curve >= std::ssize(run.cut_curves)) continue;  // what a vanished face has left
+    const int before = run.cut_curves[edge.curve].segments(), now = run.curves[edge.curve].segments();
+    segments.emplace_back(edge.curve, static_cast<int>(std::int64_t{edge.segment} * before / now));
   }
-  run.curves = std::move(curves);
-  if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, run.curves);
+  segments.erase(std::unique(segments.begin(), segments.end()), segments.end());
+  divide_segments(run, segments);
 }
 
 void tell(CompositeRun& run, const QuadraticReport& report) {
@@ -86,6 +81,14 @@ void tell(CompositeRun& run, const QuadraticReport& report) {
 }
 
 }  // namespace
+
+void divide_segments(CompositeRun& run, const std::vector<std::pair<std::int32_t, int>>& coarse) {
+  std::vector<DiscreteCurve> curves = run.cut_curves;
+  for (auto edge = coarse.rbegin(); edge != coarse.rend(); ++edge)
+    (void)split_segment(curves[edge->first], edge->second, run.curve_model);
+  run.curves = std::move(curves);
+  if (!run.narrow.strips.empty()) complete_sides(run.curve_model, run.narrow.strips, run.curves);
+}
 
 void make_elements(CompositeRun& run, const std::function<void()>& mesh_again) {
   if (run.options.element == Element::p1) return;

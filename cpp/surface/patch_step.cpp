@@ -31,10 +31,6 @@ std::vector<EdgeSizes::Source> short_edges(const CompositeRun& run, const FaceDo
   return edges;
 }
 
-// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked
-// for.
-constexpr double usual_growth = 1.5;
-
 /// The faces at work, and the triangles that they may still have.
 struct PatchJobs {
   CompositeRun& run;
@@ -44,11 +40,6 @@ struct PatchJobs {
   std::int64_t left = 0;                              // triangles still allowed
   std::optional<LimitError> first_beyond_limit = {};  // of faces that have too many by themselves
 };
-
-double slope_of_edges(const CompositeRun& run) {
-  const double asked = run.options.edge_gradation;
-  return slope_of_gradation(asked > 0 ? asked : usual_growth);
-}
 
 std::vector<EdgeSizes::Source> edges_to_grow_from(const CompositeRun& run, std::size_t f,
                                                   const std::vector<Vec3>& on_curves) {
@@ -65,7 +56,7 @@ PatchInput input_of(PatchJobs& work, std::size_t f, std::vector<EdgeSizes::Sourc
   std::vector<Vec3> on_curves = positions_on_curves(domain, run.curves, run.topology);
   SizeLimits bound = run.limits();
   grow_from = edges_to_grow_from(run, f, on_curves);
-  work.short_edges[f] = {grow_from, slope_of_edges(run)};
+  work.short_edges[f] = {grow_from, run.slope_of_edges()};
   if (!work.short_edges[f].empty()) bound.edges = &work.short_edges[f];
   return {.face = static_cast<int>(f),
           .ref = run.model.faces[f].ref,

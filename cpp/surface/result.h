@@ -38,20 +38,23 @@ struct CurveGap {
   int use = 0;
 };
 
-struct CompositeResult {
+/// A mesh, and what goes by its vertices and curves.
+struct SizedMesh {
   SurfaceMesh mesh;
-  std::vector<double> vertex_size;                  ///< prescribed size at each vertex
-  std::vector<FaceInterfaces> interfaces;           ///< by face; empty where the domain could not be made
-  std::vector<std::optional<ControlSpace>> spaces;  ///< by face: what the mesher used; empty: it was not sampled
-  std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
+  std::vector<double> vertex_size;  ///< prescribed size at each vertex
   /// [curve of mesh.curves][its vertex]: prescribed size along the curve; empty for a curve without edges.
   std::vector<std::vector<double>> curve_size;
   std::vector<CurveParameters> curve_parameters;  ///< by curve of mesh.curves
-  /// Of a mesh that is independent of its patches: the one before, and [face][local vertex] a triangle of it which has
-  /// its (u, v). Null and empty: of another mesh.
-  std::shared_ptr<const Charts> atlas;
+  /// Of a mesh that is independent of its patches, else empty: [face][local vertex] a triangle of the one before which has its (u, v).
   std::vector<std::vector<std::int32_t>> feet;
   std::vector<std::vector<std::int32_t>> mid_feet;  ///< the same of nodes on edges, by index in FaceMesh::mid_uv
+};
+
+struct CompositeResult : SizedMesh {
+  std::vector<FaceInterfaces> interfaces;           ///< by face; empty where the domain could not be made
+  std::vector<std::optional<ControlSpace>> spaces;  ///< by face: what the mesher used; empty: it was not sampled
+  std::shared_ptr<const GradedField> graded;        ///< bounds the sizes inside faces; null without gradation
+  std::shared_ptr<const Charts> atlas;  ///< of a mesh that is independent of its patches, else null: the one before
   std::vector<CurveGap> gaps;  ///< by curve of the topology
   CompositeReport report;
   std::vector<TriangleIntersection> crossings;  ///< the first of the report's, by triangles face after face

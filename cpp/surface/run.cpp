@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gradation/gradation.h"
 #include "surface/quads/quadrilaterals.h"
 
 #if defined(__unix__)
@@ -26,6 +27,10 @@ std::int64_t triangles_by_memory() {
   return INT64_C(50'000'000);
 }
 
+// Ratio by which sizes grow from triangles that are to be smaller, and from prescribed edges, where no growth is asked
+// for.
+constexpr double usual_growth = 1.5;
+
 }  // namespace
 
 CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topology,
@@ -42,6 +47,10 @@ CompositeRun::CompositeRun(const Model& given_model, const Topology& given_topol
   options.size = enlarged(options.size, enlargement_for(options.element));
   if (options.max_triangles <= 0) options.max_triangles = std::min<std::int64_t>(triangles_by_memory(), INT32_MAX / 4);
   result.report.diag = supports.diag;
+}
+
+double CompositeRun::slope_of_edges() const {
+  return slope_of_gradation(options.edge_gradation > 0 ? options.edge_gradation : usual_growth);
 }
 
 void CompositeRun::fail(std::size_t face, const std::string& why) {

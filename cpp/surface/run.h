@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "curve/discrete_curve.h"
@@ -28,6 +29,8 @@ struct CompositeRun {
                Cad& given_cad, const CompositeOptions& given_options, Monitor& given_monitor);
 
   [[nodiscard]] double slope() const noexcept { return graded.field ? graded.field->slope() : 0; }
+  /// By which sizes grow from short edges, and from triangles that are to be smaller.
+  [[nodiscard]] double slope_of_edges() const;
   [[nodiscard]] SizeLimits limits() const noexcept { return {.field = graded.field.get()}; }
   /// Progress; `share` of what comes after the gradation.
   void tell(Phase phase, int entity, double share) { monitor.progress(phase, entity, begin + (1 - begin) * share); }
@@ -89,6 +92,11 @@ void collapse_narrow_one_by_one(CompositeRun& run);
 /// fail. What the geometry itself lets cross, or has twice at one place, stays.
 void part_crossing_triangles(CompositeRun& run, const std::function<void()>& mesh_again);
 
+/// Frees the mesh of the borders of its patches, and makes its elements; where edges of curves are too long for valid ones they are
+/// halved, and all is meshed again. False, and nothing is done, where the mesh stays as its patches made it.
+[[nodiscard]] bool make_free(CompositeRun& run, const std::function<void()>& mesh_again);
+/// Halves edges of curves: {curve, segment} of run.cut_curves, ascending, each once.
+void divide_segments(CompositeRun& run, const std::vector<std::pair<std::int32_t, int>>& coarse);
 /// Quadrilaterals, and nodes on edges, as options.element wants them (surface/elements). Where edges of curves are so
 /// long that no valid element of second order holds them they are halved, and all is meshed again.
 void make_elements(CompositeRun& run, const std::function<void()>& mesh_again);

@@ -74,26 +74,28 @@ double metric_middle(double left, double middle, double right) noexcept {
   return 0.5 + k / (1 + std::sqrt(1 + 4 * k * k));
 }
 
+double middle_share(const DiscreteCurve& curve, std::size_t k) {
+  const double left = curve.r[k], right = curve.r[k + 1];
+  const auto density = [&](double r) { return 1 / curve.sizes.size_at(r); };
+  return metric_middle(density(left), density((left + right) / 2), density(right));
+}
+
 std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k, double shift) {
   if (!is_known(work, curve)) return std::nullopt;
   const DiscreteCurve& d = work.curves[curve];
-  const SizeSamples& sizes = d.sizes;
-  const double left = d.r[k], right = d.r[k + 1];
-  const double share =
-      metric_middle(1 / sizes.size_at(left), 1 / sizes.size_at((left + right) / 2), 1 / sizes.size_at(right)) + shift;
   DiscreteCurve piece;
   piece.curve = d.curve;
   piece.owner = d.owner;  // a node between vertices that are prescribed is none of them
   piece.refined = d.refined;
   piece.sizes = {{0, 1}, {1, 1}, {1, 1}};
-  piece.r = {left, right};
+  piece.r = {d.r[k], d.r[k + 1]};
   piece.xyz = {d.xyz[k], d.xyz[k + 1]};
   for (std::size_t u = 0; u < d.t_of_use.size(); ++u) {
     piece.t_of_use.push_back({d.t_of_use[u][k], d.t_of_use[u][k + 1]});
     piece.uv_of_use.push_back({d.uv_of_use[u][k], d.uv_of_use[u][k + 1]});
   }
   piece.size = piece.physical = {1, 1};
-  if (!split_segment(piece, 0, work.model, share)) return std::nullopt;
+  if (!split_segment(piece, 0, work.model, middle_share(d, k) + shift)) return std::nullopt;
   CurveMiddle middle{piece.xyz[1], {}};
   for (const std::vector<Vec2>& uv : piece.uv_of_use) middle.uv_of_use.push_back(uv[1]);
   return middle;

@@ -16,11 +16,20 @@
 
 namespace carreau {
 
+/// Index in Jacobian::c of the coefficient at a corner.
+inline std::size_t coefficient_at(CellKind kind, int corner) {
+  constexpr std::array<std::size_t, 4> of_quad8{0, 12, 15, 3};
+  if (kind == CellKind::triangle3) return 0;
+  return kind == CellKind::quad8 ? of_quad8[static_cast<std::size_t>(corner)] : static_cast<std::size_t>(corner);
+}
+
 /// A pattern search over the nodes of elements below thresholds::elements::good_jacobian: nodes of edges first, then
-/// corners, with half their way for the nodes beside. Nodes are those of `cells`, corners before the nodes of edges. What a
-/// place is, and where nodes may go, Derived says:
+/// corners, with half their way for the nodes beside. Elements that are invalid at a corner whatever free nodes do are left as
+/// they are, and nothing moves for them. Nodes are those of `cells`, corners before the nodes of edges. What a place is, and
+/// where nodes may go, Derived says:
 ///   Way, Trial (with a member `node`);
 ///   double score(const Cell&)                          least Jacobian over its mean
+///   double score_at(const Cell&, int corner)           the same at a corner
 ///   std::array<double, 2> orientations(const Cell&)    of its straight triangles; their signs are kept
 ///   std::array<Way, 8> ways(std::int32_t node, double step)      around it, `step` its longest edge long
 ///   std::vector<Trial> places(const std::vector<std::pair<std::int32_t, Way>>&)   of nodes that move; none: they cannot
@@ -54,6 +63,9 @@ class Mender {
     using namespace thresholds::elements;
     if (bad_.empty()) return;
     find_cells_of_nodes();
+    hopeless_.assign(cells_.size(), 0);
+    for (const std::int32_t c : bad_) hopeless_[c] = static_cast<char>(is_hopeless(cells_[c]));
+    std::erase_if(bad_, [&](std::int32_t c) { return hopeless_[c] != 0; });
     for (int round = 0; round < most_rounds; ++round) {
       const std::size_t before = moves_;
       for (std::size_t i = 0, n = bad_.size(); i < n; ++i) {
@@ -121,8 +133,21 @@ class Mender {
 
   [[nodiscard]] double worst(std::int32_t node) {
     double least = thresholds::elements::good_jacobian;  // more is not wanted
-    for (const std::int32_t c : around(node)) least = std::min(least, self().score(cells_[c]));
+    for (const std::int32_t c : around(node))
+      if (hopeless_[c] == 0) least = std::min(least, self().score(cells_[c]));
     return least;
+  }
+
+  // Both sides of the corner are fixed, with their nodes: so are the derivatives there.
+  [[nodiscard]] bool is_hopeless(const Cell& cell) {
+    const int n = corner_count(cell.kind);
+    for (int i = 0; i < n; ++i) {
+      const int before = (i + n - 1) % n;
+      bool fixed = fixed_[cell.nodes[i]] != 0 && fixed_[cell.nodes[before]] != 0 && fixed_[cell.nodes[(i + 1) % n]] != 0;
+      if (fixed && node_count(cell.kind) > n) fixed = fixed_[cell.nodes[n + i]] != 0 && fixed_[cell.nodes[n + before]] != 0;
+      if (fixed && self().score_at(cell, i) < thresholds::elements::least_jacobian) return true;
+    }
+    return false;
   }
 
   void mend(const Cell& cell) {
@@ -178,7 +203,8 @@ class Mender {
         auto trials = self().places(moves_with(node, way));
         if (trials.empty()) continue;
         const double found = judge(trials);
-        if (found > best) best = found, chosen = std::move(trials);
+        const double gain = chosen.empty() && found < good_jacobian ? least_gain : 0;
+        if (found > best + gain) best = found, chosen = std::move(trials);
       }
       if (chosen.empty()) {
         step /= 2;
@@ -193,14 +219,15 @@ class Mender {
   // What was good may be bad now, as long as something beside was worse.
   void note_bad(std::int32_t node) {
     for (const std::int32_t c : around(node))
-      if (self().score(cells_[c]) < thresholds::elements::good_jacobian &&
+      if (hopeless_[c] == 0 && self().score(cells_[c]) < thresholds::elements::good_jacobian &&
           std::find(bad_.begin(), bad_.end(), c) == bad_.end())
         bad_.push_back(c);
   }
 
   std::vector<Cell> cells_;
   std::int32_t corners_, nodes_;
-  std::vector<char> fixed_;  // by node
+  std::vector<char> fixed_;     // by node
+  std::vector<char> hopeless_;  // by cell
   Monitor& monitor_;
   std::vector<std::int32_t> bad_, first_, of_node_;
   std::size_t moves_ = 0;

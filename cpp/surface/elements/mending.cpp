@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "mesh/elements/jacobian.h"
 #include "predicates/predicates.h"
@@ -51,16 +52,16 @@ class FaceMender : public Mender<FaceMender, Vec2> {
 
   // Of a mesh that is turned over in (u, v) (FaceMesh::triangles) space alone decides.
   [[nodiscard]] double score(const Cell& cell) const {
-    const auto n = static_cast<std::size_t>(node_count(cell.kind));
-    std::array<Vec3, 8> plane, space;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2& p = uv(cell.nodes[i]);
-      plane[i] = {p.x(), p.y(), 0};
-      space[i] = xyz(cell.nodes[i]);
-    }
-    const double in_space = jacobian(cell.kind, {space.data(), n}).least();
-    if (is_turned(cell)) return in_space;
-    return std::min(in_space, jacobian(cell.kind, {plane.data(), n}).least_along({0, 0, 1}));
+    const auto [plane, space] = jacobians(cell);
+    if (is_turned(cell)) return space.least();
+    return std::min(space.least(), plane.least_along({0, 0, 1}));
+  }
+  [[nodiscard]] double score_at(const Cell& cell, int corner) const {
+    const auto [plane, space] = jacobians(cell);
+    const std::size_t at = coefficient_at(cell.kind, corner);
+    const Vec3 mean = space.mean();
+    const double in_space = dot(space.c[at], mean) / dot(mean, mean);
+    return is_turned(cell) ? in_space : std::min(in_space, plane.c[at].z() / plane.mean().z());
   }
 
   [[nodiscard]] std::array<double, 2> orientations(const Cell& cell) const {
@@ -125,6 +126,16 @@ class FaceMender : public Mender<FaceMender, Vec2> {
   [[nodiscard]] const Vec3& xyz(std::int32_t node) const {
     const SurfaceMesh& mesh = work_.result.mesh;
     return node < corners() ? mesh.vertices[face_.vertex[node]] : mesh.mid_vertices[face_.mid_vertex[node - corners()]];
+  }
+  [[nodiscard]] std::pair<Jacobian, Jacobian> jacobians(const Cell& cell) const {
+    const auto n = static_cast<std::size_t>(node_count(cell.kind));
+    std::array<Vec3, 8> plane, space;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec2& p = uv(cell.nodes[i]);
+      plane[i] = {p.x(), p.y(), 0};
+      space[i] = xyz(cell.nodes[i]);
+    }
+    return {jacobian(cell.kind, {plane.data(), n}), jacobian(cell.kind, {space.data(), n})};
   }
   [[nodiscard]] bool is_turned(const Cell& cell) const {
     return orientation(uv(cell.nodes[0]), uv(cell.nodes[1]), uv(cell.nodes[2])) <= 0;

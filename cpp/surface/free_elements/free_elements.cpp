@@ -2,18 +2,18 @@
 #include "surface/free_elements/free_elements.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <utility>
 
-#include "mesh/elements/jacobian.h"
-#include "mesh/flat_mesh.h"
-#include "mesh/intersections.h"
-#include "support/error.h"
 #include "surface/elements/thresholds.h"
 #include "surface/free_elements/free_cells.h"
 #include "surface/free_elements/free_nodes.h"
+#include "surface/free_elements/invalid_elements.h"
 #include "surface/free_elements/line_middles.h"
+#include "surface/free_elements/thresholds.h"
 #include "surface/quads/cleanup.h"
 #include "surface/quads/pairing.h"
 #include "surface/quads/quad_shape.h"
@@ -25,6 +25,11 @@
 namespace carreau {
 
 namespace {
+
+using namespace thresholds::free_elements;
+
+/// Vertices no farther from a place stay while quadrilaterals are made better.
+using HeldPlaces = std::vector<CrossingPlace>;
 
 class FreeElements {
  public:
@@ -40,21 +45,26 @@ class FreeElements {
         lines_(surface_, vertices_, lines_left(frame, *made.free), made.worked, monitor),
         cells_(free_cells(surface_, vertices_, lines_, triangles_of(*made.free), monitor)) {}
 
-  /// `gently`: triangles are joined, and nothing else is changed.
-  void run(bool gently) {
-    gently_ = gently;
+  /// Straight ones. `gently`: triangles are joined, and nothing else is changed.
+  void make_straight(const HeldPlaces& held, bool gently) {
+    held_ = held, gently_ = gently;
     turn_ears(cells_.quads, [&](std::int32_t a, std::int32_t b) { return is_imposed(cells_, lines_, a, b); });
     if (has_quads(options_.element)) {
       pair();
       if (has_quads_only(options_.element))
         cut();
       else
-        split_poor();
+        release(), split_poor();
     }
-    FreeNodes nodes;
-    if (is_quadratic(options_.element)) nodes = with_nodes();
-    reassemble_with(nodes);
-    tell_invalid();
+    FreeNodes none;
+    if (has_quads(options_.element)) reassemble_with(none);
+  }
+  void finish() {
+    if (is_quadratic(options_.element)) {
+      FreeNodes nodes = with_nodes();
+      reassemble_with(nodes);
+    }
+    tell_invalid(made_.mesh);
   }
 
  private:
@@ -84,6 +94,7 @@ class FreeElements {
                           turn * enlargement_for(options_.element), least_in_space()};
     pair_triangles(quads, rules, monitor_);
     if (gently_) return;
+    hold();
     clean_up(quads, imposed, monitor_);
     join_triangles(quads, imposed, monitor_);
     clean_up(quads, imposed, monitor_);
@@ -96,9 +107,24 @@ class FreeElements {
   }
 
   void cut() {
+    release();
     halve(surface_, vertices_, lines_, cells_, monitor_);
+    hold();
     if (!gently_) smooth();
+    release();
     mend_straight(surface_, vertices_, lines_, cells_, monitor_);
+  }
+
+  void hold() {
+    const SpaceQuads& quads = cells_.quads;
+    for (std::size_t v = 0; !held_.empty() && v < quads.vertices(); ++v) {
+      const auto is_near = [&](const CrossingPlace& p) { return norm(quads.place(v).xyz - p.place) <= p.size; };
+      if (!quads.is_fixed(v) && std::ranges::any_of(held_, is_near)) stay_.push_back(v), cells_.quads.fix(v, true);
+    }
+  }
+  void release() {
+    for (const std::size_t v : stay_) cells_.quads.fix(v, false);
+    stay_.clear();
   }
 
   [[nodiscard]] double jacobian_of(const MixedCell& q) const {
@@ -154,41 +180,7 @@ class FreeElements {
         if (v >= 0) v = vertex[v];
       all.cells.push_back(cell);
     }
-    FreedMesh result = reassemble(before_, all, lines_.lines(), made_.worked, frame_.corners, monitor_);
-    made_.mesh = std::move(result.mesh);
-    made_.vertex_size = std::move(result.vertex_size);
-    made_.curve_size = std::move(result.curve_size);
-    made_.curve_parameters = std::move(result.curve_parameters);
-    made_.feet = std::move(result.feet);
-    made_.mid_feet = std::move(result.mid_feet);
-  }
-
-  void tell_invalid() {
-    for (FaceMesh& face : made_.mesh.faces) {
-      std::size_t count = 0;
-      Vec2 uv{0, 0};
-      for (const Cell& cell : local_cells(face)) {
-        if (is_valid(face, cell)) continue;
-        if (++count == 1) uv = face.uv[cell.nodes[0]];
-      }
-      if (count == 0) continue;
-      const std::string what = Where{.face = face.ref, .uv = uv}.prefix() + std::to_string(count) +
-                               (count == 1 ? " element has" : " elements have") + " a Jacobian that is not positive everywhere";
-      face.status = FaceStatus::mended;
-      face.why += (face.why.empty() ? "" : "; ") + what;
-    }
-  }
-  [[nodiscard]] bool is_valid(const FaceMesh& face, const Cell& cell) const {
-    if (cell.kind == CellKind::triangle3) return true;
-    std::array<Vec3, 8> nodes;
-    const auto n = static_cast<std::size_t>(node_count(cell.kind));
-    const auto corners = static_cast<std::int32_t>(face.uv.size());
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t node = cell.nodes[i];
-      nodes[i] = node < corners ? made_.mesh.vertices[face.vertex[node]]
-                                : made_.mesh.mid_vertices[face.mid_vertex[node - corners]];
-    }
-    return jacobian(cell.kind, {nodes.data(), n}).least() > 0;
+    static_cast<SizedMesh&>(made_) = reassemble(before_, all, lines_.lines(), made_.worked, frame_.corners, monitor_);
   }
 
   const SurfaceMesh& before_;
@@ -200,32 +192,47 @@ class FreeElements {
   ElementVertices vertices_;
   LineMiddles lines_;
   FreeCells cells_;
+  HeldPlaces held_;
+  std::vector<std::size_t> stay_;  // of them
   bool gently_ = false;
 };
 
-std::int64_t crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
-  const FlatMesh flat = flatten(mesh, false);
-  return find_intersections(flat.vertices, flat.triangles, {.threads = threads}, monitor).count;
-}
-
 }  // namespace
 
-void make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
-                        Cad& cad, FreedMesh& made, Monitor& monitor) {
-  const bool moves = has_quads(options.element);
-  const std::int64_t before_them = moves ? crossings(made.mesh, options.threads, monitor) : 0;
+std::vector<CrossingPlace> make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
+                                              Cad& cad, FreedMesh& made, Monitor& monitor) {
+  if (!has_quads(options.element)) {
+    FreeElements elements(before, frame, options, cad, made, monitor);
+    elements.make_straight({}, false);
+    elements.finish();
+    return {};
+  }
+  const std::vector<CrossingPlace> before_them = find_crossing_places(made, options.threads, monitor);
   std::vector<std::vector<LineNode>> left;
   for (const WorkedLine& line : made.worked) left.push_back(line.left);
-  FreeElements(before, frame, options, cad, made, monitor).run(false);
-  if (!moves) return;
-  std::int64_t now = crossings(made.mesh, options.threads, monitor);
-  if (now > before_them) {
+  std::vector<CrossingPlace> fresh;
+  std::unique_ptr<FreeElements> elements;
+  const auto make = [&](const HeldPlaces& held, bool gently) {
     for (std::size_t k = 0; k < left.size(); ++k) made.worked[k].left = left[k];
-    FreeElements(before, frame, options, cad, made, monitor).run(true);
-    now = crossings(made.mesh, options.threads, monitor);
+    elements = std::make_unique<FreeElements>(before, frame, options, cad, made, monitor);
+    elements->make_straight(held, gently);
+    fresh = new_places(before_them, find_crossing_places(made, options.threads, monitor));
+  };
+  HeldPlaces held, held_by_best;
+  std::size_t fewest = 0;
+  for (int attempt = 0; attempt < most_holds; ++attempt) {
+    make(held, false);
+    if (attempt == 0 || fresh.size() < fewest) fewest = fresh.size(), held_by_best = held;
+    if (fresh.empty()) break;
+    for (const CrossingPlace& p : fresh) held.push_back({p.place, held_sizes * std::exp2(attempt) * p.size});
   }
-  if (now > before_them)
-    monitor.message(Level::warning, std::to_string(now) + " pairs of triangles cross, of straight halves of elements: sizes are too large there");
+  if (fewest > 0) make({}, true);
+  if (fewest > 0 && !fresh.empty()) make(held_by_best, false);
+  elements->finish();
+  if (!fresh.empty())
+    monitor.message(Level::warning,
+                    std::to_string(fresh.size()) + " pairs of triangles cross, of straight halves of elements: sizes are too large there");
+  return find_crossing_places(made, options.threads, monitor);
 }
 
 }  // namespace carreau

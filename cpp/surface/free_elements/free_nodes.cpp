@@ -97,17 +97,16 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
         nodes_(made.nodes) {}
 
   [[nodiscard]] double score(const Cell& cell) const {
-    const int n = corner_count(cell.kind);
-    const auto all = static_cast<std::size_t>(node_count(cell.kind));
-    std::array<Vec3, 8> xyz;
-    Vec3 normal{0, 0, 0};
-    for (std::size_t i = 0; i < all; ++i) {
-      const SurfacePlace& p = place(cell.nodes[i]);
-      xyz[i] = p.xyz;
-      if (static_cast<int>(i) < n) normal += p.normal;
-    }
-    const Jacobian found = jacobian(cell.kind, {xyz.data(), all});
+    const Jacobian found = jacobian_of(cell);
+    const Vec3 normal = normal_of(cell);
     return dot(normal, normal) > 0 && !(dot(found.mean(), normal) > 0) ? -1 : found.least();
+  }
+  // By the mean: on the wrong side of the surface nothing is hopeless yet.
+  [[nodiscard]] double score_at(const Cell& cell, int corner) const {
+    const Jacobian found = jacobian_of(cell);
+    const Vec3 mean = found.mean();
+    if (!(dot(mean, normal_of(cell)) > 0)) return 1;
+    return dot(found.c[coefficient_at(cell.kind, corner)], mean) / dot(mean, mean);
   }
 
   [[nodiscard]] std::array<double, 2> orientations(const Cell& cell) const {
@@ -176,6 +175,17 @@ class SpaceMender : public Mender<SpaceMender, Vec3> {
     return fixed;
   }
 
+  [[nodiscard]] Jacobian jacobian_of(const Cell& cell) const {
+    const auto all = static_cast<std::size_t>(node_count(cell.kind));
+    std::array<Vec3, 8> xyz;
+    for (std::size_t i = 0; i < all; ++i) xyz[i] = place(cell.nodes[i]).xyz;
+    return jacobian(cell.kind, {xyz.data(), all});
+  }
+  [[nodiscard]] Vec3 normal_of(const Cell& cell) const {
+    Vec3 normal{0, 0, 0};
+    for (int i = 0; i < corner_count(cell.kind); ++i) normal += place(cell.nodes[i]).normal;
+    return normal;
+  }
   [[nodiscard]] const SurfacePlace& place(std::int32_t node) const {
     return node < corners() ? cells_.quads.place(node) : nodes_[node - corners()].place;
   }

@@ -8,4 +8,14 @@ namespace carreau::thresholds::free_elements {
 /// below the third power of common elements' sizes over radii. [FreeElements.AreaConvergesAsThePolynomialsPromise]
 inline constexpr double near_foot = 1e-2;
 
+/// Where halves of quadrilaterals cross that did not, vertices so many sizes around stay when all is made again, twice as many the next time.
+inline constexpr double held_sizes = 2;
+/// Times that it is, before triangles are joined and nothing else is done.
+inline constexpr int most_holds = 3;
+/// Times as many elements as of isotropic triangles. Where patches force more their sizes are not those that were asked for, however
+/// well the elements are shaped.
+inline constexpr double most_of_patches = 1.25;
+/// Times that they are made finer where elements are invalid.
+inline constexpr int most_rounds_of_patches = 3;
+
 }  // namespace carreau::thresholds::free_elements

@@ -83,6 +83,14 @@ RemeshingFrame frame_of(const CurveModel& model, const CompositeOptions& options
   return frame;
 }
 
+void give_makers(const CurveModel& model, std::span<const DiscreteCurve> curves, const ElementMaker& elements, const CompositeResult& result,
+                 RemeshingFrame& frame) {
+  if (elements) frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) { elements(before, frame, made); };
+  frame.geometry = [&, curves](const SharpLine& line) {
+    return std::make_unique<LinePlaces>(line, result.mesh, model, curves, *frame.charts, model.cad);
+  };
+}
+
 // Of few triangles, with sizes that grow from the lines, which are then halved: vertices that halve an edge have six neighbours,
 // and irregular ones are as few as there are of the coarse mesh.
 RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, RemeshingFrame& frame, Monitor& monitor) {
@@ -122,7 +130,7 @@ FreedMesh reassembled(const SurfaceMesh& before, Start&& start, const RemeshingF
   CellsInSpace cells{*start.free, *frame.charts, start.free->cad(), {}, {}};
   for (const auto& t : start.free->triangles())
     if (t[0] >= 0) cells.cells.push_back({t[0], t[1], t[2], -1});
-  FreedMesh made = reassemble(before, cells, frame.lines, start.worked, frame.corners, monitor);
+  FreedMesh made{reassemble(before, cells, frame.lines, start.worked, frame.corners, monitor)};
   if (frame.elements) made.free = std::move(start.free), made.worked = std::move(start.worked);
   return made;
 }
@@ -198,13 +206,8 @@ void take(FreedMesh&& made, RemeshingFrame& frame, CompositeResult& result, Moni
   for (std::size_t f = 0; f < made.mesh.faces.size(); ++f)
     if (made.mesh.faces[f].status != result.mesh.faces[f].status)
       monitor.message(Level::warning, made.mesh.faces[f].why);
-  result.mesh = std::move(made.mesh);
-  result.vertex_size = std::move(made.vertex_size);
-  result.curve_size = std::move(made.curve_size);
-  result.curve_parameters = std::move(made.curve_parameters);
+  static_cast<SizedMesh&>(result) = std::move(made);
   result.atlas = std::move(frame.charts);
-  result.feet = std::move(made.feet);
-  result.mid_feet = std::move(made.mid_feet);
 }
 
 }  // namespace
@@ -287,13 +290,17 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
 bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                        bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
   RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
-  if (elements) frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) { elements(before, frame, made); };
-  frame.geometry = [&](const SharpLine& line) {
-    return std::make_unique<LinePlaces>(line, result.mesh, model, curves, *frame.charts, model.cad);
-  };
+  give_makers(model, curves, elements, result, frame);
   const std::string why = remesh_in_frame(frame, model.cad, options, result, monitor);
   if (!why.empty()) monitor.message(Level::warning, "the mesh stays as its patches made it: " + why);
   return why.empty();
+}
+
+void free_elements_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
+                                bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor) {
+  RemeshingFrame frame = frame_of(model, options, by_direction, result, monitor);
+  give_makers(model, curves, elements, result, frame);
+  make_elements_of_frame(frame, model.cad, options, result, monitor);
 }
 
 }  // namespace carreau

@@ -59,4 +59,8 @@ using ElementMaker = std::function<void(const SurfaceMesh& before, const Remeshi
 bool free_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
                        bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
 
+/// The same of the triangles as they are: only `elements`, which is not empty, frees them.
+void free_elements_from_patches(const CurveModel& model, std::span<const DiscreteCurve> curves, const CompositeOptions& options,
+                                bool by_direction, const ElementMaker& elements, CompositeResult& result, Monitor& monitor);
+
 }  // namespace carreau

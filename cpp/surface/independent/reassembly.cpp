@@ -22,7 +22,7 @@ class Reassembler {
     result_.mesh.independent = true;
   }
 
-  FreedMesh run(const std::vector<SharpLine>& lines, std::span<const WorkedLine> worked,
+  SizedMesh run(const std::vector<SharpLine>& lines, std::span<const WorkedLine> worked,
                 const std::vector<std::int32_t>& corners) {
     number_vertices(corners);
     place_cells();
@@ -41,12 +41,17 @@ class Reassembler {
     for (const FreeCell& cell : in_space_.cells)
       for (const std::int32_t v : cell)
         if (v >= 0) number_[v] = 0;
+    std::vector<char> of_wire(number_.size(), 0);
+    for (const CurveMesh& curve : before_.curves)
+      for (std::size_t k = 0; curve.loose && k < curve.vertices.size(); ++k)
+        number_[curve.vertices[k]] = 0, of_wire[curve.vertices[k]] = 1;
     for (std::size_t v = 0; v < number_.size(); ++v) {
       if (number_[v] < 0) continue;
       const auto old = static_cast<std::int32_t>(v);
       number_[v] = static_cast<std::int32_t>(result_.mesh.vertices.size());
       result_.mesh.vertices.push_back(free_.position(old));
-      result_.mesh.vertex_ref.push_back(std::ranges::binary_search(corners, old) ? before_.vertex_ref[v] : 0);
+      const bool keeps_ref = of_wire[v] != 0 || std::ranges::binary_search(corners, old);
+      result_.mesh.vertex_ref.push_back(keeps_ref ? before_.vertex_ref[v] : 0);
       result_.vertex_size.push_back(free_.size(old));
       old_vertex_.push_back(old);
     }
@@ -170,8 +175,11 @@ class Reassembler {
     std::vector<Run> runs;
     for (const SharpLine& line : lines) add_runs(line, runs);
     SurfaceMesh& mesh = result_.mesh;
-    for (const CurveMesh& old : before_.curves)
-      mesh.curves.push_back({.ref = old.ref, .vertices = {}, .uses = old.uses, .part_of = old.part_of});
+    for (const CurveMesh& old : before_.curves) {
+      CurveMesh& curve = mesh.curves.emplace_back(old);
+      curve.vertices.clear(), curve.mid.clear();
+      for (std::size_t k = 0; old.loose && k < old.vertices.size(); ++k) curve.vertices.push_back(number_[old.vertices[k]]);
+    }
     for (std::size_t c = 0; c < mesh.curves.size(); ++c) old_curve_.push_back(static_cast<std::int32_t>(c));
     for (Run& run : runs) {
       CurveMesh curve = mesh.curves[run.curve];
@@ -193,7 +201,7 @@ class Reassembler {
   [[nodiscard]] std::vector<double> sizes_along(const std::vector<std::int32_t>& chain) const {
     std::vector<double> sizes;
     for (std::size_t k = 0; k < chain.size(); ++k) {
-      if (!free_.by_direction()) {
+      if (!free_.by_direction() || chain.size() < 2) {
         sizes.push_back(result_.vertex_size[chain[k]]);
         continue;
       }
@@ -266,7 +274,7 @@ class Reassembler {
   const PlacedVertices& free_;
   const CellsInSpace& in_space_;
   Monitor& monitor_;
-  FreedMesh result_;
+  SizedMesh result_;
   std::vector<std::int32_t> number_, old_vertex_;  // of vertices that are there, one way and the other
   std::vector<std::int32_t> node_number_;          // of those that are nodes on edges
   std::vector<std::vector<PlacedCell>> of_face_;
@@ -295,7 +303,7 @@ SharpLine what_is_left(const SharpLine& line, const std::function<bool(std::int3
   return left;
 }
 
-FreedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
+SizedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
                      std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, Monitor& monitor) {
   return Reassembler(before, cells, monitor).run(lines, worked, corners);
 }

@@ -16,13 +16,7 @@
 namespace carreau {
 
 /// What changes when a mesh has been made free of its patches.
-struct FreedMesh {
-  SurfaceMesh mesh;
-  std::vector<double> vertex_size;
-  std::vector<std::vector<double>> curve_size;     ///< by curve of the mesh
-  std::vector<CurveParameters> curve_parameters;   ///< the same
-  std::vector<std::vector<std::int32_t>> feet;  ///< [face][local vertex]: triangle of the atlas
-  std::vector<std::vector<std::int32_t>> mid_feet;  ///< the same of nodes on edges, by index in FaceMesh::mid_uv
+struct FreedMesh : SizedMesh {
   bool worse_shaped = false;                    ///< the mean shape has fallen
   // What it was made of, for those who make other elements of it.
   std::unique_ptr<FreeMesh> free = {};
@@ -43,9 +37,10 @@ struct CellsInSpace {
 };
 
 /// A cell belongs to the face of the foot of its centroid. Faces without a cell are collapsed; edges of lines
-/// have the curve of the middle one of the edges that they stand for, and curves without an edge have no vertices.
+/// have the curve of the middle one of the edges that they stand for, and curves without an edge have no vertices. Curves that
+/// no face has stay as they are, without nodes on their edges.
 /// `worked`: by line, where the vertices are that are left of it.
-FreedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
+SizedMesh reassemble(const SurfaceMesh& before, const CellsInSpace& cells, const std::vector<SharpLine>& lines,
                      std::span<const WorkedLine> worked, const std::vector<std::int32_t>& corners, Monitor& monitor);
 
 }  // namespace carreau

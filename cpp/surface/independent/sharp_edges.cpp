@@ -233,6 +233,9 @@ std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets
     const auto here = at_vertex(edges, v);
     if (here.empty() ? around.discs(v) > 1 : here.size() != 2 || !tangents.go_on(here, cosine)) corner[v] = 1;
   }
+  for (const CurveMesh& curve : mesh.curves)  // wires stay on what they end at
+    for (std::size_t k = 0; curve.loose && k < curve.vertices.size(); ++k)
+      if (around.discs(curve.vertices[k]) > 0) corner[curve.vertices[k]] = 1;
   // Two lines may touch at a vertex of one of them.
   std::map<MeshEdge, int> count;
   for (const MeshEdge& e : sharp) count[e] = 0;

@@ -30,7 +30,7 @@ VertexJets evaluate_vertices(const SurfaceMesh& mesh, Cad& cad, Monitor& monitor
 std::vector<MeshEdge> find_sharp_edges(const SurfaceMesh& mesh, const VertexJets& jets, double angle);
 
 /// Vertices that neither move nor go, ascending: where other than two sharp edges meet, or two that turn by more than
-/// `angle` degrees; imposed points; singular places; vertices around which the surface is not one disc, or as many as
+/// `angle` degrees; imposed points; ends of wires; singular places; vertices around which the surface is not one disc, or as many as
 /// meet at the edges of the line. `topology` may be null: then every end of a curve on a line is one.
 std::vector<std::int32_t> find_corners(const SurfaceMesh& mesh, const VertexJets& jets, const Charts& charts,
                                        const std::vector<MeshEdge>& sharp, const Topology* topology,

@@ -14,13 +14,6 @@ namespace {
 
 using Middles = std::vector<std::vector<std::int32_t>>;
 
-// Share of the length of edge k at which half of its metric length lies.
-double middle_share(const DiscreteCurve& d, int k) {
-  const double left = d.r[k], right = d.r[k + 1];
-  const auto density = [&](double r) { return 1 / d.sizes.size_at(r); };
-  return metric_middle(density(left), density((left + right) / 2), density(right));
-}
-
 /// The curve with twice as many edges; false, and as it was, where one cannot be cut.
 bool halve(const ElementWork& work, std::size_t c) {
   if (c >= work.curves.size()) return false;
@@ -28,7 +21,7 @@ bool halve(const ElementWork& work, std::size_t c) {
   if (curve.indivisible || work.result.mesh.curves[c].vertices.size() != curve.xyz.size()) return false;
   for (int k = curve.segments() - 1; k >= 0; --k) {
     work.monitor.checkpoint();
-    if (!split_segment(curve, k, work.model, middle_share(work.curves[c], k))) return false;
+    if (!split_segment(curve, k, work.model, middle_share(work.curves[c], static_cast<std::size_t>(k)))) return false;
   }
   work.curves[c] = std::move(curve);
   return true;

@@ -32,6 +32,7 @@ class SpaceQuads {
   /// Its number. A vertex that is fixed neither moves nor goes.
   std::int32_t add_vertex(const SurfacePlace& place, const WantedSize& wanted, bool fixed);
   std::int32_t add_vertex(const SurfacePlace& place, bool fixed) { return add_vertex(place, surface_.wanted(place), fixed); }
+  void fix(std::size_t v, bool fixed) { fixed_[v] = static_cast<char>(fixed); }
   void set_flat(std::vector<std::array<std::int32_t, 3>> flat) { flat_ = std::move(flat); }
   /// All sizes become so many times as large.
   void scale_sizes(double factor);

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <string>
 
+#include "euler_number.h"
 #include "independent/patchworks.h"
 #include "mesh/elements/cell_quality.h"
 #include "mesh/elements/jacobian.h"
@@ -29,19 +29,6 @@ std::unique_ptr<Session> meshed(const AnalyticCad& cad, double size, const std::
   session->parameters().set("threads", threads);
   session->make_mesh();
   return session;
-}
-
-/// Vertices - edges + elements, of corners alone.
-int euler(const SurfaceMesh& mesh) {
-  std::set<std::array<std::int32_t, 2>> edges;
-  int cells = 0;
-  for (const FaceMesh& face : mesh.faces)
-    for (const Cell& cell : cells_of(mesh, face)) {
-      ++cells;
-      for (int i = 0, n = corner_count(cell.kind); i < n; ++i)
-        edges.insert({std::min(cell.nodes[i], cell.nodes[(i + 1) % n]), std::max(cell.nodes[i], cell.nodes[(i + 1) % n])});
-    }
-  return static_cast<int>(mesh.vertices.size()) - static_cast<int>(edges.size()) + cells;
 }
 
 /// Use(kind, positions of the nodes).
@@ -114,7 +101,7 @@ TEST(FreeElements, SphereOfManyPatches) {
   for (const Case& c : cases) {
     const auto session = meshed(cad, 0.25, c.element, quiet);
     expect_elements(session->mesh(), c, true, off_sphere);
-    EXPECT_EQ(euler(session->mesh()), 2) << c.element;
+    EXPECT_EQ(euler_number(session->mesh()), 2) << c.element;
   }
 }
 
@@ -125,7 +112,7 @@ TEST(FreeElements, CylinderOfStrips) {
     const auto session = meshed(cad, 0.5, c.element, quiet);
     expect_elements(session->mesh(), c, false,
                     [](const Vec3& p) { return std::abs(std::hypot(p.x(), p.y()) - 1); });
-    EXPECT_EQ(euler(session->mesh()), 0) << c.element;
+    EXPECT_EQ(euler_number(session->mesh()), 0) << c.element;
     // Both rims are kept, and their nodes are in their planes.
     for (const CurveMesh& curve : session->mesh().curves) {
       if (curve.vertices.empty()) continue;
@@ -147,7 +134,7 @@ TEST(FreeElements, CubeOfSquares) {
       for (int k = 0; k < 3; ++k) off = std::min({off, std::abs(p[k]), std::abs(p[k] - 1)});
       return off;
     });
-    EXPECT_EQ(euler(session->mesh()), 2) << c.element;
+    EXPECT_EQ(euler_number(session->mesh()), 2) << c.element;
     EXPECT_NEAR(area_of(session->mesh()), 6, 1e-10) << c.element;  // all twelve edges are exact
   }
 }

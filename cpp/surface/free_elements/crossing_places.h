@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Where triangles of a mesh cross, and which of these places are new.
+#pragma once
+
+#include <vector>
+
+#include "support/monitor.h"
+#include "support/vec.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+struct CrossingPlace {
+  Vec3 place;
+  double size = 0;  ///< wanted there
+};
+
+/// Of straight halves of elements; the first thousand.
+std::vector<CrossingPlace> find_crossing_places(const SizedMesh& mesh, int threads, Monitor& monitor);
+
+/// Those of `now` that are farther than their size from all of `before`: surfaces that cross do so whatever the mesh, by other triangles.
+std::vector<CrossingPlace> new_places(const std::vector<CrossingPlace>& before, const std::vector<CrossingPlace>& now);
+
+}  // namespace carreau
