@@ -5,6 +5,7 @@
 
 #include "surface/discrete/start_mesh.h"
 #include "surface/free_elements/free_elements.h"
+#include "surface/projected/projected_mesh.h"
 #include "surface/quads/quadrilaterals.h"
 
 namespace carreau {
@@ -54,6 +55,11 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   if (options.element != Element::p1)
     frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) {
       make_free_elements(before, frame, options, cad, made, monitor);
+    };
+  if (!wanted.by_direction() && !geometric_limits(options.size).any())
+    frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
+      return make_projected_mesh(frame, result.mesh, wanted.h, worked, tolerances,
+                                 {.threads = options.threads, .max_triangles = options.max_triangles}, cad, monitor);
     };
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
   if (!why.empty()) {

@@ -46,6 +46,10 @@ class FreeMesh final : public PlacedVertices {
   FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
            std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
            const Charts& charts, Cad& cad);
+  /// The same with other triangles. `added`: vertices that follow those of `mesh`; `sharp`: edges of `triangles`.
+  FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
+           std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
+           const Charts& charts, Cad& cad, std::span<const SurfacePlace> added, std::vector<EditableMesh::Triangle> triangles);
   FreeMesh(const FreeMesh&) = delete;
   FreeMesh& operator=(const FreeMesh&) = delete;
 
@@ -121,6 +125,7 @@ class FreeMesh final : public PlacedVertices {
  private:
   using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
   [[nodiscard]] TriangleShapes judge_fan(std::int32_t v, Judge how) const;
+  void begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners);
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
   void place_metrics();
   [[nodiscard]] Metric2 gram_of(std::int32_t a, std::int32_t b, std::int32_t c) const;

@@ -13,6 +13,7 @@
 #include "model/bucket_sort.h"
 #include "support/infinity.h"
 #include "surface/independent/line_remeshing.h"
+#include "surface/independent/placed_mesh.h"
 #include "surface/independent/reassembly.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
@@ -180,6 +181,32 @@ FreedMesh freed(Cad& cad, SurfaceTolerances tolerances, const Compromise& compro
   return made;
 }
 
+// The mesh that was made elsewhere: its seams are mended, and what is bad.
+std::optional<FreedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
+                                Monitor& monitor) {
+  std::vector<WorkedLine> worked;
+  for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
+  std::optional<PlacedMesh> placed = frame.made(worked, tolerances);
+  if (!placed) return {};
+  std::vector<MeshEdge> sharp;
+  for (const std::vector<LineNode>& line : placed->lines)
+    for (std::size_t k = 1; k < line.size(); ++k) sharp.push_back(mesh_edge(line[k - 1].vertex, line[k].vertex));
+  std::ranges::sort(sharp);
+  auto mesh = std::make_unique<FreeMesh>(result.mesh, frame.jets, result.vertex_size, sharp, frame.corners, tolerances, *frame.charts,
+                                         cad, placed->added, std::move(placed->triangles));
+  for (std::size_t line = 0; line < worked.size(); ++line) {
+    worked[line].left = std::move(placed->lines[line]);
+    for (std::size_t k = 0; k < worked[line].left.size(); ++k)
+      if (const KeptPlaces& at = placed->on_line[line][k]; !at.empty())
+        mesh->put_kept(worked[line].left[k].vertex, at, mesh->wanted_at(at));
+  }
+  std::vector<std::int32_t> around = remesh_lines(*mesh, worked, {tolerances.deviation, tolerances.share_of_size}, monitor);
+  around.insert(around.end(), placed->seams.begin(), placed->seams.end());
+  if (!around.empty()) remesh(*mesh, monitor, true, false, around);
+  raise_worst(*mesh, good_worst, monitor);
+  return reassembled(result.mesh, {std::move(mesh), std::move(worked)}, frame, monitor);
+}
+
 // Around triangles that cross.
 void guard(const Intersections& found, const FreedMesh& made, Charts& charts) {
   const FlatMesh flat = flatten(made.mesh, false);
@@ -240,6 +267,16 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
           ? std::vector<Compromise>{{infinity}}
           : std::vector<Compromise>{{high_price}, {low_price}, {low_price, fast_growth}, {low_price, slow_growth}};
   std::size_t compromise = 0;
+  if (frame.made)
+    if (std::optional<FreedMesh> tried = mended(cad, tolerances, result, frame, monitor)) {
+      const std::int64_t crossing = crossings(tried->mesh, options.threads, monitor).count;
+      const std::string wrong = worse(tried->mesh, result.mesh);
+      monitor.message(Level::detail, "crossing " + std::to_string(crossing) + ": " + wrong);
+      if ((crossing == 0 || crossing <= known()) && wrong.empty()) {
+        take(std::move(*tried), frame, result, monitor);
+        return "";
+      }
+    }
   FreedMesh made;
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@
 namespace carreau {
 
 struct FreedMesh;
+struct PlacedMesh;
+struct WorkedLine;
 
 /// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
 struct RemeshingFrame {
@@ -32,6 +35,8 @@ struct RemeshingFrame {
   bool everywhere = false;  ///< see remesh()
   /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
+  /// Makes the mesh at once, as a start that only its seams are mended of; none: it does not. Empty: it is made by edits.
+  std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
 };
 

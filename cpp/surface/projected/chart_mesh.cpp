@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/projected/chart_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "plane/plane_mesher.h"
+#include "surface/projected/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::projected;
+
+struct Domain {
+  PlaneDomain plane;
+  std::vector<std::int32_t> vertex;  // of the mesh to come
+};
+
+// Edges run so that the chart lies on their left.
+Domain domain_of(const ChartInput& input) {
+  Domain domain;
+  std::map<std::int32_t, int> number;
+  const auto local = [&](std::int32_t v) {
+    const auto [known, fresh] = number.try_emplace(v, static_cast<int>(domain.vertex.size()));
+    if (fresh) domain.vertex.push_back(v), domain.plane.vertices.push_back(input.plane.project(input.xyz[v]));
+    return known->second;
+  };
+  for (const BorderChain* chain : input.chains)
+    for (std::size_t k = 1; k < chain->vertices.size(); ++k) {
+      const int a = local(chain->vertices[k - 1]), b = local(chain->vertices[k]);
+      const bool left = chain->left == input.chart, right = chain->right == input.chart;
+      PlaneEdge edge{left ? a : b, left ? b : a};
+      if (left && right) edge.kind = PlaneEdgeKind::internal;
+      domain.plane.edges.push_back(edge);
+    }
+  return domain;
+}
+
+/// One size, in a plane.
+std::optional<Metric2> constant_metric(const ChartInput& input, const Domain& domain) {
+  if (input.plane.least_cosine() < flat_cosine) return {};
+  std::optional<double> size;
+  for (const Vec2& p : domain.plane.vertices) {
+    const auto foot = input.plane.find(p);
+    if (!foot) return {};
+    const double h = input.atlas.charts.size(*foot);
+    if (size && std::abs(h - *size) > 1e-9 * h) return {};
+    size = h;
+  }
+  const double k = 1 / (*size * *size);
+  return Metric2{k, 0, k};
+}
+
+ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& monitor) {
+  if (const auto constant = constant_metric(input, domain)) return ControlSpace::constant(*constant);
+  SampledDomain sampled{domain.plane.vertices, {}};
+  for (const PlaneEdge& e : domain.plane.edges)
+    if (e.kind == PlaneEdgeKind::boundary) sampled.edges.emplace_back(e.a, e.b);
+  const auto sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
+    for (std::size_t k = 0; k < uv.size(); ++k) {
+      const auto foot = input.plane.find(uv[k]);
+      if (!foot) throw DomainError("a chart is folded");
+      const double h = input.atlas.charts.size(*foot);
+      metric[k] = (1 / (h * h)) * input.plane.metric(*foot);
+    }
+  };
+  return ControlSpace::build(sampled, sampler, {}, monitor);
+}
+
+}  // namespace
+
+void check_borders(const ChartInput& input, Monitor& monitor) { (void)triangulate_domain(domain_of(input).plane, monitor); }
+
+std::optional<ChartMesh> mesh_chart(const ChartInput& input, Monitor& monitor) {
+  Domain domain = domain_of(input);
+  const ControlSpace space = space_of(input, domain, monitor);
+  PlaneMesherOptions how;
+  if (input.max_triangles > 0) how.max_triangles = input.max_triangles;
+  PlaneMesh mesh = mesh_plane(domain.plane, space, how, monitor);
+  ChartMesh made;
+  made.border = std::move(domain.vertex);
+  made.triangles = std::move(mesh.triangles);
+  for (std::size_t v = made.border.size(); v < mesh.vertices.size(); ++v) {
+    const auto foot = input.plane.find(mesh.vertices[v]);
+    if (!foot) return {};
+    made.inner.push_back(mesh.vertices[v]);
+    made.feet.push_back(*foot);
+  }
+  return made;
+}
+
+}  // namespace carreau
