@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -255,6 +256,20 @@ void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
   take(std::move(made), frame, result, monitor);
 }
 
+std::string mend_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                          Monitor& monitor) {
+  const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
+  std::optional<FreedMesh> made = mended(cad, tolerances, result, frame, monitor);
+  if (!made) return "it is not made in planes";
+  const Intersections found = crossings(made->mesh, options.threads, monitor);
+  if (found.count > 0) return "triangles would cross";
+  std::string why = worse(made->mesh, result.mesh);
+  if (!why.empty()) return why;
+  if (result.report.crossings >= 0) result.report.crossings = 0, result.crossings.clear();
+  take(std::move(*made), frame, result, monitor);
+  return "";
+}
+
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor) {
   SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
@@ -267,16 +282,6 @@ std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
           ? std::vector<Compromise>{{infinity}}
           : std::vector<Compromise>{{high_price}, {low_price}, {low_price, fast_growth}, {low_price, slow_growth}};
   std::size_t compromise = 0;
-  if (frame.made)
-    if (std::optional<FreedMesh> tried = mended(cad, tolerances, result, frame, monitor)) {
-      const std::int64_t crossing = crossings(tried->mesh, options.threads, monitor).count;
-      const std::string wrong = worse(tried->mesh, result.mesh);
-      monitor.message(Level::detail, "crossing " + std::to_string(crossing) + ": " + wrong);
-      if ((crossing == 0 || crossing <= known()) && wrong.empty()) {
-        take(std::move(*tried), frame, result, monitor);
-        return "";
-      }
-    }
   FreedMesh made;
   std::string why = "more triangles would cross";
   for (int attempt = 0; attempt < most_attempts; ++attempt) {

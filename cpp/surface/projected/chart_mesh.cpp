@@ -44,7 +44,7 @@ std::optional<Metric2> constant_metric(const ChartInput& input, const Domain& do
   if (input.plane.least_cosine() < flat_cosine) return {};
   std::optional<double> size;
   for (const Vec2& p : domain.plane.vertices) {
-    const auto foot = input.plane.find(p);
+    const auto foot = input.plane.find(p, true);
     if (!foot) return {};
     const double h = input.atlas.charts.size(*foot);
     if (size && std::abs(h - *size) > 1e-9 * h) return {};
@@ -61,7 +61,7 @@ ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& mo
     if (e.kind == PlaneEdgeKind::boundary) sampled.edges.emplace_back(e.a, e.b);
   const auto sampler = [&](std::span<const Vec2> uv, std::span<Metric2> metric) {
     for (std::size_t k = 0; k < uv.size(); ++k) {
-      const auto foot = input.plane.find(uv[k]);
+      const auto foot = input.plane.find(uv[k], true);
       if (!foot) throw DomainError("a chart is folded");
       const double h = input.atlas.charts.size(*foot);
       metric[k] = (1 / (h * h)) * input.plane.metric(*foot);

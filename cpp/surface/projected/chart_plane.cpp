@@ -103,7 +103,7 @@ void ChartPlane::spread() {
   }
 }
 
-std::optional<Foot> ChartPlane::find(const Vec2& p) const {
+std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
   const int i = std::clamp(static_cast<int>((p.x() - low_.x()) / step_), 0, columns_ - 1),
             j = std::clamp(static_cast<int>((p.y() - low_.y()) / step_), 0, rows_ - 1);
   std::int32_t t = raster_[cell(i, j)], before = -1;
@@ -114,7 +114,7 @@ std::optional<Foot> ChartPlane::find(const Vec2& p) const {
     for (int k = 0; k < 3; ++k)
       if (const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3]; w[k] < least && u != before && is_shown(u)) least = w[k], next = u;
     if (next < 0) {
-      if (w[0] >= -on_side && w[1] >= -on_side && w[2] >= -on_side) return foot_in(t, w);
+      if ((roughly && !slits_) || (w[0] >= -on_side && w[1] >= -on_side && w[2] >= -on_side)) return foot_in(t, w);
       break;
     }
     before = t, t = next;

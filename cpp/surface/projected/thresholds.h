@@ -31,8 +31,8 @@ inline constexpr double price_of_leaning = 3;
 inline constexpr int sweeps = 12, last_sweeps = 3;
 
 // Meshes of charts
-/// Cosine: where all normals of a chart are as near, its metric is that of the plane; lengths are off by .1 % at most.
-inline constexpr double flat_cosine = 0.999;
+/// Cosine: where all normals of a chart are as near, its metric is that of the plane; lengths are off by 1 % at most.
+inline constexpr double flat_cosine = 0.99;
 /// Share of the size. What is lifted farther from where the plane had it is lifted again.
 inline constexpr double most_miss = 0.05;
 /// Cells of the raster of a chart at most, and triangles that a way over it may lead through.
