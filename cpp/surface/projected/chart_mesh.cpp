@@ -67,7 +67,7 @@ ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& mo
       metric[k] = (1 / (h * h)) * input.plane.metric(*foot);
     }
   };
-  return ControlSpace::build(sampled, sampler, {}, monitor);
+  return ControlSpace::build(sampled, sampler, {.tolerance = length_tolerance, .samples_per_vertex = samples_per_vertex, .min_samples = least_samples}, monitor);
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
     for (int k = 0; k < 3; ++k)
       if (const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3]; w[k] < least && u != before && is_shown(u)) least = w[k], next = u;
     if (next < 0) {
-      if ((roughly && !slits_) || (w[0] >= -on_side && w[1] >= -on_side && w[2] >= -on_side)) return foot_in(t, w);
+      if (roughly || (w[0] >= -on_side && w[1] >= -on_side && w[2] >= -on_side)) return foot_in(t, w);
       break;
     }
     before = t, t = next;
