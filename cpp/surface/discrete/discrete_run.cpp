@@ -37,6 +37,8 @@ void keep_as_it_is(const std::shared_ptr<Charts>& atlas, CompositeResult& result
 
 /// Edges of the atlas of a mesh that is made in planes, in sizes: its triangles tell where the surface bends.
 constexpr double longest_in_planes = 4;
+/// Sizes that differ by so much, relatively, are one.
+constexpr double same_size = 1e-6;
 
 /// A run on its way: the triangles, cut by the sizes.
 struct Start {
@@ -58,11 +60,15 @@ void begin(const Model& model, const discrete::DiscreteCad& surface, const Discr
   monitor.progress(Phase::patches, 0, 0.2);
 }
 
-/// Straight triangles of one size, without a geometric rule.
+/// Straight triangles of sizes without direction, without a geometric rule.
 bool may_be_made_in_planes(const CompositeOptions& options, const MeshSizes& wanted) {
-  if (options.element != Element::p1 || wanted.by_direction() || geometric_limits(options.size).any()) return false;
+  return options.element == Element::p1 && !wanted.by_direction() && !geometric_limits(options.size).any();
+}
+
+/// Where all sizes are one the atlas need not be fine.
+double longest_of_atlas(const MeshSizes& wanted) {
   const auto [least, most] = std::ranges::minmax_element(wanted.h);
-  return *least == *most;
+  return *most <= (1 + same_size) * *least ? longest_in_planes : std::numbers::sqrt2;
 }
 
 bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor, Start& start) {
@@ -102,10 +108,11 @@ CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& s
   options.size = enlarged(given.size, enlargement_for(given.element));
   const auto begun = std::chrono::steady_clock::now();
   const DiscreteSizes sizes(model, cad, surface, options);
+  const MeshSizes known = sizes.at_vertices(unrefined(surface.discrete()), monitor);
   Start start;
   bool made = false;
-  if (may_be_made_in_planes(options, sizes.at_vertices(unrefined(surface.discrete()), monitor))) {
-    begin(model, surface, sizes, options, longest_in_planes, monitor, start);
+  if (may_be_made_in_planes(options, known)) {
+    begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
     made = make_in_planes(surface, options, cad, monitor, start);
   }
   if (!made) {

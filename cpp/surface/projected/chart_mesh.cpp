@@ -6,6 +6,7 @@
 #include <map>
 
 #include "plane/plane_mesher.h"
+#include "support/infinity.h"
 #include "surface/projected/thresholds.h"
 
 namespace carreau {
@@ -39,23 +40,20 @@ Domain domain_of(const ChartInput& input) {
   return domain;
 }
 
-/// One size, in a plane.
-std::optional<Metric2> constant_metric(const ChartInput& input, const Domain& domain) {
-  if (input.plane.least_cosine() < flat_cosine) return {};
-  std::optional<double> size;
-  for (const Vec2& p : domain.plane.vertices) {
-    const auto foot = input.plane.find(p, true);
-    if (!foot) return {};
-    const double h = input.atlas.charts.size(*foot);
-    if (size && std::abs(h - *size) > 1e-9 * h) return {};
-    size = h;
-  }
-  const double k = 1 / (*size * *size);
-  return Metric2{k, 0, k};
+/// The one size that all triangles of the chart have.
+std::optional<double> one_size(const ChartInput& input) {
+  double least = infinity, most = 0;
+  for (const std::int32_t t : input.triangles)
+    for (const std::int32_t v : input.atlas.at(t).vertex) least = std::min(least, input.size[v]), most = std::max(most, input.size[v]);
+  return most <= (1 + same_size) * least ? std::optional(least) : std::nullopt;
 }
 
 ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& monitor) {
-  if (const auto constant = constant_metric(input, domain)) return ControlSpace::constant(*constant);
+  const std::optional<double> size = one_size(input);
+  if (size && input.plane.least_cosine() >= flat_cosine) {
+    const double k = 1 / (*size * *size);
+    return ControlSpace::constant({k, 0, k});
+  }
   SampledDomain sampled{domain.plane.vertices, {}};
   for (const PlaneEdge& e : domain.plane.edges)
     if (e.kind == PlaneEdgeKind::boundary) sampled.edges.emplace_back(e.a, e.b);
@@ -67,7 +65,9 @@ ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& mo
       metric[k] = (1 / (h * h)) * input.plane.metric(*foot);
     }
   };
-  return ControlSpace::build(sampled, sampler, {.tolerance = length_tolerance, .samples_per_vertex = samples_per_vertex, .min_samples = least_samples}, monitor);
+  ControlSpaceOptions options;
+  if (size) options.tolerance = length_tolerance, options.samples_per_vertex = samples_per_vertex, options.min_samples = least_samples;
+  return ControlSpace::build(sampled, sampler, options, monitor);
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ struct ChartInput {
   const FlatAtlas& atlas;
   const ChartPlane& plane;
   std::span<const BorderChain* const> chains;  ///< of its border
+  std::span<const std::int32_t> triangles;     ///< of the atlas
+  std::span<const double> size;                ///< by vertex of the atlas
   std::int32_t chart = 0;
   std::span<const Vec3> xyz;                   ///< of vertices of the mesh to come on borders
   std::int64_t max_triangles = 0;

@@ -93,7 +93,7 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
     chart.plane = std::make_unique<ChartPlane>(source.atlas, found.axis[c], chart.triangles, mean_size(source.atlas, chart.triangles, source.size),
                                                std::ranges::any_of(chart.chains, [](const BorderChain* chain) { return chain->left == chain->right; }));
     try {
-      check_borders({source.atlas, *chart.plane, chart.chains, static_cast<std::int32_t>(c), plan.xyz}, own);
+      check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size, static_cast<std::int32_t>(c), plan.xyz}, own);
     } catch (const DomainError& error) {
       chart.why = error.what();
     }
@@ -175,7 +175,7 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   const auto work = [&](std::size_t c, Monitor& own) {
     ChartWork& chart = plan->charts[c];
     try {
-      chart.mesh = mesh_chart({flat, *chart.plane, chart.chains, static_cast<std::int32_t>(c), plan->xyz, options.max_triangles}, own);
+      chart.mesh = mesh_chart({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c), plan->xyz, options.max_triangles}, own);
       if (!chart.mesh) chart.why = "it is folded";
     } catch (const DomainError& error) {
       chart.why = error.what();
