@@ -5,6 +5,7 @@
 #include "mesh/elements/cell_defects.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
+#include "model/bucket_sort.h"
 #include "predicates/predicates.h"
 
 namespace carreau {
@@ -164,7 +165,7 @@ class DefectFinder {
         for (int i = 0; i < 3; ++i)
           found.push_back({ordered(mesh_.faces[f].vertex[t[i]], mesh_.faces[f].vertex[t[(i + 1) % 3]]),
                            static_cast<std::int32_t>(f)});
-    std::sort(found.begin(), found.end());
+    bucket_sort(found, mesh_.vertices.size(), [](const EdgeUse& e) { return e.key[0]; });
     const std::vector<EdgeUse> expected = expected_on_curves();
     std::size_t i = 0, k = 0;
     while (i < found.size() || k < expected.size()) {
@@ -173,11 +174,12 @@ class DefectFinder {
       std::size_t have = 0, want = 0;
       while (i < found.size() && found[i] == edge) ++i, ++have;
       while (k < expected.size() && expected[k] == edge) ++k, ++want;
+      if (want > 0 ? have == want : have == 2 || mesh_.independent) continue;
       const std::string name = "edge " + std::to_string(edge.key[0]) + " - " + std::to_string(edge.key[1]) +
                                " of face " + std::to_string(mesh_.faces[edge.face].ref) + ": ";
-      if (want > 0 && have != want)
+      if (want > 0)
         add(name + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want));
-      else if (want == 0 && have != 2 && !mesh_.independent)
+      else
         add(name + std::to_string(have) + " triangles away from any curve");
     }
     if (mesh_.independent) check_edges_between(found, expected);

@@ -93,9 +93,28 @@ Net<n - 1> step_of(const Net<n>& net, const std::array<double, 3>& b) noexcept {
   return next;
 }
 
+/// -1: it is none.
+int corner_at(Vec2 uv) noexcept {
+  if (uv.x() == 0 && uv.y() == 0) return 0;
+  if (uv.x() == 1 && uv.y() == 0) return 1;
+  return uv.x() == 0 && uv.y() == 1 ? 2 : -1;
+}
+
+/// Borders tell both derivatives there.
+SurfaceJet first_jet_at(const GregoryTriangle& patch, std::size_t corner) noexcept {
+  const auto& p = patch.border;
+  constexpr std::size_t last[3] = {0, 3, 9}, along_u[3] = {1, 4, 7}, along_v[3] = {11, 5, 8};  // of de Casteljau's last net
+  SurfaceJet jet{};
+  jet.s = p[4 * corner];
+  jet.su = 4 * (p[along_u[corner]] - p[last[corner]]);
+  jet.sv = 4 * (p[along_v[corner]] - p[last[corner]]);
+  return jet;
+}
+
 /// Place and first derivatives: those of the Bezier triangle whose points inside are those of the place, and what these
 /// points change by.
 SurfaceJet first_jet_of(const GregoryTriangle& patch, Vec2 uv) noexcept {
+  if (const int corner = corner_at(uv); corner >= 0) return first_jet_at(patch, static_cast<std::size_t>(corner));
   const std::array<double, 3> b{1 - uv.x() - uv.y(), uv.x(), uv.y()};
   constexpr std::array<double, 3> b_u{-1, 1, 0}, b_v{-1, 0, 1};
   std::array<Vec3, 3> inside;

@@ -29,6 +29,7 @@ class Unfolder {
       const Fan fan = fan_of(t, static_cast<int>(c % 3), met);
       vertex_ = mesh_.corner(t, static_cast<int>(c % 3));
       normal_ = frames_.normal[c];
+      if (folds(fan) == 0) continue;
       // A window can uncover another one.
       for (int round = 0; round < static_cast<int>(fan.edges.size()) && mend(fan); ++round) {
       }
@@ -86,10 +87,17 @@ class Unfolder {
       beta.push_back(turn(fan.edges[j], fan.edges[(j + 1) % n]));
     return beta;
   }
+  // Turns below 0.
   [[nodiscard]] std::int64_t folds(const Fan& fan) const {
-    std::int64_t n = 0;
-    for (const double b : turns(fan)) n += b < 0 ? 1 : 0;
-    return n;
+    std::int64_t folded = 0;
+    const std::size_t n = fan.edges.size();
+    Vec3 p = tangent(fan.edges[0]);
+    for (std::size_t j = 0; j + (fan.closed ? 0 : 1) < n; ++j) {
+      const Vec3 q = tangent(fan.edges[(j + 1) % n]);
+      folded += dot(cross(p, q), normal_) < 0 ? 1 : 0;
+      p = q;
+    }
+    return folded;
   }
 
   /// Shares the sum of the angles of a window out in the ratio of their sizes; false where nothing is folded, or

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "surface/discrete/discrete_run.h"
 
+#include <algorithm>
 #include <chrono>
+#include <numbers>
 
 #include "surface/discrete/start_mesh.h"
 #include "surface/free_elements/free_elements.h"
+#include "surface/projected/projected_mesh.h"
 #include "surface/quads/quadrilaterals.h"
 
 namespace carreau {
@@ -32,41 +35,95 @@ void keep_as_it_is(const std::shared_ptr<Charts>& atlas, CompositeResult& result
   }
 }
 
-}  // namespace
+/// Edges of the atlas of a mesh that is made in planes, in sizes: its triangles tell where the surface bends.
+constexpr double longest_in_planes = 4;
+/// Sizes that differ by so much, relatively, are one.
+constexpr double same_size = 1e-6;
 
-CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& surface, Cad& cad,
-                              const CompositeOptions& given, Monitor& monitor) {
-  CompositeOptions options = given;
-  options.size = enlarged(given.size, enlargement_for(given.element));
-  const auto start = std::chrono::steady_clock::now();
-  const DiscreteSizes sizes(model, cad, surface, options);
-  monitor.progress(Phase::curves, 0, 0);
-  const discrete::RefinedMesh refined = refine_by_sizes(surface.discrete(), sizes, options, monitor);
+/// A run on its way: the triangles, cut by the sizes.
+struct Start {
+  discrete::RefinedMesh refined;
+  MeshSizes wanted;
   CompositeResult result;
-  const MeshSizes wanted = sizes.at_vertices(refined, monitor);
-  result.vertex_size = wanted.h;
-  result.mesh = start_mesh(model, surface, refined);
-  result.interfaces.resize(model.faces.size());
-  result.spaces.resize(model.faces.size());
+};
+
+void begin(const Model& model, const discrete::DiscreteCad& surface, const DiscreteSizes& sizes,
+           const CompositeOptions& options, double longest, Monitor& monitor, Start& start) {
+  monitor.progress(Phase::curves, 0, 0);
+  start.refined = refine_by_sizes(surface.discrete(), sizes, options, monitor, longest);
+  start.wanted = sizes.at_vertices(start.refined, monitor);
+  start.result = {};
+  start.result.vertex_size = start.wanted.h;
+  start.result.mesh = start_mesh(model, surface, start.refined);
+  start.result.interfaces.resize(model.faces.size());
+  start.result.spaces.resize(model.faces.size());
   monitor.progress(Phase::patches, 0, 0.2);
-  RemeshingFrame frame = start_frame(surface, refined, result.mesh, wanted, options, cad, monitor);
+}
+
+/// Straight triangles of sizes without direction, without a geometric rule.
+bool may_be_made_in_planes(const CompositeOptions& options, const MeshSizes& wanted) {
+  return options.element == Element::p1 && !wanted.by_direction() && !geometric_limits(options.size).any();
+}
+
+/// Where all sizes are one the atlas need not be fine.
+double longest_of_atlas(const MeshSizes& wanted) {
+  const auto [least, most] = std::ranges::minmax_element(wanted.h);
+  return *most <= (1 + same_size) * *least ? longest_in_planes : std::numbers::sqrt2;
+}
+
+bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor, Start& start) {
+  RemeshingFrame frame = start_frame(surface, start.refined, start.result.mesh, start.wanted, options, cad, monitor);
+  frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
+    return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
+                               {.threads = options.threads, .max_triangles = options.max_triangles}, cad, monitor);
+  };
+  const std::string why = mend_in_frame(frame, cad, options, start.result, monitor);
+  if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);
+  return why.empty();
+}
+
+// Of what is left of the run: edges are collapsed, split and swapped until the mesh is as wanted.
+void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor, Start& start) {
+  CompositeResult& result = start.result;
+  RemeshingFrame frame = start_frame(surface, start.refined, result.mesh, start.wanted, options, cad, monitor);
   const auto atlas = frame.charts;
   if (options.element != Element::p1)
     frame.elements = [&](const SurfaceMesh& before, FreedMesh& made) {
       make_free_elements(before, frame, options, cad, made, monitor);
     };
   const std::string why = remesh_in_frame(frame, cad, options, result, monitor);
-  if (!why.empty()) {
-    monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
-    if (frame.elements)
-      make_elements_of_frame(frame, cad, options, result, monitor);
-    else
-      keep_as_it_is(atlas, result);
+  if (why.empty()) return;
+  monitor.message(Level::warning, "the mesh stays as the triangles are, cut by the sizes: " + why);
+  if (frame.elements)
+    make_elements_of_frame(frame, cad, options, result, monitor);
+  else
+    keep_as_it_is(atlas, result);
+}
+
+}  // namespace
+
+CompositeResult mesh_discrete(const Model& model, const discrete::DiscreteCad& surface, Cad& cad,
+                              const CompositeOptions& given, Monitor& monitor) {
+  CompositeOptions options = given;
+  options.size = enlarged(given.size, enlargement_for(given.element));
+  const auto begun = std::chrono::steady_clock::now();
+  const DiscreteSizes sizes(model, cad, surface, options);
+  const MeshSizes known = sizes.at_vertices(unrefined(surface.discrete()), monitor);
+  Start start;
+  bool made = false;
+  if (may_be_made_in_planes(options, known)) {
+    begin(model, surface, sizes, options, longest_of_atlas(known), monitor, start);
+    made = make_in_planes(surface, options, cad, monitor, start);
   }
+  if (!made) {
+    begin(model, surface, sizes, options, std::numbers::sqrt2, monitor, start);
+    make_by_edits(surface, options, cad, monitor, start);
+  }
+  CompositeResult& result = start.result;
   result.report.calls = cad.counts();
   result.report.diag = surface.discrete().mesh().diagonal();
-  result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return result;
+  result.report.seconds_total = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return std::move(start.result);
 }
 
 }  // namespace carreau

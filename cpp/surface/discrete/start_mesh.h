@@ -2,6 +2,8 @@
 // Triangles of a discrete surface as a mesh of the engine, fine enough for the sizes that are wanted.
 #pragma once
 
+#include <numbers>
+
 #include "surface/discrete/discrete_sizes.h"
 #include "surface/independent/independent.h"
 #include "surface/result.h"
@@ -10,8 +12,9 @@ namespace carreau {
 
 /// Cuts triangles until edges are no longer than their sizes want: those of sharp lines 1, others sqrt(2) sizes. Throws
 /// LimitError when there would be too many.
+/// `longest`: that of others instead.
 discrete::RefinedMesh refine_by_sizes(const discrete::DiscreteSurface& surface, const DiscreteSizes& sizes,
-                                      const CompositeOptions& options, Monitor& monitor);
+                                      const CompositeOptions& options, Monitor& monitor, double longest = std::numbers::sqrt2);
 
 /// Each triangle has (u, v) on the tile of its patch; curves are the sharp lines. Faces as in the model.
 SurfaceMesh start_mesh(const Model& model, const discrete::DiscreteCad& surface, const discrete::RefinedMesh& refined);

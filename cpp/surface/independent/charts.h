@@ -75,6 +75,8 @@ class Charts {
   [[nodiscard]] SurfacePlace evaluate(Cad& cad, const Foot& f) const;
   /// Barycentric coordinates of a place of its chart, by corner.
   [[nodiscard]] std::array<double, 3> weights(std::int32_t triangle, const Vec2& p) const;
+  /// The foot of a place on the triangles as they are in space, sought from one of them; none where a barrier is in the way.
+  [[nodiscard]] std::optional<Foot> flat_foot(std::int32_t from, const Vec3& target) const;
   /// What is known of it is enough: derivatives from elsewhere.
   [[nodiscard]] SurfacePlace place(const Foot& f, const SurfaceJet& jet) const;
   /// A place of the surface near `target`: below its foot on the flat triangles, and by Gauss-Newton steps from there, or from
@@ -98,7 +100,6 @@ class Charts {
   void link(std::span<const MeshEdge> barriers);
   void link(std::int32_t t, int i, std::int32_t u, int j);
   void turn();
-  [[nodiscard]] std::optional<Foot> flat_foot(std::int32_t from, const Vec3& target) const;
   [[nodiscard]] Walk walk(const Foot& from, const Vec2& to, bool slides) const;
   [[nodiscard]] Foot over(std::int32_t t, int side, const Vec2& at) const;
 

@@ -24,6 +24,39 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
       cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
       charts_(charts),
       cad_(cad) {
+  begin(mesh, jets, sharp, corners);
+  for (const Charts::Triangle& t : charts.triangles()) {
+    const auto& [a, b, c] = t.vertex;
+    triangles_.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
+  }
+  mixed_.assign(triangles_.size(), 1);
+  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
+}
+
+FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
+                   std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners,
+                   const SurfaceTolerances& tolerances, const Charts& charts, Cad& cad,
+                   std::span<const SurfacePlace> added, std::vector<EditableMesh::Triangle> triangles)
+    : xyz_(mesh.vertices),
+      triangles_(std::move(triangles)),
+      mixed_(triangles_.size(), 1),
+      size_(size.begin(), size.end()),
+      several_(mesh.vertices.size(), -1),
+      asked_(tolerances),
+      tolerances_(tolerances),
+      cosine_(std::cos(tolerances.angle_deg * std::numbers::pi / 180)),
+      charts_(charts),
+      cad_(cad) {
+  begin(mesh, jets, sharp, corners);
+  for (const SurfacePlace& p : added) {
+    (void)try_vertex(p);
+    xyz_.push_back(p.xyz), uv_.push_back(p.foot.uv);
+  }
+  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
+}
+
+void FreeMesh::begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const MeshEdge> sharp,
+                     std::span<const std::int32_t> corners) {
   std::int32_t kept = 0;
   const auto keep = [&](std::int32_t v) {
     if (several_[v] < 0) several_[v] = kept++;
@@ -33,14 +66,8 @@ FreeMesh::FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<co
   kept_places_.resize(kept);
   place_vertices(mesh, jets);
   if (by_direction()) place_metrics();
-  for (std::size_t t = 0; t < charts.triangles().size(); ++t)
-    guards_ = guards_ || charts.is_guarded({static_cast<std::int32_t>(t), {}});
-  for (const Charts::Triangle& t : charts.triangles()) {
-    const auto& [a, b, c] = t.vertex;
-    triangles_.push_back(t.turned ? EditableMesh::Triangle{a, c, b} : EditableMesh::Triangle{a, b, c});
-  }
-  mixed_.assign(triangles_.size(), 1);
-  mesh_.emplace(std::vector<EditableMesh::Face>{{&uv_, &triangles_, nullptr, &mixed_}}, xyz_, sharp, corners);
+  for (std::size_t t = 0; t < charts_.triangles().size(); ++t)
+    guards_ = guards_ || charts_.is_guarded({static_cast<std::int32_t>(t), {}});
 }
 
 void FreeMesh::place_vertices(const SurfaceMesh& mesh, const VertexJets& jets) {

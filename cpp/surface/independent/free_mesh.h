@@ -52,6 +52,10 @@ class FreeMesh final : public PlacedVertices {
            const Charts& charts, Cad& cad);
   /// Some triangles of `whole` by themselves: edits join no two of the frozen vertices, since others may do so beyond.
   FreeMesh(const FreeMesh& whole, const MeshPart& part);
+  /// The same with other triangles. `added`: vertices that follow those of `mesh`; `sharp`: edges of `triangles`.
+  FreeMesh(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const double> size,
+           std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners, const SurfaceTolerances& tolerances,
+           const Charts& charts, Cad& cad, std::span<const SurfacePlace> added, std::vector<EditableMesh::Triangle> triangles);
   FreeMesh(const FreeMesh&) = delete;
   FreeMesh& operator=(const FreeMesh&) = delete;
 
@@ -130,6 +134,7 @@ class FreeMesh final : public PlacedVertices {
  private:
   using Judge = void (FreeMesh::*)(std::int32_t, std::int32_t, std::int32_t, TriangleShapes&) const;
   [[nodiscard]] TriangleShapes judge_fan(std::int32_t v, Judge how) const;
+  void begin(const SurfaceMesh& mesh, const VertexJets& jets, std::span<const MeshEdge> sharp, std::span<const std::int32_t> corners);
   void place_vertices(const SurfaceMesh& mesh, const VertexJets& jets);
   void place_metrics();
   void take(const EditedPart& part, std::int32_t old);

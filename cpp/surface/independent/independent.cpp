@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "model/bucket_sort.h"
 #include "support/infinity.h"
 #include "surface/independent/line_remeshing.h"
+#include "surface/independent/placed_mesh.h"
 #include "surface/independent/reassembly.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
@@ -188,6 +190,32 @@ FreedMesh freed(Cad& cad, SurfaceTolerances tolerances, const Compromise& compro
   return made;
 }
 
+// The mesh that was made elsewhere: its seams are mended, and what is bad.
+std::optional<FreedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
+                                Monitor& monitor) {
+  std::vector<WorkedLine> worked;
+  for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
+  std::optional<PlacedMesh> placed = frame.made(worked, tolerances);
+  if (!placed) return {};
+  std::vector<MeshEdge> sharp;
+  for (const std::vector<LineNode>& line : placed->lines)
+    for (std::size_t k = 1; k < line.size(); ++k) sharp.push_back(mesh_edge(line[k - 1].vertex, line[k].vertex));
+  std::ranges::sort(sharp);
+  auto mesh = std::make_unique<FreeMesh>(result.mesh, frame.jets, result.vertex_size, sharp, frame.corners, tolerances, *frame.charts,
+                                         cad, placed->added, std::move(placed->triangles));
+  for (std::size_t line = 0; line < worked.size(); ++line) {
+    worked[line].left = std::move(placed->lines[line]);
+    for (std::size_t k = 0; k < worked[line].left.size(); ++k)
+      if (const KeptPlaces& at = placed->on_line[line][k]; !at.empty())
+        mesh->put_kept(worked[line].left[k].vertex, at, mesh->wanted_at(at));
+  }
+  std::vector<std::int32_t> around = remesh_lines(*mesh, worked, {tolerances.deviation, tolerances.share_of_size}, monitor);
+  around.insert(around.end(), placed->seams.begin(), placed->seams.end());
+  if (!around.empty()) remesh(*mesh, monitor, true, false, around);
+  raise_worst(*mesh, good_worst, monitor);
+  return reassembled(result.mesh, {std::move(mesh), std::move(worked)}, frame, monitor);
+}
+
 // Around triangles that cross.
 void guard(const Intersections& found, const FreedMesh& made, Charts& charts) {
   const FlatMesh flat = flatten(made.mesh, false);
@@ -229,6 +257,20 @@ void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
   FreedMesh made = reassembled(result.mesh, free_mesh_of(cad, tolerances, result, frame), frame, monitor);
   if (frame.elements) frame.elements(result.mesh, made);
   take(std::move(made), frame, result, monitor);
+}
+
+std::string mend_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                          Monitor& monitor) {
+  const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
+  std::optional<FreedMesh> made = mended(cad, tolerances, result, frame, monitor);
+  if (!made) return "it is not made in planes";
+  const Intersections found = crossings(made->mesh, options.threads, monitor);
+  if (found.count > 0) return "triangles would cross";
+  std::string why = worse(made->mesh, result.mesh);
+  if (!why.empty()) return why;
+  if (result.report.crossings >= 0) result.report.crossings = 0, result.crossings.clear();
+  take(std::move(*made), frame, result, monitor);
+  return "";
 }
 
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@
 namespace carreau {
 
 struct FreedMesh;
+struct PlacedMesh;
+struct WorkedLine;
 
 /// A mesh to be made again in space: the atlas, what of its lines stays, and where else their vertices may be.
 struct RemeshingFrame {
@@ -33,6 +36,8 @@ struct RemeshingFrame {
   bool everywhere = false;  ///< see remesh()
   /// Makes other elements of the triangles that were made of the mesh before; empty: they stay.
   std::function<void(const SurfaceMesh& before, FreedMesh& made)> elements = {};
+  /// Makes the mesh at once, for mend_in_frame(); none: it does not.
+  std::function<std::optional<PlacedMesh>(std::span<const WorkedLine>, const SurfaceTolerances&)> made = {};
   double angle_slack = 1;   ///< times the angle of the geometric rule is tolerated as A1
   RemeshingWorkers workers = {};
 };
@@ -45,6 +50,10 @@ SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_di
 /// stays as it is, which has then been done several times over: the outcome would have a defect, or triangles that cross and did not. Empty: it is made.
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
+
+/// The same of a mesh that frame.made makes. Why not, for a start: then nothing is changed.
+std::string mend_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
+                          Monitor& monitor);
 
 /// As it is: only frame.elements makes something of its triangles.
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,

@@ -77,6 +77,8 @@ inline constexpr int most_worst_passes = 6;
 inline constexpr double first_worst_step = 0.2, last_worst_step = 0.02;
 /// Directions of each step.
 inline constexpr int worst_directions = 8;
+/// Shape. In meshes made elsewhere worse triangles are worked at.
+inline constexpr double good_worst = 0.6;
 /// Shape. What is so little above the worst triangle of before is worked at, too.
 inline constexpr double above_worst = 0.03;
 

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/projected/projected_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "support/error.h"
+#include "support/stepped_tasks.h"
+#include "surface/projected/borders.h"
+#include "surface/projected/chart_mesh.h"
+#include "surface/projected/find_charts.h"
+#include "surface/projected/thresholds.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::projected;
+
+/// What is known of one chart.
+struct ChartWork {
+  std::vector<std::int32_t> triangles;  // of the atlas
+  std::vector<const BorderChain*> chains;
+  std::unique_ptr<ChartPlane> plane;
+  std::optional<ChartMesh> mesh;
+  std::string why;  // there is none
+};
+
+std::vector<ChartWork> charts_of(const ProjectedCharts& found, const Borders& borders) {
+  std::vector<ChartWork> charts(found.axis.size());
+  for (std::size_t t = 0; t < found.chart.size(); ++t)
+    charts[found.chart[t]].triangles.push_back(static_cast<std::int32_t>(t));
+  for (const BorderChain& chain : borders.chains) {
+    if (chain.left >= 0) charts[chain.left].chains.push_back(&chain);
+    if (chain.right >= 0 && chain.right != chain.left) charts[chain.right].chains.push_back(&chain);
+  }
+  return charts;
+}
+
+// Of the vertices on borders; others stay where they were.
+std::vector<Vec3> places_of(const SurfaceMesh& before, const Borders& borders) {
+  std::vector<Vec3> xyz = before.vertices;
+  for (std::size_t line = 0; line < borders.lines.size(); ++line)
+    for (std::size_t k = 0; k < borders.lines[line].size(); ++k)
+      if (const KeptPlaces& places = borders.on_line[line][k]; !places.empty())
+        xyz[borders.lines[line][k].vertex] = places.front().xyz;
+  for (const SurfacePlace& p : borders.added) xyz.push_back(p.xyz);
+  return xyz;
+}
+
+double mean_size(const FlatAtlas& atlas, std::span<const std::int32_t> triangles, std::span<const double> size) {
+  double sum = 0, weight = 0;
+  for (const std::int32_t t : triangles)
+    for (const std::int32_t v : atlas.at(t).vertex) sum += atlas.area[t] * size[v], weight += atlas.area[t];
+  return weight > 0 ? sum / weight : size[atlas.at(triangles.front()).vertex[0]];
+}
+
+struct BorderSource {
+  const FlatAtlas& atlas;
+  std::span<const SharpLine> lines;
+  std::span<const WorkedLine> worked;
+  std::span<const double> size;
+  LineTolerance tolerance;
+  int threads;
+  Cad& cad;
+};
+
+/// Charts with their borders in their planes; those whose borders are no borders are wrong.
+struct Plan {
+  Borders borders;
+  std::vector<Vec3> xyz;
+  std::vector<ChartWork> charts;
+  std::vector<std::int32_t> wrong;
+  [[nodiscard]] std::string why() const {
+    return std::to_string(wrong.size()) + " of " + std::to_string(charts.size()) + " charts, " + charts[wrong.front()].why;
+  }
+};
+
+std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& found, Monitor& monitor) {
+  std::vector<char> exact(found.axis.size(), 0);
+  for (std::size_t t = 0; t < found.chart.size(); ++t)
+    exact[found.chart[t]] = std::max(exact[found.chart[t]], found.exact[t]);
+  auto borders = cut_borders({source.atlas, found, source.lines, source.worked, source.size, exact, source.tolerance, source.cad}, monitor);
+  if (!borders) return {};
+  Plan plan{std::move(*borders), {}, {}, {}};
+  plan.charts = charts_of(found, plan.borders);
+  plan.xyz = places_of(source.atlas.mesh, plan.borders);
+  const auto work = [&](std::size_t c, Monitor& own) {
+    ChartWork& chart = plan.charts[c];
+    chart.plane = std::make_unique<ChartPlane>(source.atlas, found.axis[c], chart.triangles, mean_size(source.atlas, chart.triangles, source.size),
+                                               std::ranges::any_of(chart.chains, [](const BorderChain* chain) { return chain->left == chain->right; }));
+    try {
+      check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size, static_cast<std::int32_t>(c), plan.xyz}, own);
+    } catch (const DomainError& error) {
+      chart.why = error.what();
+    }
+  };
+  run_each(plan.charts.size(), false, source.threads, work, monitor);
+  for (std::size_t c = 0; c < plan.charts.size(); ++c)
+    if (!plan.charts[c].why.empty()) {
+      plan.wrong.push_back(static_cast<std::int32_t>(c));
+      monitor.message(Level::debug, "chart " + std::to_string(c) + " of " + std::to_string(plan.charts[c].triangles.size()) + " triangles: " + plan.charts[c].why);
+    }
+  return plan;
+}
+
+// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still. False
+// where nothing is left to do.
+bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
+  std::vector<char> is_wrong(found.axis.size(), 0);
+  for (const std::int32_t c : wrong) is_wrong[c] = 1;
+  std::vector<char> join = is_wrong;
+  std::vector<std::int32_t> triangles;
+  for (std::size_t t = 0; t < found.chart.size(); ++t)
+    if (const std::int32_t c = found.chart[t]; is_wrong[c] != 0) {
+      triangles.push_back(static_cast<std::int32_t>(t));
+      if (found.exact[t] != 0) join[c] = 0;
+    }
+  const std::size_t before = found.axis.size();
+  merge_charts(atlas, most_merge_cosine, join, found, monitor);
+  bool changed = found.axis.size() < before;
+  if (changed) return true;
+  std::vector<char> apart(found.axis.size(), 0);
+  for (const std::int32_t t : triangles) apart[found.chart[t]] = found.exact[t];
+  changed = split_charts(atlas, apart, found, monitor);
+  for (const std::int32_t t : triangles) changed = changed || found.exact[t] == 0, found.exact[t] = 1;
+  return changed;
+}
+
+// On the surface where the plane has it: patches swing out beside their triangles.
+SurfacePlace lifted(const FlatAtlas& atlas, const ChartPlane& plane, const Foot& foot, const Vec2& wanted, Cad& cad) {
+  const SurfacePlace first = atlas.charts.evaluate(cad, foot);
+  const Vec2 miss = wanted - plane.project(first.xyz);
+  if (!(norm(miss) > most_miss * atlas.charts.size(foot))) return first;
+  const auto better = plane.find(wanted + miss);
+  if (!better) return first;
+  const SurfacePlace second = atlas.charts.evaluate(cad, *better);
+  return norm(wanted - plane.project(second.xyz)) < norm(miss) ? second : first;
+}
+
+void append(const FlatAtlas& atlas, const ChartWork& chart, Cad& cad, PlacedMesh& placed) {
+  const ChartMesh& mesh = *chart.mesh;
+  std::vector<std::int32_t> number = mesh.border;
+  for (std::size_t k = 0; k < mesh.inner.size(); ++k) {
+    number.push_back(static_cast<std::int32_t>(atlas.mesh.vertices.size() + placed.added.size()));
+    placed.added.push_back(lifted(atlas, *chart.plane, mesh.feet[k], mesh.inner[k], cad));
+  }
+  for (const auto& t : mesh.triangles) placed.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+}
+
+}  // namespace
+
+std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const SurfaceMesh& before, std::span<const double> size,
+                                              std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances,
+                                              const ProjectedOptions& options, Cad& cad, Monitor& monitor) {
+  const auto refuse = [&](const std::string& why) -> std::optional<PlacedMesh> {
+    monitor.message(Level::detail, "the mesh is not made in planes: " + why);
+    return {};
+  };
+  const Charts& atlas = *frame.charts;
+  if (std::ranges::any_of(atlas.triangles(), [](const Charts::Triangle& t) { return t.turned; })) return refuse("a face is turned");
+  const FlatAtlas flat(atlas, before, frame.jets);
+  const BorderSource source{flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.threads, cad};
+  ProjectedCharts found = find_charts(flat, monitor);
+  if (!found.complete) return refuse("triangles lean too much");
+  std::optional<Plan> plan;
+  for (int round = 0; !plan || !plan->wrong.empty(); ++round) {
+    if (round > 0 && (round > most_mendings || !mend(flat, plan->wrong, found, monitor))) return refuse(plan->why());
+    plan = planned(source, found, monitor);
+    if (!plan) return refuse("borders of charts are not divided");
+  }
+  const auto work = [&](std::size_t c, Monitor& own) {
+    ChartWork& chart = plan->charts[c];
+    try {
+      chart.mesh = mesh_chart({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c), plan->xyz, options.max_triangles}, own);
+      if (!chart.mesh) chart.why = "it is folded";
+    } catch (const DomainError& error) {
+      chart.why = error.what();
+    }
+  };
+  run_each(plan->charts.size(), false, options.threads, work, monitor);
+  PlacedMesh placed;
+  placed.added = std::move(plan->borders.added);
+  for (std::size_t k = 0; k < placed.added.size(); ++k) placed.seams.push_back(static_cast<std::int32_t>(before.vertices.size() + k));
+  for (const ChartWork& chart : plan->charts) {
+    if (!chart.mesh) return refuse(chart.why);
+    monitor.checkpoint();
+    append(flat, chart, cad, placed);
+  }
+  placed.lines = std::move(plan->borders.lines), placed.on_line = std::move(plan->borders.on_line);
+  monitor.message(Level::detail, "made in planes: " + std::to_string(plan->charts.size()) + " charts, " +
+                                     std::to_string(placed.seams.size()) + " vertices of cuts, " +
+                                     std::to_string(placed.triangles.size()) + " triangles");
+  return placed;
+}
+
+}  // namespace carreau

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thresholds of this room: what they are, in which unit, why, and what supports them.
+#pragma once
+
+#include <cstddef>
+
+namespace carreau::thresholds::projected {
+
+// Charts (find_charts). Cosines of the angle between normals and the axis of projection.
+/// Charts grow as far: the metric of the plane has a ratio of 1.6 there, and half a dozen charts are a sphere.
+inline constexpr double usual_cosine = 0.55;
+/// Neighbours become one chart where no normal leans more.
+inline constexpr double merge_cosine = 0.42;
+/// The same where borders would cross otherwise.
+inline constexpr double most_merge_cosine = 0.2;
+/// Times that charts whose borders cross are mended.
+inline constexpr int most_mendings = 8;
+/// What is left between charts may lean so far: a ratio of 3.
+inline constexpr double loose_cosine = 0.3;
+/// Nothing is found in triangles that lean more: there the projection turns over soon.
+inline constexpr double least_cosine = 0.15;
+/// Triangles: smaller pieces that are left between charts join one of them.
+inline constexpr int small_piece = 16;
+/// Times that charts are grown again from their middles, which makes their borders short.
+inline constexpr int regrowths = 2;
+/// What a way costs more where normals differ from the axis, a unit of 1 - cosine.
+inline constexpr double price_of_leaning = 3;
+
+// Cuts between charts
+/// Sweeps that straighten a cut, and those after its vertices have been dealt out anew.
+inline constexpr int sweeps = 12, last_sweeps = 3;
+
+// Meshes of charts
+/// Cosine: where all normals of a chart are as near, its metric is that of the plane; lengths are off by 1 % at most.
+inline constexpr double flat_cosine = 0.99;
+/// Sizes that differ by so much, relatively, are one.
+inline constexpr double same_size = 1e-6;
+/// Of the control space of a chart of one size: error of lengths, samples a vertex, samples at least. The triangles that it is of know normals no better.
+inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
+inline constexpr std::size_t least_samples = 40;
+/// Share of the size. What is lifted farther from where the plane had it is lifted again.
+inline constexpr double most_miss = 0.05;
+/// Cells of the raster of a chart at most, and triangles that a way over it may lead through.
+inline constexpr int most_cells = 1 << 20, most_steps = 64;
+/// Triangles around that are looked at where a barrier is in the way.
+inline constexpr std::size_t most_around = 64;
+/// Rings of triangles beyond the border of a chart that its raster knows: cuts are straightened.
+inline constexpr int rings_beyond = 2;
+
+}  // namespace carreau::thresholds::projected
