@@ -145,14 +145,8 @@ class Assembly {
 
   void count_triangles() {
     first_.assign(count_ + 1, 0);
-    run_each(
-        count_, false, context_.options.threads,
-        [&](std::size_t p, Monitor&) {
-          const auto& triangles = joined_.meshes[p].mesh.triangles;
-          first_[p + 1] = static_cast<std::size_t>(
-              std::count_if(triangles.begin(), triangles.end(), [&](const auto& t) { return !joined_.in_zone(p, t); }));
-        },
-        context_.monitor);
+    for (std::size_t p = 0; p < count_; ++p)
+      first_[p + 1] = joined_.meshes[p].mesh.triangles.size() - joined_.in_zone[p].size();
     for (std::size_t p = 0; p < count_; ++p) first_[p + 1] += first_[p];
     resize(mesh_.triangles, first_[count_] + zone_.triangles.size(), context_.monitor);
   }
@@ -178,8 +172,18 @@ class Assembly {
       mesh_.vertices[number[v]] = mesh.vertices[v];
     }
     auto* to = mesh_.triangles.data() + first_[p];
-    for (const auto& t : mesh.triangles)
-      if (!joined_.in_zone(p, t)) *to++ = {number[t[0]], number[t[1]], number[t[2]]};
+    std::size_t t = 0;
+    const auto put_until = [&](std::size_t end) {
+      for (; t < end; ++t) {
+        const auto& [a, b, c] = mesh.triangles[t];
+        *to++ = {number[a], number[b], number[c]};
+      }
+    };
+    for (const std::int32_t taken : joined_.in_zone[p]) {
+      put_until(static_cast<std::size_t>(taken));
+      ++t;
+    }
+    put_until(mesh.triangles.size());
   }
 
   // Its vertices have moved; those of the domain have not.

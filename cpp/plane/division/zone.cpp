@@ -8,6 +8,7 @@
 #include "plane/thresholds.h"
 #include "support/ranks/triangle_packet.h"
 #include "support/stepped_tasks.h"
+#include "support/unfilled.h"
 
 namespace carreau::plane {
 
@@ -15,27 +16,61 @@ namespace {
 
 constexpr std::uint8_t outside = zone_layers;
 
-bool any_below(const std::vector<std::uint8_t>& level, const std::array<std::int32_t, 3>& t, int bound) {
-  return std::min({level[t[0]], level[t[1]], level[t[2]]}) < bound;
-}
+using Triangles = std::span<const std::array<std::int32_t, 3>>;
 
-// Layers of vertices from those that have level 0, up to `most`.
-void spread(std::span<const std::array<std::int32_t, 3>> triangles, std::vector<std::uint8_t>& level, int most,
-            std::vector<std::int32_t>* band, Monitor& monitor) {
-  for (int now = 0; now + 1 < most; ++now) {
+/// The triangles of each vertex, ascending.
+class TrianglesAround {
+ public:
+  TrianglesAround(Triangles triangles, std::size_t vertices) : end_(vertices + 1, 0), triangles_(3 * triangles.size()) {
+    for (const auto& t : triangles)
+      for (const std::int32_t v : t) ++end_[v];
+    std::int32_t sum = 0;
+    for (std::int32_t& end : end_) sum += end, end = sum - end;
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (const std::int32_t v : triangles[t]) triangles_[end_[v]++] = static_cast<std::int32_t>(t);
+  }
+  [[nodiscard]] std::span<const std::int32_t> of(std::int32_t v) const noexcept {
+    const std::int32_t from = v == 0 ? 0 : end_[v - 1];
+    return {triangles_.data() + from, triangles_.data() + end_[v]};
+  }
+
+ private:
+  std::vector<std::int32_t> end_;
+  UnfilledVector<std::int32_t> triangles_;
+};
+
+// Layers of vertices from those that have level 0, up to `most`. Returns the triangles that have a vertex below it,
+// ascending.
+std::vector<std::int32_t> spread(Triangles triangles, std::vector<std::uint8_t>& level, int most,
+                                 std::vector<std::int32_t>* band, Monitor& monitor) {
+  monitor.checkpoint();
+  const TrianglesAround around(triangles, level.size());
+  std::vector<std::int32_t> front, next, near, all;
+  for (std::size_t v = 0; v < level.size(); ++v)
+    if (level[v] == 0) front.push_back(static_cast<std::int32_t>(v));
+  for (int now = 0; now < most; ++now, front.swap(next)) {
     monitor.checkpoint();
-    for (const auto& t : triangles) {
+    near.clear(), next.clear();
+    for (const std::int32_t v : front)
+      for (const std::int32_t t : around.of(v)) near.push_back(t);
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    all.insert(all.end(), near.begin(), near.end());
+    for (std::size_t k = 0; k < near.size() && now + 1 < most; ++k) {
+      const auto& t = triangles[near[k]];
       int from = -1;
       for (const std::int32_t v : t)
         if (level[v] == now && (from < 0 || (band != nullptr && (*band)[v] < (*band)[from]))) from = v;
-      if (from < 0) continue;
       for (const std::int32_t v : t)
         if (level[v] > now + 1) {
-          level[v] = static_cast<std::uint8_t>(now + 1);
+          level[v] = static_cast<std::uint8_t>(now + 1), next.push_back(v);
           if (band != nullptr) (*band)[v] = (*band)[from];
         }
     }
   }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 /// Makes a zone of the triangles of pieces that are near separators.
@@ -69,8 +104,8 @@ class ZoneMaker {
       zone_.fixed.push_back(imposed || joined_.level[p][v] == outside ? 1 : 0);
       return known;
     };
-    for (const auto& t : mesh.triangles) {
-      if (!joined_.in_zone(p, t)) continue;
+    for (const std::int32_t k : joined_.in_zone[p]) {
+      const std::array<std::int32_t, 3>& t = mesh.triangles[k];
       zone_.triangles.push_back({number(t[0]), number(t[1]), number(t[2])});
       zone_.band.push_back(band_of(p, t));
     }
@@ -199,12 +234,8 @@ void improve_meeting_places(Zone& zone, const std::vector<std::uint8_t>& waiting
 
 }  // namespace
 
-bool JoinedPieces::in_zone(std::size_t piece, const std::array<std::int32_t, 3>& t) const noexcept {
-  return any_below(level[piece], t, outside);
-}
-
 JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, const ZoneContext& context) {
-  JoinedPieces joined{.pieces = pieces, .meshes = meshes, .inside = {}, .level = {}, .band = {}};
+  JoinedPieces joined{.pieces = pieces, .meshes = meshes, .inside = {}, .level = {}, .band = {}, .in_zone = {}};
   auto next = static_cast<std::int32_t>(pieces.separator.size());
   for (std::size_t p = 0; p < meshes.size(); ++p) {
     joined.inside.push_back(next);
@@ -212,6 +243,7 @@ JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, c
   }
   joined.level.resize(meshes.size());
   joined.band.resize(meshes.size());
+  joined.in_zone.resize(meshes.size());
   run_each(
       meshes.size(), false, context.options.threads,
       [&](std::size_t p, Monitor& monitor) {
@@ -222,7 +254,7 @@ JoinedPieces join(const Pieces& pieces, std::span<const UndividedMesh> meshes, c
           joined.band[p][v] = pieces.separator[whole[v]];
           if (joined.band[p][v] != Pieces::none) joined.level[p][v] = 0;
         }
-        spread(meshes[p].mesh.triangles, joined.level[p], zone_layers, &joined.band[p], monitor);
+        joined.in_zone[p] = spread(meshes[p].mesh.triangles, joined.level[p], zone_layers, &joined.band[p], monitor);
       },
       context.monitor);
   return joined;

@@ -43,14 +43,13 @@ struct JoinedPieces {
   std::vector<std::vector<std::uint8_t>>
       level;  ///< by piece and vertex: layers from the separators, zone_layers at most
   std::vector<std::vector<std::int32_t>> band;  ///< the same: the separator, Pieces::several or none
+  std::vector<std::vector<std::int32_t>> in_zone;  ///< by piece: its triangles that belong to the zone, ascending
 
   [[nodiscard]] std::int32_t whole(std::size_t piece, std::int32_t v) const noexcept {
     const std::vector<std::int32_t>& shared = pieces.pieces[piece].whole;
     const auto n = static_cast<std::int32_t>(shared.size());
     return v < n ? shared[v] : inside[piece] + v - n;
   }
-  /// Whether a triangle of a piece belongs to the zone.
-  [[nodiscard]] bool in_zone(std::size_t piece, const std::array<std::int32_t, 3>& t) const noexcept;
 };
 
 /// Finds the layers around the separators, on several threads.
