@@ -53,10 +53,9 @@ inline constexpr int worst_passes = 5;
 
 
 // In space (space_search)
-/// Scaled Jacobian, the sine of the worst angle. Worse quadrilaterals are moved in space: angles of 37 and 143 degrees.
+/// Scaled Jacobian, the sine of the worst angle, and quality. Worse quadrilaterals are moved in space: angles of 37 and 143
+/// degrees.
 inline constexpr double poor_in_space = 0.6;
-/// Quality: a little below `poor`, at which the search in the plane has left many.
-inline constexpr double poor_quality_in_space = 0.57;
 /// The same where sizes differ by direction, and right angles of the metric need not be right in space.
 inline constexpr double poor_jacobian_in_metric = 0.01;
 /// The same below which two triangles are better: angles of 12 and 168 degrees.
