@@ -20,7 +20,8 @@ struct CurveMiddle {
 /// 0.29 and 0.71: a node there keeps the segment's own Jacobian positive.
 double metric_middle(double left, double middle, double right) noexcept;
 
-/// The point at half the metric length of edge k of result.mesh.curves[curve], `shift` of the edge further, in every use. Empty when the curve is
+/// The point at half the metric length of edge k of result.mesh.curves[curve], `shift` of the edge further, in every
+/// use. Empty when the curve is
 /// one point of space, or its vertices are no longer those of work.curves[curve] (a narrow face has vanished there).
 std::optional<CurveMiddle> middle_of_edge(const ElementWork& work, std::size_t curve, std::size_t k, double shift = 0);
 
