@@ -99,8 +99,8 @@ inline constexpr int most_steps_of_compass = 100;
 /// The place of the plane with the largest `value(place, best so far)` that is found from the origin, of value `start`,
 /// by steps in eight directions: to the best of them, or half as far when none is better, down to `last`. Places that
 /// are no better than the best so far may have any value that is not larger. For functions without a derivative, such
-/// as the worst of some shapes. Ends after `most_steps_of_compass`, too: what is turned over gets better for ever on the
-/// way to infinity.
+/// as the worst of some shapes. Ends after `most_steps_of_compass`, too: what is turned over gets better for ever on
+/// the way to infinity.
 template <typename Value>
 Vec2 search_along_compass(double start, double first, double last, const Value& value) {
   static constexpr double d = 0.70710678118654752;

@@ -44,8 +44,8 @@ struct QuadraticReport {
 /// Gives each edge of result.mesh a node: on a curve the point at half the metric length of the edge, once for all
 /// faces; inside a face S at the metric middle of the segment of (u, v). Then mends elements whose Jacobian is not
 /// positive in (u, v) and in space (Bernstein coefficients of degree 2, or (3, 3)): nodes inside the face move, then
-/// vertices. Meshes that have nodes on edges get new ones. Nodes of edges that end at `cusps`, ascending, are drawn away from
-/// these: parabolas through middles meet there at no angle, or at any that rounding gives them.
+/// vertices. Meshes that have nodes on edges get new ones. Nodes of edges that end at `cusps`, ascending, are drawn
+/// away from these: parabolas through middles meet there at no angle, or at any that rounding gives them.
 QuadraticReport make_quadratic(const ElementWork& work, const std::vector<CuspEnd>& cusps = {});
 
 /// Makes two triangles of each of these quadrilaterals of a face again, without nodes on edges.

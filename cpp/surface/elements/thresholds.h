@@ -22,11 +22,11 @@ inline constexpr int most_rounds = 8;
 inline constexpr int most_divisions = 6;
 /// The same with quadrilaterals.
 inline constexpr int most_divisions_of_quads = 6;
-/// Between the ways that two edges of curves take from a corner of an invalid element: that is a cusp. As parabolas they
-/// turn by their bends, a tenth and more of a radian.
+/// Between the ways that two edges of curves take from a corner of an invalid element: that is a cusp. As parabolas
+/// they turn by their bends, a tenth and more of a radian.
 inline constexpr double sine_of_cusp = 0.1;
-/// Share of an edge that its node is drawn away from a cusp. Of circles that touch, parabolas through the middles of edges
-/// of length l leave the corner at no angle, those drawn by s at some
+/// Share of an edge that its node is drawn away from a cusp. Of circles that touch, parabolas through the middles of
+/// edges of length l leave the corner at no angle, those drawn by s at some
 /// 2 s l times the difference of their curvatures.
 /// [CurvedElements.AreValidAtACusp]
 inline constexpr double shift_at_cusp = 0.08;
