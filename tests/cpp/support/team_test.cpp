@@ -18,6 +18,32 @@ namespace {
 
 using testing::in_processes;
 
+// Each process is heard by all, in the order of ranks, and what it gives is its own.
+TEST(Team, ProcessesGiveInTurn) {
+  constexpr int n = 4;
+  std::vector<std::vector<std::string>> heard(n);
+  const auto thrown = in_processes(n, [&](Team& team) {
+    auto& mine = heard[static_cast<std::size_t>(team.rank())];
+    team.exchange_in_turn("turn", std::string(static_cast<std::size_t>(team.rank()), 'x'), [&](int rank, const std::string& given) {
+      EXPECT_EQ(rank, static_cast<int>(mine.size()));
+      mine.push_back(given);
+    });
+  });
+  for (const std::string& sentence : thrown) EXPECT_EQ(sentence, "");
+  for (const auto& all : heard) EXPECT_EQ(all, (std::vector<std::string>{"", "x", "xx", "xxx"}));
+}
+
+// One that cannot read what comes leaves, and the others do not wait for it.
+TEST(Team, OneThatLeavesInItsTurnIsNotWaitedFor) {
+  const auto thrown = in_processes(3, [&](Team& team) {
+    team.exchange_in_turn("turn", "bytes", [&](int rank, const std::string&) {
+      if (team.rank() == 1 && rank == 0) throw std::bad_alloc();
+    });
+  });
+  EXPECT_EQ(thrown.size(), 3U);
+  for (std::size_t r = 0; r < thrown.size(); ++r) EXPECT_NE(thrown[r], "") << r;
+}
+
 TEST(Team, EveryJobIsTakenOnceInEachRound) {
   constexpr std::size_t jobs = 1000, rounds = 3;
   std::vector<std::atomic<int>> taken(jobs);

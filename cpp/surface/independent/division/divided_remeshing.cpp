@@ -24,6 +24,9 @@ using namespace thresholds::independent;
 
 using Vertices = std::vector<std::int32_t>;
 
+/// Triangles as they are wanted: what one counts at least, so that it is in some part.
+constexpr double least_work = 1e-3;
+
 // What remesh() starts with where it does not work everywhere: corners of triangles that are not as wanted, by vertex.
 std::vector<char> bad_corners(const FreeMesh& mesh, const RemeshingWorkers& workers, Monitor& monitor) {
   const auto& all = mesh.triangles();
@@ -47,13 +50,14 @@ Vertices numbers_of(const std::vector<char>& marked) {
   return numbers;
 }
 
-/// The work that triangles are, by triangle: 1 is one triangle as it is wanted.
+/// The work that triangles are, by triangle: 1 is one triangle as it is wanted. Parts of many small triangles that become few would have few inside, and irregular
+/// vertices along their borders, which those finer meshes keep that are made of a coarse one.
 std::vector<float> work_everywhere(const FreeMesh& mesh) {
   std::vector<float> work(mesh.triangles().size(), 0);
   for (std::size_t t = 0; t < work.size(); ++t)
     if (mesh.triangles()[t][0] >= 0) {
       const double wanted = mesh.double_area(mesh.triangles()[t]) / half_root3;
-      work[t] = static_cast<float>(wanted > 1 && std::isfinite(wanted) ? wanted : 1);
+      work[t] = static_cast<float>(std::isfinite(wanted) ? std::max(wanted, least_work) : 1);
     }
   return work;
 }
