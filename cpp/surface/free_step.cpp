@@ -53,9 +53,12 @@ enum class From {
 /// What there is to choose by.
 struct Made {
   std::size_t invalid = 0;
-  std::vector<CrossingPlace> crossings;  ///< of straight halves of elements
+  ElementCrossings crossings;
   double shape = 0;            ///< mean
   double elements = 0;
+
+  /// What smaller elements may mend.
+  [[nodiscard]] std::size_t faults() const noexcept { return invalid + crossings.fresh.size(); }
 };
 
 class FreeStep {
@@ -65,7 +68,7 @@ class FreeStep {
 
   bool make() {
     std::vector<CrossingPlace> crossings;
-    for (const TriangleIntersection& pair : run_.result.crossings) crossings.push_back({pair.place, 0});
+    for (const TriangleIntersection& pair : run_.result.crossings) crossings.push_back({pair.place, 0, {}});
     const bool is_free = make_once(From::remeshing);
     messages_of_best_ = messages_;
     if (is_free) best_ = now_;
@@ -125,13 +128,13 @@ class FreeStep {
     return true;
   }
 
-  // As long as fewer elements are invalid, and the mesh does not grow too much for them.
+  // As long as fewer elements are invalid or cross, and the mesh does not grow too much for them.
   void make_finer(From from) {
-    for (int round = 0; round < most_divisions && now_.invalid > 0; ++round) {
-      if (!again(from, [&] { divide(invalid_); })) return;
+    for (int round = 0; round < most_divisions && now_.faults() > 0; ++round) {
+      if (!again(from, [&] { divide(); })) return;
       lower_sizes();
       if (!make_once(from)) return;
-      (void)keep_if(now_.invalid < best_->invalid);
+      (void)keep_if(now_.faults() < best_->faults());
       if (static_cast<double>(run_.result.mesh.triangle_count()) > most_growth * first_) return;
     }
   }
@@ -144,33 +147,37 @@ class FreeStep {
         if (round == 0)
           run_.curves = start_, run_.finer = finer_;
         else
-          divide(invalid_);
+          divide();
       });
       if (!done) return;
       lower_sizes();
       if (!make_once(From::patches)) return;
       (void)keep_if(is_better(crossings));
-      if (now_.invalid == 0 || is_hopeless() || static_cast<double>(run_.result.mesh.triangle_count()) > most_growth * first_) return;
+      if (now_.faults() == 0 || is_hopeless() || static_cast<double>(run_.result.mesh.triangle_count()) > most_growth * first_) return;
     }
   }
   // What is valid already is better, whatever becomes of what is not.
   [[nodiscard]] bool is_hopeless() const {
     using thresholds::free_elements::most_of_patches;
-    return best_ && best_->invalid == 0 && (now_.shape <= best_->shape || now_.elements > most_of_patches * best_->elements);
+    return best_ && best_->faults() == 0 && (now_.shape <= best_->shape || now_.elements > most_of_patches * best_->elements);
   }
   [[nodiscard]] bool is_better(const std::vector<CrossingPlace>& crossings) const {
-    if (!new_places(best_ ? best_->crossings : crossings, now_.crossings).empty()) return false;
+    if (!new_places(best_ ? best_->crossings.all : crossings, now_.crossings.all).empty()) return false;
     if (!find_defects(run_.result.mesh, {.closed = false, .limit = 1}).empty()) return false;
     if (!best_) return true;
     if (now_.elements > thresholds::free_elements::most_of_patches * best_->elements) return false;
-    return now_.invalid != best_->invalid ? now_.invalid < best_->invalid : now_.shape > best_->shape;
+    return now_.faults() != best_->faults() ? now_.faults() < best_->faults() : now_.shape > best_->shape;
   }
 
-  void divide(const InvalidInSpace& invalid) {
-    run_.finer.resize(invalid.finer.size());
-    for (std::size_t f = 0; f < invalid.finer.size(); ++f)
-      run_.finer[f].insert(run_.finer[f].end(), invalid.finer[f].begin(), invalid.finer[f].end());
-    divide_segments(run_, segments_under(invalid.coarse));
+  void divide() {
+    run_.finer.resize(invalid_.finer.size());
+    for (std::size_t f = 0; f < invalid_.finer.size(); ++f)
+      run_.finer[f].insert(run_.finer[f].end(), invalid_.finer[f].begin(), invalid_.finer[f].end());
+    // Sizes are asked of the mesh that is cut, if one is.
+    const double share = has_quads_only(run_.options.element) ? 1 : 0.5;
+    for (const CrossingPlace& p : now_.crossings.fresh)
+      for (const std::int32_t f : p.faces) run_.finer[f].push_back({p.place, p.place, share * p.size});
+    divide_segments(run_, segments_under(invalid_.coarse));
   }
 
   /// Those that are as long as what is to be divided, or nearly so.

@@ -10,7 +10,8 @@ inline constexpr double good_jacobian = 0.2;
 /// Below this an element is not valid: rounding of coefficients is far smaller.
 inline constexpr double least_jacobian = 1e-6;
 /// Of that share, less than which a step of the search is none: an element that grows along one side raises it for ever
-/// by less and less. A step of .01 edges of a regular element changes it by some .04. [Mender.*]
+/// by less and less. A step of .01 edges of a regular element changes it by
+/// some .04. [FreeElementsAtCurves.AreValidWhereEdgesTurn]
 inline constexpr double least_gain = 0.005;
 /// First and last step of the search for a node's place, shares of its edge. The first one reaches over the bulge of an
 /// edge that turns by 90 degrees (its sagitta is a fifth of it).

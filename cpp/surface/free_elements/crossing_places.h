@@ -2,6 +2,7 @@
 // Where triangles of a mesh cross, and which of these places are new.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "support/monitor.h"
@@ -12,10 +13,11 @@ namespace carreau {
 
 struct CrossingPlace {
   Vec3 place;
-  double size = 0;  ///< wanted there
+  double size = 0;                  ///< wanted there
+  std::vector<std::int32_t> faces;  ///< of the corners of both triangles, ascending, each once
 };
 
-/// Of straight halves of elements; the first thousand.
+/// Of straight halves of elements, in a mesh that is free of patches; the first thousand.
 std::vector<CrossingPlace> find_crossing_places(const SizedMesh& mesh, int threads, Monitor& monitor);
 
 /// Those of `now` that are farther than their size from all of `before`: surfaces that cross do so whatever the mesh, by other triangles.

@@ -199,8 +199,8 @@ class FreeElements {
 
 }  // namespace
 
-std::vector<CrossingPlace> make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
-                                              Cad& cad, FreedMesh& made, Monitor& monitor) {
+ElementCrossings make_free_elements(const SurfaceMesh& before, const RemeshingFrame& frame, const CompositeOptions& options,
+                                    Cad& cad, FreedMesh& made, Monitor& monitor) {
   if (!has_quads(options.element)) {
     FreeElements elements(before, frame, options, cad, made, monitor);
     elements.make_straight({}, false);
@@ -224,7 +224,7 @@ std::vector<CrossingPlace> make_free_elements(const SurfaceMesh& before, const R
     make(held, false);
     if (attempt == 0 || fresh.size() < fewest) fewest = fresh.size(), held_by_best = held;
     if (fresh.empty()) break;
-    for (const CrossingPlace& p : fresh) held.push_back({p.place, held_sizes * std::exp2(attempt) * p.size});
+    for (const CrossingPlace& p : fresh) held.push_back({p.place, held_sizes * std::exp2(attempt) * p.size, {}});
   }
   if (fewest > 0) make({}, true);
   if (fewest > 0 && !fresh.empty()) make(held_by_best, false);
@@ -232,7 +232,7 @@ std::vector<CrossingPlace> make_free_elements(const SurfaceMesh& before, const R
   if (!fresh.empty())
     monitor.message(Level::warning,
                     std::to_string(fresh.size()) + " pairs of triangles cross, of straight halves of elements: sizes are too large there");
-  return find_crossing_places(made, options.threads, monitor);
+  return {find_crossing_places(made, options.threads, monitor), std::move(fresh)};
 }
 
 }  // namespace carreau

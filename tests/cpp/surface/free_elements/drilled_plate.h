@@ -10,11 +10,11 @@
 
 namespace carreau::testing {
 
-inline constexpr double plate_height = 0.4, hole_radius = 0.25;
+inline constexpr double plate_height = 0.4;
 
-/// [-1, 1]^2 x [0, plate_height] without a cylinder round the z axis; faces 1 to 12.
-inline AnalyticCad drilled_plate() {
-  constexpr double pi = std::numbers::pi, r = hole_radius, h = plate_height;
+/// [-1, 1]^2 x [0, plate_height] without a cylinder of radius r round the z axis; faces 1 to 12.
+inline AnalyticCad drilled_plate(double r) {
+  constexpr double pi = std::numbers::pi, h = plate_height;
   AnalyticCad cad;
   int ref = 0;
   for (const double z : {0., h}) {
@@ -26,7 +26,7 @@ inline AnalyticCad drilled_plate() {
                            arc({0, 0}, r, side * pi / 2, side * pi / 2 - pi), segment({0, -side * r}, {0, -side})}};
   }
   for (const double from : {-pi / 2, pi / 2})
-    cad.faces[++ref] = {[](Vec2 p) {
+    cad.faces[++ref] = {[r](Vec2 p) {
                           const double c = r * std::cos(p.x()), s = r * std::sin(p.x());
                           return SurfaceJet{{c, s, p.y()}, {-s, c, 0}, {0, 0, 1}, {-c, -s, 0}, {}, {}};
                         },
@@ -40,8 +40,8 @@ inline AnalyticCad drilled_plate() {
   return cad;
 }
 
-inline double off_drilled_plate(const Vec3& p) {
-  double off = std::abs(std::hypot(p.x(), p.y()) - hole_radius);
+inline double off_drilled_plate(double r, const Vec3& p) {
+  double off = std::abs(std::hypot(p.x(), p.y()) - r);
   for (const double d : {p.z(), p.z() - plate_height, std::abs(p.x()) - 1, std::abs(p.y()) - 1}) off = std::min(off, std::abs(d));
   return off;
 }
