@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "support/infinity.h"
 #include "surface/projected/thresholds.h"
@@ -35,17 +36,16 @@ ChartPlane::ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const
   for (const std::int32_t t : triangles)
     for (const Vec3& n : atlas.corner[t]) least_ = std::min(least_, dot(n, axis));
   enclose(triangles);
-  std::vector<std::int32_t> all(triangles.begin(), triangles.end());
-  std::vector<char> met(atlas.normal.size(), 0);
-  for (const std::int32_t t : all) met[t] = 1;
-  for (const std::int32_t t : all) fill(t);
-  std::size_t from = 0;
-  for (int ring = 0; ring < rings_beyond; ++ring) {
-    const std::size_t last = all.size();
-    for (; from < last; ++from)
-      for (const std::int32_t u : atlas.at(all[from]).beyond)
-        if (u >= 0 && met[u] == 0 && dot(atlas.normal[u], axis) > thresholds::projected::least_cosine)
-          met[u] = 1, all.push_back(u), fill(u);
+  for (const std::int32_t t : triangles) fill(t);
+  std::set<std::int32_t> met;  // beyond
+  std::vector<std::int32_t> ring(triangles.begin(), triangles.end());
+  for (int k = 0; k < rings_beyond; ++k) {
+    std::vector<std::int32_t> next;
+    for (const std::int32_t t : ring)
+      for (const std::int32_t u : atlas.at(t).beyond)
+        if (is_shown(u) && !std::ranges::binary_search(triangles, u) && met.insert(u).second)
+          next.push_back(u), fill(u);
+    ring = std::move(next);
   }
   spread();
 }

@@ -15,7 +15,8 @@ namespace carreau {
 /// Keeps a reference to the atlas. Safe from several threads once made.
 class ChartPlane {
  public:
-  /// `triangles`: of the chart; `size`: of a cell of the raster, about; `slits`: it has both sides of some sharp line.
+  /// `triangles`: of the chart, ascending; `size`: of a cell of the raster, about; `slits`: it has both sides of some
+  /// sharp line.
   ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const std::int32_t> triangles, double size,
              bool slits);
 
