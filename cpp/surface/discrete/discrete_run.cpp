@@ -40,6 +40,9 @@ constexpr double longest_in_planes = 4;
 /// Sizes that differ by so much, relatively, are one.
 constexpr double same_size = 1e-6;
 
+/// Q2. Triangles that are worse in the mean are as large as what they show: edits, which price collapses, serve better.
+constexpr double least_mean_shape = 0.93;
+
 /// A run on its way: the triangles, cut by the sizes.
 struct Start {
   discrete::RefinedMesh refined;
@@ -71,19 +74,21 @@ double longest_of_atlas(const MeshSizes& wanted) {
   return *most <= (1 + same_size) * *least ? longest_in_planes : std::numbers::sqrt2;
 }
 
-bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor, Start& start) {
+bool make_in_planes(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor,
+                    Start& start) {
   RemeshingFrame frame = start_frame(surface, start.refined, start.result.mesh, start.wanted, options, cad, monitor);
   frame.made = [&](std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances) {
     return make_projected_mesh(frame, start.result.mesh, start.wanted.h, worked, tolerances,
                                {.threads = options.threads, .max_triangles = options.max_triangles}, cad, monitor);
   };
-  const std::string why = mend_in_frame(frame, cad, options, start.result, monitor);
+  const std::string why = mend_in_frame(frame, least_mean_shape, cad, options, start.result, monitor);
   if (!why.empty()) monitor.message(Level::detail, "the mesh is made by edits of edges: " + why);
   return why.empty();
 }
 
 // Of what is left of the run: edges are collapsed, split and swapped until the mesh is as wanted.
-void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor, Start& start) {
+void make_by_edits(const discrete::DiscreteCad& surface, const CompositeOptions& options, Cad& cad, Monitor& monitor,
+                   Start& start) {
   CompositeResult& result = start.result;
   RemeshingFrame frame = start_frame(surface, start.refined, result.mesh, start.wanted, options, cad, monitor);
   const auto atlas = frame.charts;

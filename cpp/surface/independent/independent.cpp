@@ -191,8 +191,8 @@ FreedMesh freed(Cad& cad, SurfaceTolerances tolerances, const Compromise& compro
 }
 
 // The mesh that was made elsewhere: its seams are mended, and what is bad.
-std::optional<FreedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame,
-                                Monitor& monitor) {
+std::optional<FreedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, double least_mean, const CompositeResult& result,
+                                RemeshingFrame& frame, Monitor& monitor) {
   std::vector<WorkedLine> worked;
   for (const SharpLine& line : frame.lines) worked.emplace_back(line, frame.geometry(line));
   std::optional<PlacedMesh> placed = frame.made(worked, tolerances);
@@ -213,7 +213,10 @@ std::optional<FreedMesh> mended(Cad& cad, const SurfaceTolerances& tolerances, c
   around.insert(around.end(), placed->seams.begin(), placed->seams.end());
   if (!around.empty()) remesh(*mesh, monitor, true, false, around);
   raise_worst(*mesh, good_worst, monitor);
-  return reassembled(result.mesh, {std::move(mesh), std::move(worked)}, frame, monitor);
+  const bool poor = summarise_shapes(*mesh).mean < least_mean;
+  FreedMesh made = reassembled(result.mesh, {std::move(mesh), std::move(worked)}, frame, monitor);
+  made.worse_shaped = poor;
+  return made;
 }
 
 // Around triangles that cross.
@@ -259,16 +262,17 @@ void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOpti
   take(std::move(made), frame, result, monitor);
 }
 
-std::string mend_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
-                          Monitor& monitor) {
+std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
+                          CompositeResult& result, Monitor& monitor) {
   const SurfaceTolerances tolerances = surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack);
-  std::optional<FreedMesh> made = mended(cad, tolerances, result, frame, monitor);
+  std::optional<FreedMesh> made = mended(cad, tolerances, least_mean, result, frame, monitor);
   if (!made) return "it is not made in planes";
   const Intersections found = crossings(made->mesh, options.threads, monitor);
-  if (found.count > 0) return "triangles would cross";
+  if (found.count > 0 && found.count > crossings(result.mesh, options.threads, monitor).count) return "triangles would cross";
+  if (made->worse_shaped) return "shapes would be poor";
   std::string why = worse(made->mesh, result.mesh);
   if (!why.empty()) return why;
-  if (result.report.crossings >= 0) result.report.crossings = 0, result.crossings.clear();
+  if (result.report.crossings >= 0) result.report.crossings = found.count, result.crossings = found.pairs;
   take(std::move(*made), frame, result, monitor);
   return "";
 }

@@ -51,9 +51,9 @@ SurfaceTolerances surface_tolerances(const CompositeOptions& options, bool by_di
 std::string remesh_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
                             Monitor& monitor);
 
-/// The same of a mesh that frame.made makes. Why not, for a start: then nothing is changed.
-std::string mend_in_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,
-                          Monitor& monitor);
+/// The same of a mesh that frame.made makes: around its seams only. `least_mean`: of shapes. Returns why nothing has come of it and nothing is changed.
+std::string mend_in_frame(RemeshingFrame& frame, double least_mean, Cad& cad, const CompositeOptions& options,
+                          CompositeResult& result, Monitor& monitor);
 
 /// As it is: only frame.elements makes something of its triangles.
 void make_elements_of_frame(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, CompositeResult& result,

@@ -52,7 +52,7 @@ std::optional<DividedLine> divide_line(const BorderInput& input, std::size_t lin
 
 /// Cuts between charts, straightened. `borders` has the sharp lines already.
 class LinePoints;
-bool trace_cuts(const BorderInput& input, const LinePoints& points, Borders& borders, Monitor& monitor);
+void trace_cuts(const BorderInput& input, const LinePoints& points, Borders& borders, Monitor& monitor);
 
 /// Where the vertices of the atlas on sharp lines are in the mesh to come.
 class LinePoints {

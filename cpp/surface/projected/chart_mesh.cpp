@@ -44,7 +44,8 @@ Domain domain_of(const ChartInput& input) {
 std::optional<double> one_size(const ChartInput& input) {
   double least = infinity, most = 0;
   for (const std::int32_t t : input.triangles)
-    for (const std::int32_t v : input.atlas.at(t).vertex) least = std::min(least, input.size[v]), most = std::max(most, input.size[v]);
+    for (const std::int32_t v : input.atlas.at(t).vertex)
+      least = std::min(least, input.size[v]), most = std::max(most, input.size[v]);
   return most <= (1 + same_size) * least ? std::optional(least) : std::nullopt;
 }
 
@@ -66,13 +67,17 @@ ControlSpace space_of(const ChartInput& input, const Domain& domain, Monitor& mo
     }
   };
   ControlSpaceOptions options;
-  if (size) options.tolerance = length_tolerance, options.samples_per_vertex = samples_per_vertex, options.min_samples = least_samples;
+  if (size)
+    options.tolerance = length_tolerance, options.samples_per_vertex = samples_per_vertex,
+    options.min_samples = least_samples;
   return ControlSpace::build(sampled, sampler, options, monitor);
 }
 
 }  // namespace
 
-void check_borders(const ChartInput& input, Monitor& monitor) { (void)triangulate_domain(domain_of(input).plane, monitor); }
+void check_borders(const ChartInput& input, Monitor& monitor) {
+  (void)triangulate_domain(domain_of(input).plane, monitor);
+}
 
 std::optional<ChartMesh> mesh_chart(const ChartInput& input, Monitor& monitor) {
   Domain domain = domain_of(input);

@@ -14,10 +14,10 @@
 namespace carreau {
 
 struct ChartMesh {
-  std::vector<std::int32_t> border;                      ///< vertices of the mesh to come, which come first
-  std::vector<Vec2> inner;                               ///< those that follow
-  std::vector<Foot> feet;                                ///< of these
-  std::vector<std::array<std::int32_t, 3>> triangles;    ///< of the chart's own numbers
+  std::vector<std::int32_t> border;                    ///< vertices of the mesh to come, which come first
+  std::vector<Vec2> inner;                             ///< those that follow
+  std::vector<Foot> feet;                              ///< of these
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< of the chart's own numbers
 };
 
 struct ChartInput {
@@ -27,7 +27,7 @@ struct ChartInput {
   std::span<const std::int32_t> triangles;     ///< of the atlas
   std::span<const double> size;                ///< by vertex of the atlas
   std::int32_t chart = 0;
-  std::span<const Vec3> xyz;                   ///< of vertices of the mesh to come on borders
+  std::span<const Vec3> xyz;  ///< of vertices of the mesh to come on borders
   std::int64_t max_triangles = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "support/infinity.h"
 #include "surface/projected/thresholds.h"
@@ -25,7 +26,8 @@ constexpr double on_side = 1e-9;  // share of a triangle
 
 }  // namespace
 
-ChartPlane::ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const std::int32_t> triangles, double size, bool slits)
+ChartPlane::ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const std::int32_t> triangles, double size,
+                       bool slits)
     : atlas_(atlas), axis_(axis), origin_(atlas.centre[triangles.front()]), slits_(slits), step_(size) {
   const Vec3 other = std::abs(axis[0]) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
   first_ = cross(other, axis);
@@ -34,17 +36,16 @@ ChartPlane::ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const
   for (const std::int32_t t : triangles)
     for (const Vec3& n : atlas.corner[t]) least_ = std::min(least_, dot(n, axis));
   enclose(triangles);
-  std::vector<std::int32_t> all(triangles.begin(), triangles.end());
-  std::vector<char> met(atlas.normal.size(), 0);
-  for (const std::int32_t t : all) met[t] = 1;
-  for (const std::int32_t t : all) fill(t);
-  std::size_t from = 0;
-  for (int ring = 0; ring < rings_beyond; ++ring) {
-    const std::size_t last = all.size();
-    for (; from < last; ++from)
-      for (const std::int32_t u : atlas.at(all[from]).beyond)
-        if (u >= 0 && met[u] == 0 && dot(atlas.normal[u], axis) > thresholds::projected::least_cosine)
-          met[u] = 1, all.push_back(u), fill(u);
+  for (const std::int32_t t : triangles) fill(t);
+  std::set<std::int32_t> met;  // beyond
+  std::vector<std::int32_t> ring(triangles.begin(), triangles.end());
+  for (int k = 0; k < rings_beyond; ++k) {
+    std::vector<std::int32_t> next;
+    for (const std::int32_t t : ring)
+      for (const std::int32_t u : atlas.at(t).beyond)
+        if (is_shown(u) && !std::ranges::binary_search(triangles, u) && met.insert(u).second)
+          next.push_back(u), fill(u);
+    ring = std::move(next);
   }
   spread();
 }
@@ -71,8 +72,12 @@ void ChartPlane::enclose(std::span<const std::int32_t> triangles) {
 void ChartPlane::fill(std::int32_t t) {
   const std::array<Vec2, 3> c = corners(t);
   if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) return;
-  const auto column = [&](double x) { return std::clamp(static_cast<int>(std::floor((x - low_.x()) / step_)), 0, columns_ - 1); };
-  const auto row = [&](double y) { return std::clamp(static_cast<int>(std::floor((y - low_.y()) / step_)), 0, rows_ - 1); };
+  const auto column = [&](double x) {
+    return std::clamp(static_cast<int>(std::floor((x - low_.x()) / step_)), 0, columns_ - 1);
+  };
+  const auto row = [&](double y) {
+    return std::clamp(static_cast<int>(std::floor((y - low_.y()) / step_)), 0, rows_ - 1);
+  };
   const Vec2 middle = (c[0] + c[1] + c[2]) / 3;
   if (std::int32_t& here = raster_[cell(column(middle.x()), row(middle.y()))]; here < 0) here = t;
   const auto [left, right] = std::minmax({c[0].x(), c[1].x(), c[2].x()});
@@ -96,7 +101,8 @@ void ChartPlane::spread() {
     const auto [i, j] = queue[k];
     const std::int32_t t = raster_[cell(i, j)];
     for (const auto& [di, dj] : {std::array{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      if (i + di < 0 || i + di >= columns_ || j + dj < 0 || j + dj >= rows_ || raster_[cell(i + di, j + dj)] >= 0) continue;
+      if (i + di < 0 || i + di >= columns_ || j + dj < 0 || j + dj >= rows_ || raster_[cell(i + di, j + dj)] >= 0)
+        continue;
       raster_[cell(i + di, j + dj)] = t;
       queue.push_back({i + di, j + dj});
     }
@@ -112,7 +118,8 @@ std::optional<Foot> ChartPlane::find(const Vec2& p, bool roughly) const {
     std::int32_t next = -1;
     double least = -on_side;
     for (int k = 0; k < 3; ++k)
-      if (const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3]; w[k] < least && u != before && is_shown(u)) least = w[k], next = u;
+      if (const std::int32_t u = atlas_.at(t).beyond[(k + 1) % 3]; w[k] < least && u != before && is_shown(u))
+        least = w[k], next = u;
     if (next < 0) {
       if (roughly || (w[0] >= -on_side && w[1] >= -on_side && w[2] >= -on_side)) return foot_in(t, w);
       break;

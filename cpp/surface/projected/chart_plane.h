@@ -15,12 +15,14 @@ namespace carreau {
 /// Keeps a reference to the atlas. Safe from several threads once made.
 class ChartPlane {
  public:
-  /// `triangles`: of the chart; `size`: of a cell of the raster, about; `slits`: it has both sides of some sharp line.
-  ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const std::int32_t> triangles, double size, bool slits);
+  /// `triangles`: of the chart, ascending; `size`: of a cell of the raster, about; `slits`: it has both sides of some
+  /// sharp line.
+  ChartPlane(const FlatAtlas& atlas, const Vec3& axis, std::span<const std::int32_t> triangles, double size,
+             bool slits);
 
   [[nodiscard]] Vec2 project(const Vec3& p) const { return {dot(p - origin_, first_), dot(p - origin_, second_)}; }
-  /// Of triangles that are looked for near the place; on the border of the region where it is beyond it. None where the projection is folded.
-  /// `roughly`: where a barrier is in the way the place is on it.
+  /// Of triangles that are looked for near the place; on the border of the region where it is beyond it. None where the
+  /// projection is folded. `roughly`: where a barrier is in the way the place is on it.
   [[nodiscard]] std::optional<Foot> find(const Vec2& p, bool roughly = false) const;
   /// Of unit lengths in space, by the normals of the surface.
   [[nodiscard]] Metric2 metric(const Foot& at) const;
@@ -40,7 +42,9 @@ class ChartPlane {
   };
   [[nodiscard]] Found find_around(std::int32_t first, const Vec2& p) const;
   [[nodiscard]] std::array<Vec2, 3> corners(std::int32_t t) const;
-  [[nodiscard]] std::size_t cell(int i, int j) const { return static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i); }
+  [[nodiscard]] std::size_t cell(int i, int j) const {
+    return static_cast<std::size_t>(j) * columns_ + static_cast<std::size_t>(i);
+  }
 
   const FlatAtlas& atlas_;
   Vec3 axis_, origin_, first_, second_;

@@ -48,16 +48,15 @@ class CutTracer {
   CutTracer(const BorderInput& input, const LinePoints& points, Borders& borders, Monitor& monitor)
       : input_(input), atlas_(input.atlas), points_(points), borders_(borders), monitor_(monitor) {}
 
-  bool run() {
+  void run() {
     collect();
     trace();
     for (Cut& cut : cuts_) begin(cut);
     for (int sweep = 0; sweep < sweeps; ++sweep) straighten();
     for (Cut& cut : cuts_)
-      if (!cut.exact && !divide(cut)) return false;
+      if (!cut.exact && !divide(cut)) cut.exact = true, keep_path(cut);
     for (int sweep = 0; sweep < last_sweeps; ++sweep) straighten();
     number();
-    return true;
   }
 
  private:
@@ -108,7 +107,8 @@ class CutTracer {
     cut.start = node_at(cut.path.front(), cut.triangles.front());
     cut.end = node_at(cut.path.back(), cut.triangles.back());
     cut.exact = input_.exact[cut.left] != 0 || input_.exact[cut.right] != 0;
-    for (const std::size_t end : {cut.start, cut.end}) nodes_[end].stays = nodes_[end].stays || cut.exact || nodes_[end].vertex >= 0;
+    for (const std::size_t end : {cut.start, cut.end})
+      nodes_[end].stays = nodes_[end].stays || cut.exact || nodes_[end].vertex >= 0;
     nodes_[cut.start].cuts.emplace_back(cuts_.size(), true);
     nodes_[cut.end].cuts.emplace_back(cuts_.size(), false);
     cuts_.push_back(std::move(cut));
@@ -128,13 +128,15 @@ class CutTracer {
     return atlas_.charts.uv(triangle, static_cast<int>(std::ranges::find(corners, v) - corners.begin()));
   }
 
+  void keep_path(Cut& cut) const {
+    cut.inner.clear();
+    for (std::size_t k = 1; k + 1 < cut.path.size(); ++k)
+      cut.inner.push_back({{cut.triangles[k], uv_of(cut.triangles[k], cut.path[k])}, atlas_.xyz(cut.path[k])});
+  }
+
   // Points along the path, about an edge apart, two at least.
   void begin(Cut& cut) {
-    if (cut.exact) {
-      for (std::size_t k = 1; k + 1 < cut.path.size(); ++k)
-        cut.inner.push_back({{cut.triangles[k], uv_of(cut.triangles[k], cut.path[k])}, atlas_.xyz(cut.path[k])});
-      return;
-    }
+    if (cut.exact) return keep_path(cut);
     std::vector<double> arc{0}, h{input_.size[cut.path[0]]};
     for (std::size_t k = 1; k < cut.path.size(); ++k) {
       arc.push_back(arc.back() + norm(atlas_.xyz(cut.path[k]) - atlas_.xyz(cut.path[k - 1])));
@@ -243,8 +245,8 @@ class CutTracer {
 
 }  // namespace
 
-bool trace_cuts(const BorderInput& input, const LinePoints& points, Borders& borders, Monitor& monitor) {
-  return CutTracer(input, points, borders, monitor).run();
+void trace_cuts(const BorderInput& input, const LinePoints& points, Borders& borders, Monitor& monitor) {
+  CutTracer(input, points, borders, monitor).run();
 }
 
 }  // namespace carreau

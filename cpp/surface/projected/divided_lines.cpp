@@ -12,7 +12,8 @@ namespace carreau {
 namespace {
 
 // As the line leaves its chords (line_remeshing).
-bool is_near(const BorderInput& input, const WorkedLine& line, double from, double to, const Vec3& p, const Vec3& q, double h) {
+bool is_near(const BorderInput& input, const WorkedLine& line, double from, double to, const Vec3& p, const Vec3& q,
+             double h) {
   const double allowed = input.tolerance.deviation > 0 ? input.tolerance.deviation : input.tolerance.share_of_size * h;
   return std::ranges::all_of(std::array{0.25, 0.5, 0.75}, [&](double s) {
     return distance_to_segment(line.places->near(from + s * (to - from)), p, q) <= allowed;
@@ -140,7 +141,7 @@ std::optional<Borders> cut_borders(const BorderInput& input, Monitor& monitor) {
     borders.on_line.push_back(std::move(divided->places));
   }
   const LinePoints points(input, borders);
-  if (!trace_cuts(input, points, borders, monitor)) return {};
+  trace_cuts(input, points, borders, monitor);
   return borders;
 }
 

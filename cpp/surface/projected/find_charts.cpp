@@ -19,7 +19,8 @@ constexpr std::int32_t none = -1;
 
 class ChartFinder {
  public:
-  ChartFinder(const FlatAtlas& atlas, ProjectedCharts found, Monitor& monitor) : atlas_(atlas), monitor_(monitor), found_(std::move(found)) {
+  ChartFinder(const FlatAtlas& atlas, ProjectedCharts found, Monitor& monitor)
+      : atlas_(atlas), monitor_(monitor), found_(std::move(found)) {
     mark_.resize(atlas.normal.size(), 0);
   }
   ChartFinder(const FlatAtlas& atlas, Monitor& monitor) : atlas_(atlas), monitor_(monitor) {
@@ -52,7 +53,9 @@ class ChartFinder {
     std::int32_t triangle, chart;
   };
 
-  [[nodiscard]] double lean(std::int32_t t, std::int32_t chart) const { return dot(atlas_.normal[t], found_.axis[chart]); }
+  [[nodiscard]] double lean(std::int32_t t, std::int32_t chart) const {
+    return dot(atlas_.normal[t], found_.axis[chart]);
+  }
 
   void split(const Triangles& some, std::int32_t chart) {
     const auto other = static_cast<std::int32_t>(found_.axis.size());
@@ -72,7 +75,8 @@ class ChartFinder {
     mark_[from] = ++stamp_;
     for (std::size_t k = 0; k < queue.size(); ++k)
       for (const std::int32_t u : atlas_.at(queue[k]).beyond)
-        if (u >= 0 && found_.chart[u] == found_.chart[from] && mark_[u] != stamp_) mark_[u] = stamp_, queue.push_back(u);
+        if (u >= 0 && found_.chart[u] == found_.chart[from] && mark_[u] != stamp_)
+          mark_[u] = stamp_, queue.push_back(u);
     return queue.back();
   }
 
@@ -198,7 +202,8 @@ class ChartFinder {
     std::int32_t best = some.front();
     double least = infinity;
     for (const std::int32_t t : some) {
-      const double far = norm(atlas_.centre[t] - middle) + (dot(atlas_.normal[t], axis) < usual_cosine ? 1e3 * norm(middle) : 0);
+      const double far =
+          norm(atlas_.centre[t] - middle) + (dot(atlas_.normal[t], axis) < usual_cosine ? 1e3 * norm(middle) : 0);
       if (far < least) least = far, best = t;
     }
     return best;

@@ -13,8 +13,9 @@ namespace carreau {
 struct ProjectedCharts {
   std::vector<std::int32_t> chart;  ///< by triangle of the atlas
   std::vector<Vec3> axis;           ///< by chart: of its projection, unit
-  std::vector<char> exact;          ///< by triangle: borders of its chart are edges of the atlas, not those that sizes want, which would cross
-  bool complete = true;             ///< false: some triangle leans too much against every axis
+  std::vector<char> exact;  ///< by triangle: borders of its chart are edges of the atlas, not those that sizes want,
+                            ///< which would cross
+  bool complete = true;     ///< false: some triangle leans too much against every axis
 };
 
 /// Each chart is connected, and its normals lean against its axis by no more than `loose_cosine` tells.
@@ -23,8 +24,9 @@ ProjectedCharts find_charts(const FlatAtlas& atlas, Monitor& monitor);
 /// Cuts those in two between their ends, where they have two triangles. Whether any was.
 bool split_charts(const FlatAtlas& atlas, const std::vector<char>& which, ProjectedCharts& charts, Monitor& monitor);
 
-/// Joins charts that one axis shows, the smallest first: no normal leans more than `cosine` tells. `which`: those that are to join
-/// another one, by chart; empty: all.
-void merge_charts(const FlatAtlas& atlas, double cosine, std::vector<char> which, ProjectedCharts& charts, Monitor& monitor);
+/// Joins charts that one axis shows, the smallest first: no normal leans more than `cosine` tells. `which`: those that
+/// are to join another one, by chart; empty: all.
+void merge_charts(const FlatAtlas& atlas, double cosine, std::vector<char> which, ProjectedCharts& charts,
+                  Monitor& monitor);
 
 }  // namespace carreau

@@ -15,7 +15,13 @@ using namespace thresholds::projected;
 class ChartMerger {
  public:
   ChartMerger(const FlatAtlas& atlas, ProjectedCharts& charts, double cosine, Monitor& monitor)
-      : atlas_(atlas), charts_(charts), cosine_(cosine), monitor_(monitor), members_(charts.axis.size()), sum_(charts.axis.size()), area_(charts.axis.size()) {
+      : atlas_(atlas),
+        charts_(charts),
+        cosine_(cosine),
+        monitor_(monitor),
+        members_(charts.axis.size()),
+        sum_(charts.axis.size()),
+        area_(charts.axis.size()) {
     for (std::int32_t t = 0; t < atlas.triangles(); ++t) add(charts.chart[t], t);
   }
 
@@ -33,7 +39,9 @@ class ChartMerger {
       if (into < 0) continue;
       for (const std::int32_t t : std::exchange(members_[chart], {})) add(into, t);
       charts_.axis[into] = sum_[into] / norm(sum_[into]);
-      if (again) queue.insert(std::ranges::upper_bound(queue, std::pair{area_[into], into}, std::greater<>()), {area_[into], into});
+      if (again)
+        queue.insert(std::ranges::upper_bound(queue, std::pair{area_[into], into}, std::greater<>()),
+                     {area_[into], into});
     }
     number();
   }
@@ -95,7 +103,8 @@ class ChartMerger {
 
 }  // namespace
 
-void merge_charts(const FlatAtlas& atlas, double cosine, std::vector<char> which, ProjectedCharts& charts, Monitor& monitor) {
+void merge_charts(const FlatAtlas& atlas, double cosine, std::vector<char> which, ProjectedCharts& charts,
+                  Monitor& monitor) {
   const bool all = which.empty();
   if (all) which.assign(charts.axis.size(), 1);
   ChartMerger(atlas, charts, cosine, monitor).run(which, all);

@@ -75,7 +75,8 @@ struct Plan {
   std::vector<ChartWork> charts;
   std::vector<std::int32_t> wrong;
   [[nodiscard]] std::string why() const {
-    return std::to_string(wrong.size()) + " of " + std::to_string(charts.size()) + " charts, " + charts[wrong.front()].why;
+    return std::to_string(wrong.size()) + " of " + std::to_string(charts.size()) + " charts, " +
+           charts[wrong.front()].why;
   }
 };
 
@@ -83,17 +84,21 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   std::vector<char> exact(found.axis.size(), 0);
   for (std::size_t t = 0; t < found.chart.size(); ++t)
     exact[found.chart[t]] = std::max(exact[found.chart[t]], found.exact[t]);
-  auto borders = cut_borders({source.atlas, found, source.lines, source.worked, source.size, exact, source.tolerance, source.cad}, monitor);
+  auto borders = cut_borders(
+      {source.atlas, found, source.lines, source.worked, source.size, exact, source.tolerance, source.cad}, monitor);
   if (!borders) return {};
   Plan plan{std::move(*borders), {}, {}, {}};
   plan.charts = charts_of(found, plan.borders);
   plan.xyz = places_of(source.atlas.mesh, plan.borders);
   const auto work = [&](std::size_t c, Monitor& own) {
     ChartWork& chart = plan.charts[c];
-    chart.plane = std::make_unique<ChartPlane>(source.atlas, found.axis[c], chart.triangles, mean_size(source.atlas, chart.triangles, source.size),
-                                               std::ranges::any_of(chart.chains, [](const BorderChain* chain) { return chain->left == chain->right; }));
+    chart.plane = std::make_unique<ChartPlane>(
+        source.atlas, found.axis[c], chart.triangles, mean_size(source.atlas, chart.triangles, source.size),
+        std::ranges::any_of(chart.chains, [](const BorderChain* chain) { return chain->left == chain->right; }));
     try {
-      check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size, static_cast<std::int32_t>(c), plan.xyz}, own);
+      check_borders({source.atlas, *chart.plane, chart.chains, chart.triangles, source.size,
+                     static_cast<std::int32_t>(c), plan.xyz},
+                    own);
     } catch (const DomainError& error) {
       chart.why = error.what();
     }
@@ -102,13 +107,15 @@ std::optional<Plan> planned(const BorderSource& source, const ProjectedCharts& f
   for (std::size_t c = 0; c < plan.charts.size(); ++c)
     if (!plan.charts[c].why.empty()) {
       plan.wrong.push_back(static_cast<std::int32_t>(c));
-      monitor.message(Level::debug, "chart " + std::to_string(c) + " of " + std::to_string(plan.charts[c].triangles.size()) + " triangles: " + plan.charts[c].why);
+      monitor.message(Level::debug, "chart " + std::to_string(c) + " of " +
+                                        std::to_string(plan.charts[c].triangles.size()) +
+                                        " triangles: " + plan.charts[c].why);
     }
   return plan;
 }
 
-// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still. False
-// where nothing is left to do.
+// Joins wrong charts to others; has the borders of those exact that cannot; cuts those in two that are wrong still.
+// False where nothing is left to do.
 bool mend(const FlatAtlas& atlas, const std::vector<std::int32_t>& wrong, ProjectedCharts& found, Monitor& monitor) {
   std::vector<char> is_wrong(found.axis.size(), 0);
   for (const std::int32_t c : wrong) is_wrong[c] = 1;
@@ -153,17 +160,20 @@ void append(const FlatAtlas& atlas, const ChartWork& chart, Cad& cad, PlacedMesh
 
 }  // namespace
 
-std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const SurfaceMesh& before, std::span<const double> size,
-                                              std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances,
-                                              const ProjectedOptions& options, Cad& cad, Monitor& monitor) {
+std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const SurfaceMesh& before,
+                                              std::span<const double> size, std::span<const WorkedLine> worked,
+                                              const SurfaceTolerances& tolerances, const ProjectedOptions& options,
+                                              Cad& cad, Monitor& monitor) {
   const auto refuse = [&](const std::string& why) -> std::optional<PlacedMesh> {
     monitor.message(Level::detail, "the mesh is not made in planes: " + why);
     return {};
   };
   const Charts& atlas = *frame.charts;
-  if (std::ranges::any_of(atlas.triangles(), [](const Charts::Triangle& t) { return t.turned; })) return refuse("a face is turned");
+  if (std::ranges::any_of(atlas.triangles(), [](const Charts::Triangle& t) { return t.turned; }))
+    return refuse("a face is turned");
   const FlatAtlas flat(atlas, before, frame.jets);
-  const BorderSource source{flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.threads, cad};
+  const BorderSource source{
+      flat, frame.lines, worked, size, {tolerances.deviation, tolerances.share_of_size}, options.threads, cad};
   ProjectedCharts found = find_charts(flat, monitor);
   if (!found.complete) return refuse("triangles lean too much");
   std::optional<Plan> plan;
@@ -175,7 +185,9 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   const auto work = [&](std::size_t c, Monitor& own) {
     ChartWork& chart = plan->charts[c];
     try {
-      chart.mesh = mesh_chart({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c), plan->xyz, options.max_triangles}, own);
+      chart.mesh = mesh_chart({flat, *chart.plane, chart.chains, chart.triangles, size, static_cast<std::int32_t>(c),
+                               plan->xyz, options.max_triangles},
+                              own);
       if (!chart.mesh) chart.why = "it is folded";
     } catch (const DomainError& error) {
       chart.why = error.what();
@@ -184,7 +196,8 @@ std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const
   run_each(plan->charts.size(), false, options.threads, work, monitor);
   PlacedMesh placed;
   placed.added = std::move(plan->borders.added);
-  for (std::size_t k = 0; k < placed.added.size(); ++k) placed.seams.push_back(static_cast<std::int32_t>(before.vertices.size() + k));
+  for (std::size_t k = 0; k < placed.added.size(); ++k)
+    placed.seams.push_back(static_cast<std::int32_t>(before.vertices.size() + k));
   for (const ChartWork& chart : plan->charts) {
     if (!chart.mesh) return refuse(chart.why);
     monitor.checkpoint();

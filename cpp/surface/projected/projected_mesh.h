@@ -15,9 +15,11 @@ struct ProjectedOptions {
   std::int64_t max_triangles = 0;
 };
 
-/// Of sizes without direction. None where the charts do not serve: it is then as if nobody had asked. The same for any number of threads.
-std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const SurfaceMesh& before, std::span<const double> size,
-                                              std::span<const WorkedLine> worked, const SurfaceTolerances& tolerances,
-                                              const ProjectedOptions& options, Cad& cad, Monitor& monitor);
+/// Of sizes without direction. None where the charts do not serve: it is then as if nobody had asked. The same for any
+/// number of threads.
+std::optional<PlacedMesh> make_projected_mesh(const RemeshingFrame& frame, const SurfaceMesh& before,
+                                              std::span<const double> size, std::span<const WorkedLine> worked,
+                                              const SurfaceTolerances& tolerances, const ProjectedOptions& options,
+                                              Cad& cad, Monitor& monitor);
 
 }  // namespace carreau

@@ -35,7 +35,8 @@ inline constexpr int sweeps = 12, last_sweeps = 3;
 inline constexpr double flat_cosine = 0.99;
 /// Sizes that differ by so much, relatively, are one.
 inline constexpr double same_size = 1e-6;
-/// Of the control space of a chart of one size: error of lengths, samples a vertex, samples at least. The triangles that it is of know normals no better.
+/// Of the control space of a chart of one size: error of lengths, samples a vertex, samples at least. The triangles
+/// that it is of know normals no better.
 inline constexpr double length_tolerance = 0.03, samples_per_vertex = 0.3;
 inline constexpr std::size_t least_samples = 40;
 /// Share of the size. What is lifted farther from where the plane had it is lifted again.

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Meshes of triangles' surfaces that are made in planes, and the planes themselves.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <set>
+
+#include "geometry/discrete/discrete_cad.h"
+#include "mesh/intersections.h"
+#include "mesh/quality.h"
+#include "session/session.h"
+#include "surface/discrete/start_mesh.h"
+#include "surface/projected/chart_plane.h"
+#include "surface/projected/find_charts.h"
+#include "surface/projected/thresholds.h"
+#include "surfaces.h"
+
+namespace carreau::discrete {
+namespace {
+
+using namespace carreau::thresholds::projected;
+
+/// What a run says, and whether it was made in planes.
+class Listener final : public Monitor {
+ public:
+  void message(Level, std::string_view text) override { in_planes = in_planes || text.starts_with("made in planes"); }
+  bool in_planes = false;
+};
+
+struct Made {
+  SurfaceMesh mesh;
+  Delivery length;
+  bool in_planes = false;
+};
+
+Made made_of(const FlatMesh& triangles, double size, int threads = 1) {
+  const BuiltGeometry built = discrete_geometry(std::make_shared<const DiscreteSurface>(surface_of(triangles, {})));
+  Listener listener;
+  Session session(listener);
+  session.set_cad(built.cad);
+  session.set_model(built.model);
+  session.parameters().set("threads", threads);
+  session.parameters().set("verb", 100);
+  session.parameters().set("hphy_flag", 1);
+  session.parameters().set("hphydef", size);
+  session.make_mesh();
+  EXPECT_EQ(find_defects(session.mesh(), {.closed = false}), std::vector<std::string>{});
+  return {session.mesh(), session.delivered()[EvaluationKind::length], listener.in_planes};
+}
+
+double mean_quality(const FlatMesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles) {
+    const auto at = [&](std::size_t k) -> const Vec3& { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    sum += quality_q2(at(0), at(1), at(2));
+  }
+  return sum / static_cast<double>(mesh.triangles.size());
+}
+
+TEST(ProjectedMeshes, ShapesAndLengthsAreThoseAskedFor) {
+  for (const auto& [triangles, size, chi] :
+       {std::tuple{sphere(12), 0.06, 2}, {torus(48, 24), 0.1, 0}, {cube(3), 0.05, 2}, {cylinder(36), 0.06, 2}}) {
+    const Made made = made_of(triangles, size);
+    EXPECT_TRUE(made.in_planes);
+    const FlatMesh flat = flatten(made.mesh, false);
+    EXPECT_EQ(static_cast<std::int64_t>(flat.vertices.size()) - static_cast<std::int64_t>(flat.triangles.size() / 2),
+              chi);
+    EXPECT_GE(mean_quality(flat), 0.985);
+    EXPECT_GE(made.length.spread.p1, 1 / std::numbers::sqrt2);
+    EXPECT_LE(made.length.spread.p99, std::numbers::sqrt2);
+    EXPECT_NEAR(made.length.spread.mean, 1, 0.05);
+    Monitor silent;
+    EXPECT_EQ(find_intersections(flat.vertices, flat.triangles, {}, silent).count, 0);
+  }
+}
+
+TEST(ProjectedMeshes, VerticesLieOnTheSurface) {
+  for (const Vec3& p : made_of(sphere(12), 0.08).mesh.vertices) EXPECT_NEAR(norm(p), 1, 1e-4);
+}
+
+TEST(ProjectedMeshes, TheSameForAnyNumberOfThreads) {
+  const SurfaceMesh one = made_of(sphere(8), 0.08, 1).mesh;
+  for (const int threads : {2, 5}) {
+    const SurfaceMesh other = made_of(sphere(8), 0.08, threads).mesh;
+    EXPECT_EQ(one.vertices, other.vertices);
+    EXPECT_EQ(flatten(one, false).triangles, flatten(other, false).triangles);
+  }
+}
+
+// Three triangles at an edge: edits make the mesh.
+TEST(ProjectedMeshes, WhatNoPlaneShowsIsMadeByEdits) {
+  FlatMesh fins;
+  fins.vertices = {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}};
+  fins.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}};
+  EXPECT_FALSE(made_of(fins, 0.1).in_planes);
+}
+
+/// The atlas of a surface as it is given.
+struct Atlas {
+  explicit Atlas(const FlatMesh& triangles)
+      : built(discrete_geometry(std::make_shared<const DiscreteSurface>(surface_of(triangles, {})))),
+        surface(dynamic_cast<const DiscreteCad&>(*built.cad)),
+        refined(unrefined(surface.discrete())),
+        mesh(start_mesh(built.model, surface, refined)),
+        sizes{std::vector<double>(refined.vertices.size(), 1), {}, {}},
+        frame(start_frame(surface, refined, mesh, sizes, {}, *built.cad, silent)),
+        flat(*frame.charts, mesh, frame.jets) {}
+  Monitor silent;
+  BuiltGeometry built;
+  const DiscreteCad& surface;
+  RefinedMesh refined;
+  SurfaceMesh mesh;
+  MeshSizes sizes;
+  RemeshingFrame frame;
+  FlatAtlas flat;
+};
+
+/// Triangles of each chart that hang together, and how much their normals lean.
+void expect_charts(const Atlas& atlas, const ProjectedCharts& found, double cosine) {
+  std::vector<std::set<std::int32_t>> members(found.axis.size());
+  for (std::int32_t t = 0; t < atlas.flat.triangles(); ++t) {
+    const auto c = static_cast<std::size_t>(found.chart[static_cast<std::size_t>(t)]);
+    members[c].insert(t);
+    EXPECT_GE(dot(atlas.flat.normal[static_cast<std::size_t>(t)], found.axis[c]), cosine);
+  }
+  for (const auto& some : members) {
+    ASSERT_FALSE(some.empty());
+    std::set<std::int32_t> met{*some.begin()};
+    std::vector<std::int32_t> queue{*some.begin()};
+    for (std::size_t k = 0; k < queue.size(); ++k)
+      for (const std::int32_t u : atlas.flat.at(queue[k]).beyond)
+        if (some.contains(u) && met.insert(u).second) queue.push_back(u);
+    EXPECT_EQ(met, some);
+  }
+}
+
+// A cap whose normals lean by a at most has the share (1 - cos a) / 2 of a sphere.
+TEST(ProjectedCharts, ChartsOfASphereAreConnectedAndLeanLittle) {
+  Atlas atlas(sphere(12));
+  ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
+  EXPECT_TRUE(found.complete);
+  EXPECT_GE(static_cast<double>(found.axis.size()), 2 / (1 - loose_cosine));
+  EXPECT_LE(found.axis.size(), 16U);
+  expect_charts(atlas, found, loose_cosine);
+  const std::size_t before = found.axis.size();
+  EXPECT_TRUE(split_charts(atlas.flat, std::vector<char>(before, 1), found, atlas.silent));
+  EXPECT_EQ(found.axis.size(), 2 * before);
+  expect_charts(atlas, found, 0);
+  merge_charts(atlas.flat, merge_cosine, {}, found, atlas.silent);
+  EXPECT_LT(found.axis.size(), 2 * before);
+  expect_charts(atlas, found, loose_cosine);
+}
+
+TEST(ProjectedCharts, FacesOfACubeAreOneChartEach) {
+  Atlas atlas(cube(4));
+  const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
+  EXPECT_EQ(found.axis.size(), 6U);
+  expect_charts(atlas, found, 1 - 1e-12);
+}
+
+// Of the triangles of the plane each place is found in its own one. Over the plane z = z(x, y) the metric has the
+// determinant 1 + z_x^2 + z_y^2 = 1 / n_z^2, and n is the place itself on a unit sphere.
+TEST(ChartPlanes, TellTriangleAndMetricOfEachPlace) {
+  Atlas atlas(sphere(24));
+  const ProjectedCharts found = find_charts(atlas.flat, atlas.silent);
+  for (std::size_t c = 0; c < found.axis.size(); ++c) {
+    std::vector<std::int32_t> own;
+    for (std::int32_t t = 0; t < atlas.flat.triangles(); ++t)
+      if (found.chart[static_cast<std::size_t>(t)] == static_cast<std::int32_t>(c)) own.push_back(t);
+    const ChartPlane plane(atlas.flat, found.axis[c], own, 0.05, false);
+    for (const std::int32_t t : own) {
+      const Vec3& middle = atlas.flat.centre[static_cast<std::size_t>(t)];
+      const auto foot = plane.find(plane.project(middle));
+      ASSERT_TRUE(foot);
+      EXPECT_EQ(foot->triangle, t);
+      EXPECT_LT(norm(atlas.flat.flat(*foot) - middle), 1e-12);
+      const double up = dot(middle, found.axis[c]) / norm(middle);
+      EXPECT_NEAR(determinant(plane.metric(*foot)) * up * up, 1, 0.02);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carreau::discrete
