@@ -5,6 +5,7 @@
 #include "mesh/elements/cell_defects.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
+#include "model/bucket_sort.h"
 #include "predicates/predicates.h"
 
 namespace carreau {
@@ -102,7 +103,7 @@ class DefectFinder {
       directed.push_back({b, c});
       directed.push_back({c, a});
     }
-    std::sort(directed.begin(), directed.end());
+    bucket_sort(directed, face.uv.size(), [](const Key& edge) { return edge[0]; });
     for (std::size_t i = 1; i < directed.size(); ++i)
       if (directed[i] == directed[i - 1])
         add("face " + std::to_string(face.ref) + ": two triangles run along one edge the same way, near u = " +
@@ -118,7 +119,7 @@ class DefectFinder {
         std::sort(corners.begin(), corners.end());
         sorted.push_back(corners);
       }
-    std::sort(sorted.begin(), sorted.end());
+    bucket_sort(sorted, mesh_.vertices.size(), [](const auto& corners) { return corners[0]; });
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i] == sorted[i - 1])
         add("two triangles have the same vertices " + std::to_string(sorted[i][0]) + ", " +
@@ -164,7 +165,7 @@ class DefectFinder {
         for (int i = 0; i < 3; ++i)
           found.push_back({ordered(mesh_.faces[f].vertex[t[i]], mesh_.faces[f].vertex[t[(i + 1) % 3]]),
                            static_cast<std::int32_t>(f)});
-    std::sort(found.begin(), found.end());
+    bucket_sort(found, mesh_.vertices.size(), [](const EdgeUse& use) { return use.key[0]; });
     const std::vector<EdgeUse> expected = expected_on_curves();
     std::size_t i = 0, k = 0;
     while (i < found.size() || k < expected.size()) {
@@ -173,12 +174,14 @@ class DefectFinder {
       std::size_t have = 0, want = 0;
       while (i < found.size() && found[i] == edge) ++i, ++have;
       while (k < expected.size() && expected[k] == edge) ++k, ++want;
-      const std::string name = "edge " + std::to_string(edge.key[0]) + " - " + std::to_string(edge.key[1]) +
-                               " of face " + std::to_string(mesh_.faces[edge.face].ref) + ": ";
+      const auto name = [&] {
+        return "edge " + std::to_string(edge.key[0]) + " - " + std::to_string(edge.key[1]) + " of face " +
+               std::to_string(mesh_.faces[edge.face].ref) + ": ";
+      };
       if (want > 0 && have != want)
-        add(name + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want));
+        add(name() + "on a curve, with " + std::to_string(have) + " triangles instead of " + std::to_string(want));
       else if (want == 0 && have != 2 && !mesh_.independent)
-        add(name + std::to_string(have) + " triangles away from any curve");
+        add(name() + std::to_string(have) + " triangles away from any curve");
     }
     if (mesh_.independent) check_edges_between(found, expected);
     if (options_.closed) check_closed(found);
