@@ -23,7 +23,6 @@ struct FreedMesh {
   std::vector<CurveParameters> curve_parameters;   ///< the same
   std::vector<std::vector<std::int32_t>> feet;  ///< [face][local vertex]: triangle of the atlas
   std::vector<std::vector<std::int32_t>> mid_feet;  ///< the same of nodes on edges, by index in FaceMesh::mid_uv
-  bool worse_shaped = false;                    ///< the mean shape has fallen
   // What it was made of, for those who make other elements of it.
   std::unique_ptr<FreeMesh> free = {};
   std::vector<WorkedLine> worked = {};  ///< by line
