@@ -103,7 +103,7 @@ class DefectFinder {
       directed.push_back({b, c});
       directed.push_back({c, a});
     }
-    std::sort(directed.begin(), directed.end());
+    bucket_sort(directed, face.uv.size(), [](const Key& edge) { return edge[0]; });
     for (std::size_t i = 1; i < directed.size(); ++i)
       if (directed[i] == directed[i - 1])
         add("face " + std::to_string(face.ref) + ": two triangles run along one edge the same way, near u = " +
@@ -119,7 +119,7 @@ class DefectFinder {
         std::sort(corners.begin(), corners.end());
         sorted.push_back(corners);
       }
-    std::sort(sorted.begin(), sorted.end());
+    bucket_sort(sorted, mesh_.vertices.size(), [](const auto& corners) { return corners[0]; });
     for (std::size_t i = 1; i < sorted.size(); ++i)
       if (sorted[i] == sorted[i - 1])
         add("two triangles have the same vertices " + std::to_string(sorted[i][0]) + ", " +

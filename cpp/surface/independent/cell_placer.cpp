@@ -23,6 +23,10 @@ PlacedCell CellPlacer::operator()(const FreeCell& cell, const FreeCell& nodes) {
   const Vec3 a = at(0);
   normal_ = n_ == 3 ? Vec3(cross(at(1) - a, at(2) - a)) : Vec3(cross(at(2) - a, at(3) - at(1)));
   const auto placed = [&]() -> PlacedCell {
+    if (const auto face = only_one_each()) {
+      if (*face >= 0 && fits({})) return this->placed(*face, {}, is_turned(place(0, {})), false);
+      return over_several();
+    }
     for (const std::int32_t face : common_faces())
       if (auto in_face = in_one_chart(face)) return *in_face;
     return over_several();
@@ -30,6 +34,20 @@ PlacedCell CellPlacer::operator()(const FreeCell& cell, const FreeCell& nodes) {
   PlacedCell result = placed();
   if (nodes[0] >= 0) place_nodes(nodes, result);
   return result;
+}
+
+// Where corners have one place each, as inside: the face that common_faces() finds, -1: there is none.
+std::optional<std::int32_t> CellPlacer::only_one_each() const {
+  std::int32_t face = -1;
+  bool common = true;
+  for (int i = 0; i < n_; ++i) {
+    const auto places = vertices_.places(vertex_[i]);
+    if (places.size() != 1) return {};
+    const SurfacePlace& p = places.front();
+    if (i == 0) face = face_of(p);
+    common = common && face_of(p) == face && (!p.regular || dot(p.normal, normal_) > 0);
+  }
+  return common ? face : -1;
 }
 
 // Those in which each corner has a place, on the side of the cell; ascending.

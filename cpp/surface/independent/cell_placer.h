@@ -46,6 +46,7 @@ class CellPlacer {
   [[nodiscard]] const SurfacePlace& place(int corner, const Choice& k) const {
     return vertices_.places(vertex_[corner])[k[corner]];
   }
+  [[nodiscard]] std::optional<std::int32_t> only_one_each() const;
   [[nodiscard]] std::vector<std::int32_t> common_faces() const;
   [[nodiscard]] std::optional<PlacedCell> in_one_chart(std::int32_t face) const;
   [[nodiscard]] bool fits(const Choice& k) const;

@@ -169,7 +169,8 @@ void FreeMesh::judge_shape(std::int32_t a, std::int32_t b, std::int32_t c, Trian
       by_direction() ? quality_q2(gram_of(a, b, c)) : quality_q2(place_[a].xyz, place_[b].xyz, place_[c].xyz);
   shapes.worst = std::min(shapes.worst, quality);
   shapes.inverses += 1 / std::max(quality, flat_quality);
-  shapes.short_of += good_shape - quality;
+  shapes.sum += quality;
+  ++shapes.count;
 }
 
 void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, TriangleShapes& shapes) const {
@@ -197,7 +198,8 @@ void FreeMesh::judge_agreement(std::int32_t a, std::int32_t b, std::int32_t c, T
     share = std::max(share, offset * offset / (most * most));
   }
   const bool guarded = guards_ && std::ranges::any_of(v, [&](std::int32_t w) { return charts_.is_guarded(place_[w].foot); });
-  shapes.share = std::max(shapes.share, guarded ? guarded_factor * share : share);
+  if (guarded) share = budget.is_limited() ? infinity : guarded_factor * share;  // infinity: nothing is edited there
+  shapes.share = std::max(shapes.share, share);
 }
 
 TriangleShapes FreeMesh::judge_fan(std::int32_t v, Judge how) const {
@@ -210,7 +212,7 @@ TriangleShapes FreeMesh::judge_fan(std::int32_t v, Judge how) const {
 }
 
 bool FreeMesh::agrees(const TriangleShapes& before, const TriangleShapes& after) noexcept {
-  return after.share <= std::max(1.0, before.share);
+  return after.share < infinity && after.share <= std::max(1.0, before.share);
 }
 
 std::optional<SurfacePlace> FreeMesh::near(std::int32_t v, const Vec3& normal, const Vec3& target) {

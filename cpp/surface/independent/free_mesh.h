@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/editable_mesh.h"
+#include "support/infinity.h"
 #include "surface/independent/charts.h"
 #include "surface/independent/sharp_edges.h"
 
@@ -24,15 +25,31 @@ struct SurfaceTolerances {
   double angle_deg = 0;       ///< A1: of a triangle's normal with those of the surface at its corners
   double deviation = 0;       ///< A0, model length; 0: `share_of_size` counts
   double share_of_size = 0;   ///< A0 as a share of the size
-  double price_of_length = 0; ///< sum of differences of Q2 that a collapse may cost for an edge that comes into range
 };
 
 /// Of some triangles.
 struct TriangleShapes {
   double worst = 1;      ///< Q2 in the metric
   double inverses = 0;   ///< sum of 1 / Q2
-  double short_of = 0;   ///< sum of good_shape - Q2
+  double sum = 0;        ///< of Q2
+  int count = 0;
   double share = 0;      ///< the largest square of A0 or A1 over its tolerance, by the normals at the corners
+};
+
+/// What collapses between sharp lines may cost in shapes. Costs are sums of differences of Q2; triangles that go count against a mean.
+struct ShapeBudget {
+  double price = infinity;  ///< for an edge that comes into range
+  double mean = 0;          ///< Q2 that the mesh is to keep
+  double left = infinity;   ///< of all; infinity: whatever it costs
+  double floor = 0;         ///< Q2: no edit leaves a triangle that is worse, where none was
+
+  [[nodiscard]] bool is_limited() const noexcept { return left < infinity; }
+  /// What shapes lose by an edit.
+  [[nodiscard]] double cost(const TriangleShapes& before, const TriangleShapes& after) const noexcept {
+    return before.sum - after.sum - mean * (before.count - after.count);
+  }
+  [[nodiscard]] bool affords(double cost) const noexcept { return cost <= 0 || cost <= left; }
+  void pay(double cost) noexcept { left -= cost; }
 };
 
 /// HDR eq. 4.83: of a distance between two places with these sizes.
@@ -113,8 +130,7 @@ class FreeMesh final : public PlacedVertices {
   std::int32_t try_vertex(const SurfacePlace& at);
   void forget_vertex();
 
-  /// See SurfaceTolerances.
-  [[nodiscard]] double price_of_length() const noexcept { return asked_.price_of_length; }
+  ShapeBudget budget;
 
   // Edits. Those that are refused change nothing.
   bool collapse(std::int32_t gone, std::int32_t kept) { return !joins_frozen(gone, kept) && mesh_->collapse(gone, kept); }

@@ -9,6 +9,7 @@
 #include "support/infinity.h"
 #include "support/segment.h"
 #include "surface/independent/edits/collapse_price.h"
+#include "surface/independent/edits/edge_edits.h"
 #include "surface/independent/thresholds.h"
 
 namespace carreau {
@@ -84,7 +85,8 @@ class LineRemesher {
     if (distance(previous, next) > allowed) return false;
     const bool back = mesh_.length(previous.vertex, here.vertex) <= mesh_.length(here.vertex, next.vertex);
     for (const Node& kept : {back ? previous : next, back ? next : previous})
-      if (agrees(here.vertex, kept.vertex) && mesh_.collapse(here.vertex, kept.vertex)) {
+      if (const auto cost = cost_of(here.vertex, kept.vertex); cost && mesh_.collapse(here.vertex, kept.vertex)) {
+        mesh_.budget.pay(*cost);
         changed_.push_back(kept.vertex);
         left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(k));
         return true;
@@ -92,7 +94,8 @@ class LineRemesher {
     return false;
   }
 
-  [[nodiscard]] bool agrees(std::int32_t gone, std::int32_t kept) const {
+  // None where it may not be.
+  [[nodiscard]] std::optional<double> cost_of(std::int32_t gone, std::int32_t kept) const {
     TriangleShapes before, after;
     for (const FreeMesh::Place p : mesh_.mesh().fan(gone)) {
       const auto& t = mesh_.mesh().at(p);
@@ -101,9 +104,16 @@ class LineRemesher {
       const int i = mesh_.mesh().rank_in(p, gone);
       mesh_.judge(kept, t[(i + 1) % 3], t[(i + 2) % 3], after);
     }
-    return FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape) &&
-           !costs_too_much(mesh_, gone, kept, before, after);
+    if (!FreeMesh::agrees(before, after) || after.worst < least_of(before)) return {};
+    return cost_of_collapse(mesh_, gone, kept, before, after);
   }
+
+  [[nodiscard]] double least_of(const TriangleShapes& before) const {
+    return std::min(before.worst, std::max(least_line_shape, mesh_.budget.floor));
+  }
+
+  // Where shapes of before are kept.
+  [[nodiscard]] bool weighs_moves() const { return mesh_.budget.floor > 0 || mesh_.budget.is_limited(); }
 
   // Where both edges have one length in the metric.
   void move(std::size_t k) {
@@ -118,13 +128,18 @@ class LineRemesher {
     const WantedSize size = mesh_.wanted(here.vertex);
     const double arc = here.arc;
     const TriangleShapes before = mesh_.judge_around(here.vertex);
+    const int out = out_of_range(mesh_, here.vertex);
     for (const double share : {1.0, 0.5}) {
       here.arc = arc + share * (to - arc);
       const KeptPlaces places = places_.at(here.arc);
       if (places.empty()) break;
       mesh_.put_kept(here.vertex, places, mesh_.wanted_at(places));
       const TriangleShapes after = mesh_.judge_around(here.vertex);
-      if (FreeMesh::agrees(before, after) && after.worst >= std::min(before.worst, least_line_shape)) {
+      const double cost = before.sum - after.sum;
+      const int gain = out - out_of_range(mesh_, here.vertex);
+      const bool worth = !weighs_moves() || (cost <= mesh_.budget.price * gain && mesh_.budget.affords(cost));
+      if (worth && FreeMesh::agrees(before, after) && after.worst >= least_of(before)) {
+        mesh_.budget.pay(cost);
         changed_.push_back(here.vertex);
         return;
       }

@@ -17,7 +17,6 @@ namespace carreau {
 
 /// What changes when a mesh has been made free of its patches.
 struct FreedMesh : SizedMesh {
-  bool worse_shaped = false;                    ///< the mean shape has fallen
   // What it was made of, for those who make other elements of it.
   std::unique_ptr<FreeMesh> free = {};
   std::vector<WorkedLine> worked = {};  ///< by line

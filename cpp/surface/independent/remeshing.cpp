@@ -193,8 +193,8 @@ class Remesher {
       monitor_.checkpoint();
       if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < shortest)) continue;
       if (mesh_.mesh().is_imposed(e.v, e.w)) continue;  // line_remeshing
-      const auto forth = worst_when_short(mesh_, e.v, e.w), back = worst_when_short(mesh_, e.w, e.v);
-      const bool turned = back > forth;
+      const auto forth = shapes_when_short(mesh_, e.v, e.w), back = shapes_when_short(mesh_, e.w, e.v);
+      const bool turned = back.worst > forth.worst;
       (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
           (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));
     }
@@ -207,15 +207,16 @@ class Remesher {
       monitor_.checkpoint();
       if (!mesh_.is_alive(e.v) || !mesh_.is_alive(e.w) || !(mesh_.length(e.v, e.w) < short_when_dense)) continue;
       if (mesh_.mesh().is_imposed(e.v, e.w) || !is_dense(mesh_, e.v, e.w)) continue;
-      const auto forth = worst_when_dense(mesh_, e.v, e.w), back = worst_when_dense(mesh_, e.w, e.v);
-      const bool turned = back > forth;
+      const auto forth = shapes_when_dense(mesh_, e.v, e.w), back = shapes_when_dense(mesh_, e.w, e.v);
+      const bool turned = back.worst > forth.worst;
       (turned ? collapse(e.w, e.v, back) : collapse(e.v, e.w, forth)) ||
           (turned ? collapse(e.v, e.w, forth) : collapse(e.w, e.v, back));
     }
   }
 
-  bool collapse(std::int32_t gone, std::int32_t kept, double worst) {
-    if (worst < 0 || !collapse_edge(mesh_, gone, kept)) return false;
+  bool collapse(std::int32_t gone, std::int32_t kept, const CollapseShapes& shapes) {
+    if (shapes.worst < 0 || !collapse_edge(mesh_, gone, kept)) return false;
+    mesh_.budget.pay(shapes.cost);
     remade(kept);
     ++report_.collapses;
     return true;

@@ -9,6 +9,7 @@
 
 #include "cad/batches.h"
 #include "cad/fundamental_forms.h"
+#include "model/bucket_sort.h"
 #include "model/union_find.h"
 #include "surface/independent/thresholds.h"
 
@@ -34,7 +35,7 @@ std::vector<MeshEdge> edges_of_curves(const SurfaceMesh& mesh, bool internal_onl
     for (std::size_t i = 1; i < curve.vertices.size(); ++i)
       edges.push_back(mesh_edge(curve.vertices[i - 1], curve.vertices[i]));
   }
-  std::ranges::sort(edges);
+  bucket_sort(edges, mesh.vertices.size(), [](const MeshEdge& e) { return e[0]; });
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
 }
@@ -50,7 +51,7 @@ std::vector<TriangleSide> sides_on(const SurfaceMesh& mesh, const std::vector<Me
           sides.push_back({edge, static_cast<std::int32_t>(f), static_cast<std::int32_t>(t), i});
       }
   }
-  std::ranges::sort(sides);
+  bucket_sort(sides, mesh.vertices.size(), [](const TriangleSide& s) { return s.edge[0]; });
   return sides;
 }
 

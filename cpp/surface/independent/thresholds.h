@@ -85,14 +85,14 @@ inline constexpr double above_worst = 0.03;
 // What collapses may cost (collapse_price)
 /// Shape of a triangle that is no loss when it goes: about the mean of a mesh.
 inline constexpr double good_shape = 0.95;
-/// Sum of differences of shapes that one more edge in range is worth: first, and where the mean shape falls by it. Between sharp lines
-/// nearer than the size lengths and shapes are at odds: without a price frame.step at 2 % has 82 % of its edges in range
-/// and a mean of .871, by .2 it has 74 % and .896, and .913 to begin with.
-inline constexpr double high_price = 1, low_price = 0.2;
-/// Sizes by which sizes grow from edges of lines that stay short, a wanted size, where the mean shape falls by the low price, too; the slow growth where it falls by the
-/// fast one and not by the slow one.
-/// By 1 frame.step at 2 % has 56 % of its edges in range and a mean of .913, by 4 61 % and .917.
-inline constexpr double fast_growth = 4, slow_growth = 1;
+/// Sum of differences of shapes that one more edge in range is worth, of meshes made of no mesher's triangles.
+inline constexpr double high_price = 1;
+/// The same of meshes made patch by patch, and what it grows by each time that lines have been worked at while the mean is kept: the cheapest edits come first.
+inline constexpr double low_price = 0.2, price_growth = 3;
+/// Shape. Means differ by less in rounding.
+inline constexpr double rounding_of_mean = 1e-9;
+/// Share of the sides of triangles. Where more would come into range if shapes were not kept, they are not: patches that are small and well shaped would stay.
+inline constexpr double most_range_for_shapes = 0.2;
 /// Degrees. By a larger sharp_angle features are to vanish, and shapes have no price.
 inline constexpr double most_angle_of_price = 5;
 
@@ -112,8 +112,6 @@ inline constexpr double least_anisotropy = 1.05;
 /// Degrees: A1 at least, where sizes differ by direction. Long edges of triangles that are shorter across let them lean
 /// against the surface; patches bound it, too (surface/thresholds.h, most_lean: 26.6 degrees, and lengths vary).
 inline constexpr double leaning_angle = 35;
-/// Attempts, each of which guards the places where triangles crossed in those before.
-inline constexpr int most_attempts = 4;
 /// Sizes around such a place that are guarded.
 inline constexpr double guarded_sizes = 2;
 /// Degrees. A larger sharp_angle does not let triangles stand upright.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "support/infinity.h"
 #include "surface/independent/edits/edge_edits.h"
 #include "surface/independent/thresholds.h"
 
@@ -80,7 +81,7 @@ class WorstFirst {
     const Vec3 across = cross(from.normal, least);
     const Vec3 p = (1 / norm(across)) * across, q = cross(from.normal, p);
     SurfacePlace best = from;
-    double worst = before.worst + least_gain;
+    double worst = before.worst + least_gain, cost = 0;
     for (int k = 0; k < worst_directions; ++k) {
       const double angle = 2 * std::numbers::pi * k / worst_directions;
       const auto to =
@@ -88,12 +89,14 @@ class WorstFirst {
       if (!to) continue;
       mesh_.put(v, *to, mesh_.wanted_at(*to));
       const TriangleShapes after = mesh_.judge_around(v);
-      if (after.worst > worst && FreeMesh::agrees(before, after) && out_of_range(mesh_, v) <= out)
-        worst = after.worst, best = *to;
+      if (after.worst > worst && FreeMesh::agrees(before, after) && out_of_range(mesh_, v) <= out &&
+          mesh_.budget.affords(before.sum - after.sum))
+        worst = after.worst, cost = before.sum - after.sum, best = *to;
       mesh_.put(v, from, size);
     }
     if (worst <= before.worst + least_gain) return false;
     mesh_.put(v, best, mesh_.wanted_at(best));
+    mesh_.budget.pay(cost);
     ++edits_;
     return true;
   }
@@ -108,10 +111,9 @@ class WorstFirst {
 
 ShapeSummary summarise_shapes(const FreeMesh& mesh) {
   TriangleShapes shapes;
-  std::int64_t count = 0;
   for (const Corners& t : mesh.triangles())
-    if (t[0] >= 0) mesh.judge_shape(t[0], t[1], t[2], shapes), ++count;
-  return {good_shape - shapes.short_of / static_cast<double>(std::max<std::int64_t>(count, 1)), shapes.worst};
+    if (t[0] >= 0) mesh.judge_shape(t[0], t[1], t[2], shapes);
+  return {shapes.sum / std::max(shapes.count, 1), shapes.worst, shapes.count};
 }
 
 std::int64_t raise_worst(FreeMesh& mesh, double floor, Monitor& monitor) {

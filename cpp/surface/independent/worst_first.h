@@ -12,6 +12,7 @@ namespace carreau {
 /// Of all triangles, in the metric.
 struct ShapeSummary {
   double mean = 1, worst = 1;  ///< Q2
+  int count = 0;
 };
 ShapeSummary summarise_shapes(const FreeMesh& mesh);
 

@@ -109,7 +109,7 @@ class DividedRemeshing {
     const Division division(std::move(parts), mesh_.triangles().size());
     Vertices cuts = division.meeting(mesh_);
     std::vector<EditedPart> edited = edit(division, around);
-    for (const EditedPart& part : edited) report_ += part.report;
+    for (const EditedPart& part : edited) report_ += part.report, mesh_.budget.pay(part.cost);
     mesh_.take(division, std::move(edited));
     monitor_.checkpoint();
     if (!everywhere_) {
@@ -122,9 +122,15 @@ class DividedRemeshing {
   EditedPart edit_part(const Division& division, std::size_t p, const Vertices& around, Monitor& monitor) const {
     const MeshPart part(mesh_, division, static_cast<std::int32_t>(p));
     FreeMesh own(mesh_, part);
+    // What one part gains another one cannot spend before the next round: none knows of the others.
+    if (own.budget.is_limited()) own.budget.left /= static_cast<double>(division.parts.size());
     const Vertices start = everywhere_ ? part.local(around) : Vertices{};
     if (everywhere_ && start.empty() && !around.empty()) return {mesh_, part, own, {}};
-    return {mesh_, part, own, remesh(own, monitor, everywhere_, thorough_, start)};
+    const double left = own.budget.left;
+    const RemeshingReport report = remesh(own, monitor, everywhere_, thorough_, start);
+    EditedPart edited(mesh_, part, own, report);
+    if (own.budget.is_limited()) edited.cost = left - own.budget.left;
+    return edited;
   }
 
   std::vector<EditedPart> edit(const Division& division, const Vertices& around) {

@@ -134,6 +134,7 @@ void EditedPart::put(PacketWriter& packet) const {
   put_triangles(packet, triangles);
   packet.put(moved);
   put_places(packet, places);
+  packet.put(cost);
   for (const std::int64_t count : {report.collapses, report.splits, report.swaps, report.moves, std::int64_t{report.rounds}})
     packet.put(count);
 }
@@ -143,6 +144,7 @@ EditedPart EditedPart::from(PacketReader& packet) {
   part.triangles = triangles_of(packet);
   part.moved = packet.integers();
   part.places = places_of(packet);
+  part.cost = packet.real();
   if (part.places.size() < part.moved.size()) throw Error("what another process has sent is no part of a mesh");
   part.report.collapses = packet.integer(), part.report.splits = packet.integer(), part.report.swaps = packet.integer();
   part.report.moves = packet.integer(), part.report.rounds = static_cast<int>(packet.integer());

@@ -46,6 +46,7 @@ struct EditedPart {
   std::vector<std::int32_t> moved;   ///< vertices of the whole mesh that are elsewhere
   std::vector<SurfacePlace> places;  ///< of these, and behind them those of the new ones
   RemeshingReport report;
+  double cost = 0;                   ///< to shapes (ShapeBudget), where that is limited
 
   EditedPart() = default;
   /// `edited`: made of `part`.

@@ -9,7 +9,8 @@
 namespace carreau {
 
 FreeMesh::FreeMesh(const FreeMesh& whole, const MeshPart& part)
-    : frozen_(part.frozen),
+    : budget(whole.budget),
+      frozen_(part.frozen),
       asked_(whole.asked_),
       tolerances_(whole.tolerances_),
       cosine_(whole.cosine_),

@@ -29,9 +29,10 @@ bool spans_lines(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
 
 }  // namespace
 
-bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, const TriangleShapes& before,
-                    const TriangleShapes& after) {
-  if (!(mesh.price_of_length() < infinity) || !spans_lines(mesh, gone, kept)) return false;
+std::optional<double> cost_of_collapse(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept,
+                                       const TriangleShapes& before, const TriangleShapes& after) {
+  const ShapeBudget& budget = mesh.budget;
+  if (!(budget.price < infinity) || (!budget.is_limited() && !spans_lines(mesh, gone, kept))) return 0;
   TriangleShapes all = before;
   std::vector<std::int32_t> both;  // neighbours of the two ends
   for (const FreeMesh::Place p : mesh.mesh().fan(gone)) {
@@ -46,7 +47,9 @@ bool costs_too_much(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept, 
     gain += is_out_of_range(mesh, gone, w);
     if (w != kept && std::ranges::find(both, w) == both.end()) gain -= is_out_of_range(mesh, kept, w);
   }
-  return after.short_of - all.short_of > mesh.price_of_length() * gain;
+  const double cost = budget.cost(all, after);
+  if (cost > budget.price * gain || !budget.affords(cost)) return {};
+  return cost;
 }
 
 }  // namespace carreau

@@ -80,11 +80,14 @@ bool swap_edge(FreeMesh& mesh, const Quad& q, bool for_degrees) {
   mesh.judge_shape(q.a, q.b, q.c, before), mesh.judge_shape(q.b, q.a, q.d, before);
   mesh.judge_shape(q.a, q.d, q.c, after), mesh.judge_shape(q.d, q.b, q.c, after);
   const bool better = after.worst >= before.worst + least_gain ||
-                      (for_degrees && after.worst >= least_shape_of_degrees);
-  if (!better) return false;
+                      (for_degrees && after.worst >= std::max(least_shape_of_degrees, mesh.budget.floor));
+  const double cost = mesh.budget.cost(before, after);
+  if (!better || !mesh.budget.affords(cost)) return false;
   mesh.judge_agreement(q.a, q.b, q.c, before), mesh.judge_agreement(q.b, q.a, q.d, before);
   mesh.judge_agreement(q.a, q.d, q.c, after), mesh.judge_agreement(q.d, q.b, q.c, after);
-  return FreeMesh::agrees(before, after) && mesh.swap(q);
+  if (!FreeMesh::agrees(before, after) || !mesh.swap(q)) return false;
+  mesh.budget.pay(cost);
+  return true;
 }
 
 std::optional<std::int32_t> split_edge(FreeMesh& mesh, const Quad& q) {
@@ -102,11 +105,14 @@ std::optional<std::int32_t> split_edge(FreeMesh& mesh, const Quad& q) {
   for (const auto& [v, w] : {std::pair{q.a, q.c}, std::pair{q.c, q.b}, std::pair{q.b, q.d}, std::pair{q.d, q.a}})
     mesh.judge(w, v, m, after);
   mesh.forget_vertex();
-  if (least <= was || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, least_shape)) return {};
+  if (least <= was || !FreeMesh::agrees(before, after) || after.worst < std::min(before.worst, std::max(least_shape, mesh.budget.floor))) return {};
+  const double cost = mesh.budget.cost(before, after);
+  if (!mesh.budget.affords(cost)) return {};
+  mesh.budget.pay(cost);
   return mesh.split(q, *at);
 }
 
-double worst_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
+CollapseShapes shapes_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
   const double short_one = mesh.length(gone, kept);
   TriangleShapes before, after;
   const auto is_worse = [&](std::int32_t w) {
@@ -114,19 +120,21 @@ double worst_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t ke
     return l > longest && (l > never_longer || 1 / l < short_one);
   };
   const auto judge = [&](auto a, auto b, auto c, TriangleShapes& s) { mesh.judge_shape(a, b, c, s); };
-  if (!judge_collapse(mesh, gone, kept, judge, is_worse, before, after)) return -1;
-  if (after.worst < std::min(before.worst, least_shape)) return -1;
-  return costs_too_much(mesh, gone, kept, before, after) ? -1 : after.worst;
+  if (!judge_collapse(mesh, gone, kept, judge, is_worse, before, after)) return {};
+  if (after.worst < std::min(before.worst, std::max(least_shape, mesh.budget.floor))) return {};
+  const auto cost = cost_of_collapse(mesh, gone, kept, before, after);
+  return cost ? CollapseShapes{after.worst, *cost} : CollapseShapes{};
 }
 
-double worst_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
-  if (!mesh.is_free(gone)) return -1;
+CollapseShapes shapes_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept) {
+  if (!mesh.is_free(gone)) return {};
   TriangleShapes before, after;
   const auto is_worse = [&](std::int32_t w) { return mesh.length(kept, w) > never_longer; };
   const auto judge = [&](auto a, auto b, auto c, TriangleShapes& s) { mesh.judge_shape(a, b, c, s); };
-  if (!judge_collapse(mesh, gone, kept, judge, is_worse, before, after)) return -1;
-  if (after.worst < least_shape_when_dense) return -1;
-  return costs_too_much(mesh, gone, kept, before, after) ? -1 : after.worst;
+  if (!judge_collapse(mesh, gone, kept, judge, is_worse, before, after)) return {};
+  if (after.worst < std::max(least_shape_when_dense, mesh.budget.floor)) return {};
+  const auto cost = cost_of_collapse(mesh, gone, kept, before, after);
+  return cost ? CollapseShapes{after.worst, *cost} : CollapseShapes{};
 }
 
 bool is_dense(const FreeMesh& mesh, std::int32_t v, std::int32_t w) {

@@ -23,10 +23,15 @@ bool swap_edge(FreeMesh& mesh, const FreeMesh::Quad& q, bool for_degrees = false
 /// Puts a vertex on the surface over the middle of an edge, where lengths gain, shapes stay fair and the surface agrees.
 std::optional<std::int32_t> split_edge(FreeMesh& mesh, const FreeMesh::Quad& q);
 
-/// The worst shape that a collapse of a short edge leaves; negative where it may not be.
-[[nodiscard]] double worst_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
+/// What a collapse leaves.
+struct CollapseShapes {
+  double worst = -1;  ///< shape; negative: it may not be
+  double cost = 0;    ///< ShapeBudget
+};
+/// Of a short edge.
+[[nodiscard]] CollapseShapes shapes_when_short(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
 /// The same where triangles are small, though the edge is not short.
-[[nodiscard]] double worst_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
+[[nodiscard]] CollapseShapes shapes_when_dense(const FreeMesh& mesh, std::int32_t gone, std::int32_t kept);
 /// Whether triangles around an edge stay no larger than wanted, in the mean, without two of them.
 [[nodiscard]] bool is_dense(const FreeMesh& mesh, std::int32_t v, std::int32_t w);
 /// Collapses where the surface agrees; else false, and nothing is changed.

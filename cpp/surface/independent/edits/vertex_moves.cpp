@@ -17,8 +17,9 @@ using namespace thresholds::independent;
 
 using Place = FreeMesh::Place;
 
-bool gains(const TriangleShapes& before, const TriangleShapes& after) noexcept {
-  return after.inverses < before.inverses - least_gain && after.worst >= std::min(before.worst, good_enough);
+bool gains(const TriangleShapes& before, const TriangleShapes& after, const ShapeBudget& budget) noexcept {
+  return after.inverses < before.inverses - least_gain &&
+         after.worst >= std::min(before.worst, std::max(good_enough, budget.floor)) && budget.affords(before.sum - after.sum);
 }
 
 }  // namespace
@@ -82,6 +83,7 @@ TriangleShapes VertexMover::shapes(const Vec3& at) const {
     const double quality = squares > 0 ? 4 * half_root3 * norm(cross(p, q)) / squares : 0;
     shapes.worst = std::min(shapes.worst, quality);
     shapes.inverses += 1 / std::max(quality, flat_quality);
+    shapes.sum += quality;
   }
   return shapes;
 }
@@ -109,9 +111,12 @@ bool VertexMover::put_if_agrees(std::int32_t v, const SurfacePlace& to, const Wa
 }
 
 bool VertexMover::try_place(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before, int out) {
-  if (!gains(before, shapes(to.xyz))) return false;
+  const TriangleShapes after = shapes(to.xyz);
+  if (!gains(before, after, mesh_.budget)) return false;
   const WantedSize there = mesh_.wanted_at(to);
-  return out_of_range(to.xyz, there.h) <= out && put_if_agrees(v, to, there);
+  if (out_of_range(to.xyz, there.h) > out || !put_if_agrees(v, to, there)) return false;
+  mesh_.budget.pay(before.sum - after.sum);
+  return true;
 }
 
 bool VertexMover::try_place_by_direction(std::int32_t v, const SurfacePlace& to, const TriangleShapes& before,
@@ -119,9 +124,12 @@ bool VertexMover::try_place_by_direction(std::int32_t v, const SurfacePlace& to,
   const SurfacePlace from = mesh_.place(v);
   const WantedSize size = mesh_.wanted(v), there = mesh_.wanted_at(to);
   mesh_.put(v, to, there);
-  const bool better = gains(before, mesh_.judge_shapes_around(v)) && carreau::out_of_range(mesh_, v) <= out;
+  const TriangleShapes after = mesh_.judge_shapes_around(v);
+  const bool better = gains(before, after, mesh_.budget) && carreau::out_of_range(mesh_, v) <= out;
   mesh_.put(v, from, size);
-  return better && put_if_agrees(v, to, there);
+  if (!better || !put_if_agrees(v, to, there)) return false;
+  mesh_.budget.pay(before.sum - after.sum);
+  return true;
 }
 
 bool VertexMover::move(std::int32_t v) {
@@ -135,7 +143,7 @@ bool VertexMover::move(std::int32_t v) {
   for (const double share : {1.0, 0.4}) {
     const Vec3 target = lerp(from, ideal, share);
     // What does not gain beside the surface is not worth an evaluation.
-    if (!by_direction && !gains(before, shapes(target))) continue;
+    if (!by_direction && !gains(before, shapes(target), mesh_.budget)) continue;
     const auto to = mesh_.near(v, normal, target);
     if (!to) continue;
     if (by_direction ? try_place_by_direction(v, *to, before, out) : try_place(v, *to, before, out)) return true;

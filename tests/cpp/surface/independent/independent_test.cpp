@@ -67,6 +67,38 @@ TEST(Independent, SquaresOfACubeMeanNothing) {
   }
 }
 
+// Four by four squares above and below, four rectangles a side between sharp lines that are much nearer than the size.
+AnalyticCad plate_of_squares(double thickness) {
+  AnalyticCad cad;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      const auto plane = [axis, side, thickness](Vec2 p) {
+        SurfaceJet jet{};
+        jet.s[axis] = side, jet.s[(axis + 1) % 3] = p.x(), jet.s[(axis + 2) % 3] = p.y();
+        jet.su[(axis + 1) % 3] = jet.sv[(axis + 2) % 3] = 1;
+        for (Vec3* v : {&jet.s, &jet.su, &jet.sv}) (*v)[2] *= thickness;
+        return jet;
+      };
+      add_grid(cad, 1 + (2 * axis + side) * 16, plane, {0, 0}, {1, 1}, axis == 1 ? 1 : 4, axis == 0 ? 1 : 4);
+    }
+  return cad;
+}
+
+TEST(Independent, ShapesBetweenSharpLinesAreNoWorse) {
+  Monitor quiet;
+  for (const double thickness : {0.02, 0.05, 0.1, 0.2})
+    for (const double size : {0.15, 0.3}) {
+      const AnalyticCad plate = plate_of_squares(thickness);
+      const auto patches = meshed(plate, size, "dependent", quiet), freed = meshed(plate, size, "independent", quiet);
+      expect_sound(*freed, true);
+      const FlatMesh before = patches->exported(), mesh = freed->exported();
+      EXPECT_GE(mean_q2(mesh), mean_q2(before) - 1e-12) << thickness << ' ' << size;
+      EXPECT_GE(worst_q2(mesh), worst_q2(before) - 1e-12) << thickness << ' ' << size;
+      EXPECT_EQ(euler(mesh), 2);
+      EXPECT_NEAR(area_of(mesh), 2 + 4 * thickness, 1e-12);
+    }
+}
+
 struct Patchwork {
   AnalyticCad cut, whole;
   double size, area;

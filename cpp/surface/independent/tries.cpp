@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/independent/tries.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "mesh/flat_mesh.h"
+#include "model/bucket_sort.h"
+#include "support/infinity.h"
+#include "surface/independent/remeshing.h"
+#include "surface/independent/thresholds.h"
+#include "surface/independent/worst_first.h"
+
+namespace carreau {
+
+namespace {
+
+using namespace thresholds::independent;
+
+constexpr KeptShapes none = KeptShapes::none, worst = KeptShapes::worst, all = KeptShapes::worst_and_mean;
+constexpr std::array<Weighing, 6> between_patches{{{low_price, true, none},
+                                                   {low_price, true, worst},
+                                                   {low_price, true, all},
+                                                   {low_price, true, all},
+                                                   {low_price, true, all},
+                                                   {0, true, all}}};
+constexpr std::array<Weighing, 4> of_passing_triangles{
+    {{high_price, false, none}, {high_price, false, none}, {low_price, true, all}, {0, true, all}}};
+constexpr std::array<Weighing, 4> of_features{
+    {{infinity, false, none}, {infinity, false, none}, {infinity, false, none}, {infinity, false, none}}};
+
+/// Vertices - edges + triangles.
+std::int64_t euler(const SurfaceMesh& mesh) {
+  std::vector<MeshEdge> edges;
+  std::vector<char> used(mesh.vertices.size(), 0);
+  for (const FaceMesh& face : mesh.faces)
+    for (const auto& t : face.triangles)
+      for (int i = 0; i < 3; ++i) {
+        edges.push_back(mesh_edge(face.vertex[t[i]], face.vertex[t[(i + 1) % 3]]));
+        used[face.vertex[t[i]]] = 1;
+      }
+  bucket_sort(edges, mesh.vertices.size(), [](const MeshEdge& e) { return e[0]; });
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return std::ranges::count(used, 1) - static_cast<std::int64_t>(edges.size()) +
+         static_cast<std::int64_t>(mesh.triangle_count());
+}
+
+// Of few triangles, with sizes that grow from the lines, which are then halved: vertices that halve an edge have six neighbours,
+// and irregular ones are as few as there are of the coarse mesh.
+RemeshingReport remesh_coarsely(FreeMesh& free, const SurfaceMesh& mesh, RemeshingFrame& frame, Monitor& monitor) {
+  RemeshingReport report;
+  for (int level = halvings; level > 0; --level) {
+    const double times = std::exp2(level);
+    std::vector<double> factor(mesh.vertices.size(), times);
+    for (const MeshEdge& e : frame.sharp) factor[e[0]] = factor[e[1]] = 1;
+    for (const std::int32_t v : frame.corners) factor[v] = 1;
+    frame.charts->enlarge(frame.charts->graded_factors(std::move(factor), growth_of_coarse));
+    free.update_sizes();
+    free.tighten(times);
+    report += level == halvings ? RemeshingReport{} : halve(free, monitor);
+    report += remesh_divided(free, frame.workers, monitor, true, true);
+  }
+  frame.charts->enlarge({});
+  free.update_sizes();
+  free.tighten(1);
+  return report += halve(free, monitor);
+}
+
+double share_in_range(const FreeMesh& mesh) {
+  std::int64_t inside = 0, count = 0;
+  for (const auto& t : mesh.triangles()) {
+    if (t[0] < 0) continue;
+    for (int i = 0; i < 3; ++i) {
+      const double l = mesh.length(t[i], t[(i + 1) % 3]);
+      inside += l >= shortest && l <= longest ? 1 : 0;
+    }
+    count += 3;
+  }
+  return count > 0 ? static_cast<double>(inside) / static_cast<double>(count) : 1;
+}
+
+}  // namespace
+
+Intersections find_crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor) {
+  const FlatMesh flat = flatten(mesh, false);
+  return find_intersections(flat.vertices, flat.triangles, {.threads = threads}, monitor);
+}
+
+std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before) {
+  const std::vector<std::string> defects = find_defects(made, {.closed = false, .limit = 1});
+  if (!defects.empty() && find_defects(before, {.closed = false, .limit = 1}).empty()) return defects.front();
+  return euler(made) != euler(before) ? "its Euler number would differ" : "";
+}
+
+std::span<const Weighing> weighings(bool triangles_pass, double sharp_angle) noexcept {
+  if (sharp_angle > most_angle_of_price) return of_features;
+  if (triangles_pass) return of_passing_triangles;
+  return between_patches;
+}
+
+StartedMesh start_free_mesh(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame) {
+  StartedMesh start{std::make_unique<FreeMesh>(result.mesh, frame.jets, result.vertex_size, frame.sharp, frame.corners, tolerances,
+                                               *frame.charts, cad),
+                    {}};
+  for (const SharpLine& line : frame.lines) start.worked.emplace_back(line, frame.geometry(line));
+  return start;
+}
+
+FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const RemeshingFrame& frame, Monitor& monitor) {
+  CellsInSpace cells{*start.free, *frame.charts, start.free->cad(), {}, {}};
+  for (const auto& t : start.free->triangles())
+    if (t[0] >= 0) cells.cells.push_back({t[0], t[1], t[2], -1});
+  FreedMesh made{reassemble(before, cells, frame.lines, start.worked, frame.corners, monitor)};
+  if (frame.elements) made.free = std::move(start.free), made.worked = std::move(start.worked);
+  return made;
+}
+
+Tries::Tries(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, const CompositeResult& result, Monitor& monitor)
+    : frame_(frame),
+      cad_(cad),
+      options_(options),
+      before_(result),
+      monitor_(monitor),
+      tolerances_(surface_tolerances(options, frame.charts->by_direction(), frame.angle_slack)),
+      crossings_before_(result.report.crossings) {}
+
+std::int64_t Tries::crossings_before() {
+  if (crossings_before_ < 0) crossings_before_ = find_crossings(before_.mesh, options_.threads, monitor_).count;
+  return crossings_before_;
+}
+
+void Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely) {
+  FreeMesh& free = *start.free;
+  const LineTolerance of_lines{tolerances_.deviation, tolerances_.share_of_size};
+  RemeshingReport report;
+  for (int round = 0; round < most_line_rounds; ++round) {
+    const std::vector<std::int32_t> changed = remesh_lines(free, start.worked, of_lines, monitor_);
+    if (round > 0 && changed.empty() && weighing.kept != all) break;
+    if (round == 0 && coarsely && frame_.everywhere) report += remesh_coarsely(free, before_.mesh, frame_, monitor_);
+    // Elsewhere nothing is left to do after the first round.
+    const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
+    report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, frame_.everywhere && coarsely, around);
+    if (weighing.kept == all) free.budget.price *= price_growth;
+  }
+  monitor_.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
+                                      std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
+                                      " swapped, " + std::to_string(report.moves) + " moves of vertices, " +
+                                      std::to_string(report.rounds) + " rounds");
+}
+
+Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
+  StartedMesh start = start_free_mesh(cad_, tolerances_, before_, frame_);
+  FreeMesh& free = *start.free;
+  const ShapeSummary before = summarise_shapes(free);
+  free.budget = {.price = weighing.price, .mean = weighing.weighs_moves ? before.mean : good_shape};
+  if (weighing.weighs_moves) free.budget.floor = std::min(before.worst, least_line_shape);
+  if (weighing.kept != none) free.budget.floor = before.worst;
+  if (weighing.kept == all) free.budget.left = 0;
+  remesh_between_lines(start, weighing, coarsely);
+  raise_worst(free, before.worst + above_worst, monitor_);
+  const ShapeSummary after = summarise_shapes(free);
+  const auto falls = [](double to, double from) { return to < from - rounding_of_mean; };
+  // The worst triangle of no mesher says nothing, nor that which other elements are made of.
+  const bool worst_falls = !frame_.everywhere && !frame_.elements && falls(after.worst, before.worst);
+  const KeptShapes worse_in = falls(after.mean, before.mean) ? all : worst_falls ? worst : none;
+  const double in_range = share_in_range(free);
+  return {std::move(start), worse_in, in_range};
+}
+
+// Around triangles that cross.
+void Tries::guard(const Intersections& found, const FreedMesh& made) {
+  const FlatMesh flat = flatten(made.mesh, false);
+  for (const TriangleIntersection& pair : found.pairs)
+    frame_.charts->guard(pair.place, guarded_sizes * made.vertex_size[flat.triangles[pair.triangles[0]][0]]);
+}
+
+// With why it is not to replace the mesh of before.
+Tries::Outcome Tries::put_together(StartedMesh&& mesh) {
+  Outcome outcome{reassembled(before_.mesh, std::move(mesh), frame_, monitor_), {}, "", false};
+  outcome.crossings = find_crossings(outcome.made.mesh, options_.threads, monitor_);
+  outcome.crosses = outcome.crossings.count > 0 && outcome.crossings.count > crossings_before();
+  outcome.why = outcome.crosses ? "more triangles would cross" : why_worse(outcome.made.mesh, before_.mesh);
+  return outcome;
+}
+
+Tries::Outcome Tries::run() {
+  // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
+  bool coarsely = !geometric_limits(options_.size).any();
+  KeptShapes least = none;   // what has to be kept
+  std::optional<Try> spare;  // the first one whose shapes are worse than those of before
+  Outcome outcome;
+  for (const Weighing& weighing : weighings(frame_.everywhere || frame_.elements, options_.sharp_angle)) {
+    if (weighing.kept < least) continue;
+    monitor_.checkpoint();
+    Try tried = make(weighing, coarsely);
+    coarsely = false;
+    if (weighing.price < infinity && tried.is_worse_in > weighing.kept) {
+      least = tried.is_worse_in;
+      if (!spare) spare = std::move(tried);
+      continue;
+    }
+    // Good shapes of a size that nobody wants are of no use.
+    if (spare && tried.in_range < spare->in_range - most_range_for_shapes) std::swap(tried, *spare);
+    outcome = put_together(std::move(tried.mesh));
+    if (outcome.why.empty()) return outcome;
+    if (outcome.crosses) guard(outcome.crossings, outcome.made);
+  }
+  return spare && (frame_.everywhere || frame_.elements) ? put_together(std::move(spare->mesh)) : std::move(outcome);
+}
+
+}  // namespace carreau

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A mesh is made in a frame more than once where triangles cross or shapes suffer, and the best one counts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cad/cad.h"
+#include "mesh/intersections.h"
+#include "support/monitor.h"
+#include "surface/independent/free_mesh.h"
+#include "surface/independent/independent.h"
+#include "surface/independent/line_remeshing.h"
+#include "surface/independent/reassembly.h"
+#include "surface/options.h"
+#include "surface/result.h"
+
+namespace carreau {
+
+/// What shapes are not to fall below: that of before.
+enum class KeptShapes : char {
+  none,
+  worst,           ///< no triangle becomes worse than the worst one was
+  worst_and_mean,  ///< and what shapes lose by any edit has been gained before
+};
+
+/// How lengths are weighed against shapes where they are at odds (ShapeBudget).
+struct Weighing {
+  double price;       ///< of an edge that comes into range where triangles span lines; it grows while shapes are kept
+  bool weighs_moves;  ///< vertices are moved along lines by the price, too; else wherever lengths become even
+  KeptShapes kept;    ///< where the mean is, collapses inside have the price, too
+};
+
+/// In the order in which they are tried. `triangles_pass`: shapes of before say little, of triangles that are no mesher's or that other elements are made of.
+std::span<const Weighing> weighings(bool triangles_pass, double sharp_angle) noexcept;
+
+/// All triangles of `mesh` as a free one, and the lines of the frame.
+struct StartedMesh {
+  std::unique_ptr<FreeMesh> free;
+  std::vector<WorkedLine> worked;
+};
+StartedMesh start_free_mesh(Cad& cad, const SurfaceTolerances& tolerances, const CompositeResult& result, RemeshingFrame& frame);
+
+/// Of the triangles that are left.
+FreedMesh reassembled(const SurfaceMesh& before, StartedMesh&& start, const RemeshingFrame& frame, Monitor& monitor);
+
+/// Triangles of a mesh that cross.
+Intersections find_crossings(const SurfaceMesh& mesh, int threads, Monitor& monitor);
+
+/// Why a mesh is worse than the one that it is to replace; empty: it is not. Triangles that cross are told from others.
+std::string why_worse(const SurfaceMesh& made, const SurfaceMesh& before);
+
+/// Keeps references to all that it is given.
+class Tries {
+ public:
+  Tries(RemeshingFrame& frame, Cad& cad, const CompositeOptions& options, const CompositeResult& result, Monitor& monitor);
+
+  struct Outcome {
+    FreedMesh made;
+    Intersections crossings;
+    std::string why;       ///< it does not replace the mesh of before; empty: it does
+    bool crosses = false;  ///< because more triangles would cross
+  };
+  Outcome run();
+
+ private:
+  struct Try {
+    StartedMesh mesh;
+    KeptShapes is_worse_in = KeptShapes::none;  ///< than before
+    double in_range = 0;                        ///< share of sides of triangles
+  };
+  Try make(const Weighing& weighing, bool coarsely);
+  Outcome put_together(StartedMesh&& mesh);
+  void remesh_between_lines(StartedMesh& start, const Weighing& weighing, bool coarsely);
+  void guard(const Intersections& found, const FreedMesh& made);
+  [[nodiscard]] std::int64_t crossings_before();
+
+  RemeshingFrame& frame_;
+  Cad& cad_;
+  const CompositeOptions& options_;
+  const CompositeResult& before_;
+  Monitor& monitor_;
+  const SurfaceTolerances tolerances_;
+  std::int64_t crossings_before_;  // -1: not known yet
+};
+
+}  // namespace carreau
