@@ -135,7 +135,7 @@ class FreeStep {
       lower_sizes();
       if (!make_once(from)) return;
       (void)keep_if(now_.faults() < best_->faults());
-      if (static_cast<double>(run_.result.mesh.triangle_count()) > most_growth * first_) return;
+      if (static_cast<double>(run_.result.mesh.triangle_count()) > thresholds::elements::most_growth * first_) return;
     }
   }
 
@@ -153,7 +153,7 @@ class FreeStep {
       lower_sizes();
       if (!make_once(From::patches)) return;
       (void)keep_if(is_better(crossings));
-      if (now_.faults() == 0 || is_hopeless() || static_cast<double>(run_.result.mesh.triangle_count()) > most_growth * first_) return;
+      if (now_.faults() == 0 || is_hopeless() || static_cast<double>(run_.result.mesh.triangle_count()) > thresholds::elements::most_growth * first_) return;
     }
   }
   // What is valid already is better, whatever becomes of what is not.

@@ -20,17 +20,17 @@ namespace {
 
 using namespace thresholds::independent;
 
-constexpr KeptShapes none = KeptShapes::none, worst = KeptShapes::worst, all = KeptShapes::worst_and_mean;
-constexpr std::array<Weighing, 6> between_patches{{{low_price, true, none},
-                                                   {low_price, true, worst},
-                                                   {low_price, true, all},
-                                                   {low_price, true, all},
-                                                   {low_price, true, all},
-                                                   {0, true, all}}};
+constexpr KeptShapes keep_none = KeptShapes::none, keep_worst = KeptShapes::worst, keep_all = KeptShapes::worst_and_mean;
+constexpr std::array<Weighing, 6> between_patches{{{low_price, true, keep_none},
+                                                   {low_price, true, keep_worst},
+                                                   {low_price, true, keep_all},
+                                                   {low_price, true, keep_all},
+                                                   {low_price, true, keep_all},
+                                                   {0, true, keep_all}}};
 constexpr std::array<Weighing, 4> of_passing_triangles{
-    {{high_price, false, none}, {high_price, false, none}, {low_price, true, all}, {0, true, all}}};
+    {{high_price, false, keep_none}, {high_price, false, keep_none}, {low_price, true, keep_all}, {0, true, keep_all}}};
 constexpr std::array<Weighing, 4> of_features{
-    {{infinity, false, none}, {infinity, false, none}, {infinity, false, none}, {infinity, false, none}}};
+    {{infinity, false, keep_none}, {infinity, false, keep_none}, {infinity, false, keep_none}, {infinity, false, keep_none}}};
 
 /// Vertices - edges + triangles.
 std::int64_t euler(const SurfaceMesh& mesh) {
@@ -138,12 +138,12 @@ void Tries::remesh_between_lines(StartedMesh& start, const Weighing& weighing, b
   RemeshingReport report;
   for (int round = 0; round < most_line_rounds; ++round) {
     const std::vector<std::int32_t> changed = remesh_lines(free, start.worked, of_lines, monitor_);
-    if (round > 0 && changed.empty() && weighing.kept != all) break;
+    if (round > 0 && changed.empty() && weighing.kept != keep_all) break;
     if (round == 0 && coarsely && frame_.everywhere) report += remesh_coarsely(free, before_.mesh, frame_, monitor_);
     // Elsewhere nothing is left to do after the first round.
     const std::span<const std::int32_t> around(changed.data(), round > 0 && frame_.everywhere ? changed.size() : 0);
     report += remesh_divided(free, frame_.workers, monitor_, frame_.everywhere, frame_.everywhere && coarsely, around);
-    if (weighing.kept == all) free.budget.price *= price_growth;
+    if (weighing.kept == keep_all) free.budget.price *= price_growth;
   }
   monitor_.message(Level::detail, "across borders: " + std::to_string(report.collapses) + " edges collapsed, " +
                                       std::to_string(report.splits) + " split, " + std::to_string(report.swaps) +
@@ -157,15 +157,15 @@ Tries::Try Tries::make(const Weighing& weighing, bool coarsely) {
   const ShapeSummary before = summarise_shapes(free);
   free.budget = {.price = weighing.price, .mean = weighing.weighs_moves ? before.mean : good_shape};
   if (weighing.weighs_moves) free.budget.floor = std::min(before.worst, least_line_shape);
-  if (weighing.kept != none) free.budget.floor = before.worst;
-  if (weighing.kept == all) free.budget.left = 0;
+  if (weighing.kept != keep_none) free.budget.floor = before.worst;
+  if (weighing.kept == keep_all) free.budget.left = 0;
   remesh_between_lines(start, weighing, coarsely);
   raise_worst(free, before.worst + above_worst, monitor_);
   const ShapeSummary after = summarise_shapes(free);
   const auto falls = [](double to, double from) { return to < from - rounding_of_mean; };
   // The worst triangle of no mesher says nothing, nor that which other elements are made of.
   const bool worst_falls = !frame_.everywhere && !frame_.elements && falls(after.worst, before.worst);
-  const KeptShapes worse_in = falls(after.mean, before.mean) ? all : worst_falls ? worst : none;
+  const KeptShapes worse_in = falls(after.mean, before.mean) ? keep_all : worst_falls ? keep_worst : keep_none;
   const double in_range = share_in_range(free);
   return {std::move(start), worse_in, in_range};
 }
@@ -189,7 +189,7 @@ Tries::Outcome Tries::put_together(StartedMesh&& mesh) {
 Tries::Outcome Tries::run() {
   // Coarse triangles cannot keep a geometric rule, and where some crossed others none are made.
   bool coarsely = !geometric_limits(options_.size).any();
-  KeptShapes least = none;   // what has to be kept
+  KeptShapes least = keep_none;   // what has to be kept
   std::optional<Try> spare;  // the first one whose shapes are worse than those of before
   Outcome outcome;
   for (const Weighing& weighing : weighings(frame_.everywhere || frame_.elements, options_.sharp_angle)) {
