@@ -12,7 +12,7 @@ namespace {
 
 /// 0: lines of constant u, along which v varies; 1: of constant v.
 double across(int direction, const gp_Pnt2d& p) { return direction == 0 ? p.X() : p.Y(); }
-double along(int direction, const gp_Pnt2d& p) { return direction == 0 ? p.Y() : p.X(); }
+double coordinate_along(int direction, const gp_Pnt2d& p) { return direction == 0 ? p.Y() : p.X(); }
 gp_Pnt2d place(int direction, double across, double along) {
   return direction == 0 ? gp_Pnt2d(across, along) : gp_Pnt2d(along, across);
 }
@@ -34,7 +34,7 @@ class Inside {
     for (const std::vector<gp_Pnt2d>* line : polylines_)
       for (std::size_t i = 1; i < line->size(); ++i) {
         const gp_Pnt2d &a = (*line)[i - 1], &b = (*line)[i];
-        const double m = along(direction, p), s = along(direction, a), t = along(direction, b);
+        const double m = coordinate_along(direction, p), s = coordinate_along(direction, a), t = coordinate_along(direction, b);
         if ((s > m) == (t > m)) continue;
         const double x = across(direction, a) + (m - s) / (t - s) * (across(direction, b) - across(direction, a));
         if (x > across(direction, p)) inside = !inside;
@@ -88,13 +88,13 @@ class Cutter {
         for (const bool last : {false, true}) {
           const gp_Pnt2d& p = last ? arc.samples.back() : arc.samples.front();
           if (std::abs(across(direction, p) - at) <= near)
-            add_node(direction, k, {along(direction, p), last ? arc.end2 : arc.end1, p});
+            add_node(direction, k, {coordinate_along(direction, p), last ? arc.end2 : arc.end1, p});
         }
         // Beside its ends it may be off by what vertices tolerate.
         constexpr double most = 0.8, astray = 16;
         bool above = high > -low;
         if (static_cast<double>(on_line) > most * static_cast<double>(arc.samples.size())) {
-          const double from = along(direction, arc.samples.front()), to = along(direction, arc.samples.back());
+          const double from = coordinate_along(direction, arc.samples.front()), to = coordinate_along(direction, arc.samples.back());
           covered_[direction][k].push_back(std::minmax(from, to));
           // Small u lies on the left of what goes up, large v on the left of what goes right.
           above = ((from < to) == arc.forward) == (direction == 1);
@@ -138,7 +138,7 @@ class Cutter {
         const auto meets = [&](int direction, std::size_t k) {
           const double near = 4 * near_of(1 - direction, near_);
           return std::any_of(nodes_[direction][k].begin(), nodes_[direction][k].end(),
-                             [&](const Node& n) { return std::abs(n.along - along(direction, p)) <= near; });
+                             [&](const Node& n) { return std::abs(n.along - coordinate_along(direction, p)) <= near; });
         };
         if (meets(0, i) || meets(1, j)) continue;
         if (!boundary_(p.XY() + gp_XY(aside * extent[0], 0.37 * aside * extent[1]), 0)) continue;

@@ -30,13 +30,13 @@ class Listener final : public Monitor {
   bool in_planes = false;
 };
 
-struct Made {
+struct MadeInPlanes {
   SurfaceMesh mesh;
   Delivery length;
   bool in_planes = false;
 };
 
-Made made_of(const FlatMesh& triangles, double size, int threads = 1) {
+MadeInPlanes made_of(const FlatMesh& triangles, double size, int threads = 1) {
   const BuiltGeometry built = discrete_geometry(std::make_shared<const DiscreteSurface>(surface_of(triangles, {})));
   Listener listener;
   Session session(listener);
@@ -63,7 +63,7 @@ double mean_quality(const FlatMesh& mesh) {
 TEST(ProjectedMeshes, ShapesAndLengthsAreThoseAskedFor) {
   for (const auto& [triangles, size, chi] :
        {std::tuple{sphere(12), 0.06, 2}, {torus(48, 24), 0.1, 0}, {cube(3), 0.05, 2}, {cylinder(36), 0.06, 2}}) {
-    const Made made = made_of(triangles, size);
+    const MadeInPlanes made = made_of(triangles, size);
     EXPECT_TRUE(made.in_planes);
     const FlatMesh flat = flatten(made.mesh, false);
     EXPECT_EQ(static_cast<std::int64_t>(flat.vertices.size()) - static_cast<std::int64_t>(flat.triangles.size() / 2),
