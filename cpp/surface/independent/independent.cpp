@@ -15,7 +15,7 @@
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
 #include "surface/independent/tries.h"
-#include "surface/independent/worst_first.h"
+#include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
 

@@ -12,7 +12,7 @@
 #include "support/infinity.h"
 #include "surface/independent/remeshing.h"
 #include "surface/independent/thresholds.h"
-#include "surface/independent/worst_first.h"
+#include "surface/independent/edits/worst_first.h"
 
 namespace carreau {
 

@@ -35,6 +35,7 @@ void prepare(Session& session, double size, int threads) {
   session.parameters().set("threads", threads);
   session.parameters().set("hphy_flag", 1);
   session.parameters().set("hphydef", size);
+  session.parameters().set("element", "p2");  // straight triangles would be made in planes
 }
 
 SurfaceMesh made_by(int threads) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface/independent/worst_first.h"
+#include "surface/independent/edits/worst_first.h"
 
 #include <algorithm>
 #include <array>
