@@ -127,7 +127,7 @@ TEST(SideBySide, HalvesThatShareALoopConformThere) {
     const bool between = (curve.uses[0].face < 5) != (curve.uses[1].face < 5);
     if (!between) continue;
     ++shared_lines;
-    for (const std::int32_t v : curve.vertices) EXPECT_NEAR(made.vertices[static_cast<std::size_t>(v)].z(), 0.5, 1e-14);
+    for (const std::int32_t v : curve.vertices) EXPECT_NEAR(made.vertices[static_cast<std::size_t>(v)].z(), 0.5, 1e-12);
   }
   EXPECT_EQ(shared_lines, 4);
 }
