@@ -81,6 +81,18 @@ def one(path, share):
                 "seconds": seconds}
 
 
+def attempt(path, share, limit):
+    """Figures of one mesh, made by a process that ends after `limit` seconds; or a sentence that says why there are none."""
+    try:
+        done = subprocess.run([sys.executable, __file__, "--one", path, "--share", share], capture_output=True, text=True,
+                              check=True, timeout=limit)
+        return json.loads(done.stdout.strip().splitlines()[-1])
+    except subprocess.TimeoutExpired:
+        return f"not done after {limit:g} s"
+    except (subprocess.CalledProcessError, ValueError, IndexError):
+        return "failed"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+")
@@ -95,15 +107,9 @@ def main():
     for path in options.files:
         for share in options.share or ["5%", "2%", "1%"]:
             name = os.path.basename(path)
-            try:
-                done = subprocess.run([sys.executable, __file__, "--one", path, "--share", share], capture_output=True, text=True,
-                                      check=True, timeout=options.limit)
-                f = json.loads(done.stdout.strip().splitlines()[-1])
-            except subprocess.TimeoutExpired:
-                print(f"{name:30.30}{share:>5}  not done after {options.limit:g} s", flush=True)
-                continue
-            except (subprocess.CalledProcessError, ValueError, IndexError):
-                print(f"{name:30.30}{share:>5}  failed", flush=True)
+            f = attempt(path, share, options.limit)
+            if isinstance(f, str):
+                print(f"{name:30.30}{share:>5}  {f}", flush=True)
                 continue
             print(ROW.format(name, share, f["triangles"], f"{f['ideal']:.3f}", f"{f['area']:.1f}", f"{f['range']:.2f}",
                              f"{f['mean']:.4f}", f"{f['p1']:.3f}", f"{f['worst']:.3f}", f"{f['seconds']:.2f}"), flush=True)

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Meshes files with `carreau mesh`, with and without --independent, and prints both side by side.
 
-    python3 tests/bench/trans_patch.py CARREAU FILE... [--share 2%]... [--repeat N] [--json FILE]
+    python3 tests/bench/trans_patch.py CARREAU FILE... [--share 2%]... [--repeat N] [--json FILE] [--gmsh SECONDS]
 
-One line a file, a size and a mesh:
+One line a file, a size and a mesh; with --gmsh a third one, of Gmsh with compound surfaces (gmsh_compounds.py; x is its
+time over that of `carreau mesh --independent`, area what its mesh has of that of the faces, since faces that fail stay empty),
+or why there is none after so many seconds:
   ideal    triangles over those that are equilateral, of the size, and have the area of the mesh
   range    share of edges with lengths in [1/sqrt 2, sqrt 2] in the prescribed metric, per cent
   Q2       mean, first percentile, worst (HDR eq. 1.6)
@@ -72,6 +74,15 @@ def print_row(name, share, mesh, f, before):
                      f"{f['seconds'] / before['seconds']:.2f}", speed, f"{f['evaluations']:.1f}"), flush=True)
 
 
+def print_gmsh(name, share, f, free):
+    if isinstance(f, str):
+        print(f"{name:30.30}{share:>5} gmsh   {f}", flush=True)
+        return
+    print(ROW.format(name, share, "gmsh", f["triangles"], f"{f['ideal']:.3f}", f"{f['range']:.2f}", f"{f['mean']:.4f}",
+                     f"{f['p1']:.3f}", f"{f['worst']:.3f}", "", "", "", f"{f['seconds'] / free['seconds']:.1f}", "", ""),
+          f" area {f['area']:.1f} %", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
@@ -79,7 +90,10 @@ def main():
     parser.add_argument("--share", action="append")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--json")
+    parser.add_argument("--gmsh", type=float, metavar="SECONDS")
     options = parser.parse_args()
+    if options.gmsh:
+        from gmsh_compounds import attempt  # asks for python3-gmsh, which the rest does without
     print(ROW.format(*HEAD))
     worse, results = False, {}
     with tempfile.TemporaryDirectory() as folder:
@@ -95,6 +109,10 @@ def main():
                 print_row(name, share, "cut", before, before)
                 print_row(name, share, "free", after, before)
                 results[f"{name} {share}"] = {"cut": before, "free": after}
+                if options.gmsh:
+                    gmsh = attempt(path, share, options.gmsh)
+                    print_gmsh(name, share, gmsh, after)
+                    results[f"{name} {share}"]["gmsh"] = gmsh
                 worse = worse or (after["defects"] and not before["defects"]) or (before["closed"] and not after["closed"]) \
                     or after["crossings"] > before["crossings"]
     if options.json:
