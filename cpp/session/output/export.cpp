@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/export.h"
+#include "session/output/export.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/field_attributes.h"
+#include "session/output/field_attributes.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a mesh was made of, and what it delivers.
+#pragma once
+
+#include <memory>
+
+#include "cad/cad.h"
+#include "measure/mesh_evaluation.h"
+#include "model/model.h"
+#include "size/background.h"
+#include "surface/options.h"
+#include "surface/result.h"
+#include "surface/supports.h"
+
+namespace carreau {
+
+namespace discrete {
+class DiscreteCad;
+}
+struct PartResults;
+
+/// What a mesh was made of: what measures it asks the same again.
+struct Meshed {
+  std::shared_ptr<Cad> cad;
+  std::shared_ptr<const discrete::DiscreteCad> triangles;
+  std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;  // of `options`, as is the next
+  std::shared_ptr<BackgroundField> background;
+  Model model;
+  ModelSupports supports;
+  Topology topology;
+  CompositeOptions options;
+  bool bounds_to_input = false;  // measures tell them
+};
+
+/// Finite differences of a host without derivatives stay inside the box of each domain.
+void set_parameter_boxes(const Model& model, const ModelSupports& supports, Cad& cad);
+
+/// What `result` delivers, measured on the geometry, sources and options that it was made of. `parts`: of a result that
+/// has patches and triangles; null: it is of one kind.
+MeshEvaluation evaluate_meshed(const Meshed& meshed, const CompositeResult& result, const PartResults* parts,
+                               Monitor& monitor);
+
+}  // namespace carreau

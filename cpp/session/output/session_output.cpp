@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The files of a session: its mesh, its fields, its measures.
+#include "cad/checked_cad.h"
+#include "cad/part_cad.h"
+#include "fields/field_files.h"
+#include "io/delivered_json.h"
+#include "io/files.h"
+#include "io/mesh_files.h"
+#include "model/geometries.h"
+#include "session/options.h"
+#include "session/output/export.h"
+#include "session/output/field_attributes.h"
+#include "session/state.h"
+
+namespace carreau {
+
+namespace {
+
+void refuse_fields(const Model& model) {
+  if (has_discrete(model)) throw InvalidArgument("a surface given as triangles has no fields over parameter domains");
+}
+
+}  // namespace
+
+std::vector<std::string> Session::write_fields(const std::string& path, const FieldOptions& options) {
+  const bool of_mesh = state_->has_mesh && !state_->last_failed && !options.raw;
+  return of_mesh ? write_fields_of_mesh(path, options) : write_fields_of_model(path, options);
+}
+
+std::vector<std::string> Session::write_fields_of_mesh(const std::string& path, FieldOptions options) {
+  State& s = *state_;
+  const Meshed& meshed = s.meshed;
+  refuse_fields(meshed.model);
+  CheckedCad whole_cad(*meshed.cad);
+  PartCad cad(whole_cad, parts_of(meshed.model));
+  const double diag = s.result.report.diag;
+  set_parameter_boxes(meshed.model, meshed.supports, cad);
+  // Silently: who asks for pictures has not asked for a report.
+  std::optional<MeshEvaluation> measured;
+  const auto evaluation_here = [&]() -> const MeshEvaluation& {
+    if (s.delivered) return *s.delivered;
+    if (!measured) measured = evaluate_meshed(meshed, s.result, nullptr, s.monitor);
+    return *measured;
+  };
+  const FieldRun run{.model = meshed.model,
+                     .topology = meshed.topology,
+                     .supports = &meshed.supports,
+                     .result = &s.result,
+                     .size = meshed.options.size,
+                     .parameters = field_attributes(s.meshed_parameters, diag),
+                     .diag = diag,
+                     .delivered = evaluation_here};
+  if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
+  return carreau::write_fields(run, path, options, cad, s.monitor);
+}
+
+std::vector<std::string> Session::write_fields_of_model(const std::string& path, FieldOptions options) {
+  State& s = *state_;
+  if (!s.cad) throw InvalidArgument("no geometry is registered: register the callbacks first");
+  if (s.model.faces.empty()) throw InvalidModel("the model has no face");
+  refuse_fields(s.model);
+  CheckedCad whole_cad(*s.cad);
+  PartCad cad(whole_cad, parts_of(s.model));
+  const Parameters& parameters = s.last_failed ? s.tried_parameters : s.parameters;
+  // What stops a run only leaves something out here.
+  std::optional<ModelSupports> supports;
+  std::shared_ptr<BackgroundField> background;
+  try {
+    background = background_of_run(parameters, s.model.plane, s.background);
+    supports = build_supports(s.model, cad, parameters.real("angle_smo"), threads_of(s.parameters), s.monitor);
+    set_parameter_boxes(s.model, *supports, cad);
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    s.monitor.message(Level::warning, error.what());
+  }
+  const Topology none;
+  FieldRun run{.model = s.model,
+               .topology = none,
+               .supports = supports ? &*supports : nullptr,
+               .result = nullptr,
+               .size = {},
+               .parameters = {}};
+  run.diag = supports ? supports->diag : diag_of_curves(s.model, cad, s.monitor);
+  run.parameters = field_attributes(parameters, run.diag);
+  run.size = composite_options(parameters, run.diag).size;
+  run.size.sources = s.sources(background.get());
+  for (PrescriptionSource* source : run.size.sources) source->begin_run(run.size.law);
+  if (options.file.threads == 0) options.file.threads = threads_of(s.parameters);
+  return carreau::write_fields(run, path, options, cad, s.monitor);
+}
+
+void Session::write_delivered(const std::string& path) {
+  const std::string text = delivered_json(mesh(), report(), delivered());
+  state_->monitor.progress(Phase::writing, 0, 1);
+  write_file(path, text);
+}
+
+FlatMesh Session::exported(const MeshEvaluation* delivered, bool with_fields) const {
+  const ExportSource source{
+      mesh(), state_->result.vertex_size, state_->meshed.model, state_->meshed.supports, delivered, with_fields};
+  const Parameters& p = state_->parameters;
+  FlatMesh flat = export_mesh(source, p.text("option"), p.integer("refs"), p.integer("flag") == 1);
+  if (source.model.plane) flat.dimension = 2;
+  const std::map<int, int>& shown = shown_points();
+  for (std::int32_t& ref : flat.vertex_refs)
+    if (const auto found = shown.find(ref); found != shown.end()) ref = found->second;
+  return flat;
+}
+
+const std::map<int, int>& Session::shown_points() const { return (void)mesh(), state_->meshed.model.shown_points; }
+
+void Session::write(const std::string& path) {
+  if (suffix_of(path) == ".exr") {
+    (void)mesh();
+    FieldOptions options;
+    options.multi_part = true;
+    if (state_->parameters.text("option").starts_with("onesurf")) options.face = state_->parameters.integer("refs");
+    write_fields_of_mesh(path, options);
+    return;
+  }
+  const MeshFormat format = mesh_format_of(path);
+  write_mesh(exported_as(format), path, format, file_options());
+}
+
+std::string Session::encoded(MeshFormat format) { return mesh_bytes(exported_as(format), format, file_options()); }
+
+FlatMesh Session::exported_as(MeshFormat format) {
+  const MeshEvaluation* measures = nullptr;  // other formats have no place for them
+  if (format == MeshFormat::vtu && (state_->delivered || state_->parameters.integer("measure") != 0))
+    measures = &delivered();
+  state_->monitor.progress(Phase::writing, 0, 1);
+  return exported(measures, format == MeshFormat::vtu);
+}
+
+MeshFileOptions Session::file_options() const {
+  return {.ascii_stl = true, .curve_groups = state_->parameters.integer("curve_groups") == 1};
+}
+
+}  // namespace carreau

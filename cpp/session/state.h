@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a session holds.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/quality.h"
+#include "session/gluing.h"
+#include "session/meshed.h"
+#include "session/session.h"
+#include "support/ranks/team.h"
+
+namespace carreau {
+
+struct Session::State {
+  explicit State(Monitor& m) : monitor(m) {}
+
+  Monitor& monitor;
+  std::shared_ptr<Cad> cad;
+  std::shared_ptr<const discrete::DiscreteCad> triangles;
+  std::shared_ptr<PrescriptionSource> metric_callbacks, prescription_source;
+  std::shared_ptr<BackgroundField> background;
+  std::shared_ptr<TeamLink> team_link;
+  std::unique_ptr<Team> team;  // of team_link; null: this process is alone
+  BackgroundReport background_report;
+  SurfaceMesh previous;
+  bool has_previous = false;
+  Model model;
+  GlueReport glued;  // in `model`
+  bool model_from_file = false;
+  bool model_from_env = false;  // read by `call inimesh`: the next one reads its own
+  Parameters parameters;
+  CompositeResult result;
+  std::shared_ptr<const PartResults> parts;  // of `result`; null: it is of one kind
+  Meshed meshed;
+  bool has_mesh = false;
+  Parameters meshed_parameters, tried_parameters;  // of `result`, and of the last make_mesh()
+  bool last_failed = false;                        // the last make_mesh() has thrown
+  std::optional<MeshEvaluation> delivered;         // of `result`
+  std::vector<Interface> interfaces;               // of `result`
+  std::vector<WholeFace> whole_faces;              // of `result`
+  std::optional<QualitySummary> shapes, quality;   // of `result`, once somebody has asked: without edges, and all
+
+  /// The host first.
+  [[nodiscard]] std::vector<PrescriptionSource*> sources(BackgroundField* of_this_run) const;
+
+  /// Finds references that are missing, and looks for curves that are one where that is wanted.
+  void glue_model(Model& known, ModelSupports& supports, Cad& whole_cad, std::vector<std::string>& remarks);
+
+  /// Faces that were left out of gluing stay as they are, and only the host's own reasons to leave them out are kept.
+  void keep_glued(const Model& part, const GlueReport& found);
+
+  void check_model(const Model& candidate) const;
+};
+
+/// Files named by parameters come before what the host has set. Throws InvalidArgument where one of two is named.
+std::shared_ptr<BackgroundField> background_of_run(const Parameters& parameters, bool one_plane,
+                                                   const std::shared_ptr<BackgroundField>& set);
+
+}  // namespace carreau
