@@ -56,12 +56,8 @@ class SeveralInput final : public CadInput {
     return k < parts_.size() ? parts_[k]->face_size(own(k, face)) : 0;
   }
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
-    const double uv[2] = {u, v};
-    double x[3] = {};
     const std::lock_guard lock(mutex_);
-    if (carreau_geometry_points(session_.get(), face, 1, uv, x) != CARREAU_OK) return false;
-    place = {x[0], x[1], x[2], u, v};
-    return true;
+    return locate_by(session_.get(), face, u, v, place);
   }
   [[nodiscard]] std::vector<FaceLook> faces() const override {
     std::vector<FaceLook> all;

@@ -57,12 +57,8 @@ class TrianglesInput final : public CadInput {
   [[nodiscard]] bool answers_face_sizes() const override { return false; }
   [[nodiscard]] double face_size(std::int32_t) const override { return 0; }
   [[nodiscard]] bool locate(std::int32_t face, double u, double v, Place& place) const noexcept override {
-    const double uv[2] = {u, v};
-    double x[3] = {};
     const std::lock_guard lock(mutex_);
-    if (carreau_geometry_points(session_.get(), face, 1, uv, x) != CARREAU_OK) return false;
-    place = {x[0], x[1], x[2], u, v};
-    return true;
+    return locate_by(session_.get(), face, u, v, place);
   }
   [[nodiscard]] std::vector<FaceLook> faces() const override;
   [[nodiscard]] std::vector<std::int32_t> face_numbers() const override { return faces_; }
@@ -115,6 +111,14 @@ std::vector<FaceLook> TrianglesInput::faces() const {
 }
 
 }  // namespace
+
+bool locate_by(carreau_session* session, std::int32_t face, double u, double v, Place& place) noexcept {
+  const double uv[2] = {u, v};
+  double x[3] = {};
+  if (carreau_geometry_points(session, face, 1, uv, x) != CARREAU_OK) return false;
+  place = {x[0], x[1], x[2], u, v};
+  return true;
+}
 
 bool is_triangles(const std::string& path) {
   const std::string suffix = suffix_of(path);

@@ -4,6 +4,7 @@
 
 #include <carreau_geometry.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,7 @@
 namespace command {
 
 class CadInput;
+struct Place;
 
 /// What of a surface given as triangles is a line.
 struct TrianglesChoice {
@@ -26,6 +28,8 @@ bool is_triangles(const std::string& path);
 
 /// What was found in the triangles of a session. Throws Failure.
 carreau_triangles_report triangles_report(carreau_session* session);
+/// The place of (u, v) of a face of a session whose surface is given as triangles; false: there is none.
+bool locate_by(carreau_session* session, std::int32_t face, double u, double v, Place& place) noexcept;
 /// How far the mesh of a session and its triangles are apart, for a person; `deviation`: of the smooth surface. Throws Failure.
 std::string distances_line(carreau_session* session, double deviation);
 
